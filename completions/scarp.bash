@@ -43,6 +43,23 @@ _scarp() {
       "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
       "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
       "generate --seed" | "generate --range" | "generate --size")
+      "measure --z-field" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
+      "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | "tile --quality" | \
+      "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --background" | "tile -j" | \
+      "tile --num-threads" | "tile-plan --band" | "tile-plan --te" | "tile-plan --resolution" | \
+      "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --ellipsoid" | "tile-plan --only" | \
+      "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | \
+      "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --background" | "tile-run --shard" | \
+      "tile-run --only" | "tile-run --memory" | "tile-run -j" | "tile-run --num-threads" | "tile-finish -j" | \
+      "tile-finish --num-threads" | "tile-check --band" | "tile-check --te" | "tile-check --resolution" | \
+      "tile-check --z-scale" | "tile-check --z-offset" | "tile-check --ellipsoid" | "tile-check --nodata" | \
+      "tile-check --background" | "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | \
+      "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | \
+      "serve --max-error" | "serve --quality" | "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | \
+      "serve --background" | "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | \
+      "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | \
+      "info --nodata" | "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | \
+      "generate --size")
       return
       ;;
     "simplify --objective")
@@ -74,10 +91,14 @@ _scarp() {
       "measure --texture" | "view -o" | "view --output" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | \
       "tile-plan --changed-since" | "tile-plan --slurm" | "tile-finish --report" | "tile-check --source" | \
       "tile-check --geoid" | "serve --geoid")
+      "measure --texture" | "tile --breaklines" | "tile --geoid" | "tile --report" | "tile --drape" | \
+      "tile-plan --breaklines" | "tile-plan --geoid" | "tile-plan --changed-since" | "tile-plan --drape" | \
+      "tile-plan --slurm" | "tile-finish --report" | "tile-check --source" | "tile-check --geoid" | \
+      "serve --breaklines" | "serve --geoid")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
-    "simplify --drape-format")
+    "simplify --drape-format" | "tile --drape-format" | "tile-plan --drape-format")
       COMPREPLY=($(compgen -W 'jpeg png webp' -- "$current"))
       return
       ;;

@@ -24,6 +24,8 @@ struct EdgeVertices {
 /// bounds. Where nodata lies right behind an edge whose samples are valid, corners of the surface's outline may lie
 /// between two vertices of the line; they are more vertices, at the line's height, rounded to float32.
 ///
+/// Breaklines may end at vertices of the line and nowhere else on an edge; the others need them given (`vertices`).
+///
 /// One thread refines such a mesh, with the samples in memory and two copies of them, 8 bytes a sample; see Order.
 struct Border {
   bool is_locked = false;  ///< DEFAULT: false, edges are simplified with the surface.

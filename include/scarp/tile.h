@@ -28,6 +28,7 @@
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/tile_grid.h"
+#include "scarp/tile_lines.h"
 
 #pragma GCC visibility push(default)
 
@@ -126,6 +127,8 @@ struct PyramidSettings {
   /// Of a tile, as it is kept. Where a tile has more, the max error of its interior is doubled until it fits, or until
   /// nothing but its border is left; the border stays. DEFAULT: 0, any.
   std::uint64_t max_tile_bytes = 0;
+  /// Edges of all tiles' meshes. DEFAULT: none.
+  std::vector<DegreeLine> lines = {};
 };
 
 struct TileWaters;
@@ -154,6 +157,7 @@ struct PyramidPlan {
   float background = 0;
   bool has_siblings = false;  ///< as in PyramidSettings
   std::uint64_t max_tile_bytes = 0;
+  std::shared_ptr<const TileLines> lines = nullptr;  ///< null: none
   Geodetic ellipsoid = {};
   TileGrid grid = {};
   DegreeBox covered = {};  ///< by the source
@@ -179,6 +183,9 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
 /// everywhere.
 Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings = {});
 
+/// Gives the plan lines in place of those that it has; for its levels, and what is covered.
+void set_lines(PyramidPlan& plan, std::vector<DegreeLine> lines);
+
 /// The finest level that a source asks for in a tile, or so near that the tile's normals reach it; −1 where none has
 /// heights there.
 int finest_level(const PyramidPlan& plan, TileId id);
@@ -192,6 +199,8 @@ struct TerrainTile {
   std::vector<std::uint32_t> triangles;              ///< counter-clockwise seen from above
   double quantum = 1;
   double max_error = 0;  ///< asked of its interior, metres: the level's, or more because of max_tile_bytes
+  /// Straight pieces of lines that are no edges: rounded to 32767ths of the tile, they would turn triangles over.
+  std::uint64_t lines_left_out = 0;
 
   /// Largest |mesh − node| over all nodes of the tile, of the heights as clients decode them, in metres, where edges
   /// are straight on the map. Above the plan's block level an upper bound.
@@ -257,6 +266,7 @@ struct LevelSummary {
   std::uint64_t over = 0;
   std::uint64_t coarser = 0;    ///< tiles whose max error is above the level's because of plan.max_tile_bytes
   std::uint64_t oversized = 0;  ///< of these, those that have more bytes all the same: their borders alone do
+  std::uint64_t lines_left_out = 0;  ///< as TerrainTile::lines_left_out
 };
 
 struct PyramidReport {

@@ -110,6 +110,23 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
   return {};
 }
 
+Result<void> LockedBorder::check(std::span<const Point> points, std::int32_t steps) const {
+  std::vector<Point> sorted = vertices_;
+  std::sort(sorted.begin(), sorted.end(), before);
+  const std::int32_t right = (cols_ - 1) * steps, bottom = (rows_ - 1) * steps;
+  for (const Point p : points) {
+    if (p.x != 0 && p.y != 0 && p.x != right && p.y != bottom) continue;
+    const Point sample{p.x / steps, p.y / steps};
+    if (p.x % steps == 0 && p.y % steps == 0 && std::binary_search(sorted.begin(), sorted.end(), sample, before))
+      continue;
+    return fail(ErrorKind::kUsage,
+                fmt::format("a line meets the raster's edge at sample ({:.9g}, {:.9g}), and the edge is locked and has no "
+                            "vertex there: end the line inside the raster, or at a vertex of the edge",
+                            p.x / double(steps), p.y / double(steps)));
+  }
+  return {};
+}
+
 std::vector<Point> find_side_vertices(const Triangulation& tin, const Raster& raster, std::int32_t steps) {
   const std::int32_t right = (raster.cols - 1) * steps, bottom = (raster.rows - 1) * steps;
   std::vector<Point> points;

@@ -6,6 +6,8 @@
 //              │  ╲     │ ╱   │         a vertex there
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/point.h"
@@ -26,6 +28,8 @@ class LockedBorder {
 
   /// The samples that the lines' vertices are, edge by edge; corners twice.
   const std::vector<Point>& vertices() const { return vertices_; }
+  /// Fails with kUsage if one of the points, in steps between samples, lies on a side and is none of the vertices.
+  Result<void> check(std::span<const Point> points, std::int32_t steps) const;
   Raster raster() const { return {samples_.data(), cols_, rows_}; }
 
  private:

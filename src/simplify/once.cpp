@@ -22,9 +22,8 @@ Result<Simplified> simplify_in_order(const HeightField& field, const Request& op
                                      LineWork* lines) {
   if (auto sound = check_values(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
-  // No lines beside a locked border.
   const auto run = [&](const Plan& plan) {
-    if (plan.options.domain.border.is_locked) return run_locked(plan);
+    if (plan.options.domain.border.is_locked) return run_locked(plan, lines);
     return may_be_dominant(field, options) ? run_by_tiles(plan, lines) : run_greedily(plan, lines);
   };
   const Plan plan(field, options, scale);

@@ -138,7 +138,10 @@ Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
   return run_passes(plan, raster, *criterion, graph_of(lines), std::nullopt);
 }
 
-Result<Simplified> run_locked(const Plan& plan) {
+Result<Simplified> run_locked(const Plan& plan, LineWork* lines) {
+  if (lines != nullptr) {
+    if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
+  }
   const SimplifyOptions& options = plan.options;
   const auto samples = Samples::to_refine(plan.field, options.run.threads);
   if (!samples) return tl::unexpected(samples.error());
@@ -149,12 +152,15 @@ Result<Simplified> run_locked(const Plan& plan) {
   if (auto sound = make_criterion(samples->raster()); !sound) return tl::unexpected(sound.error());
   const auto border = LockedBorder::make(plan.field, options, samples->raster());
   if (!border) return tl::unexpected(border.error());
+  if (lines != nullptr) {
+    if (auto kept = border->check(lines->graph().points, kLatticeSteps); !kept) return tl::unexpected(kept.error());
+  }
   const Raster raster = border->raster();
   const auto criterion = make_criterion(raster);
   if (!criterion) return tl::unexpected(criterion.error());
   const auto start = Clock::now();
   std::optional<Tiled> tiled;
-  if (may_be_dominant(plan.field, options) && !std::isinf(criterion->largest_aim())) {
+  if (lines == nullptr && may_be_dominant(plan.field, options) && !std::isinf(criterion->largest_aim())) {
     std::vector<Point> inside;
     for (const auto& [col, row] : options.features.points) inside.push_back({col, row});
     TiledOptions alone;
@@ -168,7 +174,7 @@ Result<Simplified> run_locked(const Plan& plan) {
   }
   const double seconds = seconds_since(start);
   const auto pass = tiled ? std::optional(pass_of("tiles", seconds, tiled->work)) : std::nullopt;
-  auto result = run_passes(plan, raster, *criterion, nullptr, std::move(tiled), border->vertices());
+  auto result = run_passes(plan, raster, *criterion, graph_of(lines), std::move(tiled), border->vertices());
   if (!result || !pass) return result;
   result->passes.insert(result->passes.begin(), *pass);
   result->seconds_refine += seconds;

@@ -16,8 +16,8 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines);
 /// Algorithm III over the whole raster. REQUIRES: samples in memory.
 Result<Simplified> run_greedily(const Plan& plan, LineWork* lines);
 
-/// With a locked border: in the dominant order as one tile, where that may be, else greedily. REQUIRES: samples in
-/// memory.
-Result<Simplified> run_locked(const Plan& plan);
+/// With a locked border: in the dominant order as one tile, where that may be, else greedily, as beside lines. REQUIRES:
+/// samples in memory.
+Result<Simplified> run_locked(const Plan& plan, LineWork* lines);
 
 }  // namespace scarp

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "scarp/tile.h"
 #include "tiles/globe.h"
@@ -141,6 +142,10 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
   if (!std::isfinite(settings.background) || std::abs(settings.background) > 20000)
     return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within 20000",
                                                settings.background));
+  if (!settings.lines.empty() && !settings.grid.has_even_rows())
+    return fail(ErrorKind::kUsage, fmt::format("breaklines do not go with the {} grid: lines cross its tiles at places "
+                                               "that nodes do not divide evenly; take the geographic one",
+                                               settings.grid.name()));
   const double overshoot = kOvershoot * (source.max - source.min);
   const double low = std::min<double>(source.min - overshoot, settings.background);
   const double high = std::max<double>(source.max + overshoot, settings.background);
@@ -196,7 +201,14 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
     level.segments = segments_of(z, settings.grid);
     plan.levels.push_back(level);
   }
+  set_lines(plan, settings.lines);
   return plan;
+}
+
+void set_lines(PyramidPlan& plan, std::vector<DegreeLine> lines) {
+  plan.lines = lines.empty() ? nullptr
+                             : std::make_shared<TileLines>(std::move(lines), plan.grid, plan.cells, plan.max_zoom(),
+                                                           plan.block_level, plan.covered);
 }
 
 }  // namespace scarp

@@ -105,10 +105,13 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   if (!read) return tl::unexpected(read.error());
   const std::optional<HeldNodes>& nodes = *read;
   if (!nodes) {
+    const auto complete = [](TerrainTile& tile) -> Result<void> {
+      tile.source_error = 0;
+      return {};
+    };
     const auto make_flat = [&](TileId id, const TileEncoder& encode) -> Result<std::optional<KeptTile>> {
-      auto flat = make_flat_tile(plan, id, encode);
+      auto flat = make_flat_tile(plan, id, complete, encode);
       if (!flat) return tl::unexpected(flat.error());
-      flat->tile.source_error = 0;
       return std::optional(std::move(*flat));
     };
     if (auto put = output.make({block}, make_flat); !put) return tl::unexpected(put.error());

@@ -29,14 +29,18 @@ Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, 
     source_error = verdict.source_error;
     return TileVerdict{verdict.node_error, {}};
   };
-  auto kept = nodes->is_flat() ? make_flat_tile(plan, id, encode) : make_tile_of(plan, id, *nodes, judge, encode);
-  if (!kept) return tl::unexpected(kept.error());
   // Between flat nodes there may be land.
   const std::array<TileId, 4> children = children_of(id);
   const bool has_land = std::any_of(children.begin(), children.end(),
                                     [&](TileId child) { return below.at(child.x, child.y).has_heights; });
-  if (nodes->is_flat() && has_land) kept->tile.node_error = judge(kept->tile)->error;
-  kept->tile.source_error = source_error;
+  const auto complete = [&](TerrainTile& tile) -> Result<void> {
+    if (nodes->is_flat() && has_land) tile.node_error = judge(tile)->error;
+    tile.source_error = source_error;
+    return {};
+  };
+  auto kept = nodes->is_flat() ? make_flat_tile(plan, id, complete, encode)
+                               : make_tile_of(plan, id, *nodes, judge, complete, encode);
+  if (!kept) return tl::unexpected(kept.error());
   return std::optional(std::move(*kept));
 }
 
@@ -63,9 +67,12 @@ Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, con
   if (!nodes) return tl::unexpected(nodes.error());
   // As in make_coarse(): the first mesh that does not fold is the tile, whatever its error.
   const auto accept = [](const TerrainTile&) -> Result<TileVerdict> { return TileVerdict{0, {}}; };
-  auto kept = nodes->is_flat() ? make_flat_tile(plan, id, encode) : make_tile_of(plan, id, *nodes, accept, encode);
-  if (kept) kept->tile.node_error = std::numeric_limits<double>::quiet_NaN();
-  return kept;
+  const auto complete = [](TerrainTile& tile) -> Result<void> {
+    tile.node_error = std::numeric_limits<double>::quiet_NaN();
+    return {};
+  };
+  return nodes->is_flat() ? make_flat_tile(plan, id, complete, encode)
+                          : make_tile_of(plan, id, *nodes, accept, complete, encode);
 }
 
 Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {

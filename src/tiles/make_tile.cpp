@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -26,8 +27,8 @@ namespace {
 
 /// Meshes that are made at most, until what clients decode satisfies the level's max error.
 constexpr int kMeshTrials = 12;
-/// Free vertices lie on eighths of a step.
-constexpr std::int32_t kParts = 8;
+/// Vertices lie on these parts of a step: those of lines anywhere, free ones on eighths.
+constexpr std::int32_t kParts = 256;
 
 class TileMaker {
  public:
@@ -37,22 +38,34 @@ class TileMaker {
         id_(id),
         nodes_(nodes),
         rows_(plan.grid, id, nodes.steps()),
-        judge_(judge) {}
+        judge_(judge) {
+    if (plan.lines == nullptr) return;
+    paths_ = plan.lines->find(id);
+    if (paths_ != nullptr) is_left_out_.resize(paths_->steps.size());
+  }
 
   /// `max_error`: of the interior.
   Result<TerrainTile> make(double max_error) {
     if (samples_.empty()) lay_edges();
     forced_.clear();
+    is_left_out_.assign(is_left_out_.size(), false);
     std::optional<TerrainTile> best;
     for (int trial = 0; trial < kMeshTrials; ++trial) {
       // A little less each time: the rounding of a forced vertex may break the bound elsewhere.
       auto mesh = refine((max_error - level_.quantum / 2) * (1 - trial / 128.0));
+      if (!mesh && std::count(is_left_out_.begin(), is_left_out_.end(), false) > 0) {
+        leave_lines_out({}, true);
+        continue;
+      }
       if (!mesh) return tl::unexpected(mesh.error());
       TerrainTile tile = quantize(*mesh);
       tile.max_error = max_error;
+      tile.lines_left_out = static_cast<std::uint64_t>(std::count(is_left_out_.begin(), is_left_out_.end(), true));
+      if (paths_ != nullptr) unfold(tile);
       const std::vector<SampleAt> folds = find_folds(tile);
       if (!folds.empty()) {
         force_around(folds);
+        if (trial + 1 >= kMeshTrials / 2) leave_lines_out(folds, trial + 2 >= kMeshTrials);
         continue;
       }
       const Result<TileVerdict> verdict = judge_(tile);
@@ -93,18 +106,25 @@ class TileMaker {
       down.places.push_back(rows_.line(i));
       down.decoded.push_back(static_cast<double>(32767 - rows_.v_of(last - i)) * last / 32767);
     }
-    edges_.top = lay_edge(across, [&](std::int32_t i) { return std::pair{i, 0}; });
-    edges_.bottom = lay_edge(across, [&](std::int32_t i) { return std::pair{i, last}; });
-    edges_.left = lay_edge(down, [&](std::int32_t i) { return std::pair{0, i}; });
-    edges_.right = lay_edge(down, [&](std::int32_t i) { return std::pair{last, i}; });
+    edges_.top = lay_edge(across, &EdgeVertices::top, [&](std::int32_t i) { return std::pair{i, 0}; });
+    edges_.bottom = lay_edge(across, &EdgeVertices::bottom, [&](std::int32_t i) { return std::pair{i, last}; });
+    edges_.left = lay_edge(down, &EdgeVertices::left, [&](std::int32_t i) { return std::pair{0, i}; });
+    edges_.right = lay_edge(down, &EdgeVertices::right, [&](std::int32_t i) { return std::pair{last, i}; });
   }
 
+  /// Of the tile's nodes, those between two of the lattice of lines.
+  std::int32_t line_step() const { return steps() / plan_.cells; }
+
   template <class Place>
-  std::vector<std::int32_t> lay_edge(EdgeNodes& nodes, const Place& place) {
+  std::vector<std::int32_t> lay_edge(EdgeNodes& nodes, std::vector<std::int32_t> EdgeVertices::*edge,
+                                     const Place& place) {
     std::vector<float>& heights = nodes.heights;
     heights.clear();
     for (std::int32_t i = 0; i <= steps(); ++i) heights.push_back(nodes_.at(place(i).first, place(i).second));
-    std::vector<std::int32_t> vertices = choose_edge_vertices(nodes, level_);
+    std::vector<std::int32_t> crossed;
+    if (paths_ != nullptr) crossed = paths_->edges.*edge;
+    for (std::int32_t& i : crossed) i *= line_step();
+    std::vector<std::int32_t> vertices = choose_edge_vertices(nodes, level_, crossed);
     for (std::size_t k = 1; k < vertices.size(); ++k) {
       const std::int32_t from = vertices[k - 1], to = vertices[k];
       const double low = double{rounded(heights[static_cast<std::size_t>(from)])};
@@ -126,8 +146,49 @@ class TileMaker {
   void force_around(const std::vector<SampleAt>& nodes) {
     for (const auto& [col, row] : nodes) {
       for (std::int32_t y = std::max(row - 1, 1); y <= std::min(row + 1, steps() - 1); ++y) {
-        for (std::int32_t x = std::max(col - 1, 1); x <= std::min(col + 1, steps() - 1); ++x) forced_.insert({y, x});
+        for (std::int32_t x = std::max(col - 1, 1); x <= std::min(col + 1, steps() - 1); ++x) {
+          if (!is_beside_line(x, y)) forced_.insert({y, x});
+        }
       }
+    }
+  }
+
+  /// Of a node from a straight piece of a line, in nodes.
+  double distance_to_line(std::size_t k, std::int32_t col, std::int32_t row) const {
+    const auto& [from, to] = paths_->steps[k];
+    const double dx = (to[0] - from[0]) * line_step(), dy = (to[1] - from[1]) * line_step();
+    const double x = col - from[0] * line_step(), y = row - from[1] * line_step();
+    const double share = std::clamp((x * dx + y * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    return std::hypot(x - share * dx, y - share * dy);
+  }
+
+  /// So near a line, and not on it, that a triangle between them would be a needle.
+  bool is_beside_line(std::int32_t col, std::int32_t row) const {
+    for (std::size_t k = 0; k < is_left_out_.size(); ++k) {
+      if (is_left_out_[k]) continue;
+      const double distance = distance_to_line(k, col, row);
+      if (distance > 1e-6 && distance < 0.5) return true;
+    }
+    return false;
+  }
+
+  /// Of lines whose triangles turn over when they are rounded, the pieces there; or all.
+  void leave_lines_out(const std::vector<SampleAt>& folds, bool all) {
+    for (std::size_t k = 0; k < is_left_out_.size(); ++k) {
+      const auto is_near = [&](const SampleAt& at) { return distance_to_line(k, at.col, at.row) <= 1; };
+      is_left_out_[k] = is_left_out_[k] || all || std::any_of(folds.begin(), folds.end(), is_near);
+    }
+  }
+
+  void add_lines_to(SimplifyOptions& options) const {
+    for (std::size_t k = 0; k < is_left_out_.size(); ++k) {
+      if (is_left_out_[k]) continue;
+      Line line;
+      line.name = "a line";
+      for (const TileLines::Node& node : paths_->steps[k])
+        line.points.push_back({static_cast<double>(node[0] * line_step()), static_cast<double>(node[1] * line_step()),
+                               std::numeric_limits<double>::quiet_NaN()});
+      options.features.breaklines.lines.push_back(std::move(line));
     }
   }
 
@@ -148,6 +209,7 @@ class TileMaker {
       for (std::int32_t col = side; col < steps(); col += side) options.features.points.push_back({col, row});
     }
     for (const auto& [row, col] : forced_) options.features.points.push_back({col, row});
+    add_lines_to(options);
     auto simplified = simplify(field, options);
     if (!simplified) return tl::unexpected(simplified.error());
     return std::move(simplified->mesh);
@@ -178,15 +240,62 @@ class TileMaker {
     return tile;
   }
 
+  /// Twice its area, in 32767ths.
+  static std::int64_t area_of(const TerrainTile& tile, std::size_t first) {
+    const std::uint32_t a = tile.triangles[first], b = tile.triangles[first + 1], c = tile.triangles[first + 2];
+    const std::int64_t abx = tile.u[b] - tile.u[a], aby = tile.v[b] - tile.v[a];
+    const std::int64_t acx = tile.u[c] - tile.u[a], acy = tile.v[c] - tile.v[a];
+    return abx * acy - acx * aby;
+  }
+
+  /// Needles beside lines that rounding has turned over: an inner corner goes to the best place up to two 32767ths away.
+  static void unfold(TerrainTile& tile) {
+    std::vector<std::vector<std::size_t>> stars;
+    const auto least_area = [&](std::uint32_t v) {
+      std::int64_t least = std::numeric_limits<std::int64_t>::max();
+      for (const std::size_t first : stars[v]) least = std::min(least, area_of(tile, first));
+      return least;
+    };
+    const auto move_to_best = [&](std::uint32_t v) {
+      const std::int32_t u0 = tile.u[v], v0 = tile.v[v];
+      if (u0 < 3 || v0 < 3 || u0 > 32764 || v0 > 32764) return;
+      std::int64_t best = least_area(v);
+      std::pair<std::int32_t, std::int32_t> place{u0, v0};
+      for (std::int32_t dv = -2; dv <= 2; ++dv) {
+        for (std::int32_t du = -2; du <= 2; ++du) {
+          tile.u[v] = static_cast<std::uint16_t>(u0 + du);
+          tile.v[v] = static_cast<std::uint16_t>(v0 + dv);
+          if (const std::int64_t area = least_area(v); area > best) {
+            best = area;
+            place = {u0 + du, v0 + dv};
+          }
+        }
+      }
+      tile.u[v] = static_cast<std::uint16_t>(place.first);
+      tile.v[v] = static_cast<std::uint16_t>(place.second);
+    };
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+      bool is_folded = false;
+      for (std::size_t first = 0; first < tile.triangles.size(); first += 3) {
+        if (area_of(tile, first) > 0) continue;
+        is_folded = true;
+        if (stars.empty()) {
+          stars.resize(tile.u.size());
+          for (std::size_t k = 0; k < tile.triangles.size(); ++k) stars[tile.triangles[k]].push_back(k - k % 3);
+        }
+        for (std::size_t k = first; k < first + 3 && area_of(tile, first) <= 0; ++k) move_to_best(tile.triangles[k]);
+      }
+      if (!is_folded) return;
+    }
+  }
+
   /// Nodes at the corners of triangles that rounding has turned over.
   std::vector<SampleAt> find_folds(const TerrainTile& tile) const {
     std::vector<SampleAt> nodes;
     for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
-      const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
-      const std::int64_t abx = tile.u[b] - tile.u[a], aby = tile.v[b] - tile.v[a];
-      const std::int64_t acx = tile.u[c] - tile.u[a], acy = tile.v[c] - tile.v[a];
-      if (abx * acy > acx * aby) continue;
-      for (const std::uint32_t v : {a, b, c}) {
+      if (area_of(tile, k) > 0) continue;
+      for (const std::uint32_t v : {tile.triangles[k], tile.triangles[k + 1], tile.triangles[k + 2]}) {
         nodes.push_back({nearest_node(tile.u[v], steps()), rows_.nearest(tile.v[v])});
       }
     }
@@ -205,6 +314,8 @@ class TileMaker {
   const TileNodes& nodes_;
   const TileRows rows_;
   const TileJudge& judge_;
+  const TileLines::Paths* paths_ = nullptr;  ///< null: no line passes the tile
+  std::vector<bool> is_left_out_;            ///< by step of the paths
   std::vector<float> samples_;
   EdgeVertices edges_;
   std::set<std::pair<std::int32_t, std::int32_t>> forced_;  ///< row, column of nodes that must be vertices
@@ -241,11 +352,12 @@ Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nod
 }
 
 Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge,
-                              const TileEncoder& encode) {
+                              const TileCompletion& complete, const TileEncoder& encode) {
   TileMaker maker(plan, id, nodes, judge);
   for (double max_error = plan.levels[static_cast<std::size_t>(id.z)].max_error;; max_error *= 2) {
     auto tile = maker.make(max_error);
     if (!tile) return tl::unexpected(tile.error());
+    if (auto completed = complete(*tile); !completed) return tl::unexpected(completed.error());
     KeptTile kept{std::move(*tile), {}};
     if (!encode) return kept;
     auto bytes = encode(kept.tile);
@@ -256,21 +368,16 @@ Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNode
   }
 }
 
-Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileEncoder& encode) {
-  const TileNodes nodes = TileNodes::flat(2 * plan.levels[static_cast<std::size_t>(id.z)].segments, plan.background);
+Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileCompletion& complete,
+                                const TileEncoder& encode) {
+  const bool has_lines = plan.lines != nullptr && plan.lines->find(id) != nullptr;
+  const std::int32_t least = 2 * plan.levels[static_cast<std::size_t>(id.z)].segments;
+  const TileNodes nodes = TileNodes::flat(has_lines ? std::max(least, plan.cells) : least, plan.background);
   return make_tile_of(
-      plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); }, encode);
 }
 
 Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
                                   const TileEncoder& encode) {
-  const auto judge = [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); };
-  auto kept = nodes.is_flat() ? make_flat_tile(plan, id, encode) : make_tile_of(plan, id, nodes, judge, encode);
-  if (!kept) return kept;
-  const Result<SampleVerdict> verdict = judge_at_samples(kept->tile, plan.grid, nodes, source);
-  if (!verdict) return tl::unexpected(verdict.error());
-  kept->tile.source_error = verdict->error;
-  return kept;
 }
 
 Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,

@@ -37,17 +37,24 @@ std::int32_t quanta_of(double height, double quantum) {
   return static_cast<std::int32_t>(std::floor(height / quantum + 0.5));
 }
 
-std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level) {
+std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level,
+                                               std::span<const std::int32_t> forced) {
   const auto steps = static_cast<std::int32_t>(nodes.heights.size()) - 1;
   std::vector<float> rounded = nodes.heights;
   for (float& z : rounded) z = static_cast<float>(level.quantum * quanta_of(double{z}, level.quantum));
   const std::int32_t segments = std::min<std::int32_t>(level.segments, steps), side = steps / segments;
+  std::vector<std::int32_t> given(forced.begin(), forced.end());
+  for (std::int32_t i = 0; i <= steps; i += side) given.push_back(i);
+  std::sort(given.begin(), given.end());
+  given.erase(std::unique(given.begin(), given.end()), given.end());
   double tolerance = level.max_error - level.quantum / 2;
   for (int trial = 0; trial < kTrials; ++trial, tolerance *= 63.0 / 64) {
     std::vector<std::int32_t> vertices{0};
-    for (std::int32_t first = 0; first < steps; first += side) {
+    for (std::size_t k = 0; k + 1 < given.size(); ++k) {
+      const std::int32_t first = given[k];
       for (const std::int32_t i : simplify_edge(
-               std::span(rounded).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(side) + 1),
+               std::span(rounded).subspan(static_cast<std::size_t>(first),
+                                          static_cast<std::size_t>(given[k + 1] - first) + 1),
                tolerance)) {
         if (i > 0) vertices.push_back(first + i);
       }

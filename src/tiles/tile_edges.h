@@ -26,7 +26,8 @@ struct EdgeNodes {
 
 /// The nodes of an edge that are vertices, ascending, with the ends and each node that begins a segment of the level:
 /// as few as keep every node within the level's max error of the line through them, the vertices where clients decode
-/// them.
-std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level);
+/// them. `forced`: others that are vertices, in any order.
+std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level,
+                                               std::span<const std::int32_t> forced = {});
 
 }  // namespace scarp

@@ -15,6 +15,8 @@ struct TileVerdict {
   std::vector<SampleAt> offenders;  ///< nodes that break the tile's max error; empty where they are not known
 };
 using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
+/// Sets what else is known of a tile.
+using TileCompletion = std::function<Result<void>(TerrainTile& tile)>;
 
 /// The errors at the nodes themselves. Where the grid's rows are not even the offenders are the worst of each triangle.
 Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid);
@@ -23,7 +25,7 @@ Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nod
 /// That max error is the level's, doubled while the tile's bytes are more than the plan's limit and its interior can have
 /// fewer vertices. Without an encoder there are no bytes and no limit.
 Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge,
-                              const TileEncoder& encode);
+                              const TileCompletion& complete, const TileEncoder& encode);
 
 /// A tile at or below the plan's block level, judged at its nodes and at the samples of its source.
 Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
@@ -37,6 +39,7 @@ Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, con
 inline std::int32_t steps_of(const PyramidPlan& plan, int z) { return plan.cells << (plan.max_zoom() - z); }
 
 /// A tile without a height, of the background alone: the same on its edges as its neighbours.
-Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileEncoder& encode);
+Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileCompletion& complete,
+                                const TileEncoder& encode);
 
 }  // namespace scarp

@@ -59,6 +59,7 @@ Result<void> TileOutput::put(const KeptTile& kept) {
   level.source_error = larger(level.source_error, tile.source_error);
   level.over += tile.node_error > tile.max_error;
   level.coarser += tile.max_error > plan_.levels[z].max_error;
+  level.lines_left_out += tile.lines_left_out;
   level.oversized += plan_.max_tile_bytes > 0 && kept.bytes.size() > plan_.max_tile_bytes;
   report_.tiles[z].push_back(std::uint64_t{tile.id.y} << 32 | tile.id.x);
   return sink_.put(tile.id, kept.bytes);
@@ -81,6 +82,7 @@ void PyramidReport::add(const PyramidReport& more) {
     level.bytes += other.bytes;
     level.over += other.over;
     level.coarser += other.coarser;
+    level.lines_left_out += other.lines_left_out;
     level.oversized += other.oversized;
     level.node_error = std::max(level.node_error, other.node_error);
     level.bound = std::max(level.bound, other.bound);

@@ -3,10 +3,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "laws/any_field.h"
@@ -288,6 +290,67 @@ TEST(locked_border, is_what_the_caller_gives) {
   options.domain.border.vertices = EdgeVertices{{3, 30}, {}, {}, {}};
   EXPECT_EQ(simplify(field.view(), options).error().message,
             "vertex 30 of the border's top edge is no sample with a height beyond the one before it");
+}
+
+RC_GTEST_PROP(locked_border, breaklines_end_at_its_vertices, ()) {
+  const Field field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(4, 50),
+                                            *rc::gen::inRange(4, 60), Relief::kReal);
+  const std::int32_t right = field.cols - 1, bottom = field.rows - 1;
+  const auto top = *rc::gen::inRange(1, right), low = *rc::gen::inRange(1, right), left = *rc::gen::inRange(1, bottom);
+  auto options = locked(1e5, any_effort());
+  options.goals.max_error = *rc::gen::element(5.0, 40.0);
+  options.domain.border.max_error = options.goals.max_error;
+  // The line of an edge through one of its samples.
+  const auto line_through = [&](const Edge& edge, std::int32_t at) {
+    const auto middle = static_cast<std::size_t>(at);
+    std::vector<std::int32_t> vertices = simplify_edge(std::span(edge.heights).first(middle + 1), *options.goals.max_error);
+    for (const std::int32_t i : simplify_edge(std::span(edge.heights).subspan(middle), *options.goals.max_error)) {
+      if (i > 0) vertices.push_back(at + i);
+    }
+    return vertices;
+  };
+  std::vector<std::vector<std::int32_t>> given;
+  const std::array<std::int32_t, 4> ends{top, low, left, bottom};
+  for (std::size_t k = 0; k < 4; ++k) given.push_back(line_through(edges_of(field)[k], ends[k]));
+  options.domain.border.vertices = EdgeVertices{given[0], given[1], given[2], given[3]};
+  const auto line = [&](std::vector<std::array<double, 2>> places) {
+    Line made;
+    for (const auto& [col, row] : places) made.points.push_back({col, row, NAN});
+    made.name = "line";
+    options.features.breaklines.lines.push_back(std::move(made));
+  };
+  const double inside = *rc::gen::inRange(1, right * 4) / 4.0, down = *rc::gen::inRange(1, bottom * 4) / 4.0;
+  line({{double(top), 0}, {inside, down}, {double(low), double(bottom)}});
+  line({{0, double(left)}, {inside, bottom / 2.0}});
+  const auto made = simplify(field.view(), options);
+  RC_ASSERT(made.has_value());
+  const auto edges = edges_of(field);
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    std::vector<std::int32_t> found;
+    for (const auto& [i, z] : vertices_on(made->mesh, field, edges[k])) found.push_back(static_cast<std::int32_t>(i));
+    RC_ASSERT(found == given[k]);
+  }
+  const Measurement m = *measure(field.view(), made->mesh);
+  RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
+  RC_ASSERT(m.uncovered == 0u && m.is_sound());
+  RC_ASSERT(made->lines_inserted == 2u);
+}
+
+TEST(locked_border, breaklines_that_end_elsewhere_are_refused) {
+  const Field field = testing::random_field(3, 30, 20, Relief::kRidges);
+  for (const double col : {8.0, 11.5}) {
+    SimplifyOptions options = locked(400, Effort::kNormal);
+    options.domain.border.vertices = EdgeVertices{{3, 11}, {}, {0, 5, 19}, {7}};
+    Line line;
+    line.points = {{col, 0, NAN}, {12, 9, NAN}};
+    line.name = "line";
+    options.features.breaklines.lines = {line};
+    const auto made = simplify(field.view(), options);
+    ASSERT_FALSE(made);
+    EXPECT_NE(made.error().message.find("a line meets the raster's edge at sample ("), std::string::npos);
+    options.features.breaklines.lines[0].points[0][0] = 11;
+    EXPECT_TRUE(simplify(field.view(), options));
+  }
 }
 
 TEST(locked_border, stays_that_of_the_max_error_when_a_budget_allows_less) {

@@ -294,6 +294,74 @@ RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bou
   RC_ASSERT(kept->tile.node_error <= kept->tile.max_error);
 }
 
+/// Lines around a tile, through it, along its edges and through its corners.
+std::vector<DegreeLine> any_lines(TileId id) {
+  const DegreeBox box = TileGrid{}.bounds_of(id);
+  const auto any_place = [](double from, double to) {
+    const int kind = *rc::gen::inRange(0, 8);
+    return kind == 0 ? from : kind == 1 ? to : from + (to - from) * (*rc::gen::inRange(-600, 1601) / 1000.0);
+  };
+  std::vector<DegreeLine> lines(*rc::gen::inRange<std::size_t>(1, 5));
+  for (DegreeLine& line : lines) {
+    line.resize(*rc::gen::inRange<std::size_t>(2, 7));
+    for (auto& [longitude, latitude] : line) {
+      longitude = any_place(box.west, box.east);
+      latitude = std::clamp(any_place(box.south, box.north), -90.0, 90.0);
+    }
+  }
+  return lines;
+}
+
+/// Whether no edge of the mesh passes the straight way from one node of the level to another, but by rounding.
+bool is_chain_of_edges(const QuantizedMesh& mesh, const std::array<TileLines::Node, 2>& step, int cells) {
+  std::array<double, 4> way{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    way[2 * k] = step[k][0] * 32767.0 / cells;
+    way[2 * k + 1] = 32767 - step[k][1] * 32767.0 / cells;
+  }
+  const double dx = way[2] - way[0], dy = way[3] - way[1], length = std::hypot(dx, dy), slack = 3 + 32767.0 / cells / 32;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const std::uint32_t a = mesh.triangles[k], b = mesh.triangles[k % 3 == 2 ? k - 2 : k + 1];
+    const auto beside = [&](std::uint32_t v) { return (dx * (mesh.v[v] - way[1]) - dy * (mesh.u[v] - way[0])) / length; };
+    const auto along = [&](std::uint32_t v) { return (dx * (mesh.u[v] - way[0]) + dy * (mesh.v[v] - way[1])) / length; };
+    if (!(std::min(beside(a), beside(b)) < -slack && std::max(beside(a), beside(b)) > slack)) continue;
+    const double share = beside(a) / (beside(a) - beside(b)), at = along(a) + share * (along(b) - along(a));
+    if (at > slack && at < length - slack) return false;
+  }
+  return true;
+}
+
+RC_GTEST_PROP(tile_laws, lines_are_edges_and_neighbours_have_the_same_vertex_where_they_cross, ()) {
+  double relief = 0, noise = 0;
+  const AnyLand land = any_land(relief, noise);
+  const int finest = *rc::gen::inRange(2, 9), z = std::max(0, finest - *rc::gen::inRange(0, 3));
+  PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort());
+  const std::uint32_t across = std::uint32_t{2} << z, down = std::uint32_t{1} << z;
+  const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, across), *rc::gen::inRange<std::uint32_t>(0, down)};
+  set_lines(plan, any_lines(id));
+  const auto tile = make_tile(plan, id, land);
+  RC_ASSERT(tile.has_value());
+  const QuantizedMesh here = decode(*tile);
+  RC_ASSERT(brute_force(here, id, nodes_of(plan, z), land, plan.background) <= tile->node_error * (1 + 1e-9) + 1e-6);
+  if (const TileLines::Paths* const paths = plan.lines->find(id); paths != nullptr && tile->lines_left_out == 0) {
+    for (const auto& step : paths->steps) RC_ASSERT(is_chain_of_edges(here, step, plan.cells));
+    for (const std::int32_t col : paths->edges.top) {
+      RC_ASSERT(std::any_of(here.north.begin(), here.north.end(), [&](std::uint32_t v) {
+        return std::abs(here.u[v] - col * 32767.0 / plan.cells) < 1;
+      }));
+    }
+  }
+  const auto east = make_tile(plan, {z, (id.x + 1) % across, id.y}, land);
+  RC_ASSERT(east.has_value());
+  const QuantizedMesh there = decode(*east);
+  RC_ASSERT(without_dust(edge_of(here, here.east, here.v)) == without_dust(edge_of(there, there.west, there.v)));
+  if (id.y + 1 == down) return;
+  const auto north = make_tile(plan, {z, id.x, id.y + 1}, land);
+  RC_ASSERT(north.has_value());
+  const QuantizedMesh above = decode(*north);
+  RC_ASSERT(without_dust(edge_of(here, here.north, here.u)) == without_dust(edge_of(above, above.south, above.u)));
+}
+
 /// Tiles in memory.
 class Kept final : public TileSink {
  public:
@@ -330,13 +398,15 @@ struct Made {
 };
 
 std::unique_ptr<Made> make_small_pyramid(const AnyLand& land, const DegreeBox& covered, int threads,
-                                         const TileGrid& grid = {}, std::uint64_t max_tile_bytes = 0) {
+                                         const TileGrid& grid = {}, std::uint64_t max_tile_bytes = 0,
+                                         std::vector<DegreeLine> lines = {}) {
   SourceFacts source{covered, 1, -1000, 1200};
   PyramidSettings settings;
   settings.cells = 16;
   settings.max_zoom = 7;
   settings.grid = grid;
   settings.max_tile_bytes = max_tile_bytes;
+  settings.lines = std::move(lines);
   auto made = std::make_unique<Made>(grid);
   made->plan = *plan_pyramid(source, settings);
   Run run;
@@ -348,6 +418,8 @@ std::unique_ptr<Made> make_small_pyramid(const AnyLand& land, const DegreeBox& c
 }
 
 const DegreeBox kIsland{10.3, 34.1, 31.9, 50.2};
+const std::vector<DegreeLine> kRivers{{{5, 40}, {14, 41.2}, {16.5, 46}, {40, 48.1}}, {{22.5, 30}, {22.5, 55}},
+                                      {{12, 36}, {12.4, 36.3}, {13, 36.1}, {12, 36}}};
 
 TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_nothing) {
   const AnyLand land(7, 900, 50, false, kIsland);
@@ -368,10 +440,11 @@ TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_
   }
 }
 
-TEST(pyramid_laws, tiles_within_a_limit_of_bytes_are_those_made_alone_and_are_counted) {
+TEST(pyramid_laws, tiles_within_a_limit_of_bytes_and_with_lines_are_those_made_alone_and_are_counted) {
   constexpr std::uint64_t kLimit = 900;
   const AnyLand land(7, 900, 50, false, kIsland);
-  const auto one = make_small_pyramid(land, kIsland, 1, {}, kLimit), three = make_small_pyramid(land, kIsland, 3, {}, kLimit);
+  const auto one = make_small_pyramid(land, kIsland, 1, {}, kLimit, kRivers);
+  const auto three = make_small_pyramid(land, kIsland, 3, {}, kLimit, kRivers);
   EXPECT_EQ(one->kept.files, three->kept.files);
   const TileEncoder encode = [](const TerrainTile& tile) { return encode_quantized_mesh(tile); };
   std::vector<std::uint64_t> coarser(one->plan.levels.size()), oversized(coarser);
@@ -512,9 +585,10 @@ TEST(pyramid_laws, bounds_above_the_blocks_hold_for_all_nodes_below) {
   }
 }
 
-void expect_same_edges(const DegreeBox& covered, int least, const TileGrid& grid = {}) {
+void expect_same_edges(const DegreeBox& covered, int least, const TileGrid& grid = {},
+                       const std::vector<DegreeLine>& lines = {}) {
   const AnyLand land(11, 900, 120, true, covered);
-  const auto made = make_small_pyramid(land, covered, 2, grid);
+  const auto made = make_small_pyramid(land, covered, 2, grid, 0, lines);
   int edges = 0;
   for (int z = 0; z <= made->plan.max_zoom(); ++z) {
     const std::uint32_t across = grid.columns(z);
@@ -540,6 +614,7 @@ void expect_same_edges(const DegreeBox& covered, int least, const TileGrid& grid
 TEST(pyramid_laws, neighbours_in_a_pyramid_decode_to_the_same_edge) {
   expect_same_edges(kIsland, 300);
   expect_same_edges(kIsland, 100, kGrids[1]);
+  expect_same_edges(kIsland, 300, {}, kRivers);
   // Around the antimeridian, up to where the grid ends.
   expect_same_edges({170, 78, 190, 90}, 50, kGrids[1]);
 }

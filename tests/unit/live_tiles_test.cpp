@@ -70,7 +70,9 @@ TileJob make_job() {
 TEST(live_tiles, are_those_of_the_finished_set_for_any_cache_and_several_readers) {
   const Land land;
   TileJob job = make_job();
-  job.plan.max_tile_bytes = 800;  // some tiles have more without it
+  Kept free(make_tile_encoder(job.format, job.plan));
+  const LevelSummary finest = make_pyramid(job.plan, land, free)->levels.back();
+  job.plan.max_tile_bytes = finest.bytes / finest.tiles;
   Kept kept(make_tile_encoder(job.format, job.plan));
   const auto report = make_pyramid(job.plan, land, kept);
   ASSERT_TRUE(report) << report.error().message;

@@ -129,6 +129,7 @@ Result<void> ServeCommand::run() const {
   if (!server) return tl::unexpected(server.error());
   if (!quiet_) {
     if (served->job.raster) print_warnings(warnings_of_raster(*served->job.raster));
+    print_warnings(served->job.warnings);
     auto printed = print_summary(describe(tiles_.raster.path(), answers.set(), served->live,
                                           served->job.job.facts.heights_above, server->url()));
     if (!printed) return printed;

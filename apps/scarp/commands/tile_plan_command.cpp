@@ -132,6 +132,7 @@ Result<void> TilePlanCommand::run() const {
   display.finish();
   if (quiet_) return {};
   print_warnings(warnings_of_raster(*opened->raster));
+  print_warnings(opened->warnings);
   return print_summary(make_summary(opened->job, plan_, *estimate, shards));
 }
 

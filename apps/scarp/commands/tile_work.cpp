@@ -25,6 +25,7 @@ Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& outp
   if (auto put = sink->put_files(*report, job.facts); !put) return tl::unexpected(put.error());
   if (auto finished = set.finish(); !finished) return tl::unexpected(finished.error());
   std::vector<std::string> warnings = warnings_of_raster(*opened->raster);
+  warnings.insert(warnings.end(), opened->warnings.begin(), opened->warnings.end());
   for (std::string& warning : warnings_of_levels(job.plan, *report)) warnings.push_back(std::move(warning));
   return MadeTiles{std::move(*opened), std::move(*report), std::move(warnings)};
 }

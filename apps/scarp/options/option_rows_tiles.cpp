@@ -104,6 +104,16 @@ constexpr OptionRow kTileRows[] = {
      .help = "Size of a tile as it is kept. Where a tile is larger, the max error of its interior is doubled until it "
              "fits; its borders stay, so that neighbours meet.",
      .brief = "Largest size of a tile, at the cost of its interior's error"},
+    {.id = kBreaklines,
+     .name = "--breaklines",
+     .commands = kTile | kTilePlan | kServe,
+     .group = OptionGroup::kInput,
+     .type = kInputFile,
+     .value = "FILE[:LAYER]",
+     .is_repeatable = true,
+     .help = "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. Each "
+             "level has them to within its own nodes.",
+     .brief = "Lines that become edges of the tiles' meshes"},
     {.id = kCells,
      .name = "--cells",
      .commands = kTile | kTilePlan | kTileCheck | kServe,

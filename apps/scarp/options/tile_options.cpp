@@ -11,6 +11,7 @@
 #include "options/image_options.h"
 #include "options/memory.h"
 #include "options/option_table.h"
+#include "scarp/lines.h"
 
 namespace scarp::cli {
 namespace {
@@ -146,6 +147,7 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kWaterPercentile, percentile);
   add_option(command, OptionId::kRivers, rivers);
   add_option(command, OptionId::kMaxTileBytes, max_tile_bytes);
+  add_option(command, OptionId::kBreaklines, breaklines);
   if (command.get_name() != "serve") add_option(command, OptionId::kOnly, only);
 }
 
@@ -274,6 +276,18 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   opened.raster = std::move(*globe);
   settings->ellipsoid = opened.raster->place().ellipsoid;
+  if (!breaklines.empty() && !opened.raster->place().body.empty())
+    return fail(ErrorKind::kUsage,
+                "--breaklines is for tiles of the earth: nobody says on which other ellipsoid the lines lie");
+  for (const std::string& file : breaklines) {
+    const auto lines = read_lines(file, {.crs = "EPSG:4326", .ignore_z = true});
+    if (!lines) return tl::unexpected(lines.error());
+    for (const Line& line : lines->lines) {
+      settings->lines.emplace_back();
+      for (const auto& point : line.points) settings->lines.back().push_back({point[0], point[1]});
+    }
+    opened.warnings.insert(opened.warnings.end(), lines->warnings.begin(), lines->warnings.end());
+  }
   auto plan = plan_pyramid(opened.raster->facts(), *settings);
   if (!plan) return tl::unexpected(plan.error());
   job.plan = std::move(*plan);

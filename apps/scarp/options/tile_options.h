@@ -19,6 +19,7 @@ namespace scarp::cli {
 struct OpenedJob {
   std::unique_ptr<GlobeRaster> raster;
   TileJob job;
+  std::vector<std::string> warnings = {};  ///< sentences about lines
 };
 
 /// The job's rasters. Fails as check_rasters() and GlobeRaster::open() do.
@@ -34,7 +35,7 @@ struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, format, only;
   Given max_tile_bytes, drape, drape_format, percentile;
-  std::vector<std::string> water, rivers;  ///< FILE or FILE:LAYER
+  std::vector<std::string> water, rivers, breaklines;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 
   /// What the nodes are: how the raster is read, what its heights are above, and the lattice.

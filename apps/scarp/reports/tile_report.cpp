@@ -30,6 +30,7 @@ Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
                       {"tiles_over", level.over},
                       {"tiles_coarser", level.coarser},
                       {"tiles_oversized", level.oversized},
+                      {"lines_left_out", level.lines_left_out},
                       {"node_error", level.node_error},
                       {"bound", level.bound},
                       {"source_error", level.source_error}});
@@ -157,7 +158,8 @@ namespace {
 
 /// Tiles of all levels that `count` counts, and the levels, as "9, 10"; nothing where there are none.
 std::optional<std::pair<std::string, std::string>> count_tiles(const PyramidReport& report,
-                                                               std::uint64_t LevelSummary::*count) {
+                                                               std::uint64_t LevelSummary::*count,
+                                                               const char* what = "tile") {
   std::string levels;
   std::uint64_t tiles = 0;
   for (std::size_t z = 0; z < report.levels.size(); ++z) {
@@ -166,7 +168,7 @@ std::optional<std::pair<std::string, std::string>> count_tiles(const PyramidRepo
     tiles += report.levels[z].*count;
   }
   if (tiles == 0) return std::nullopt;
-  return std::pair{format_plural(tiles, "tile"), levels};
+  return std::pair{format_plural(tiles, what), levels};
 }
 
 }  // namespace
@@ -187,6 +189,10 @@ std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const Pyram
     warnings.push_back(fmt::format("{} of the levels {} are larger than --max-tile-bytes {}: what neighbours share "
                                    "alone takes more",
                                    oversized->first, oversized->second, plan.max_tile_bytes));
+  if (const auto left_out = count_tiles(report, &LevelSummary::lines_left_out, "piece"))
+    warnings.push_back(fmt::format("{} of the lines, of the levels {}, are no edges of the mesh: in 32767ths of a tile "
+                                   "they would turn triangles over",
+                                   left_out->first, left_out->second));
   return warnings;
 }
 

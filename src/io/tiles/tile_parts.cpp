@@ -115,7 +115,8 @@ std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, 
   packer.add(std::uint64_t{block.report.levels.size()});
   for (const LevelSummary& level : block.report.levels) {
     for (const std::uint64_t count :
-         {level.tiles, level.triangles, level.bytes, level.over, level.coarser, level.oversized})
+         {level.tiles, level.triangles, level.bytes, level.over, level.coarser, level.oversized,
+          level.lines_left_out})
       packer.add(count);
     packer.add(level.node_error);
     packer.add(level.bound);
@@ -288,7 +289,8 @@ Result<BlockReport> TileParts::read(
   for (std::uint64_t z = 0; z < levels; ++z) {
     LevelSummary level;
     for (std::uint64_t* count :
-         {&level.tiles, &level.triangles, &level.bytes, &level.over, &level.coarser, &level.oversized})
+         {&level.tiles, &level.triangles, &level.bytes, &level.over, &level.coarser, &level.oversized,
+          &level.lines_left_out})
       *count = unpacker.take<std::uint64_t>();
     level.node_error = unpacker.take<double>();
     level.bound = unpacker.take<double>();

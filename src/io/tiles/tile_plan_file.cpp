@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,6 +24,8 @@ using Json = nlohmann::ordered_json;
 /// FNV-1a.
 constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325, kFnvPrime = 0x100000001b3;
 constexpr int kPlanVersion = 1;
+/// Longitudes of lines.
+constexpr double kMostDegrees = 720;
 constexpr std::pair<Effort, const char*> kEfforts[] = {
     {Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kHigh, "high"}};
 constexpr std::pair<Decode, const char*> kDecodes[] = {
@@ -100,6 +103,7 @@ Json describe_plan(const PyramidPlan& plan) {
           {"levels", std::move(levels)}};
   if (plan.waters) json["waters"] = describe_waters(*plan.waters);
   if (plan.max_tile_bytes > 0) json["max_tile_bytes"] = plan.max_tile_bytes;
+  if (plan.lines) json["lines"] = plan.lines->lines();
   return json;
 }
 
@@ -142,6 +146,29 @@ Json describe_drape(const TileDrape& drape) {
   return {{"files", std::move(files)}, {"format", word_of(drape.format, kImageFormats)}};
 }
 
+/// Whether it is one that plan_pyramid() could have made.
+bool is_sound(const PyramidPlan& plan) {
+  if (plan.levels.empty() || plan.max_zoom() > kMaxTileLevel || plan.block_level < 0 ||
+      plan.block_level > plan.max_zoom() || plan.max_zoom() - plan.block_level > 8 || plan.cells < 16 ||
+      plan.cells > 256 || (plan.cells & (plan.cells - 1)) != 0)
+    return false;
+  return std::all_of(plan.levels.begin(), plan.levels.end(), [](const PyramidLevel& level) {
+    return level.max_error > 0 && level.quantum > 0 && level.segments >= 1 && level.segments <= 256 &&
+           (level.segments & (level.segments - 1)) == 0;
+  });
+}
+
+/// Throws std::out_of_range for what is no place.
+void add_lines(std::vector<DegreeLine> lines, PyramidPlan& plan) {
+  for (const DegreeLine& line : lines) {
+    for (const auto& [longitude, latitude] : line) {
+      if (!(std::abs(longitude) <= kMostDegrees) || !(std::abs(latitude) <= 90)) throw std::out_of_range("lines");
+    }
+  }
+  if (!is_sound(plan)) throw std::out_of_range("levels");
+  set_lines(plan, std::move(lines));
+}
+
 PyramidPlan parse_plan(const Json& json) {
   PyramidPlan plan;
   plan.cells = json.at("cells");
@@ -165,19 +192,8 @@ PyramidPlan parse_plan(const Json& json) {
     waters.per_turn = plan.grid.per_turn(plan.max_zoom(), plan.cells);
     plan.waters = std::make_shared<const TileWaters>(std::move(waters));
   }
+  if (json.contains("lines")) add_lines(json["lines"].get<std::vector<DegreeLine>>(), plan);
   return plan;
-}
-
-/// Whether it is one that plan_pyramid() could have made.
-bool is_sound(const PyramidPlan& plan) {
-  if (plan.levels.empty() || plan.max_zoom() > kMaxTileLevel || plan.block_level < 0 ||
-      plan.block_level > plan.max_zoom() || plan.max_zoom() - plan.block_level > 8 || plan.cells < 16 ||
-      plan.cells > 256 || (plan.cells & (plan.cells - 1)) != 0)
-    return false;
-  return std::all_of(plan.levels.begin(), plan.levels.end(), [](const PyramidLevel& level) {
-    return level.max_error > 0 && level.quantum > 0 && level.segments >= 1 && level.segments <= 256 &&
-           (level.segments & (level.segments - 1)) == 0;
-  });
 }
 
 Json describe_stamps(const std::vector<FileStamp>& files) {
@@ -469,6 +485,7 @@ Result<TileJob> follow_job(const TileJob& earlier, TileJob now) {
   job.plan.covered = now.plan.covered;
   job.plan.waters = std::move(now.plan.waters);
   job.plan.sources = std::move(now.plan.sources);
+  if (earlier.plan.lines) set_lines(job.plan, earlier.plan.lines->lines());
   return job;
 }
 

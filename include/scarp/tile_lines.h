@@ -1,0 +1,51 @@
+// Lines that the meshes of tiles have as edges.
+//
+// A level knows a line on its own lattice, `cells` steps a tile: the line is simplified to half a step, its vertices go
+// to the nearest nodes of the lattice, and where it passes from a tile to the next there is one more, the nearest node
+// on the edge. All this is a function of the line and the level, so that both tiles have the same vertex on their edge.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "scarp/border.h"
+#include "scarp/degrees.h"
+#include "scarp/tile_grid.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// Longitudes and latitudes of a line's vertices. A step of more than 180° goes the other way round.
+using DegreeLine = std::vector<std::array<double, 2>>;
+
+class TileLines {
+ public:
+  /// A node of a tile: column, row, from its north-western corner.
+  using Node = std::array<std::int32_t, 2>;
+  /// What passes a tile.
+  struct Paths {
+    std::vector<std::array<Node, 2>> steps;  ///< straight; none of them along an edge of the tile
+    EdgeVertices edges;                      ///< nodes that must be vertices, ascending, each once
+  };
+
+  /// Of the levels 0 … max_zoom. `covered`: elsewhere nothing is known, but for tiles around it down to the block
+  /// level.
+  TileLines(std::vector<DegreeLine> lines, const TileGrid& grid, int cells, int max_zoom, int block_level,
+            const DegreeBox& covered);
+
+  const std::vector<DegreeLine>& lines() const { return lines_; }
+  /// Null: nothing passes it.
+  const Paths* find(TileId id) const;
+
+ private:
+  std::vector<DegreeLine> lines_;
+  std::vector<std::map<std::pair<std::uint32_t, std::uint32_t>, Paths>> levels_;  ///< by row and column of tiles
+};
+
+}  // namespace scarp
+
+#pragma GCC visibility pop
