@@ -68,7 +68,7 @@ for path in pathlib.Path(sys.argv[1]).glob("*/*/*/*.glb"):
         continue
     rows = pixels(glb.view_bytes(document, binary, document["images"][0]["bufferView"]))
     count = len(rows)
-    assert len(rows[0]) == 3 * count and count == (512 if z == 10 else 256 if z > 11 else count)
+    assert len(rows[0]) == 3 * count and count == (256 if z == 10 else 512), (path, count)
     textures[root, z, x, y] = rows
     pixel = side / (count - 2)
     for _ in range(100):
