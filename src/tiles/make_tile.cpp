@@ -374,10 +374,20 @@ Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileCo
   const std::int32_t least = 2 * plan.levels[static_cast<std::size_t>(id.z)].segments;
   const TileNodes nodes = TileNodes::flat(has_lines ? std::max(least, plan.cells) : least, plan.background);
   return make_tile_of(
+      plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); }, complete, encode);
 }
 
 Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
                                   const TileEncoder& encode) {
+  const auto judge = [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); };
+  const auto complete = [&](TerrainTile& tile) -> Result<void> {
+    const Result<SampleVerdict> verdict = judge_at_samples(tile, plan.grid, nodes, source);
+    if (!verdict) return tl::unexpected(verdict.error());
+    tile.source_error = verdict->error;
+    return {};
+  };
+  return nodes.is_flat() ? make_flat_tile(plan, id, complete, encode)
+                         : make_tile_of(plan, id, nodes, judge, complete, encode);
 }
 
 Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
