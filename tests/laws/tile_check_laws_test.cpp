@@ -146,32 +146,43 @@ std::string described(const TileCheck& check) {
 const DegreeBox kIsland{10.3, 34.1, 31.9, 50.2}, kAcross{171.2, -20, 187.7, -8}, kPolar{-180, 71, 180, 90};
 constexpr TileGrid kMercator{GridKind::kMercator};
 
-TEST(tile_check, sets_that_were_made_well_hold_at_every_node) {
+struct Compared {
   std::uint64_t edges = 0, nodes = 0;
-  for (const auto& [format, grid] : {std::pair{TileFormat::kQuantizedMesh, TileGrid{}},
-                                     {TileFormat::kGlb, TileGrid{}},
-                                     {TileFormat::kQuantizedMesh, kMercator}}) {
-    for (const DegreeBox& box : {kIsland, kAcross, kPolar}) {
-      const Effort effort = box.west == kIsland.west ? Effort::kHigh : Effort::kNormal;
-      // Tiles of the same size on either grid.
-      const int finest = (box.north == 90 ? 5 : 6) + (grid.roots() == 1);
-      const Made made(format, box, 900, 40, true, effort, finest, grid);
-      const TileCheck check = made.check();
-      EXPECT_TRUE(check.holds()) << described(check);
-      EXPECT_GT(check.levels.back().edges, 20u);
-      for (const CheckedLevel& level : check.levels) {
-        edges += level.edges;
-        ASSERT_TRUE(level.promised_bound && level.distance);
-        // All that was promised is needed somewhere: the nodes were really looked at.
-        if (format == TileFormat::kQuantizedMesh && &level == &check.levels.back()) {
-          EXPECT_NEAR(*level.node_error, *level.promised_node_error, 1e-6);
-        }
+};
+
+Compared expect_made_well(TileFormat format, const TileGrid& grid = {}) {
+  Compared compared;
+  for (const DegreeBox& box : {kIsland, kAcross, kPolar}) {
+    const Effort effort = box.west == kIsland.west ? Effort::kHigh : Effort::kNormal;
+    // Tiles of the same size on either grid.
+    const int finest = (box.north == 90 ? 5 : 6) + (grid.roots() == 1);
+    const Made made(format, box, 900, 40, true, effort, finest, grid);
+    const TileCheck check = made.check();
+    EXPECT_TRUE(check.holds()) << described(check);
+    EXPECT_GT(check.levels.back().edges, 20u);
+    for (const CheckedLevel& level : check.levels) {
+      compared.edges += level.edges;
+      EXPECT_TRUE(level.promised_bound && level.distance);
+      // All that was promised is needed somewhere: the nodes were really looked at.
+      if (format == TileFormat::kQuantizedMesh && &level == &check.levels.back()) {
+        EXPECT_NEAR(level.node_error.value_or(-1), level.promised_node_error.value_or(-2), 1e-6);
       }
-      nodes += check.nodes;
     }
+    compared.nodes += check.nodes;
   }
-  EXPECT_GT(edges, 400u);
-  EXPECT_GT(nodes, 1'000'000u);
+  return compared;
+}
+
+TEST(tile_check, sets_that_were_made_well_hold_at_every_node) {
+  const Compared terrain = expect_made_well(TileFormat::kQuantizedMesh), glb = expect_made_well(TileFormat::kGlb);
+  EXPECT_GT(terrain.edges + glb.edges, 400u);
+  EXPECT_GT(terrain.nodes + glb.nodes, 1'000'000u);
+}
+
+TEST(tile_check, sets_of_mercator_that_were_made_well_hold_at_every_node) {
+  const Compared web = expect_made_well(TileFormat::kQuantizedMesh, kMercator);
+  EXPECT_GT(web.edges, 200u);
+  EXPECT_GT(web.nodes, 500'000u);
 }
 
 TEST(tile_check, threads_change_nothing) {
