@@ -29,35 +29,20 @@ _scarp() {
       "measure --z-field" | "view --band" | "view --te" | "view --resolution" | "view --z-scale" | \
       "view --z-offset" | "view --cell-size" | "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | \
       "tile --z-scale" | "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | \
-      "tile --quality" | "tile --zoom" | "tile --nodata" | "tile --background" | "tile -j" | "tile --num-threads" | \
-      "tile-plan --band" | "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | \
-      "tile-plan --z-offset" | "tile-plan --ellipsoid" | "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | \
-      "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
-      "tile-plan --background" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
+      "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --background" | \
+      "tile --water-percentile" | "tile -j" | "tile --num-threads" | "tile-plan --band" | "tile-plan --te" | \
+      "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --ellipsoid" | \
+      "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | \
+      "tile-plan --zoom" | "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --background" | \
+      "tile-plan --water-percentile" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
       "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "tile-check --band" | \
       "tile-check --te" | "tile-check --resolution" | "tile-check --z-scale" | "tile-check --z-offset" | \
       "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --background" | "tile-check -j" | \
       "tile-check --num-threads" | "serve --band" | "serve --te" | "serve --resolution" | "serve --z-scale" | \
       "serve --z-offset" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | "serve --quality" | \
-      "serve --zoom" | "serve --nodata" | "serve --background" | "serve --memory" | "serve --port" | "serve -j" | \
-      "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
-      "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
-      "generate --seed" | "generate --range" | "generate --size")
-      "measure --z-field" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
-      "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | "tile --quality" | \
-      "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --background" | "tile -j" | \
-      "tile --num-threads" | "tile-plan --band" | "tile-plan --te" | "tile-plan --resolution" | \
-      "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --ellipsoid" | "tile-plan --only" | \
-      "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | \
-      "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --background" | "tile-run --shard" | \
-      "tile-run --only" | "tile-run --memory" | "tile-run -j" | "tile-run --num-threads" | "tile-finish -j" | \
-      "tile-finish --num-threads" | "tile-check --band" | "tile-check --te" | "tile-check --resolution" | \
-      "tile-check --z-scale" | "tile-check --z-offset" | "tile-check --ellipsoid" | "tile-check --nodata" | \
-      "tile-check --background" | "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | \
-      "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | \
-      "serve --max-error" | "serve --quality" | "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | \
-      "serve --background" | "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | \
-      "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | \
+      "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | "serve --background" | \
+      "serve --water-percentile" | "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | \
+      "info --band" | "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | \
       "info --nodata" | "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | \
       "generate --size")
       return
@@ -88,13 +73,11 @@ _scarp() {
       "simplify --breaklines" | "simplify --cutline" | "simplify --materials" | "simplify --node-strings" | \
       "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
       "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
-      "measure --texture" | "view -o" | "view --output" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | \
-      "tile-plan --changed-since" | "tile-plan --slurm" | "tile-finish --report" | "tile-check --source" | \
-      "tile-check --geoid" | "serve --geoid")
-      "measure --texture" | "tile --breaklines" | "tile --geoid" | "tile --report" | "tile --drape" | \
-      "tile-plan --breaklines" | "tile-plan --geoid" | "tile-plan --changed-since" | "tile-plan --drape" | \
-      "tile-plan --slurm" | "tile-finish --report" | "tile-check --source" | "tile-check --geoid" | \
-      "serve --breaklines" | "serve --geoid")
+      "measure --texture" | "view -o" | "view --output" | "tile --breaklines" | "tile --geoid" | "tile --report" | \
+      "tile --drape" | "tile --water" | "tile --rivers" | "tile-plan --breaklines" | "tile-plan --geoid" | \
+      "tile-plan --changed-since" | "tile-plan --drape" | "tile-plan --slurm" | "tile-plan --water" | \
+      "tile-plan --rivers" | "tile-finish --report" | "tile-check --source" | "tile-check --geoid" | \
+      "serve --breaklines" | "serve --geoid" | "serve --water" | "serve --rivers")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -221,16 +204,18 @@ _scarp() {
         options+=' --version'
         ;;
       tile)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
-        options+=' --ellipsoid --only --report --overwrite --of --effort --max-error --quality'
-        options+=' --zoom --grid --cells --nodata --background --num-threads --quiet --json-progress'
-        options+=' --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
+        options+=' --geoid --ellipsoid --only --report --overwrite --of --drape --drape-format'
+        options+=' --effort --max-error --quality --zoom --grid --max-tile-bytes --cells --nodata'
+        options+=' --background --water --water-percentile --rivers --num-threads --quiet --json-progress --help'
+        options+=' --help-all --version'
         ;;
       tile-plan)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
-        options+=' --ellipsoid --only --changed-since --hash --overwrite --of --shards --slurm'
-        options+=' --effort --max-error --quality --zoom --grid --cells --nodata --background'
-        options+=' --survey --quiet --json-progress --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
+        options+=' --geoid --ellipsoid --only --changed-since --hash --overwrite --of --drape'
+        options+=' --drape-format --shards --slurm --effort --max-error --quality --zoom --grid'
+        options+=' --max-tile-bytes --cells --nodata --background --water --water-percentile --rivers --survey'
+        options+=' --quiet --json-progress --help --help-all --version'
         ;;
       tile-run)
         options+=' --shard --only --parts --memory --num-threads --quiet --json-progress --help'
@@ -246,10 +231,10 @@ _scarp() {
         options+=' --quiet --json-progress --help --help-all --version'
         ;;
       serve)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
-        options+=' --ellipsoid --effort --max-error --quality --zoom --grid --cells --nodata'
-        options+=' --background --memory --port --host --num-threads --quiet --json-progress --help'
-        options+=' --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
+        options+=' --geoid --ellipsoid --effort --max-error --quality --zoom --grid --max-tile-bytes'
+        options+=' --cells --nodata --background --water --water-percentile --rivers --memory --port'
+        options+=' --host --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'

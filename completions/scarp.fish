@@ -133,6 +133,7 @@ complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -s e -l 
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l quality -x -d 'Max error of the coarser levels: the geometric error that clients assume, over Q'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l zoom -x -d 'The finest level'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l grid -x -a 'geographic mercator' -d 'Grid of the tiles'
+complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l max-tile-bytes -x -d 'Size of a tile as it is kept'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan tile-check serve' -l cells -x -a '16 32 64 128 256' -d 'Cells between the nodes of a tile of the finest level, each way'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan tile-check serve' -l background -x -d 'Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l water -r -F -d 'Lakes: nodes in the polygons of a vector file become flat, at a low height of the shore'
