@@ -132,8 +132,11 @@ def judge_file(path, tree):
         yield f"{path}: the room {room} is not in the table of tools/check_floors.py: sources lie in folders of src/"
         return
     lines = (tree / path).read_text(encoding="utf-8").splitlines()
-    if room == "door" and path.name != "scarp.h" and "#pragma GCC visibility push(default)" not in lines:
-        yield f"{path}: a public header pushes default visibility, or a shared library hides it"
+    if room == "door" and path.name != "scarp.h":
+        if "#pragma GCC visibility push(default)" not in lines:
+            yield f"{path}: a public header pushes default visibility, or a shared library hides it"
+        if f'#include "scarp/{path.name}"' not in (tree / path.with_name("scarp.h")).read_text(encoding="utf-8"):
+            yield f"{path}: scarp.h does not include it, which has all public headers"
     if len(lines) > MAX_LINES:
         yield f"{path}: {len(lines)} lines, more than {MAX_LINES}: split it by concept"
     for number, line in enumerate(lines, 1):

@@ -59,9 +59,9 @@ Result<TileWaters> find_tile_waters(const PyramidPlan& plan, const NodeSource& n
 /// The nodes of `source` with the water in them. Nodes in a lake have its level. The eight around each that are in no
 /// lake lie at least a centimetre above it. The nodes nearest to a river have its height, but those of lakes. Nodes
 /// without a height stay so, and so do poles. Of samples those at a place between four nodes of one lake have its
-/// level; those between nodes of which some have water are none. Borrows the source. REQUIRES: windows are of
-/// waters.per_turn nodes, or of a half, a quarter, … of them. Memory: 12 bytes for each row of nodes of a lake, and for
-/// each node of a river, that was looked at.
+/// level; those between nodes of which some have water are none. Borrows the source. Reading fails with kUsage for a
+/// window of another grid, or of other nodes than waters.per_turn or a half, a third, … of them. Memory: 12 bytes for
+/// each row of nodes of a lake, and for each node of a river, that was looked at.
 std::unique_ptr<NodeSource> make_watered_source(const NodeSource& source, std::shared_ptr<const TileWaters> waters,
                                                 std::shared_ptr<const HeightZero> zero);
 

@@ -111,6 +111,10 @@ class WateredNodes final : public NodeSource {
   }
 
   Result<void> read(const NodeWindow& window, std::span<float> out) const override {
+    if (window.grid.kind != waters_->grid.kind || waters_->per_turn % window.per_turn != 0)
+      return fail(ErrorKind::kUsage,
+                  "these tiles have other nodes than the plan, and water is known at those of the plan "
+                  "alone: give the plan that the tiles are made by");
     if (auto read = source_.read(window, out); !read) return read;
     if (!meets_any(window)) return {};
     const Claims claims = claims_in(window);

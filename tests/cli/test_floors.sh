@@ -35,6 +35,7 @@ expect_fault src/tin/triangulation.h '#include "grid/raster.h"' 'must not know t
 expect_fault src/measure/measure.cpp '#include "geom/scan.h"' 'measure must not know the room geom'
 expect_fault src/base/array.h '#include "geom/plane.h"' 'a step upwards from base'
 expect_fault include/scarp/mesh.h '#include "base/array.h"' 'public headers only'
+expect_fault include/scarp/new.h '#pragma GCC visibility push(default)' 'scarp.h does not include it'
 expect_fault apps/scarp/main.cpp '#include "grid/raster.h"' 'apps may include'
 expect_fault src/io/raster/stm.cpp '#include <gdal.h>' 'GDAL'
 expect_fault src/pieces/freeze.cpp '#include <thread>' 'threads'

@@ -103,6 +103,11 @@ diff -r beyond short || fail "a lake across the antimeridian is another one"
 holds "$(json beyond.json water lakes 0 level) > 200"
 
 # A user's mistakes.
+for other in "--zoom 12" "--zoom 9 --grid mercator"; do
+  succeeds "$scarp" tile land.tif others $other -e 30 --effort fast -q
+  refuses 1 "give the plan that the tiles are made by" "$scarp" tile check others --source a.json -q
+  rm -r others
+done
 refuses 2 "nothing.gpkg" "$scarp" tile land.tif no --water nothing.gpkg
 refuses 1 "--water-percentile" "$scarp" tile land.tif no --water lake.geojson --water-percentile 101
 refuses 1 "needs --water" "$scarp" tile land.tif no --water-percentile 5

@@ -165,5 +165,24 @@ RC_GTEST_PROP(tile_water_laws, nodes_are_what_the_polygons_say, ()) {
   }
 }
 
+TEST(tile_water, nodes_between_those_of_the_waters_are_refused) {
+  const Land land;
+  const auto waters = std::make_shared<TileWaters>();
+  waters->per_turn = kTurn;
+  waters->lakes = {{"", 300, {{{1, 901}, {9, 901}, {9, 909}, {1, 901}}}}};
+  const auto nodes = make_watered_source(land, waters, nullptr);
+  std::vector<float> heights(16 * 16);
+  const NodeWindow same{kTurn, 0, 896, 16, 16}, halves{kTurn / 2, 0, 448, 16, 16};
+  for (const NodeWindow& window : {same, halves}) EXPECT_TRUE(nodes->read(window, heights).has_value());
+  NodeWindow other_grid = same;
+  other_grid.grid.kind = GridKind::kMercator;
+  const NodeWindow finer{2 * kTurn, 0, 1792, 16, 16}, between{kTurn * 3 / 4, 0, 672, 16, 16};
+  for (const NodeWindow& window : {finer, between, other_grid}) {
+    const auto read = nodes->read(window, heights);
+    ASSERT_FALSE(read.has_value());
+    EXPECT_EQ(read.error().kind, ErrorKind::kUsage);
+  }
+}
+
 }  // namespace
 }  // namespace scarp::tile_water_laws_test
