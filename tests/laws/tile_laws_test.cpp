@@ -289,7 +289,7 @@ RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bou
   RC_ASSERT(without_dust(edge_of(whole, whole.south, whole.u)) == without_dust(edge_of(small, small.south, small.u)));
   RC_ASSERT(without_dust(edge_of(whole, whole.east, whole.v)) == without_dust(edge_of(small, small.east, small.v)));
   RC_ASSERT(without_dust(edge_of(whole, whole.north, whole.u)) == without_dust(edge_of(small, small.north, small.u)));
-  const double error = brute_force(small, id, nodes_of(plan, z), land, plan.background);
+  const double error = brute_force(small, id, nodes_of(plan, z), land, plan.background, plan.grid);
   RC_ASSERT(error <= kept->tile.node_error * (1 + 1e-9) + 1e-6);
   RC_ASSERT(kept->tile.node_error <= kept->tile.max_error);
 }
@@ -342,7 +342,7 @@ RC_GTEST_PROP(tile_laws, lines_are_edges_and_neighbours_have_the_same_vertex_whe
   const auto tile = make_tile(plan, id, land);
   RC_ASSERT(tile.has_value());
   const QuantizedMesh here = decode(*tile);
-  RC_ASSERT(brute_force(here, id, nodes_of(plan, z), land, plan.background) <= tile->node_error * (1 + 1e-9) + 1e-6);
+  RC_ASSERT(brute_force(here, id, nodes_of(plan, z), land, plan.background, plan.grid) <= tile->node_error * (1 + 1e-9) + 1e-6);
   if (const TileLines::Paths* const paths = plan.lines->find(id); paths != nullptr && tile->lines_left_out == 0) {
     for (const auto& step : paths->steps) RC_ASSERT(is_chain_of_edges(here, step, plan.cells));
     for (const std::int32_t col : paths->edges.top) {
