@@ -240,7 +240,8 @@ class WateredNodes final : public NodeSource {
   Claims claims_in(const NodeWindow& window) const {
     Claims claims(window, waters_->per_turn);
     for (std::size_t k = 0; k < lakes_.size(); ++k) {
-      const auto& [lake, box] = lakes_[k];
+      const TileLake* const lake = lakes_[k].lake;
+      const auto& box = lakes_[k].box;
       if (!meets(box, window)) continue;
       const auto runs = look_up(&Kept::lakes, k, [&] { return nodes_of(*lake, box); });
       const auto level = static_cast<float>(lake->level),
@@ -257,9 +258,9 @@ class WateredNodes final : public NodeSource {
       }
     }
     for (std::size_t k = 0; k < rivers_.size(); ++k) {
-      const auto& [river, box] = rivers_[k];
-      if (!meets(box, window)) continue;
-      const auto nodes = look_up(&Kept::rivers, k, [&] { return nodes_of(*river); });
+      const PlacedRiver& placed = rivers_[k];
+      if (!meets(placed.box, window)) continue;
+      const auto nodes = look_up(&Kept::rivers, k, [&] { return nodes_of(*placed.river); });
       auto node = std::lower_bound(nodes->begin(), nodes->end(), claims.first_row(),
                                    [](const RiverNode& one, std::int64_t row) { return one.row < row; });
       for (; node != nodes->end() && node->row <= claims.last_row(); ++node)
