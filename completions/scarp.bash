@@ -207,15 +207,15 @@ _scarp() {
         options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
         options+=' --geoid --ellipsoid --only --report --overwrite --of --drape --drape-format'
         options+=' --effort --max-error --quality --zoom --grid --max-tile-bytes --cells --nodata'
-        options+=' --background --water --water-percentile --rivers --num-threads --quiet --json-progress --help'
-        options+=' --help-all --version'
+        options+=' --background --water --watermask --water-percentile --rivers --num-threads --quiet --json-progress'
+        options+=' --help --help-all --version'
         ;;
       tile-plan)
         options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
         options+=' --geoid --ellipsoid --only --changed-since --hash --overwrite --of --drape'
         options+=' --drape-format --shards --slurm --effort --max-error --quality --zoom --grid'
-        options+=' --max-tile-bytes --cells --nodata --background --water --water-percentile --rivers --survey'
-        options+=' --quiet --json-progress --help --help-all --version'
+        options+=' --max-tile-bytes --cells --nodata --background --water --watermask --water-percentile --rivers'
+        options+=' --survey --quiet --json-progress --help --help-all --version'
         ;;
       tile-run)
         options+=' --shard --only --parts --memory --num-threads --quiet --json-progress --help'
@@ -233,8 +233,8 @@ _scarp() {
       serve)
         options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
         options+=' --geoid --ellipsoid --effort --max-error --quality --zoom --grid --max-tile-bytes'
-        options+=' --cells --nodata --background --water --water-percentile --rivers --memory --port'
-        options+=' --host --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --cells --nodata --background --water --watermask --water-percentile --rivers --memory'
+        options+=' --port --host --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'

@@ -137,6 +137,7 @@ complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l max-t
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan tile-check serve' -l cells -x -a '16 32 64 128 256' -d 'Cells between the nodes of a tile of the finest level, each way'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan tile-check serve' -l background -x -d 'Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l water -r -F -d 'Lakes: nodes in the polygons of a vector file become flat, at a low height of the shore'
+complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l watermask -d 'Put a mask of the lakes of --water into each tile of quantized-mesh, by which clients draw water'
 complete -c scarp -n '__fish_seen_subcommand_from tile tile-plan serve' -l rivers -r -F -d 'Rivers: nodes along the lines of a vector file never rise downstream'
 complete -c scarp -n '__fish_seen_subcommand_from tile-plan' -l changed-since -r -F -d 'An earlier plan, whose settings and parts are taken: blocks whose nodes have not changed are not made again'
 complete -c scarp -n '__fish_seen_subcommand_from tile-plan' -l hash -x -a 'stamp content' -d 'How a changed raster is known'

@@ -165,6 +165,8 @@ struct PyramidPlan {
   std::vector<PlannedSource> sources = {};
   /// What the nodes were given, tile_waters.h; null without water.
   std::shared_ptr<const TileWaters> waters = nullptr;
+  /// Whether tiles have masks of the lakes. REQUIRES then: waters; quantized-mesh. DEFAULT: false.
+  bool has_water_mask = false;
 
   int max_zoom() const { return static_cast<int>(levels.size()) - 1; }
 };
@@ -307,9 +309,9 @@ struct BlockReport {
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
                                const Run& run = {});
 
-/// A hash of all that make_block() takes from the source, nodes and samples: blocks of one hash and one plan have the
-/// same tiles and errors. 0 for a block without heights. Cost: the nodes are read; memory as make_block(). Fails as the
-/// source does.
+/// A hash of all that make_block() takes from the source, nodes and samples, and of the shapes of water masks: blocks
+/// of one hash and one plan have the same tiles and errors. 0 for a block without heights and masks. Cost: the nodes
+/// are read; memory as make_block(). Fails as the source does.
 Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads = 0);
 
 /// Makes the tiles above the blocks, of nodes reduced to 256 cells a side. Their node_error is an upper bound for all
@@ -324,10 +326,11 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink,
                                    const Run& run = {});
 
-/// The bytes of a quantized-mesh 1.0 file, not compressed. With normals (extension 1). Deterministic: no function of
-/// the machine's mathematics library is called.
+/// The bytes of a quantized-mesh 1.0 file, not compressed. With normals (extension 1), and with a water mask (extension
+/// 2) that is not empty. Deterministic: no function of the machine's mathematics library is called.
 std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid = {},
-                                                const TileGrid& grid = {});
+                                                const TileGrid& grid = {},
+                                                std::span<const std::uint8_t> water_mask = {});
 
 /// A quantized-mesh file, as clients read it.
 struct QuantizedMesh {
@@ -339,6 +342,9 @@ struct QuantizedMesh {
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> west, south, east, north;  ///< vertices on the edges
   std::vector<std::array<std::uint8_t, 2>> normals;     ///< empty, or one a vertex
+  /// 0 land, 255 water; of all the tile, or 256 rows of 256 texels from the north. Empty without one; any other size is
+  /// a fault of the file's.
+  std::vector<std::uint8_t> water_mask;
 
   /// As clients decode it: min + (max − min) · h / 32767.
   double height(std::size_t vertex) const {

@@ -65,6 +65,29 @@ Result<TileWaters> find_tile_waters(const PyramidPlan& plan, const NodeSource& n
 std::unique_ptr<NodeSource> make_watered_source(const NodeSource& source, std::shared_ptr<const TileWaters> waters,
                                                 std::shared_ptr<const HeightZero> zero);
 
+/// Draws water masks of tiles, as quantized-mesh has them. Borrows the waters.
+class WaterMasks {
+ public:
+  explicit WaterMasks(const TileWaters& waters);
+  /// 256 rows of 256 texels from the north, evenly apart in degrees: 255 times the share of 4 × 4 places in a texel
+  /// that lie in a lake. One byte where all are the same. Of the polygons on each level, also of lakes without a level.
+  /// A function of its arguments.
+  std::vector<std::uint8_t> draw(TileId id) const;
+  /// Of the lakes that may reach into the tile or those below it; 0 of none.
+  std::uint64_t hash(TileId id) const;
+
+ private:
+  struct Box {
+    double west, east, north, south;
+  };
+  /// Calls use(lake, columns by which it is shifted).
+  template <class Use>
+  void each_lake(TileId id, const Use& use) const;
+
+  const TileWaters* waters_;
+  std::vector<Box> boxes_;  ///< of the lakes
+};
+
 }  // namespace scarp
 
 #pragma GCC visibility pop

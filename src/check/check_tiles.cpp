@@ -159,6 +159,7 @@ class TilesCheck {
                                          facts == claims_.facts.end() ? nullptr : &facts->second);
     if (!tile) return refuse(tile.error().message);
     findings.triangles = tile->triangles.size() / 3;
+    check_water_mask(*tile, claims_.has_water_mask, findings.faults);
     check_header(*tile, findings.faults);
     // Then all heights are numbers.
     if (!std::isfinite(tile->low) || !std::isfinite(tile->high)) return findings;

@@ -24,6 +24,7 @@ Result<ClientTile> take_quantized(QuantizedMesh mesh, const DegreeBox& box, cons
   for (const auto& normal : mesh.normals)
     tile.normals.push_back({static_cast<float>(normal[0]), static_cast<float>(normal[1]), 0});
   tile.triangles = std::move(mesh.triangles);
+  tile.water_mask = std::move(mesh.water_mask);
   tile.edges = {std::move(mesh.west), std::move(mesh.south), std::move(mesh.east), std::move(mesh.north)};
   tile.centre = mesh.center;
   tile.low = double{mesh.min_height};

@@ -30,6 +30,7 @@ struct ClientTile {
   std::vector<Place> places;
   std::vector<std::array<float, 3>> normals;  ///< empty, or of each vertex what the file holds, as numbers
   std::vector<std::uint32_t> triangles;
+  std::vector<std::uint8_t> water_mask;             ///< empty without one
   std::array<std::vector<std::uint32_t>, 4> edges;  ///< by TileSide: vertices as the file lists them
 
   std::optional<Place> centre;

@@ -129,4 +129,15 @@ double measure_sag(const ClientTile& tile, const Ellipsoid& ellipsoid) {
   return worst;
 }
 
+void check_water_mask(const ClientTile& tile, bool is_announced, std::vector<TileFault>& faults) {
+  constexpr std::size_t kTexels = 256 * 256;
+  const std::size_t size = tile.water_mask.size();
+  if (size == 1 || size == kTexels || (size == 0 && !is_announced)) return;
+  const std::string name = tile_name(tile.format, tile.id);
+  faults.push_back({TileFaultKind::kFile,
+                    size == 0
+                        ? name + " has no water mask, and layer.json says that tiles have one"
+                        : fmt::format("{} has a water mask of {} bytes instead of 1 or {}", name, size, kTexels)});
+}
+
 }  // namespace scarp

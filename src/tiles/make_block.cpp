@@ -7,6 +7,7 @@
 
 #include "base/bits.h"
 #include "scarp/tile.h"
+#include "scarp/tile_waters.h"
 #include "tiles/coarse_nodes.h"
 #include "tiles/pyramid_tiles.h"
 #include "tiles/row_range.h"
@@ -53,6 +54,13 @@ Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldN
   return std::max<std::uint64_t>(sum, 1);
 }
 
+/// With the shapes that masks show, for they are no nodes.
+std::uint64_t with_masks(const PyramidPlan& plan, TileId block, std::uint64_t nodes) {
+  if (!plan.has_water_mask || !plan.waters) return nodes;
+  const std::uint64_t shapes = WaterMasks(*plan.waters).hash(block);
+  return shapes == 0 ? nodes : std::max<std::uint64_t>(nodes * 0xff51afd7ed558ccd + shapes, 1);
+}
+
 /// The block's tile, then level by level those below it, by rows.
 std::vector<TileId> tiles_of(const PyramidPlan& plan, TileId block) {
   std::vector<TileId> tiles;
@@ -93,7 +101,8 @@ Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, 
 Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
   const auto nodes = read_block(plan, block, source, threads);
   if (!nodes) return tl::unexpected(nodes.error());
-  return *nodes ? hash_of(plan, block, **nodes) : 0;
+  const auto hash = *nodes ? hash_of(plan, block, **nodes) : Result<std::uint64_t>(0);
+  return hash ? with_masks(plan, block, *hash) : hash;
 }
 
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
@@ -116,6 +125,7 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
     };
     if (auto put = output.make({block}, make_flat); !put) return tl::unexpected(put.error());
     made.report = output.take_report();
+    made.hash = with_masks(plan, block, 0);
     return made;
   }
   const auto make = [&](TileId id, const TileEncoder& encode) { return make_if_any(plan, id, *nodes, encode); };
@@ -124,7 +134,7 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   made.report.has_heights = true;
   const auto hash = hash_of(plan, block, *nodes);
   if (!hash) return tl::unexpected(hash.error());
-  made.hash = *hash;
+  made.hash = with_masks(plan, block, *hash);
   if (plan.block_level == 0) return made;
   const std::int32_t steps = steps_of(plan, block.z);
   const auto whole = TileNodes::read(plan, block, steps, 0, *nodes);

@@ -15,7 +15,7 @@ namespace scarp {
 namespace {
 
 constexpr std::size_t kWideIndices = 65536;  ///< vertices above which indices have 32 bits
-constexpr std::uint8_t kNormals = 1;
+constexpr std::uint8_t kNormals = 1, kWaterMask = 2;
 /// The finest step of heights: whoever decodes to float32 sees each step then.
 constexpr double kLeastStep = 0x1p-10;
 
@@ -191,7 +191,7 @@ bool take_indices(Reader& reader, QuantizedMesh& mesh) {
 }  // namespace
 
 std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid,
-                                                const TileGrid& grid) {
+                                                const TileGrid& grid, std::span<const std::uint8_t> water_mask) {
   const Globe globe(ellipsoid);
   const std::vector<Space> positions = positions_in_space(tile, grid, globe);
   const Globe::Sphere sphere = Globe::sphere_around(positions);
@@ -215,6 +215,10 @@ std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const G
   if (!tile.normals.empty()) {
     add_extension(writer, kNormals, 2 * tile.normals.size());
     for (const auto& normal : tile.normals) writer.add_all(normal);
+  }
+  if (!water_mask.empty()) {
+    add_extension(writer, kWaterMask, water_mask.size());
+    for (const std::uint8_t texel : water_mask) writer.add(texel);
   }
   return writer.take();
 }
@@ -242,6 +246,8 @@ Result<QuantizedMesh> decode_quantized_mesh(std::span<const std::uint8_t> bytes,
     } else if (id == kNormals) {
       return fail(ErrorKind::kInput,
                   fmt::format("{} has {} bytes of normals for {} vertices", name_for_errors, length, vertices));
+    } else if (id == kWaterMask) {
+      mesh.water_mask.assign(content.begin(), content.end());
     }
   }
   if (reader.failed() || vertices == 0)

@@ -40,6 +40,7 @@ void put_tile(const scarp::QuantizedMesh& mesh) {
   std::vector<std::uint8_t> normals;
   for (const auto& normal : mesh.normals) normals.insert(normals.end(), normal.begin(), normal.end());
   put_counted<std::uint8_t>(normals);
+  put_counted<std::uint8_t>(mesh.water_mask);
 }
 
 int complain(const scarp::Error& error) {

@@ -55,6 +55,8 @@ E2
 make_image halves.tif '(200 if col < 201 else 30) * (1 if (col // 20 + row // 20) % 2 else 0.7)' '30' '(30 if col < 201 else 200) * (1 if (col // 20 + row // 20) % 2 else 0.7)'
 succeeds gdal_translate -q -a_srs EPSG:4326 -a_ullr "$west" "$north" "$east" "$south" halves.tif image.tif
 succeeds "$scarp" tile land.tif site/draped.3dtiles --of 3dtiles --drape image.tif -q
+printf '{"type":"Polygon","coordinates":[[[180.0,10.13],[180.17,10.15],[180.19,10.02],[180.02,9.99],[180.0,10.13]]]}' > lake.geojson
+succeeds "$scarp" tile date.tif site/wet.qm --water lake.geojson --watermask -q
 
 cat > judge.py << 'E2'
 import json, random, sys
@@ -135,6 +137,16 @@ def drawn_web(answer):
 job(drawn_web, kind="globe", of="qm", url="planet.web", pixels=3, ramp=[-6000, 6000], picks=across, shot="across_web",
     **{"from": [180, 5, 3.5e6], "to": [180, 5, 0]})
 job(drawn, kind="globe", of="qm", url="date.qm", pixels=2, ramp=[200, 1000], shot="date_qm",
+    **{"from": [180.07, 9.6, 30000], "to": [180.07, 10.05, 500]})
+
+
+def wet(answer):
+    """Tiles with masks, which the client takes for water."""
+    assert drawn(answer)["masks"] > 0, answer
+    return answer
+
+
+job(wet, kind="globe", of="qm", url="wet.qm", pixels=2, ramp=[200, 1000], shot="wet_qm",
     **{"from": [180.07, 9.6, 30000], "to": [180.07, 10.05, 500]})
 
 

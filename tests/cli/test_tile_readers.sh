@@ -8,7 +8,10 @@ npm_judges @here/quantized-mesh-decoder @loaders.gl/terrain || skip "npm could n
 succeeds "$scarp" tile "$dem" land --vertical egm96 -q
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 179.9 10.2 180.24 9.9 "$dem" placed.tif
 succeeds "$scarp" tile placed.tif seam -q
-for set in land seam; do
+# With water masks, of one byte and of 65536.
+printf '{"type":"Polygon","coordinates":[[[180.0,10.13],[180.17,10.15],[180.19,10.02],[180.02,9.99],[180.0,10.13]]]}' > lake.geojson
+succeeds "$scarp" tile placed.tif wet --water lake.geojson --watermask -q
+for set in land seam wet; do
   succeeds node "$js/read_quantized_mesh.mjs" "$set" theirs
   [ "$(cat "$logs/out")" = "$(find "$set" -name '*.terrain' | wc -l)" ] || fail "not all tiles were read"
   "$SCARP_BUILD/bin/scarp_decode_tiles" "$set" > ours

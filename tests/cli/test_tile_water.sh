@@ -3,6 +3,16 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 reader=$SCARP_SOURCE/tests/cli/tiles.py
+# The tiles of levels 10 and 5 that hold the middle of the lake.
+lake_tiles() {
+  python3 - "$1" <<'PYTHON'
+step = 180 / 2 ** 18
+col, row = 128 * 8 * 34 - 201 + 200, 128 * 8 * 17 - 171 + 130
+for z in (10, 5):
+    side = 128 << (11 - z)
+    print(f"{z}/{col // side}/{2 ** z - 1 - row // side}")
+PYTHON
+}
 export PYTHONPATH=$SCARP_SOURCE/tests/cli
 
 # A raster whose samples are the nodes of level 11, and a lake across the corner of four tiles of every level from 8 on.
@@ -65,6 +75,30 @@ assert {level} == {min(abs(z - level) for _, _, z in struct.iter_unpack("<3d", b
                    for r in waters["rivers"]}
 PYTHON
 
+# Masks are drawn from the polygons on every level.
+masked=(--water lake.geojson --watermask)
+succeeds "$scarp" tile land.tif masks "${masked[@]}" -j 2 -q
+succeeds python3 "$SCARP_SOURCE/tests/cli/tile_masks.py" masks lake.geojson $(lake_tiles masks)
+read -r lands waters both_kinds < "$logs/out"
+holds "$lands > 20 && $waters >= 0 && $both_kinds > 10"
+succeeds "$scarp" tile check masks
+python3 "$reader" masks > /dev/null || fail "neighbours with masks differ"
+succeeds "$scarp" tile plan land.tif m.json "${masked[@]}" -q
+for share in 2/2 1/2; do succeeds "$scarp" tile run m.json --shard $share -q; done
+succeeds "$scarp" tile finish m.json masks2 -q
+diff -r masks masks2 || fail "two shares draw other masks"
+python3 - masks <<'PYTHON'
+import gzip, pathlib, sys
+path = sorted(pathlib.Path(sys.argv[1]).glob("11/*/*.terrain"))[0]
+data = gzip.decompress(path.read_bytes())
+path.write_bytes(gzip.compress(data + b"\2\3\0\0\0abc"))
+PYTHON
+try "$scarp" tile check masks
+[ "$code" = 3 ] && grep -q "water mask of 3 bytes" "$logs/out" || fail "a mask of 3 bytes passes"
+sed -i 's/"octvertexnormals"/"octvertexnormals", "watermask"/' globe/layer.json
+try "$scarp" tile check globe
+[ "$code" = 3 ] && grep -q "has no water mask" "$logs/out" || fail "masks that are announced and missing pass"
+
 # A file that changes is refused; the plan that follows makes the blocks of the change alone, and the set is that of the new file.
 few=(--cells 16 --effort fast --zoom 15)
 cp lake.geojson now.geojson
@@ -111,6 +145,8 @@ done
 refuses 2 "nothing.gpkg" "$scarp" tile land.tif no --water nothing.gpkg
 refuses 1 "--water-percentile" "$scarp" tile land.tif no --water lake.geojson --water-percentile 101
 refuses 1 "needs --water" "$scarp" tile land.tif no --water-percentile 5
+refuses 1 "--watermask needs --water" "$scarp" tile land.tif no --watermask
+refuses 1 "--of 3dtiles does not go with --watermask" "$scarp" tile land.tif no --of 3dtiles "${masked[@]}"
 refuses 1 "goes around a pole" "$scarp" tile land.tif no --water ring.geojson
 succeeds "$scarp" tile land.tif away --water beyond.geojson --zoom 8
 grep -q "names no lake in the raster" "$logs/err" || fail "a lake elsewhere is not told"

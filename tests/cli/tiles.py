@@ -42,9 +42,13 @@ def read_tile(path):
         size, = struct.unpack_from("<I", data, at)
         edges.append(struct.unpack_from(f"<{size}H", data, at + 4))
         at += 4 + 2 * size
-    kind, size = struct.unpack_from("<BI", data, at)
-    assert kind == 1 and size == 2 * count and at + 5 + size == len(data)
-    normals = data[at + 5:at + 5 + size]
+    extensions = {}
+    while at < len(data):
+        kind, size = struct.unpack_from("<BI", data, at)
+        extensions[kind] = data[at + 5:at + 5 + size]
+        at += 5 + size
+    assert at == len(data) and set(extensions) <= {1, 2} and len(extensions[1]) == 2 * count
+    normals = extensions[1]
     for a, b, c in zip(indices[::3], indices[1::3], indices[2::3]):
         assert (u[b] - u[a]) * (v[c] - v[a]) > (u[c] - u[a]) * (v[b] - v[a]), f"{path}: a triangle faces down"
     heights = [struct.unpack("<f", struct.pack("<f", low + (high - low) * (k / 32767)))[0] for k in h]
@@ -55,7 +59,7 @@ def read_tile(path):
 
     assert {k for k in range(count) if u[k] == 0} == set(edges[0])
     return {"west": edge(0, v), "south": edge(1, u), "east": edge(2, v), "north": edge(3, u), "heights": heights,
-            "u": u, "v": v, "triangles": indices}
+            "u": u, "v": v, "triangles": indices, "mask": extensions.get(2)}
 
 
 def main():

@@ -45,6 +45,7 @@ for (const name of names) {
   out.push(...bytes_of(tile.vertexData, Uint16Array), ...bytes_of(tile.triangleIndices, Uint32Array));
   for (const edge of ["west", "south", "east", "north"]) out.push(...bytes_of(tile[edge + "Indices"], Uint32Array));
   out.push(...bytes_of(tile.extensions.vertexNormals ?? [], Uint8Array));
+  out.push(...bytes_of(new Uint8Array(tile.extensions.waterMask ?? []), Uint8Array));
 }
 fs.writeFileSync(output, Buffer.concat(out));
 console.log(names.length);

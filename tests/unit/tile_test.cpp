@@ -181,13 +181,13 @@ TEST(plan_pyramid, refuses_what_no_pyramid_can_be) {
   EXPECT_FALSE(plan_pyramid({{0, -1, 1, 1}, 30, -32768, 1000}));
 }
 
-std::vector<std::uint8_t> some_file() {
+std::vector<std::uint8_t> some_file(std::span<const std::uint8_t> water_mask = {}) {
   const PyramidPlan plan = *plan_pyramid({{-180, -90, 180, 90}, 1000, 0, 100}, {.cells = 16, .max_zoom = 5});
   const Raster raster;
   const auto source = make_node_source(raster.field(), raster.place);
   const auto tile = make_tile(plan, {5, 33, 24}, **source);
   EXPECT_TRUE(tile);
-  return encode_quantized_mesh(*tile);
+  return encode_quantized_mesh(*tile, {}, {}, water_mask);
 }
 
 TEST(quantized_mesh, is_read_back) {
@@ -197,6 +197,17 @@ TEST(quantized_mesh, is_read_back) {
   EXPECT_GT(mesh->triangles.size(), 30u);
   EXPECT_EQ(mesh->normals.size(), mesh->u.size());
   EXPECT_GE(mesh->west.size(), 2u);
+  EXPECT_TRUE(mesh->water_mask.empty());
+}
+
+TEST(quantized_mesh, a_water_mask_is_read_back_beside_the_rest) {
+  std::vector<std::uint8_t> mask(65536);
+  for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = static_cast<std::uint8_t>(k * 7);
+  const auto plain = decode_quantized_mesh(some_file(), "tile"), masked = decode_quantized_mesh(some_file(mask), "tile");
+  ASSERT_TRUE(plain && masked);
+  EXPECT_EQ(masked->water_mask, mask);
+  EXPECT_EQ(masked->normals, plain->normals);
+  EXPECT_EQ(masked->triangles, plain->triangles);
 }
 
 TEST(quantized_mesh, damaged_files_are_refused_or_read_without_harm) {

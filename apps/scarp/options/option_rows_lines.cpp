@@ -150,6 +150,12 @@ constexpr OptionRow kLineRows[] = {
      .help = "Lakes: nodes in the polygons of a vector file become flat, at a low height of the shore. All tiles and "
              "levels agree about it.",
      .brief = "Lakes become flat"},
+    {.id = kWaterMask,
+     .name = "--watermask",
+     .commands = kTile | kTilePlan | kServe,
+     .group = OptionGroup::kWater,
+     .type = kFlag,
+     .help = "Put a mask of the lakes of --water into each tile of quantized-mesh, by which clients draw water."},
     {.id = kWaterPercentile,
      .name = "--water-percentile",
      .commands = kSimplify | kTile | kTilePlan | kServe,

@@ -87,6 +87,7 @@ enum class OptionId {
   kMaterialField,
   kNodeStrings,
   kWater,
+  kWaterMask,
   kWaterPercentile,
   kDetectFlats,
   kRivers,

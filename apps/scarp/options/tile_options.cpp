@@ -144,6 +144,7 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kZoom, zoom);
   add_option(command, OptionId::kGrid, grid);
   add_option(command, OptionId::kWater, water);
+  add_flag(command, OptionId::kWaterMask, has_water_mask);
   add_option(command, OptionId::kWaterPercentile, percentile);
   add_option(command, OptionId::kRivers, rivers);
   add_option(command, OptionId::kMaxTileBytes, max_tile_bytes);
@@ -221,6 +222,8 @@ Result<Datum> TileArguments::parse_datum() const {
 
 Result<WaterFiles> TileArguments::parse_waters() const {
   WaterFiles files{water, rivers};
+  if (has_water_mask && water.empty())
+    return fail(ErrorKind::kUsage, "--watermask needs --water: it shows the lakes that are given there");
   if (!percentile) return files;
   if (water.empty()) return fail(ErrorKind::kUsage, "--water-percentile needs --water: there is no lake without");
   const Result<double> share = parse_non_negative("--water-percentile", *percentile);
@@ -231,14 +234,28 @@ Result<WaterFiles> TileArguments::parse_waters() const {
   return files;
 }
 
-Result<std::optional<TileDrape>> TileArguments::parse_drape(TileFormat kept) const {
+Result<void> TileArguments::check_format(TileFormat kept, const TileGrid& of_tiles) const {
+  if (kept == TileFormat::kGlb && !of_tiles.has_even_rows())
+    return fail(ErrorKind::kUsage,
+                fmt::format("--of 3dtiles does not go with --grid {}: clients of 3D Tiles halve tiles in degrees of "
+                            "latitude",
+                            of_tiles.name()));
+  if (kept == TileFormat::kGlb && has_water_mask)
+    return fail(ErrorKind::kUsage,
+                "--of 3dtiles does not go with --watermask: masks are an extension of quantized-mesh; lakes of --water "
+                "are flat without");
+  if (kept != TileFormat::kGlb && drape)
+    return fail(
+        ErrorKind::kUsage,
+        "--drape is for 3D Tiles, --of 3dtiles: clients of quantized-mesh lay images over the terrain themselves");
+  return {};
+}
+
+Result<std::optional<TileDrape>> TileArguments::parse_drape() const {
   const Result<ImageFormat> image = parse_image_format(drape_format);
   if (!image) return tl::unexpected(image.error());
   if (drape_format && !drape) return fail(ErrorKind::kUsage, "--drape-format needs an image: --drape FILE");
   if (!drape) return std::optional<TileDrape>();
-  if (kept != TileFormat::kGlb)
-    return fail(ErrorKind::kUsage,
-                "--drape is for 3D Tiles, --of 3dtiles: clients of quantized-mesh lay images over the terrain themselves");
   return std::optional(stamp_drape(*drape, *image));
 }
 
@@ -253,12 +270,8 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!waters) return tl::unexpected(waters.error());
   const Result<TileFormat> kept = choose("--of", format.value_or("qm"), kTileFormats);
   if (!kept) return tl::unexpected(kept.error());
-  if (*kept == TileFormat::kGlb && !settings->grid.has_even_rows())
-    return fail(ErrorKind::kUsage,
-                fmt::format("--of 3dtiles does not go with --grid {}: clients of 3D Tiles halve tiles in degrees of "
-                            "latitude",
-                            settings->grid.name()));
-  auto image = parse_drape(*kept);
+  if (auto fits = check_format(*kept, settings->grid); !fits) return tl::unexpected(fits.error());
+  auto image = parse_drape();
   if (!image) return tl::unexpected(image.error());
   OpenedJob opened;
   TileJob& job = opened.job;
@@ -298,6 +311,7 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   }
   stamp_rasters(job, paths);
   job.waters = *waters;
+  job.plan.has_water_mask = has_water_mask;
   if (auto found = find_waters(job, *opened.raster); !found) return tl::unexpected(found.error());
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;

@@ -35,6 +35,7 @@ struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, format, only;
   Given max_tile_bytes, drape, drape_format, percentile;
+  bool has_water_mask = false;
   std::vector<std::string> water, rivers, breaklines;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 
@@ -51,8 +52,9 @@ struct TileArguments {
   Result<PyramidSettings> parse_settings() const;
   Result<Datum> parse_datum() const;
   Result<WaterFiles> parse_waters() const;
-  /// Fails with kUsage for another format than 3D Tiles.
-  Result<std::optional<TileDrape>> parse_drape(TileFormat kept) const;
+  Result<std::optional<TileDrape>> parse_drape() const;
+  /// Fails with kUsage where tiles of this format cannot have what is asked for.
+  Result<void> check_format(TileFormat kept, const TileGrid& of_tiles) const;
 };
 
 }  // namespace scarp::cli

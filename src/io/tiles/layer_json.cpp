@@ -63,6 +63,7 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
              {"minzoom", 0},
              {"maxzoom", plan.max_zoom()},
              {"extensions", {"octvertexnormals"}}};
+  if (plan.has_water_mask) layer["extensions"].push_back("watermask");
   Json available = Json::array(), levels = Json::array();
   for (std::size_t z = 0; z < report.tiles.size(); ++z) {
     Json ranges = Json::array();

@@ -97,6 +97,9 @@ void read_layer(const TileSetReader& set, SetClaims& claims) {
     if (!grid) claims.faults.push_back("layer.json names another projection than EPSG:4326 and EPSG:3857");
     claims.grid = grid.value_or(TileGrid{});
   }
+  const Json* const extensions = find_member(&*layer, "extensions");
+  claims.has_water_mask = extensions != nullptr && extensions->is_array() &&
+                          std::find(extensions->begin(), extensions->end(), "watermask") != extensions->end();
   const Json* const available = find_member(&*layer, "available");
   if (find_member(&*layer, "metadataAvailability") != nullptr) claims.announces_all = false;
   if (available != nullptr && available->is_array()) {

@@ -21,6 +21,7 @@ struct SetClaims {
   std::vector<std::vector<ClaimedTiles>> levels;  ///< tiles that are announced
   bool announces_all = true;                      ///< false where tiles themselves announce others
   std::vector<std::optional<double>> node_errors, bounds, source_errors;  ///< by level, where Scarp wrote them
+  bool has_water_mask = false;                                            ///< tiles have one
   std::optional<int> cells;
   std::optional<double> background;
   std::optional<Geodetic> ellipsoid;

@@ -101,6 +101,7 @@ Json describe_plan(const PyramidPlan& plan) {
           {"covered", describe_box(plan.covered)},
           {"sources", std::move(sources)},
           {"levels", std::move(levels)}};
+  if (plan.has_water_mask) json["has_water_mask"] = true;
   if (plan.waters) json["waters"] = describe_waters(*plan.waters);
   if (plan.max_tile_bytes > 0) json["max_tile_bytes"] = plan.max_tile_bytes;
   if (plan.lines) json["lines"] = plan.lines->lines();
@@ -186,6 +187,7 @@ PyramidPlan parse_plan(const Json& json) {
   for (const Json& level : json.at("levels"))
     plan.levels.push_back(
         {level.at("geometric_error"), level.at("max_error"), level.at("quantum"), level.at("segments")});
+  plan.has_water_mask = json.value("has_water_mask", false);
   if (json.contains("waters")) {
     TileWaters waters = parse_waters(json["waters"]);
     waters.grid = plan.grid;

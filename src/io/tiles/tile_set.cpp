@@ -9,6 +9,7 @@
 #include "io/tiles/set_archive.h"
 #include "scarp/gzip.h"
 #include "scarp/tile_job.h"
+#include "scarp/tile_waters.h"
 #include "scarp/tiles3d.h"
 
 namespace scarp {
@@ -32,7 +33,12 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path) {
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
   if (format == TileFormat::kGlb)
     return [&plan](const TerrainTile& tile) { return encode_tile_glb(place_on_earth(tile, plan)); };
-  return [&plan](const TerrainTile& tile) { return compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid)); };
+  std::shared_ptr<const WaterMasks> masks;
+  if (plan.has_water_mask && plan.waters) masks = std::make_shared<WaterMasks>(*plan.waters);
+  return [&plan, masks](const TerrainTile& tile) {
+    const std::vector<std::uint8_t> mask = masks ? masks->draw(tile.id) : std::vector<std::uint8_t>();
+    return compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid, mask));
+  };
 }
 
 TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
