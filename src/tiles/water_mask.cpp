@@ -1,12 +1,12 @@
 // The water mask of a tile: how much of each texel lies in polygons.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/bits.h"
 #include "scarp/tile_waters.h"
 #include "tiles/node_places.h"
 
@@ -130,7 +130,7 @@ std::vector<std::uint8_t> WaterMasks::draw(TileId id) const {
 std::uint64_t WaterMasks::hash(TileId id) const {
   std::uint64_t hash = 0;
   const auto mix = [&](double value) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0xff51afd7ed558ccd;
+    hash = (hash ^ bit_cast<std::uint64_t>(value)) * 0xff51afd7ed558ccd;
     hash ^= hash >> 32;
   };
   each_lake(id, [&](const TileLake& lake, double shift) {
