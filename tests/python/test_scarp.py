@@ -668,8 +668,9 @@ class Files(unittest.TestCase):
                 raise Own
             never = os.path.join(folder, "never")
             for kind, options in ((scarp.Cancelled, {"progress": lambda _: False}), (Own, {"progress": bad}),
-                                  (scarp.UsageError, {"vertical": "egm97"}), (scarp.UsageError, {"breaklines": "a"}),
-                                  (scarp.UsageError, {"report": "r.json"}), (scarp.UsageError, {"transform": transform})):
+                                  (scarp.UsageError, {"vertical": "egm97"}), (scarp.UsageError, {"cutline": "a"}),
+                                  (scarp.InputError, {"breaklines": "a"}), (scarp.UsageError, {"report": "r.json"}),
+                                  (scarp.UsageError, {"transform": transform})):
                 with self.assertRaises(kind):
                     scarp.tile([DEM], never, **{"vertical": "egm96", "zoom": 9, **options})
             with self.assertRaises(scarp.InputError):
