@@ -5,6 +5,7 @@
 #   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on; with a quarter of the
 #      random cases, and of the samples of real rasters a share (tests/laws/sanitized.h). One process runs many tests,
 #      since each start costs. With clang this is the build of the fuzzers, so that the library is compiled once.
+#      The C library, called by C (tests/abi/door.c) and, with clang, by Python.
 #   3. Fuzzers, SCARP_FUZZ_SECONDS (10) each; needs clang.
 #   4. ThreadSanitizer: the tests that use threads.
 #
@@ -88,6 +89,33 @@ run_gtest() {
   add "$passed" "$failed" "$skipped"
 }
 
+# run_callers FOLDER PROGRAM: the C library of that build, which has sanitizers, called by C and by Python.
+run_callers() {
+  local folder=$1 program=$2 scratch runtime
+  # passes NAME COMMAND...
+  passes() {
+    local name=$1
+    shift
+    if "$@" >"$scratch/log" 2>&1; then add 1 0 0; else cat "$scratch/log"; echo "FAILED: $name"; add 0 1 0; fi
+  }
+  scratch=$(mktemp -d)
+  "$program" simplify data/jacksboro_fault.tif "$scratch/of.glb" -e 5 -q
+  "$program" simplify data/jacksboro_fault.tif "$scratch/of.obj" -e 5 -q
+  passes "the C library called by C" "$folder/bin/scarp_c_caller" data/jacksboro_fault.tif "$scratch/of.glb" "$scratch/of.obj" \
+    "$scratch/out.glb"
+  runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so" 2>/dev/null || true)
+  if [ -e "$folder/bindings/c/libscarp_c.so" ] && [ -e "$runtime" ]; then
+    # Leaks are looked for above: an interpreter frees little at its end.
+    passes "the C library called by Python" env LD_PRELOAD="$runtime" ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 \
+      PYTHONPATH=bindings/python/src SCARP_LIBRARY="$(realpath "$folder")/bindings/c/libscarp_c.so" \
+      SCARP_PROGRAM="$(realpath "$program")" SCARP_DEM="$PWD/data/jacksboro_fault.tif" /usr/bin/python3 tests/python/test_scarp.py
+  else
+    echo "the C library called by Python: skipped, it needs clang and its shared runtime"
+    add 0 0 1
+  fi
+  rm -rf "$scratch"
+}
+
 start=$(date +%s)
 announce "1/4 Release: all tests"
 if build_stage "$build" release all; then
@@ -96,10 +124,11 @@ if build_stage "$build" release all; then
 fi
 
 announce "2/4 address and undefined behaviour sanitizers: unit tests and laws"
-sanitized=asan targets=(scarp_tests)
-if command -v clang++ >/dev/null; then sanitized=fuzz targets+=(fuzzers); fi
+sanitized=asan targets=(scarp_tests scarp_c_caller)
+if command -v clang++ >/dev/null; then sanitized=fuzz targets+=(scarp_c fuzzers); fi
 if build_stage "$build-$sanitized" "$sanitized" "${targets[@]}"; then
   run_gtest "$build-$sanitized/bin/scarp_tests" 40
+  run_callers "$build-$sanitized" "$build/bin/scarp"
   announce "3/4 fuzzers"
   if [ "$sanitized" = fuzz ]; then
     SCARP_FUZZ_SECONDS=${SCARP_FUZZ_SECONDS:-10} run_ctest "$build-fuzz" -R '^fuzz[.]'
