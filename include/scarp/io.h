@@ -67,6 +67,10 @@ struct ReadOptions {
   /// The samples are tolerances or weights, not heights: a raster without any value is no error, and the warning about
   /// infinities names the file. DEFAULT: false.
   bool as_values = false;
+  /// Nodata within so many samples of a height is filled, fill_nodata(), and then counts as heights; the range in the
+  /// info is that of before. Fails with kInput for a raster of which the memory limit does not hold the samples as
+  /// floats. DEFAULT: 0, it stays nodata.
+  double fill_distance = 0;
   /// Read by GDAL in every case. Fails with kInput for rasters that make no mosaic or that do not overlap the extent,
   /// and with kUsage for an extent or a resolution without a georeference whose x runs east and whose y runs north or
   /// south. DEFAULT: one raster as it is.

@@ -115,7 +115,7 @@ struct TileJob {
   std::vector<FileStamp> rasters;      ///< in the order of their priority
   std::vector<std::uint32_t> mosaics;  ///< how many of them, one after the other, make each mosaic
   std::vector<FileStamp> files;        ///< others that they are made of, such as those that a VRT names, and of water
-  ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset and view
+  ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset, fill_distance and view
   Datum datum;
   FileStamp geoid;  ///< of datum.geoid, where that is given
   WaterFiles waters;  ///< what plan.waters was found of

@@ -41,6 +41,40 @@ succeeds gdal_translate -q -a_nodata 0 -srcwin -30 -30 120 120 low.tif void.tif
 succeeds "$scarp" tile void.tif high.tif void_first --background 200 -q
 [ "$(heights void_first)" = "100 200" ] || fail "nodata hides what lies below"
 
+# Nodata within a raster goes down to the background, or is filled before anything else.
+make_raster hole.tif 'math.nan if 150 <= col < 250 and 110 <= row < 210 else 500 + row / 2'
+succeeds "$scarp" tile hole.tif hole --vertical ellipsoid -q
+succeeds "$scarp" tile hole.tif filled --vertical ellipsoid --nodata-policy fill --report r.json -q
+read -r lowest highest < <(python3 - "$reader" hole.tif << 'PY'
+import importlib.util, pathlib, subprocess, sys, json
+spec = importlib.util.spec_from_file_location("tiles", sys.argv[1])
+tiles = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(tiles)
+west, step_x, _, north, _, step_y = json.loads(subprocess.check_output(["gdalinfo", "-json", sys.argv[2]]))["geoTransform"]
+z = json.load(open("filled/layer.json"))["maxzoom"]
+heights = set()
+for k in range(20):
+    x, y = (int((degrees + 180 - 90 * axis) / 180 * 2**z) for axis, degrees in
+            enumerate((west + step_x * (155 + 5 * k), north + step_y * (115 + 5 * k))))
+    tile = tiles.read_tile(pathlib.Path(f"filled/{z}/{x}/{y}.terrain"))
+    heights.update(tile["heights"])
+print(min(heights), max(heights))
+PY
+)
+holds "$lowest > 490 && $highest < 680" || fail "a void is not filled"
+succeeds "$scarp" tile check filled --source hole.tif --vertical ellipsoid --nodata-policy fill
+try "$scarp" tile check filled --source hole.tif --vertical ellipsoid
+[ "$code" = 3 ] || fail "filled nodes are taken for those of a raster with a hole"
+succeeds "$scarp" tile plan hole.tif fill.json --vertical ellipsoid --nodata-policy fill -q
+succeeds "$scarp" tile run fill.json -q
+succeeds "$scarp" tile finish fill.json planned -q
+diff -r filled planned || fail "a plan fills otherwise"
+refuses 2 "filling its nodata needs all samples in memory" "$scarp" tile run fill.json --parts streamed --memory 10k
+succeeds "$scarp" tile hole.tif near --vertical ellipsoid --nodata-policy fill --fill-distance 5 -q
+diff -rq filled near > /dev/null && fail "--fill-distance changes nothing"
+refuses 1 "--fill-distance needs --nodata-policy fill" "$scarp" tile hole.tif no --fill-distance 5
+refuses 1 "background" "$scarp" tile hole.tif no --nodata-policy hole
+
 # A fine raster in UTM with nodata at its corners, above the sea, on a coarse one in degrees above the ellipsoid.
 succeeds gdalwarp -q -t_srs EPSG:32616+5773 -s_srs EPSG:4326+5773 -te 740000 4014000 752000 4026000 -tr 80 80 -r bilinear -dstnodata -9999 -ot Float32 "$dem" fine.tif
 succeeds gdal_translate -q -a_srs EPSG:4979 -outsize 100 86 "$dem" coarse.tif

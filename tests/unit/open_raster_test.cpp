@@ -97,6 +97,28 @@ TEST(opened_rasters, of_16_bits_have_the_samples_of_read_ones) {
   expect_same_samples(path, {}, true);
 }
 
+TEST(opened_rasters, are_filled_as_fill_nodata_does_where_memory_holds_them) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.img");
+  auto values = some_values<std::int16_t>(1000, 0);
+  for (const std::size_t k : {0u, 1u, 77u, 78u, 300u}) values[k] = -1;
+  write_envi<std::int16_t>(path, kCols, kRows, values, "data ignore value = -1\n");
+  auto wanted = read_height_field(path);
+  ASSERT_TRUE(wanted);
+  EXPECT_EQ(fill_nodata(*wanted, 3), 5u);
+  for (const auto& filled :
+       {read_height_field(path, {.fill_distance = 3}), open_height_field(path, {.fill_distance = 3})}) {
+    ASSERT_TRUE(filled) << filled.error().message;
+    EXPECT_EQ(filled->samples, wanted->samples);
+  }
+  for (const std::uint64_t limit : {5 * kSamples / 2, std::uint64_t{1}}) {
+    const auto refused = open_height_field(path, {.run = {.memory = {.limit = limit}}, .fill_distance = 3});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
+    EXPECT_NE(refused.error().message.find("needs all samples in memory"), std::string::npos);
+  }
+}
+
 TEST(opened_rasters, of_other_types_have_the_samples_of_read_ones) {
   const ScratchFolder folder;
   const std::string path = folder.file("a.img");

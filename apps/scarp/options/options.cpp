@@ -91,6 +91,15 @@ Result<double> parse_non_negative(std::string_view option, const std::string& te
   return value;
 }
 
+Result<double> parse_fill_distance(const Given& text, bool is_filled) {
+  if (!text) return is_filled ? 100.0 : 0.0;
+  if (!is_filled) return fail(ErrorKind::kUsage, "--fill-distance needs --nodata-policy fill");
+  const Result<double> distance = parse_number("--fill-distance", *text);
+  if (distance && *distance <= 0)
+    return fail(ErrorKind::kUsage, fmt::format("--fill-distance {} is not above 0", shell_word(*text)));
+  return distance;
+}
+
 Result<std::uint64_t> parse_count(std::string_view option, const std::string& text, std::uint64_t least) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -48,17 +48,9 @@ Result<void> plan_nodata(const SimplifyArguments& given, SimplifyPlan& plan) {
     return fail(ErrorKind::kUsage,
                 fmt::format("--nodata-policy {} is unknown: choose hole, fill or background", shell_word(policy)));
   }
-  if (given.fill_distance) {
-    if (plan.policy != NodataPolicy::kFill) {
-      return fail(ErrorKind::kUsage, "--fill-distance needs --nodata-policy fill");
-    }
-    const Result<double> distance = parse_number("--fill-distance", *given.fill_distance);
-    if (!distance) return tl::unexpected(distance.error());
-    if (*distance <= 0) {
-      return fail(ErrorKind::kUsage, fmt::format("--fill-distance {} is not above 0", *given.fill_distance));
-    }
-    plan.fill_distance = *distance;
-  }
+  const Result<double> distance = parse_fill_distance(given.fill_distance, plan.policy == NodataPolicy::kFill);
+  if (!distance) return tl::unexpected(distance.error());
+  plan.fill_distance = *distance;
   if (given.background.has_value() != (plan.policy == NodataPolicy::kBackground)) {
     return fail(ErrorKind::kUsage, given.background
                                        ? "--background needs --nodata-policy background"
@@ -372,7 +364,8 @@ Result<void> plan_page(const SimplifyArguments& given, SimplifyPlan& plan) {
   for (const auto& [name, is_given] : others) {
     if (is_given)
       return fail(ErrorKind::kUsage, fmt::format("--html cannot be combined with {}: the page holds all samples of a "
-                                                 "terrain of heights", name));
+                                                 "terrain of heights",
+                                                 name));
   }
   auto page = read_page_template();
   if (!page) return tl::unexpected(page.error());

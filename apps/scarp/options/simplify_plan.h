@@ -76,7 +76,7 @@ struct SimplifyPlan {
   ChannelPlan channels;
   ImagePlan images;
   NodataPolicy policy = NodataPolicy::kHole;
-  double fill_distance = 100;
+  double fill_distance = 0;
   float background = 0;
   std::optional<double> base;
   std::optional<PrintOptions> solid;

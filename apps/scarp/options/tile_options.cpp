@@ -19,6 +19,7 @@ namespace {
 constexpr Choice<Effort> kTileEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
 constexpr Choice<GridKind> kGrids[] = {{"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}};
+constexpr Choice<bool> kFills[] = {{"background", false}, {"fill", true}};
 constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
 constexpr int kEgm2008 = 3855;
 struct DatumWord {
@@ -128,6 +129,8 @@ void TileArguments::add_nodes_to(CLI::App& command) {
   add_option(command, OptionId::kEllipsoid, ellipsoid);
   add_option(command, OptionId::kCells, cells);
   add_option(command, OptionId::kNodata, raster.nodata);
+  add_option(command, OptionId::kNodataPolicy, nodata_policy);
+  add_option(command, OptionId::kFillDistance, fill_distance);
   add_option(command, OptionId::kBackground, background);
 }
 
@@ -220,6 +223,17 @@ Result<Datum> TileArguments::parse_datum() const {
   return datum;
 }
 
+Result<ReadOptions> TileArguments::parse_reading() const {
+  Result<ReadOptions> options = raster.parse();
+  if (!options) return options;
+  const Result<bool> is_filled = choose("--nodata-policy", nodata_policy.value_or("background"), kFills);
+  if (!is_filled) return tl::unexpected(is_filled.error());
+  const Result<double> distance = parse_fill_distance(fill_distance, *is_filled);
+  if (!distance) return tl::unexpected(distance.error());
+  options->fill_distance = *distance;
+  return options;
+}
+
 Result<WaterFiles> TileArguments::parse_waters() const {
   WaterFiles files{water, rivers};
   if (has_water_mask && water.empty())
@@ -264,7 +278,7 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!settings) return tl::unexpected(settings.error());
   const Result<Datum> datum = parse_datum();
   if (!datum) return tl::unexpected(datum.error());
-  Result<ReadOptions> options = raster.parse();
+  Result<ReadOptions> options = parse_reading();
   if (!options) return tl::unexpected(options.error());
   const Result<WaterFiles> waters = parse_waters();
   if (!waters) return tl::unexpected(waters.error());

@@ -33,7 +33,7 @@ Result<TileGrid> parse_grid(const std::string& text);
 
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
-  Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, format, only;
+  Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, nodata_policy, fill_distance, format, only;
   Given max_tile_bytes, drape, drape_format, percentile;
   bool has_water_mask = false;
   std::vector<std::string> water, rivers, breaklines;  ///< FILE or FILE:LAYER
@@ -51,6 +51,8 @@ struct TileArguments {
  private:
   Result<PyramidSettings> parse_settings() const;
   Result<Datum> parse_datum() const;
+  /// How the rasters are read.
+  Result<ReadOptions> parse_reading() const;
   Result<WaterFiles> parse_waters() const;
   Result<std::optional<TileDrape>> parse_drape() const;
   /// Fails with kUsage where tiles of this format cannot have what is asked for.

@@ -48,22 +48,20 @@ Result<void> check_whole_file(const std::string& path, const ReadOptions& option
                           format_memory(static_cast<double>(options.run.memory.limit))));
 }
 
-}  // namespace
-
-Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
-  if (const LentRaster* lent = find_lent_raster(path)) return read_lent_raster(*lent, path, options);
-  const auto reader = find_reader(path, options.view);
-  if (!reader) return tl::unexpected(reader.error());
-  if (*reader == Reader::kGdal) return open_gdal_raster(path, options);
-  if (auto fits = check_whole_file(path, options); !fits) return tl::unexpected(fits.error());
-  ReadOptions whole = options;
-  whole.run.memory.limit = 0;
-  return read_height_field(path, whole);
-} catch (...) {
-  return caught(ErrorKind::kInput, "read " + path);
+Result<void> fill_voids(OwnedHeightField& field, const std::string& path, double distance) {
+  if (distance <= 0) return {};
+  if (field.source) {
+    const double bytes = 4.0 * field.cols * field.rows;
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: filling its nodata needs all samples in memory, {}, which is more than is allowed for "
+                            "them: allow more, or fill it first (gdal_fillnodata.py)",
+                            path, format_memory(bytes)));
+  }
+  fill_nodata(field, distance);
+  return {};
 }
 
-Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
+Result<OwnedHeightField> read_as_it_is(const std::string& path, const ReadOptions& options) {
   if (const LentRaster* lent = find_lent_raster(path)) return read_lent_raster(*lent, path, options);
   const auto reader = find_reader(path, options.view);
   if (!reader) return tl::unexpected(reader.error());
@@ -71,6 +69,35 @@ Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOp
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return *reader == Reader::kPgm ? decode_pgm(*bytes, path, options) : decode_stm(*bytes, path, options);
+}
+
+Result<OwnedHeightField> open_as_it_is(const std::string& path, const ReadOptions& options) {
+  if (const LentRaster* lent = find_lent_raster(path)) return read_lent_raster(*lent, path, options);
+  const auto reader = find_reader(path, options.view);
+  if (!reader) return tl::unexpected(reader.error());
+  if (*reader == Reader::kGdal) return open_gdal_raster(path, options);
+  if (auto fits = check_whole_file(path, options); !fits) return tl::unexpected(fits.error());
+  ReadOptions whole = options;
+  whole.run.memory.limit = 0;
+  return read_as_it_is(path, whole);
+}
+
+}  // namespace
+
+Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
+  auto field = open_as_it_is(path, options);
+  if (!field) return field;
+  if (auto filled = fill_voids(*field, path, options.fill_distance); !filled) return tl::unexpected(filled.error());
+  return field;
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
+Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
+  auto field = read_as_it_is(path, options);
+  if (!field) return field;
+  if (auto filled = fill_voids(*field, path, options.fill_distance); !filled) return tl::unexpected(filled.error());
+  return field;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }

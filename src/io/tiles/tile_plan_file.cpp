@@ -72,6 +72,7 @@ Json describe_reading(const ReadOptions& reading) {
           {"decode", word_of(reading.decode, kDecodes)},
           {"z_scale", reading.z_scale},
           {"z_offset", reading.z_offset},
+          {"fill_distance", reading.fill_distance},
           {"extent", or_null(reading.view.extent)},
           {"resolution", or_null(reading.view.resolution)}};
 }
@@ -221,6 +222,7 @@ TileJob parse_job(const Json& json) {
   job.reading.decode = value_of(reading.at("decode"), kDecodes);
   job.reading.z_scale = reading.at("z_scale");
   job.reading.z_offset = reading.at("z_offset");
+  job.reading.fill_distance = reading.at("fill_distance");
   job.reading.view.extent = optional_of<std::array<double, 4>>(reading.at("extent"));
   job.reading.view.resolution = optional_of<double>(reading.at("resolution"));
   parse_datum(json.at("datum"), job);
