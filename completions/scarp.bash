@@ -29,22 +29,23 @@ _scarp() {
       "measure --z-field" | "view --band" | "view --te" | "view --resolution" | "view --z-scale" | \
       "view --z-offset" | "view --cell-size" | "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | \
       "tile --z-scale" | "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | \
-      "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --background" | \
-      "tile --water-percentile" | "tile -j" | "tile --num-threads" | "tile-plan --band" | "tile-plan --te" | \
-      "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --ellipsoid" | \
-      "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | \
-      "tile-plan --zoom" | "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --background" | \
+      "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --fill-distance" | \
+      "tile --background" | "tile --water-percentile" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
+      "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | \
+      "tile-plan --ellipsoid" | "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | \
+      "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --max-tile-bytes" | \
+      "tile-plan --nodata" | "tile-plan --fill-distance" | "tile-plan --background" | \
       "tile-plan --water-percentile" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
       "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "tile-check --band" | \
       "tile-check --te" | "tile-check --resolution" | "tile-check --z-scale" | "tile-check --z-offset" | \
-      "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --background" | "tile-check -j" | \
-      "tile-check --num-threads" | "serve --band" | "serve --te" | "serve --resolution" | "serve --z-scale" | \
-      "serve --z-offset" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | "serve --quality" | \
-      "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | "serve --background" | \
-      "serve --water-percentile" | "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | \
-      "info --band" | "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | \
-      "info --nodata" | "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | \
-      "generate --size")
+      "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --fill-distance" | "tile-check --background" | \
+      "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | "serve --resolution" | \
+      "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | \
+      "serve --quality" | "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | "serve --fill-distance" | \
+      "serve --background" | "serve --water-percentile" | "serve --memory" | "serve --port" | "serve -j" | \
+      "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
+      "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
+      "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -153,8 +154,16 @@ _scarp() {
       COMPREPLY=($(compgen -W 'geographic mercator' -- "$current"))
       return
       ;;
+    "tile --bound" | "tile-plan --bound")
+      COMPREPLY=($(compgen -W 'nodes samples' -- "$current"))
+      return
+      ;;
     "tile --cells" | "tile-plan --cells" | "tile-check --cells" | "serve --cells")
       COMPREPLY=($(compgen -W '16 32 64 128 256' -- "$current"))
+      return
+      ;;
+    "tile --nodata-policy" | "tile-plan --nodata-policy" | "tile-check --nodata-policy" | "serve --nodata-policy")
+      COMPREPLY=($(compgen -W 'background fill' -- "$current"))
       return
       ;;
     "tile-plan --hash")
@@ -206,16 +215,17 @@ _scarp() {
       tile)
         options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
         options+=' --geoid --ellipsoid --only --report --overwrite --of --drape --drape-format'
-        options+=' --effort --max-error --quality --zoom --grid --max-tile-bytes --cells --nodata'
-        options+=' --background --water --watermask --water-percentile --rivers --num-threads --quiet --json-progress'
-        options+=' --help --help-all --version'
+        options+=' --effort --max-error --quality --zoom --grid --bound --max-tile-bytes --cells'
+        options+=' --nodata --nodata-policy --fill-distance --background --water --watermask --water-percentile --rivers'
+        options+=' --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       tile-plan)
         options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
         options+=' --geoid --ellipsoid --only --changed-since --hash --overwrite --of --drape'
         options+=' --drape-format --shards --slurm --effort --max-error --quality --zoom --grid'
-        options+=' --max-tile-bytes --cells --nodata --background --water --watermask --water-percentile --rivers'
-        options+=' --survey --quiet --json-progress --help --help-all --version'
+        options+=' --bound --max-tile-bytes --cells --nodata --nodata-policy --fill-distance --background --water'
+        options+=' --watermask --water-percentile --rivers --survey --quiet --json-progress --help --help-all'
+        options+=' --version'
         ;;
       tile-run)
         options+=' --shard --only --parts --memory --num-threads --quiet --json-progress --help'
@@ -227,14 +237,15 @@ _scarp() {
         ;;
       tile-check)
         options+=' --source --band --te --resolution --decode --z-scale --z-offset --grid'
-        options+=' --vertical --geoid --ellipsoid --json --cells --nodata --background --num-threads'
-        options+=' --quiet --json-progress --help --help-all --version'
+        options+=' --vertical --geoid --ellipsoid --json --cells --nodata --nodata-policy --fill-distance'
+        options+=' --background --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       serve)
         options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
         options+=' --geoid --ellipsoid --effort --max-error --quality --zoom --grid --max-tile-bytes'
-        options+=' --cells --nodata --background --water --watermask --water-percentile --rivers --memory'
-        options+=' --port --host --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --cells --nodata --nodata-policy --fill-distance --background --water --watermask --water-percentile'
+        options+=' --rivers --memory --port --host --num-threads --quiet --json-progress --help'
+        options+=' --help-all --version'
         ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'

@@ -127,6 +127,10 @@ struct PyramidSettings {
   /// Of a tile, as it is kept. Where a tile has more, the max error of its interior is doubled until it fits, or until
   /// nothing but its border is left; the border stays. DEFAULT: 0, any.
   std::uint64_t max_tile_bytes = 0;
+  /// Whether the source's samples, each at its own place, are bound as nodes are. The finest level is then that of half
+  /// the cells: nodes are half as far apart as they need be, since samples far from the land between nodes cannot be
+  /// reached. REQUIRES then: a source that has_samples(). DEFAULT: false.
+  bool binds_samples = false;
   /// Edges of all tiles' meshes. DEFAULT: none.
   std::vector<DegreeLine> lines = {};
 };
@@ -157,6 +161,7 @@ struct PyramidPlan {
   float background = 0;
   bool has_siblings = false;  ///< as in PyramidSettings
   std::uint64_t max_tile_bytes = 0;
+  bool binds_samples = false;  ///< as in PyramidSettings
   std::shared_ptr<const TileLines> lines = nullptr;  ///< null: none
   Geodetic ellipsoid = {};
   TileGrid grid = {};
@@ -219,7 +224,8 @@ struct TerrainTile {
 };
 
 /// The tile, of as many bytes as it takes. Its node_error is at most the level's max error, but where positions in
-/// 32767ths of the tile cannot follow the land, next to a cliff. REQUIRES: plan.block_level <= id.z <= plan.max_zoom().
+/// 32767ths of the tile cannot follow the land, next to a cliff; its source_error too, if the plan binds samples, but
+/// where these are too far from the land between the nodes around them. REQUIRES: plan.block_level <= id.z <= plan.max_zoom().
 /// Fails as the source does.
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
@@ -263,8 +269,9 @@ struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest of its tiles
   double source_error = 0;           ///< the same; NaN where one of them is
-  /// Tiles whose node_error is above their max error: those with cliffs that rounded positions cannot follow, and
-  /// above the block level those whose reduced nodes let no less be proven.
+  /// Tiles whose node_error, or source_error if the plan binds samples, is above their max error: those with cliffs that
+  /// rounded positions cannot follow, with samples that nodes cannot, and above the block level those whose reduced
+  /// nodes let no less be proven.
   std::uint64_t over = 0;
   std::uint64_t coarser = 0;    ///< tiles whose max error is above the level's because of plan.max_tile_bytes
   std::uint64_t oversized = 0;  ///< of these, those that have more bytes all the same: their borders alone do

@@ -164,6 +164,7 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
   plan.background = settings.background;
   plan.has_siblings = settings.has_siblings;
   plan.max_tile_bytes = settings.max_tile_bytes;
+  plan.binds_samples = settings.binds_samples;
   plan.ellipsoid = settings.ellipsoid;
   plan.grid = settings.grid;
   plan.covered = source.covered;
@@ -173,7 +174,8 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
     plan.covered = *shared;
   }
   std::vector<int> asked;
-  for (const SourceFacts& one : stack) asked.push_back(find_max_zoom(one, settings.cells, settings.grid, globe));
+  const int cells = settings.binds_samples ? settings.cells / 2 : settings.cells;
+  for (const SourceFacts& one : stack) asked.push_back(find_max_zoom(one, cells, settings.grid, globe));
   const int most = *std::max_element(asked.begin(), asked.end());
   const int finest = settings.max_zoom >= 0 ? settings.max_zoom : most;
   for (std::size_t k = 0; stack.size() > 1 && k < stack.size(); ++k)

@@ -29,6 +29,8 @@ namespace {
 constexpr int kMeshTrials = 12;
 /// Vertices lie on these parts of a step: those of lines anywhere, free ones on eighths.
 constexpr std::int32_t kParts = 256;
+/// Of the max error, where samples are bound: nothing but the nodes of an edge decides it, and samples lie beside it.
+constexpr double kEdgeShare = 0.25;
 
 class TileMaker {
  public:
@@ -50,6 +52,7 @@ class TileMaker {
     forced_.clear();
     is_left_out_.assign(is_left_out_.size(), false);
     std::optional<TerrainTile> best;
+    double least = std::numeric_limits<double>::infinity();
     for (int trial = 0; trial < kMeshTrials; ++trial) {
       // A little less each time: the rounding of a forced vertex may break the bound elsewhere.
       auto mesh = refine((max_error - level_.quantum / 2) * (1 - trial / 128.0));
@@ -71,9 +74,13 @@ class TileMaker {
       const Result<TileVerdict> verdict = judge_(tile);
       if (!verdict) return tl::unexpected(verdict.error());
       tile.node_error = verdict->error;
-      if (!best || verdict->error < best->node_error) best = std::move(tile);
-      if (verdict->error <= max_error || verdict->offenders.empty()) break;
-      force_around(verdict->offenders);
+      const double worst = std::max(verdict->error, verdict->sample_error);
+      if (worst < least || !best) best = std::move(tile);
+      least = std::min(least, worst);
+      const bool is_new = force_around(verdict->offenders) | force_around(verdict->beside);
+      if (worst <= max_error || verdict->offenders.size() + verdict->beside.size() == 0) break;
+      // The land between the nodes is too far from a sample.
+      if (!is_new && verdict->error <= max_error) break;
     }
     if (!best) return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} folds over", id_.z, id_.x, id_.y));
     finish(*best);
@@ -124,7 +131,9 @@ class TileMaker {
     std::vector<std::int32_t> crossed;
     if (paths_ != nullptr) crossed = paths_->edges.*edge;
     for (std::int32_t& i : crossed) i *= line_step();
-    std::vector<std::int32_t> vertices = choose_edge_vertices(nodes, level_, crossed);
+    PyramidLevel level = level_;
+    if (plan_.binds_samples) level.max_error *= kEdgeShare;
+    std::vector<std::int32_t> vertices = choose_edge_vertices(nodes, level, crossed);
     for (std::size_t k = 1; k < vertices.size(); ++k) {
       const std::int32_t from = vertices[k - 1], to = vertices[k];
       const double low = double{rounded(heights[static_cast<std::size_t>(from)])};
@@ -143,7 +152,9 @@ class TileMaker {
 
   /// Nodes of which the mesh is too far become vertices, and those around them, so that no needle of a triangle ends
   /// there, whose corner's rounding would tilt it.
-  void force_around(const std::vector<SampleAt>& nodes) {
+  /// Whether one is new among them.
+  bool force_around(const std::vector<SampleAt>& nodes) {
+    const std::size_t before = forced_.size();
     for (const auto& [col, row] : nodes) {
       for (std::int32_t y = std::max(row - 1, 1); y <= std::min(row + 1, steps() - 1); ++y) {
         for (std::int32_t x = std::max(col - 1, 1); x <= std::min(col + 1, steps() - 1); ++x) {
@@ -151,6 +162,7 @@ class TileMaker {
         }
       }
     }
+    return forced_.size() > before;
   }
 
   /// Of a node from a straight piece of a line, in nodes.
@@ -248,7 +260,8 @@ class TileMaker {
     return abx * acy - acx * aby;
   }
 
-  /// Needles beside lines that rounding has turned over: an inner corner goes to the best place up to two 32767ths away.
+  /// Needles beside lines that rounding has turned over: an inner corner goes to the best place up to two 32767ths
+  /// away.
   static void unfold(TerrainTile& tile) {
     std::vector<std::vector<std::size_t>> stars;
     const auto least_area = [&](std::uint32_t v) {
@@ -325,6 +338,16 @@ class TileMaker {
 
 namespace {
 
+/// The nodes next to places in 32767ths of the tile.
+std::vector<SampleAt> nodes_at(const std::vector<FarPoint>& points, const TileRows& rows) {
+  std::vector<SampleAt> nodes;
+  for (const FarPoint& far : points) {
+    nodes.push_back({static_cast<std::int32_t>(std::floor(far.u * rows.steps() / 32767 + 0.5)),
+                     rows.nearest(static_cast<std::uint16_t>(std::floor(far.v + 0.5)))});
+  }
+  return nodes;
+}
+
 TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const TileRows& rows) {
   const std::int32_t steps = nodes.steps();
   TileSurface surface(tile, tile.max_error);
@@ -332,11 +355,17 @@ TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const
     const double v = 32767 * (1 - rows.line(row) / steps);
     surface.judge({0, v, 32767.0 / steps, 0, {nodes.from(0, row), static_cast<std::size_t>(steps) + 1}});
   }
-  TileVerdict verdict{surface.largest_error(), {}};
-  for (const FarPoint& far : surface.far_points()) {
-    verdict.offenders.push_back({static_cast<std::int32_t>(std::floor(far.u * steps / 32767 + 0.5)),
-                                 rows.nearest(static_cast<std::uint16_t>(std::floor(far.v + 0.5)))});
-  }
+  return {surface.largest_error(), nodes_at(surface.far_points(), rows)};
+}
+
+Result<TileVerdict> judge_at_nodes_and_samples(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid,
+                                               const NodeSource& source) {
+  auto verdict = judge_at_nodes(tile, nodes, grid);
+  if (!verdict) return verdict;
+  const Result<SampleVerdict> samples = judge_at_samples(tile, grid, nodes, source, tile.max_error);
+  if (!samples) return tl::unexpected(samples.error());
+  verdict->sample_error = samples->error;
+  verdict->beside = nodes_at(samples->far_points, TileRows(grid, tile.id, nodes.steps()));
   return verdict;
 }
 
@@ -374,12 +403,16 @@ Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileCo
   const std::int32_t least = 2 * plan.levels[static_cast<std::size_t>(id.z)].segments;
   const TileNodes nodes = TileNodes::flat(has_lines ? std::max(least, plan.cells) : least, plan.background);
   return make_tile_of(
-      plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); }, complete, encode);
+      plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); }, complete,
+      encode);
 }
 
 Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
                                   const TileEncoder& encode) {
-  const auto judge = [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); };
+  const auto judge = [&](const TerrainTile& tile) {
+    return plan.binds_samples ? judge_at_nodes_and_samples(tile, nodes, plan.grid, source)
+                              : judge_at_nodes(tile, nodes, plan.grid);
+  };
   const auto complete = [&](TerrainTile& tile) -> Result<void> {
     const Result<SampleVerdict> verdict = judge_at_samples(tile, plan.grid, nodes, source);
     if (!verdict) return tl::unexpected(verdict.error());

@@ -13,6 +13,8 @@ namespace scarp {
 struct TileVerdict {
   double error = 0;
   std::vector<SampleAt> offenders;  ///< nodes that break the tile's max error; empty where they are not known
+  double sample_error = 0;          ///< as `error`, of samples, where they are bound; else 0
+  std::vector<SampleAt> beside = {};  ///< nodes next to samples that break it
 };
 using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
 /// Sets what else is known of a tile.

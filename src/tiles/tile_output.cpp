@@ -57,7 +57,7 @@ Result<void> TileOutput::put(const KeptTile& kept) {
   level.node_error = std::max(level.node_error, tile.node_error);
   level.bound = std::max(level.bound, tile.bound());
   level.source_error = larger(level.source_error, tile.source_error);
-  level.over += tile.node_error > tile.max_error;
+  level.over += tile.node_error > tile.max_error || (plan_.binds_samples && tile.source_error > tile.max_error);
   level.coarser += tile.max_error > plan_.levels[z].max_error;
   level.lines_left_out += tile.lines_left_out;
   level.oversized += plan_.max_tile_bytes > 0 && kept.bytes.size() > plan_.max_tile_bytes;

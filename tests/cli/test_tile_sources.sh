@@ -122,6 +122,7 @@ grep -q "EGM96 height, the ellipsoid" "$logs/out" || fail "rasters of unlike dat
 succeeds gdal_translate -q -a_srs "+proj=longlat +R=1737400 +no_defs" coarse.tif moon.tif
 refuses 2 "moon.tif lies on an ellipsoid" "$scarp" tile coarse.tif moon.tif no --vertical ellipsoid
 refuses 1 "no mosaic with" "$scarp" tile fine.tif coarse.tif no --te 0 0 1 1
+refuses 1 "--bound samples is for one raster" "$scarp" tile fine.tif coarse.tif no --bound samples
 refuses 2 "missing.tif" "$scarp" tile coarse.tif missing.tif no
 [ ! -e no ] || fail "something is left of a set that was refused"
 

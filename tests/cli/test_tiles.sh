@@ -29,6 +29,20 @@ done
 succeeds "$scarp" tile "$dem" again --vertical egm96 -j 3 -q
 diff -r globe again || fail "3 threads make other tiles"
 
+# Bound at the raster's samples, too: what brute force in another room finds of them is at most what was asked.
+succeeds "$scarp" tile "$dem" bound --vertical egm96 --bound samples --report b.json -j 1
+python3 "$reader" bound > /dev/null
+[ "$(json bound/layer.json maxzoom)" = 11 ] || fail "denser nodes move the finest level"
+succeeds "$scarp" tile check bound --source "$dem" --vertical egm96 --report checked.json
+broken=0
+for z in 11 10 9 8 7 6; do
+  holds "$(json b.json levels $z node_error) <= $(json b.json levels $z asked)"
+  holds "$(json b.json levels $z source_error) <= $(json b.json levels $z asked)"
+  holds "$(json b.json levels $z tiles_over) == 0"
+  ! awk "BEGIN { exit !($(json r.json levels $z source_error) > $(json r.json levels $z asked)) }" || broken=$((broken + 1))
+done
+[ $broken -gt 0 ] || fail "samples are bound without asking for it: the test shows nothing"
+
 # A limit of bytes makes interiors coarser; edges stay, bounds are true, and what does not fit is counted.
 limit=2500
 succeeds "$scarp" tile "$dem" small --vertical egm96 --max-tile-bytes $limit --report small.json -j 1

@@ -136,13 +136,35 @@ PyramidPlan plan_of(int finest, Effort effort) {
 /// Beside cliffs the rounding of a place moves a height, and so does what a curved place has between exact ones.
 double allowance(bool is_squeezed) { return is_squeezed ? 1.0 : 1e-3; }
 
+TEST(tile_source_laws, samples_that_are_bound_are_nearer_and_land_that_nodes_can_follow_keeps_the_max_error) {
+  const Land rough(7, 10.013, 0.0137, false, false, false, false);
+  Land smooth(7, 10.013, 0.0137, false, true, false, true);
+  for (int k = 0; k < smooth.cols * smooth.rows; ++k)
+    smooth.samples[static_cast<std::size_t>(k)] =
+        static_cast<float>(800 * std::sin(k % smooth.cols * 0.2) * std::cos(k / smooth.cols * 0.13));
+  for (const Land* land : {static_cast<const Land*>(&rough), static_cast<const Land*>(&smooth)}) {
+    PyramidPlan plan = plan_of(11, Effort::kNormal);
+    const TileId id{10, static_cast<std::uint32_t>((10.5 + 180) / 180 * 1024),
+                    static_cast<std::uint32_t>((47.6 + 90) / 180 * 1024)};
+    const auto free = make_tile(plan, id, land->source());
+    plan.binds_samples = true;
+    const auto bound = make_tile(plan, id, land->source());
+    ASSERT_TRUE(free && bound);
+    EXPECT_LE(bound->source_error, free->source_error);
+    EXPECT_LE(bound->node_error, bound->max_error);
+    EXPECT_NEAR(brute_force(*bound, 32, *land), bound->source_error, allowance(false));
+    if (land == &smooth) EXPECT_LE(bound->source_error, bound->max_error);
+  }
+}
+
 RC_GTEST_PROP(tile_source_laws, the_source_error_is_that_of_all_samples_at_their_places, ()) {
   const bool is_squeezed = *rc::gen::arbitrary<bool>(), is_turned = *rc::gen::arbitrary<bool>();
   const double west = *rc::gen::element(10.013, 179.511, 356.02);
   const Land land(*rc::gen::arbitrary<std::uint32_t>(), is_squeezed ? 10.013 : west, 0.0137, is_squeezed, is_turned,
                   *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>());
   const int finest = *rc::gen::element(9, 10, 11), z = finest - *rc::gen::inRange(0, 3);
-  const PyramidPlan plan = plan_of(finest, *rc::gen::element(Effort::kFast, Effort::kNormal));
+  PyramidPlan plan = plan_of(finest, *rc::gen::element(Effort::kFast, Effort::kNormal));
+  plan.binds_samples = *rc::gen::arbitrary<bool>();
   // A tile around a sample.
   const int col = *rc::gen::inRange(0, land.cols), row = *rc::gen::inRange(0, land.rows);
   const std::array<double, 6>& a = land.place.affine;

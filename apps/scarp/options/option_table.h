@@ -132,6 +132,7 @@ enum class OptionId {
   kEllipsoid,
   kPlan,
   kOnly,
+  kBound,
   kMaxTileBytes,
   kChangedSince,
   kHash,

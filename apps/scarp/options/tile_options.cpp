@@ -19,6 +19,7 @@ namespace {
 constexpr Choice<Effort> kTileEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
 constexpr Choice<GridKind> kGrids[] = {{"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}};
+constexpr Choice<bool> kBounds[] = {{"nodes", false}, {"samples", true}};
 constexpr Choice<bool> kFills[] = {{"background", false}, {"fill", true}};
 constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
 constexpr int kEgm2008 = 3855;
@@ -136,6 +137,7 @@ void TileArguments::add_nodes_to(CLI::App& command) {
 
 void TileArguments::add_to(CLI::App& command) {
   if (command.get_name() != "serve") {
+    add_option(command, OptionId::kBound, bound);
     add_option(command, OptionId::kOf, format);
     add_option(command, OptionId::kDrape, drape);
     add_option(command, OptionId::kDrapeFormat, drape_format);
@@ -185,6 +187,10 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
     if (*bytes == 0) return fail(ErrorKind::kUsage, "--max-tile-bytes 0 holds no tile: give 1 or more, such as 20k");
     settings.max_tile_bytes = *bytes;
   }
+  const Result<bool> binds = choose("--bound", bound.value_or("nodes"), kBounds);
+  if (!binds) return tl::unexpected(binds.error());
+  settings.binds_samples = *binds;
+  if (*binds) settings.cells *= 2;
   if (cells) {
     const Result<int> count = choose("--cells", *cells, kCells);
     if (!count) return tl::unexpected(count.error());
@@ -303,6 +309,9 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   opened.raster = std::move(*globe);
   settings->ellipsoid = opened.raster->place().ellipsoid;
+  if (settings->binds_samples && !opened.raster->nodes().has_samples())
+    return fail(ErrorKind::kUsage,
+                "--bound samples is for one raster or mosaic: of several nobody knows which samples are to be seen");
   if (!breaklines.empty() && !opened.raster->place().body.empty())
     return fail(ErrorKind::kUsage,
                 "--breaklines is for tiles of the earth: nobody says on which other ellipsoid the lines lie");

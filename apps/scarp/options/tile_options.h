@@ -34,7 +34,7 @@ Result<TileGrid> parse_grid(const std::string& text);
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, nodata_policy, fill_distance, format, only;
-  Given max_tile_bytes, drape, drape_format, percentile;
+  Given bound, max_tile_bytes, drape, drape_format, percentile;
   bool has_water_mask = false;
   std::vector<std::string> water, rivers, breaklines;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;

@@ -179,8 +179,9 @@ std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const Pyram
     warnings.push_back(
         fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: next to a "
                     "cliff, the raster's own edge above the background included, positions in 32767ths "
-                    "of a tile are too coarse",
-                    over->first, over->second));
+                    "of a tile are too coarse{}",
+                    over->first, over->second,
+                    plan.binds_samples ? ", and so are nodes for samples next to rough ones" : ""));
   if (const auto coarser = count_tiles(report, &LevelSummary::coarser))
     warnings.push_back(fmt::format("{} of the levels {} have a larger max error inside, as the table shows, so as to "
                                    "keep within --max-tile-bytes {}",

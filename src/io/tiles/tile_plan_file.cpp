@@ -105,6 +105,7 @@ Json describe_plan(const PyramidPlan& plan) {
   if (plan.has_water_mask) json["has_water_mask"] = true;
   if (plan.waters) json["waters"] = describe_waters(*plan.waters);
   if (plan.max_tile_bytes > 0) json["max_tile_bytes"] = plan.max_tile_bytes;
+  if (plan.binds_samples) json["binds_samples"] = true;
   if (plan.lines) json["lines"] = plan.lines->lines();
   return json;
 }
@@ -179,6 +180,7 @@ PyramidPlan parse_plan(const Json& json) {
   plan.background = json.at("background");
   plan.has_siblings = json.at("has_siblings");
   plan.max_tile_bytes = json.value("max_tile_bytes", std::uint64_t{0});
+  plan.binds_samples = json.value("binds_samples", false);
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
   plan.grid = TileGrid::find(json.at("grid").at("kind").get<std::string>()).value();
