@@ -22,7 +22,11 @@ fi
 
 fail() {
   echo "FAILED: $*" >&2
-  if [ -s "$logs/err" ]; then sed 's/^/  stderr: /' "$logs/err" >&2; fi
+  if [ -s "$logs/err" ]; then
+    sed 's/^/  stderr: /' "$logs/err" >&2
+  elif [ -s "$logs/out" ]; then  # what tests of node say
+    { grep -EA 12 '^(not ok|✖)' "$logs/out" || tail -n 20 "$logs/out"; } | tail -n 20 | sed 's/^/  stdout: /' >&2
+  fi
   exit 1
 }
 

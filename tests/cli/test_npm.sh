@@ -3,7 +3,7 @@
 # tiles are the program's.
 source "$(dirname "$0")/lib.sh"
 need em++ node npm python3 gdal_translate
-[ "$(node -p 'parseInt(process.versions.node) >= 20')" = true ] || skip "needs Node 20"
+[ "$(node -p 'parseInt(process.versions.node) >= 18')" = true ] || skip "needs Node 18"
 
 package=$("$SCARP_SOURCE/tools/build_npm.sh" "$SCARP_BUILD-wasm" "$PWD/dist" 2> "$logs/err") || fail "the package cannot be built"
 cp "$SCARP_SOURCE"/tests/js/npm/* .

@@ -30,6 +30,7 @@ const cancelled = signal => new ScarpError('cancelled', 'the call was cancelled'
 /// One worker, and the job that it has.
 class Hand {
   isBusy = false;
+  #isOver = false;
   #make;
   #worker = null;
   #running = null;
@@ -56,14 +57,16 @@ class Hand {
     });
   }
 
-  /// Starts the worker, and warms it up.
+  /// Starts the worker, and warms it up; not after close().
   async #open() {
     await ready();
+    if (this.#isOver) return;
     const worker = await openWorker(this.#make, answer => this.#hear(answer), cause => {
       if (worker !== this.#worker) return;
       this.end(new ScarpError('internal', `a worker failed: ${cause.message}; its script is scarp/worker, which a bundler may not ` +
         "have found: give createPool({ worker }), or import 'scarp/inline'", { cause }));
     });
+    if (this.#isOver) return void worker.terminate();
     this.#worker = worker;
     await this.#exchange({ module: compiledModule() }, []);
   }
@@ -72,8 +75,8 @@ class Hand {
     this.isBusy = true;
     try {
       if (!this.#worker) await this.#open();
-      this.#worker.ref?.();
       if (job.isOver) return;
+      this.#worker.ref?.();
       this.#running = job;
       job.flag = mayShare() ? new SharedArrayBuffer(4) : null;
       const { work, args, flag, moved, onProgress } = job;
@@ -99,6 +102,11 @@ class Hand {
     this.#worker = null;
     worker?.terminate();
     this.#lose?.(error);
+  }
+
+  close(error) {
+    this.#isOver = true;
+    this.end(error);
   }
 }
 
@@ -179,7 +187,7 @@ class Pool {
     this.#isOver = true;
     const error = new ScarpError('cancelled', 'the pool was terminated');
     for (const job of [...this.#jobs]) job.cancel(error);
-    for (const hand of this.#hands) hand.end(error);
+    for (const hand of this.#hands) hand.close(error);
   }
 }
 

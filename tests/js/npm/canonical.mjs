@@ -1,5 +1,7 @@
 // One hash for a mesh, whatever the order of its triangles and of their corners. Runs in Node and in browsers.
 
+const NODE = 'node:crypto';
+
 /// `origin`, `positions`: z up.
 export async function hashOf({ positions, indices, origin }) {
   const corner = v => [positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]];
@@ -15,6 +17,7 @@ export async function hashOf({ positions, indices, origin }) {
   }
   triangles.sort(compare);
   const numbers = Float64Array.from([...origin, ...triangles.flat()].map(value => value + 0));
-  const hash = new Uint8Array(await crypto.subtle.digest('SHA-256', numbers));
+  const { subtle } = globalThis.crypto ?? (await import(/* webpackIgnore: true */ /* @vite-ignore */ NODE)).webcrypto;  // Node 18
+  const hash = new Uint8Array(await subtle.digest('SHA-256', numbers));
   return `${triangles.length} ${Array.from(hash.subarray(0, 8), byte => byte.toString(16).padStart(2, '0')).join('')}`;
 }

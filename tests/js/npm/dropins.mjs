@@ -1,7 +1,6 @@
 // In place of delatin, martini and loaders.gl: the same names and shapes, and a bound that holds.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { fileURLToPath, pathToFileURL } from 'node:url';
 import TheirDelatin from 'delatin';
 import TheirMartini from '@mapbox/martini';
 import { measure } from 'scarp';
@@ -57,7 +56,7 @@ test('loaders.gl: the shape of its terrain, without its cliffs at the last row a
     data.set([code >> 16, (code >> 8) & 255, code & 255, 255], 4 * k);
   });
   const elevationDecoder = { rScaler: 256, gScaler: 1, bScaler: 1 / 256, offset: -32768 }, bounds = [10, 20, 74, 68];
-  const file = new URL('lib/parse-terrain.js', pathToFileURL(fileURLToPath(import.meta.resolve('@loaders.gl/terrain'))));
+  const file = new URL('node_modules/@loaders.gl/terrain/dist/lib/parse-terrain.js', import.meta.url);
   const { makeTerrainMeshFromImage } = await import(file);
   const options = { meshMaxError: 4, bounds, elevationDecoder, skirtHeight: 0 };
   const [mine, theirs] = [makeTerrainMesh({ data, width, height }, options), makeTerrainMeshFromImage({ data, width, height }, options)];

@@ -28,7 +28,7 @@ function canonical(bytes) {
   const normals = bytes.subarray(at + 5, at + 5 + 2 * count);
   const vertex = k => [u[k], v[k], h[k], normals[2 * k], normals[2 * k + 1]].join();
   const turned = Array.from({ length: triangles }, (_, t) => {
-    const three = [0, 1, 2].map(k => vertex(corners[3 * t + k])), first = three.indexOf(three.toSorted()[0]);
+    const three = [0, 1, 2].map(k => vertex(corners[3 * t + k])), first = three.indexOf([...three].sort()[0]);
     return [0, 1, 2].map(k => three[(first + k) % 3]).join(' ');
   });
   return [Buffer.from(bytes.subarray(0, 92)).toString('hex'), ...turned.sort(), ...edges.map(edge => edge.map(vertex).sort().join(' '))].join('\n');
