@@ -26,22 +26,48 @@ add() {  # NAME WIDTH HEIGHT ERROR
     echo "$1 $2 $3 $4 $effort" >> cases
   done
 }
-while read -r style cols rows range error; do
-  succeeds "$scarp" generate "$style" "$cols" "$rows" "$style.tif" --range "$range" -q
-  add "$style" "$cols" "$rows" "$error"
+while read -r name style cols rows range error; do
+  succeeds "$scarp" generate "$style" "$cols" "$rows" "$name.tif" --range "$range" -q
+  add "$name" "$cols" "$rows" "$error"
 done << 'RASTERS'
-fractal 160 120 1000 20
-smooth 140 150 500 2
-cliff 100 100 50 1
-p 120 90 100 0.25
-x 90 110 30 1
+fractal fractal 160 120 1000 20
+smooth smooth 140 150 500 2
+cliff cliff 100 100 50 1
+paraboloid p 120 90 100 0.25
+step x 90 110 30 1
+diagonal D 64 48 20 0.5
+pyramid o 65 65 200 1
+parabola q 70 50 100 0.5
+exact fractal 24 20 100 0
+wide fractal 200 2 500 5
+tall fractal 2 170 500 5
+smallest fractal 2 2 10 1
 RASTERS
-succeeds gdal_translate -q -srcwin 60 60 200 180 "$dem" land.tif
-add land 200 180 8
-succeeds gdal_translate -q -srcwin 0 0 130 130 -ot Float32 -scale 0 1000 0 333.3 "$dem" odd.tif
-add odd 130 130 1.7
+# NAME COLS ROWS ERROR OPTIONS: of the bundled raster, integers but where they are scaled; below the sea, far above it, and flat.
+while read -r name cols rows error options; do
+  succeeds gdal_translate -q -srcwin $options "$dem" "$name.tif"
+  add "$name" "$cols" "$rows" "$error"
+done << 'CROPS'
+land 200 180 8 60 60 200 180
+odd 130 130 1.7 0 0 130 130 -ot Float32 -scale 0 1000 0 333.3
+deep 60 70 3 300 200 60 70 -ot Float32 -scale 0 1000 -11000 -9000
+high 50 40 0.25 200 20 50 40 -ot Float32 -scale 0 1000 88000 88100
+strip 150 3 4 10 300 150 3
+flat 40 30 1 0 0 40 30 -ot Float32 -scale 0 1000 7 7
+coarse 57 49 15 0 0 403 344 -r nearest -outsize 57 49
+CROPS
+# A hole, an island, and a border that is no line.
+python3 - > voids.asc << 'E2'
+import math
+print("ncols 90\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999")
+for row in range(80):
+    print(*(-9999 if col + 2 * row < 40 + 9 * math.sin(row) or 8 < math.hypot(col - 55, row - 45) < 15 else
+            round(300 + 80 * math.sin(col / 9) * math.cos(row / 7) + (col * row) % 7, 2) for col in range(90)))
+E2
+succeeds gdal_translate -q -ot Float32 voids.asc voids.tif
+add voids 90 80 4
 succeeds node same.mjs cases
-[ "$(wc -l < "$logs/out")" = 21 ] || fail "not all cases were compared"
+[ "$(wc -l < "$logs/out")" = 60 ] || fail "not all cases were compared"
 
 succeeds node --expose-gc api.mjs
 

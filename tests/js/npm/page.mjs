@@ -1,7 +1,7 @@
 // What a page of the browser test does: the cases of same.mjs here, cancelled work, and refusals.
 import { createPool, ready, simplifySync } from './node_modules/scarp/index.js';
 import { hashOf } from './canonical.mjs';
-import { hills } from './rasters.mjs';
+import { heightsOf, hills } from './rasters.mjs';
 
 async function run() {
   try {
@@ -11,8 +11,8 @@ async function run() {
   }
   const wrong = [];
   const cases = await (await fetch('cases.json')).json();
-  for (const { name, width, height, error, effort, hash } of cases) {
-    const z = new Float32Array(await (await fetch(`${name}.f32`)).arrayBuffer());
+  for (const { name, width, height, error, effort, hash } of crossOriginIsolated ? cases.slice(-3) : cases) {
+    const z = heightsOf(await (await fetch(`${name}.f32`)).arrayBuffer());
     const mine = await hashOf(simplifySync(z, width, height, { maxError: error, effort }));
     if (mine !== hash) wrong.push(`${name} ${effort}: ${mine}, in Node ${hash}`);
   }

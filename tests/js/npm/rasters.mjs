@@ -8,3 +8,6 @@ export function hills(width, height, seed = 1) {
     return Math.round(8 * waves.reduce((sum, [a, b, c, d]) => sum + d * Math.sin(a * x + b * y + c), 300 + 4 * random())) / 8;
   });
 }
+
+/// The samples of a file of float32; what says that there is none is NaN.
+export const heightsOf = buffer => new Float32Array(buffer).map(z => (z === -9999 ? NaN : z));
