@@ -112,6 +112,12 @@ if command -v chromium > /dev/null && npm_judges playwright-core; then
   [ -e node_modules/playwright-core ] || ln -s "$js/node_modules/playwright-core" node_modules/
   succeeds node browser.mjs "$(command -v chromium)" "$told" "${bundles[@]}"
   cat "$logs/out"
+  if npm_judges @deck.gl/geo-layers @loaders.gl/terrain esbuild; then
+    shots=${SCARP_SHOTS:-$scratch/shots}
+    mkdir -p "$shots"
+    succeeds node deck_browser.mjs "$(command -v chromium)" "$shots"
+    echo "deck.gl: $(grep -o '"drawn"' "$logs/out" | wc -l) pictures"
+  fi
 else
   echo "left out: Chromium"
 fi
