@@ -53,7 +53,9 @@ library=$SCARP_BUILD/bindings/c/libscarp_c.so
 if [ -e "$library" ] && /usr/bin/python3 -c 'import numpy, rasterio' 2> /dev/null; then
   PATH=$SCARP_BUILD/bin:$PATH PYTHONPATH=$SCARP_SOURCE/bindings/python/src PYTHONDONTWRITEBYTECODE=1 SCARP_LIBRARY=$library succeeds /usr/bin/python3 -c '
 import scarp, sys
-print(scarp.simplify(sys.argv[1], 20).view(sys.argv[1], "python.html", open=False))' "$dem"
+page = scarp.simplify(sys.argv[1], 20).view(sys.argv[1], "python.html", open=False)
+assert page == "python.html", page
+open("notebook.html", "w").write("<!doctype html><meta charset=utf-8><title>notebook</title>" + page._repr_html_())' "$dem"
 else
   echo "left out: Mesh.view() of Python (needs the C library, numpy and rasterio)"
 fi
@@ -66,6 +68,9 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   cp other/share/scarp/viewer.html try.html
   cp "$dem" dem.tif
   head -c 3000 "$dem" > cut.tif
+  succeeds gdal_translate -q -ot Float32 -srcwin 0 0 60 50 -scale 0 10000 7 7 -a_nodata 7 "$dem" void.tif
+  succeeds gdal_translate -q -srcwin 0 0 1 150 "$dem" column.tif
+  cp column.tif no_tile.png
   printf 'x' > wrong.xyz
   printf 'x' > broken.png
   head -c 22 "$dem" > thin.hgt
@@ -194,6 +199,16 @@ job(lambda values: same("plain.json", values[0][0]), "obj.html", [{"until": READ
 
 if os.path.exists("python.html"):
     job(lambda values: same("plain.json", values[0][0]), "python.html", [{"until": READY, "read": READ}])
+    def within(values):
+        same("plain.json", values[0][0])
+        assert values[-1] is True, "a notice"
+
+    # A page within a page, as notebooks show it; it writes no address a little later.
+    job(within, "notebook.html", [
+        {"until": "document.querySelector('iframe').contentWindow.scarp_page?.drawn > 0", "read":
+         READ.replace("document.", "document.querySelector('iframe').contentDocument."), "shot": "notebook"},
+        {"do": "new Promise(done => setTimeout(done, 500))"},
+        {"read": "document.querySelector('iframe').contentDocument.getElementById('notice').hidden"}])
 
 
 def named(values):
@@ -259,15 +274,25 @@ def live(values):
     assert "both=1" in state and "error=" in state, state
 
 
+REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged"), ("wrong.xyz", "no file that this page reads"), ("broken.png", "as an image"),
+           ("void.tif", "holds no height"), ("column.tif", "1 x 150"), ("no_tile.png", "as an image"))
+
+
 def rasters(values):
     for name, notes, said in ((os.path.basename("dem.tif"), "", "--order greedy"), ("N36W085.hgt", "", "--order greedy"), ("terrarium.png", "terrarium", "")):
         (title, cols, error, most, uncovered, exaggeration, shown_notes, command), size = values.pop(0), values.pop(0)
         assert title == name and error <= most * (1 + 1e-6) and uncovered == 0 and said in command and notes in shown_notes, (name, title, command)
         assert ("(true)" in exaggeration) == (name != "terrarium.png"), exaggeration
         assert size > 1000, size
-    for name, words in (("thin.hgt", "no square"), ("cut.tif", "damaged"), ("wrong.xyz", "no file that this page reads"), ("broken.png", "as an image")):
+    for name, words in REFUSED:
         told = values.pop(0)
         assert name in told and words in told, (name, told)
+
+
+def killed(values):
+    words, mesh = (value for value in values if value)
+    assert "No mesh" in words and "worker ended (out of memory)" in words, words
+    kept(mesh[0], mesh[1], "greedy")
 
 
 def refused(values):
@@ -295,10 +320,15 @@ if os.path.exists("live.html"):
     for name, form in (("dem.tif", "glb"), ("N36W085.hgt", "stl"), ("terrarium.png", "obj")):
         steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === '{name}' && scarp_page.drawn > 0",
                    "read": OPENED, "shot": name.split(".")[0]}, {"do": SAVED % form}]
-    for name in ("thin.hgt", "cut.tif", "wrong.xyz", "broken.png"):
+    for name, _ in REFUSED:
         steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
                    "after": "document.getElementById('notice').hidden = true"}]
     job(rasters, "try.html", steps, axe=True)
+    # A worker that ends while it works: a sentence, and the next wish has a new one.
+    job(killed, "live.html", [
+        {"until": READY}, {"do": DRAG % 40 + "; scarp_page.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
+                           "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
+        {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}])
     job(refused, "no_wasm.html", [{"until": READY}, {"do": DRAG % 20, "until": "!document.getElementById('progress').hidden",
                                                     "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
 

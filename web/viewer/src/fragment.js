@@ -12,8 +12,9 @@ export function read_fragment() {
 }
 
 let timer = 0;
-/** Not at each picture while one turns it: browsers refuse that. */
+/** Not at each picture while one turns it: browsers refuse that; nor within a notebook, where the page has no address. */
 export function write_fragment(make_state) {
+  if (location.protocol === 'about:') return;
   clearTimeout(timer);
   timer = setTimeout(() => {
     const words = Object.entries(make_state()).map(([key, value]) => `${key}=${[].concat(value).map(part => Number(part.toPrecision(5))).join(',')}`);

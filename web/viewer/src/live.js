@@ -18,6 +18,7 @@ class Helper {
     this.worker.onmessage = ({ data }) => this.settle(data);
     this.worker.onerror = event => {
       event.preventDefault();
+      this.worker.terminate();
       this.worker = null;
       this.settle({ error: `the engine's worker ended (${event.message || 'it was stopped'})` });
     };

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import base64
+import html
 import json
 import os
 import shutil
@@ -49,6 +50,15 @@ def _describe(field: Any, samples: Any, to_source: Optional[list[float]]) -> dic
     return {"name": field.name.decode() if field.name else "heights", "cols": field.cols, "rows": field.rows,
             "affine": _affine(field, to_source), "type": "float32", "nodata": nodata,
             "samples": base64.b64encode(memoryview(samples).cast("B")).decode()}
+
+
+class Page(str):
+    """The path of a page. A notebook shows the page itself."""
+
+    def _repr_html_(self) -> str:
+        with open(self, encoding="utf-8") as file:
+            page = html.escape(file.read())
+        return '<iframe title="scarp" style="width: 100%%; height: 600px; border: 0" srcdoc="%s"></iframe>' % page
 
 
 def make_page(mesh: Mesh, source: Any, options: dict[str, Any]) -> str:

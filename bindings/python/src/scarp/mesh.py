@@ -249,17 +249,18 @@ class Mesh:
              **options: Any) -> str:
         """Writes a page that shows the mesh in a browser, and opens it: one HTML file, to a temporary folder unless
         `path` says where. With the `source` that the mesh was made of (and its options `transform`, `nodata` ...) the
-        page shows the error of every sample. Returns the path. InputError where the page's template is not there."""
+        page shows the error of every sample. Returns the path, which a notebook shows as the page itself; `open=False`
+        opens no browser besides. InputError where the page's template is not there."""
         import tempfile
         import webbrowser
         from pathlib import Path
 
-        from ._view import make_page
-        page = Path(path if path is not None else os.path.join(tempfile.mkdtemp(prefix="scarp-"), "mesh.html"))
-        page.write_text(make_page(self, source, options), encoding="utf-8")
+        from ._view import Page, make_page
+        file = Path(path if path is not None else os.path.join(tempfile.mkdtemp(prefix="scarp-"), "mesh.html"))
+        file.write_text(make_page(self, source, options), encoding="utf-8")
         if open:
-            webbrowser.open(page.absolute().as_uri())
-        return str(page)
+            webbrowser.open(file.absolute().as_uri())
+        return Page(file)
 
     def __reduce__(self) -> Any:
         raise TypeError("a scarp.Mesh is not pickled: send its vertices and triangles, or encode()")
