@@ -83,9 +83,15 @@ grep -q '^true true true$' "$logs/out" && grep -q '^true usage ' "$logs/out" && 
 succeeds gdal_translate -q -srcwin 0 0 150 150 -a_srs EPSG:4979 -a_ullr 9.9 10.2 10.025 10.075 "$dem" placed.tif
 succeeds gdal_translate -q -of ENVI -ot Float32 placed.tif placed.f32
 succeeds "$scarp" tile placed.tif set -q
-succeeds node tiles.mjs placed 150 150 9.9 10.075 10.025 10.2 set
+succeeds node tiles.mjs degrees placed 150 150 9.9 10.075 10.025 10.2 set
 read -r tiles proven < "$logs/out"
 [ "$tiles" = "$(find set -name '*.terrain' | wc -l)" ] && holds "$proven > 4" || fail "not all tiles were compared"
+succeeds gdal_translate -q -srcwin 0 0 120 100 -a_srs EPSG:3857 -a_ullr 1110000 5790000 1113600 5787000 "$dem" mercator.tif
+succeeds gdal_translate -q -of ENVI -ot Float32 mercator.tif mercator.f32
+succeeds "$scarp" tile mercator.tif mercator_set --vertical ellipsoid -q
+succeeds node tiles.mjs mercator mercator 120 100 1110000 5787000 1113600 5790000 mercator_set
+read -r tiles proven < "$logs/out"
+[ "$tiles" = "$(find mercator_set -name '*.terrain' | wc -l)" ] && holds "$proven > 4" || fail "not all tiles of web Mercator were compared"
 
 # GLBs, plain and compressed, as the program reads them.
 succeeds node glb.mjs land 200 180 8

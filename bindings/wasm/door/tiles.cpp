@@ -71,13 +71,12 @@ Result<SourceFacts> find_facts(const HeightField& field, const RasterPlace& plac
   if (range.valid == 0) return fail(ErrorKind::kInput, "none of the samples is a height");
   const double cell_x = std::hypot(place.affine[1], place.affine[4]);
   const double cell_y = std::hypot(place.affine[2], place.affine[5]);
-  const double latitude = (covered->south + covered->north) / 2;
   if (place.to_degrees == nullptr) {
-    const auto metres = metres_of_unit(latitude);
+    const auto metres = metres_of_unit((covered->south + covered->north) / 2);
     return SourceFacts{*covered, std::sqrt(cell_x * metres[0] * cell_y * metres[1]), range.min, range.max,
                        std::sqrt(cell_x * cell_y)};
   }
-  return SourceFacts{*covered, std::sqrt(cell_x * cell_y) * std::cos(latitude * kRadians), range.min, range.max, 0};
+  return SourceFacts{*covered, std::sqrt(cell_x * cell_y), range.min, range.max, 0};  // metres of the map, as in the program
 }
 
 }  // namespace

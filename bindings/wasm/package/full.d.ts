@@ -32,6 +32,24 @@ export interface Tile {
   bound: number;
   sourceError: number;
 }
+/** The file layer.json, as JSON.stringify() takes it. */
+export interface LayerJson {
+  tilejson: string;
+  name: string;
+  version: string;
+  format: 'quantized-mesh-1.0';
+  attribution: string;
+  schema: 'tms';
+  tiles: string[];
+  projection: 'EPSG:4326';
+  /** West, south, east, north in degrees. */
+  bounds: number[];
+  minzoom: number;
+  maxzoom: number;
+  extensions: string[];
+  /** Rectangles of tiles, level by level. */
+  available: { startX: number, startY: number, endX: number, endY: number }[][];
+}
 /** Terrain tiles for globes, made as they are asked for, of heights in metres above the ellipsoid. */
 export class Tiler {
   constructor(z: Heights, width: number, height: number, options: TilerOptions);
@@ -40,5 +58,7 @@ export class Tiler {
   tile(z: number, x: number, y: number): Tile;
   /** Columns and rows of a level's tiles. */
   list(z: number): [number, number][];
+  /** What clients read first. `tiles`: templates of the tiles' addresses, '{z}/{x}/{y}.terrain' by default. */
+  layerJson(options?: { name?: string, attribution?: string, tiles?: string[] }): LayerJson;
   free(): void;
 }

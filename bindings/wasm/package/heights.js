@@ -36,7 +36,7 @@ export function checkHeights(z, width, height) {
   checkSide('height', height);
   if (!ArrayBuffer.isView(z) && !Array.isArray(z)) refuse('the heights are no array of numbers');
   if (z instanceof DataView || z instanceof BigInt64Array || z instanceof BigUint64Array) refuse('the heights are no array of numbers');
-  checkLength('the heights', z, width * height, `a raster of ${width} x ${height}`);
+  checkLength('the array of heights', z, width * height, `a raster of ${width} x ${height}`);
   return round(z);
 }
 

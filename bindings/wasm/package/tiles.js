@@ -16,8 +16,35 @@ function placeBounds(bounds, width, height) {
   return [west, (east - west) / width, 0, north, 0, (south - north) / height];
 }
 
+/// West, south, east, north in degrees, of web Mercator's metres.
+function degreesOf([west, south, east, north]) {
+  const radius = 6378137, degrees = 180 / Math.PI, latitude = y => Math.atan(Math.sinh(y / radius)) * degrees;
+  return [west / radius * degrees, latitude(south), east / radius * degrees, latitude(north)];
+}
+
+/// Rectangles of tiles, which come row by row: a run grows where the row before has the same one.
+function findRanges(tiles) {
+  const ranges = [];
+  let open = [];
+  for (let k = 0; k < tiles.length;) {
+    const [, y] = tiles[k], row = [];
+    for (; k < tiles.length && tiles[k][1] === y; ++k) {
+      const [x] = tiles[k], last = row[row.length - 1];
+      if (last?.endX + 1 === x) last.endX = x; else row.push({ startX: x, startY: y, endX: x, endY: y });
+    }
+    for (const run of row) {
+      const below = open.findIndex(one => one.startX === run.startX && one.endX === run.endX && one.endY + 1 === y);
+      if (below >= 0) [{ startY: run.startY }] = open.splice(below, 1);
+    }
+    ranges.push(...open);
+    open = row;
+  }
+  return [...ranges, ...open];
+}
+
 export class Tiler {
   #held;
+  #bounds;
 
   /// Of heights in metres above the ellipsoid.
   constructor(z, width, height, options = {}) {
@@ -25,6 +52,7 @@ export class Tiler {
     const { bounds, crs = 'degrees', nodata, cells = 128, maxZoom = -1, maxError = 0, quality = 2, effort = 'normal', background = 0 } = options;
     if (crs !== 'degrees' && crs !== 'mercator') throw new ScarpError('usage', `crs '${crs}' is neither degrees nor mercator`);
     const transform = placeBounds(bounds, width, height);
+    this.#bounds = crs === 'mercator' ? degreesOf(Array.from(bounds)) : Array.from(bounds);
     const blocks = new Blocks();
     try {
       const field = putField(blocks, z, width, height, { nodata, transform });
@@ -67,6 +95,16 @@ export class Tiler {
     if (!Number.isInteger(z) || z < 0 || z > this.maxZoom) throw new ScarpError('usage', `there is no level ${z}: levels go from 0 to ${this.maxZoom}`);
     const numbers = new Uint32Array(this.#take('scarp_tiler_list', [z]).bytes.buffer);
     return Array.from({ length: numbers.length / 2 }, (_, k) => [numbers[2 * k], numbers[2 * k + 1]]);
+  }
+  /// What clients read first, beside the tiles: layer.json. `tiles`: templates of the tiles' addresses.
+  layerJson(options = {}) {
+    checkKnown(options, ['name', 'attribution', 'tiles']);
+    const { name = 'terrain', attribution = '', tiles = ['{z}/{x}/{y}.terrain'] } = options, { maxZoom } = this;
+    return {
+      tilejson: '2.1.0', name, version: '1.0.0', format: 'quantized-mesh-1.0', attribution, schema: 'tms', tiles, projection: 'EPSG:4326',
+      bounds: this.#bounds, minzoom: 0, maxzoom: maxZoom, extensions: ['octvertexnormals'],
+      available: Array.from({ length: maxZoom + 1 }, (_, z) => findRanges(this.list(z))),
+    };
   }
   free() {
     if (!this.#held) return;

@@ -1,6 +1,7 @@
-// The program's tiles, but for the order of their triangles: tiles.mjs NAME WIDTH HEIGHT WEST SOUTH EAST NORTH FOLDER
+// The program's tiles, but for the order of their triangles, and its layer.json: tiles.mjs CRS NAME WIDTH HEIGHT WEST SOUTH EAST NORTH FOLDER
 //
 // Prints how many were compared, and how many of them tell their error.
+import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import zlib from 'node:zlib';
 import { Tiler, ready } from 'scarp/full';
@@ -34,10 +35,10 @@ function canonical(bytes) {
   return [Buffer.from(bytes.subarray(0, 92)).toString('hex'), ...turned.sort(), ...edges.map(edge => edge.map(vertex).sort().join(' '))].join('\n');
 }
 
-const [name, ...words] = process.argv.slice(2), [width, height, west, south, east, north] = words.map(Number), folder = words.at(-1);
+const [crs, name, ...words] = process.argv.slice(2), [width, height, west, south, east, north] = words.map(Number), folder = words.at(-1);
 await ready();
 const z = new Float32Array(new Uint8Array(fs.readFileSync(`${name}.f32`)).buffer);
-const tiler = new Tiler(z, width, height, { bounds: [west, south, east, north] });
+const tiler = new Tiler(z, width, height, { bounds: [west, south, east, north], crs });
 let tiles = 0, proven = 0;
 for (let level = 0; level <= tiler.maxZoom; ++level) {
   const listed = tiler.list(level).map(pair => pair.join('/')).sort();
@@ -52,5 +53,10 @@ for (let level = 0; level <= tiler.maxZoom; ++level) {
   }
 }
 if (fs.existsSync(`${folder}/${tiler.maxZoom + 1}`)) throw new Error('the program has more levels');
+const [mine, theirs] = [tiler.layerJson({ name: `${name}.tif` }), JSON.parse(fs.readFileSync(`${folder}/layer.json`, 'utf8'))];
+for (const key of Object.keys(mine).filter(key => !['version', 'tiles', 'bounds'].includes(key))) assert.deepEqual(mine[key], theirs[key], key);
+// The program covers a little more of a raster that is not in degrees.
+const slack = crs === 'mercator' ? (mine.bounds[2] - mine.bounds[0]) / width : 0;
+mine.bounds.forEach((degree, k) => assert.ok(Math.abs(degree - theirs.bounds[k]) <= slack, `bounds: ${mine.bounds} here, and ${theirs.bounds} there`));
 tiler.free();
 console.log(tiles, proven);

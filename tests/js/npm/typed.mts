@@ -1,6 +1,6 @@
 // The declarations as an editor sees them; compiled, never run.
 import { Refiner, ScarpError, createPool, decodeTile, encodeGlb, measure, ready, simplify, simplifySync, type Mesh, type Report } from 'scarp';
-import { Tiler, simplifyPointsSync } from 'scarp/full';
+import { Tiler, simplifyPointsSync, type LayerJson } from 'scarp/full';
 import { Refiner as Lite } from 'scarp/lite';
 import { simplify as inlined } from 'scarp/inline';
 import Delatin from 'scarp/delatin';
@@ -17,6 +17,7 @@ const glb: Uint8Array = encodeGlb(await pool.simplify(decodeTile(new Uint8Clampe
 const refiner = new Refiner([1, 2, 3, 4], 2, 2), lite = new Lite(z, 65, 65);
 const inserted: number = refiner.run({ maxError: 1 }) + lite.run({ maxVertices: 10 });
 const tile: Uint8Array = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).tile(0, 1, 0).bytes;
+const layer: LayerJson = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).layerJson({ name: 'land' });
 const points: Mesh = simplifyPointsSync([0, 0, 0], { maxError: 1 });
 const coords: number[] = new Delatin(z, 65).coords;
 const { vertices }: { vertices: Uint16Array } = new Martini(65).createTile(z).getMesh(1);
@@ -26,4 +27,4 @@ const code: 'usage' | string = new ScarpError('usage', 'a sentence').code;
 simplifySync(z, 65, 65, { maxError: 1, effort: 'best' });
 // @ts-expect-error: no such option
 simplifySync(z, 65, 65, { maxEror: 1 });
-export { code, coords, glb, inlined, inserted, later, loaded, points, report, tile, vertices, TerrainLoader };
+export { code, coords, glb, inlined, inserted, later, layer, loaded, points, report, tile, vertices, TerrainLoader };
