@@ -36,6 +36,8 @@ class Criterion {
   /// some. `factor`: of all tolerances.
   static Result<Criterion> make(const HeightField& field, const Request& options, const Raster& raster, double aim = 1,
                                 double factor = 1);
+  /// Plain SimplifyOptions become a Request that does not stay alive.
+  static Result<Criterion> make(const HeightField&, Request&&, const Raster&, double = 1, double = 1) = delete;
 
   const ErrorMetric& metric() const { return *metric_; }
   /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.

@@ -146,7 +146,7 @@ Result<Simplified> run_locked(const Plan& plan, LineWork* lines) {
   const auto samples = Samples::to_refine(plan.field, options.run.threads);
   if (!samples) return tl::unexpected(samples.error());
   const auto make_criterion = [&](const Raster& raster) {
-    return Criterion::make(plan.field, options, raster, plan.aim * plan.scale.start, plan.scale.factor);
+    return Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
   };
   // The border's line needs tolerances that are sound.
   if (auto sound = make_criterion(samples->raster()); !sound) return tl::unexpected(sound.error());
