@@ -19,6 +19,7 @@ from tables import fill, markdown, read_table  # noqa: E402
 MACHINE = HERE / "machine.json"
 RESULTS = HERE / "results.md"
 DOCUMENT = PROJECT / "docs" / "performance.md"
+PYTHON = PROJECT / "bench" / "python" / "calls.csv"
 ORDERS = PROJECT / "bench" / "quality" / "orders.csv"
 MILLION = 1_000_000
 
@@ -157,6 +158,15 @@ def call_table(rows):
     return markdown(header, [[row[column] for column in columns] for row in rows])
 
 
+def python_table(rows):
+    header = ["", "beyond the library", "of which Python's"]
+    unit = {"us": "µs", "ms": "ms CPU"}
+    cells = [[("`import %s`" if row["what"] == "import" else "%s") % row["kind"],
+              "%s %s" % (row["beyond"], unit[row["unit"]]), "%s µs" % row["python"] if row["python"] else ""]
+             for row in rows]
+    return markdown(header, cells)
+
+
 def program_table(rows):
     """Whole programs: CPU on one thread, delatin's in multiples of it, wall clock on the most threads."""
     most = max(int(row["threads"]) for row in rows)
@@ -266,6 +276,9 @@ def tables():
         rows = read_table(HERE / file)
         if rows:
             found[name] = make(rows)
+    python = read_table(PYTHON)
+    if python:
+        found["python"] = python_table(python)
     if orders:
         found["orders"] = order_table(orders)
     return found

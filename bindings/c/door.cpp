@@ -19,12 +19,7 @@ std::string& last_sentence() {
   return sentence;
 }
 
-bool is_option(const std::string& name) {
-  for (const cli::OptionRow* row : cli::rows_of(cli::kEveryCommand)) {
-    if (row->name == name) return true;
-  }
-  return false;
-}
+bool is_option(const std::string& name) { return cli::find_option(cli::kEveryCommand, name) != nullptr; }
 
 /// "--max-error" becomes "max_error".
 std::string in_words_of_door(const std::string& sentence) {

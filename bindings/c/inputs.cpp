@@ -76,3 +76,13 @@ Result<void> LentInputs::check() const {
 }
 
 }  // namespace scarp::door
+
+extern "C" double scarp_round_samples(const double* values, uint64_t count, float* samples) {
+  double largest = 0;
+  for (uint64_t k = 0; k < count; ++k) {
+    samples[k] = static_cast<float>(values[k]);
+    const double rounding = std::abs(values[k] - static_cast<double>(samples[k]));  // no number where one is infinite
+    if (rounding > largest && rounding <= std::numeric_limits<double>::max()) largest = rounding;
+  }
+  return largest;
+}

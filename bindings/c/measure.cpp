@@ -1,5 +1,6 @@
 // measure() by the program's own plans.
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "commands/measure_command.h"
 #include "commands/points_work.h"
@@ -23,17 +24,18 @@ scarp_status finish(const Measurement& measured, std::uint64_t over, double seco
   return broken ? report(ErrorKind::kPromise, *broken) : SCARP_OK;
 }
 
-scarp_status judge(const std::string& input, bool are_points, const Mesh& mesh, const scarp_options& asked,
-                   scarp_report* out) {
+/// A file holds points or a raster.
+scarp_status judge(const std::string& input, std::optional<bool> are_points, const Mesh& mesh,
+                   const scarp_options& asked, scarp_report* out) {
   const Lent lent(kMeshName, mesh);
   CLI::App program;
   cli::MeasureCommand command(program);
   std::vector<std::string> words{"measure", input, kMeshName};
-  if (are_points) words.emplace_back("--points");
-  if (auto parsed = parse_words(program, cli::kMeasure, std::move(words), asked); !parsed)
+  if (are_points.value_or(false)) words.emplace_back("--points");
+  if (auto parsed = parse_options(program, cli::kMeasure, std::move(words), asked); !parsed)
     return report(parsed.error());
   const cli::Runner runner{progress_of(asked)};
-  if (command.are_points()) {
+  if (are_points.value_or(command.are_points())) {
     cli::JudgedPoints judged;
     if (auto done = command.judge_points_inputs(runner, judged); !done) return report(done.error());
     return finish(judged.measured, judged.measured.over_tolerance, judged.seconds_measure, judged.broken, out);
@@ -72,7 +74,7 @@ scarp_status scarp_measure_file(const char* path, const scarp_mesh* mesh, const 
   return guarded([&]() -> scarp_status {
     if (mesh == nullptr || out == nullptr) return refuse_null_mesh();
     if (path == nullptr || *path == '\0') return report(scarp::ErrorKind::kUsage, "the path is empty");
-    return judge(path, false, mesh->mesh, known(options, scarp_options_init), out);
+    return judge(path, {}, mesh->mesh, known(options, scarp_options_init), out);
   });
 }
 

@@ -27,7 +27,7 @@ scarp_status scarp_raster_read(const char* path, const scarp_options* options, s
     CLI::App* const command = scarp::cli::add_command(program, scarp::cli::kSimplify);
     scarp::cli::SimplifyArguments given;
     given.add_to(*command);
-    if (auto parsed = parse_words(program, scarp::cli::kSimplify, {"simplify", path, "-"}, asked); !parsed)
+    if (auto parsed = parse_options(program, scarp::cli::kSimplify, {"simplify", path, "-"}, asked); !parsed)
       return report(parsed.error());
     auto read = given.raster.parse();
     if (!read) return report(read.error());

@@ -136,6 +136,10 @@ const char* scarp_abi_layout(void);
 /* The sentence of this thread's last call that failed; valid until its next call. */
 const char* scarp_last_error(void);
 
+/* Rounds heights to float32 samples, for a field. Returns the largest |value - sample|, its sample_rounding; NaN stays
+ * NaN, and what float32 cannot hold becomes infinite. */
+double scarp_round_samples(const double* values, uint64_t count, float* samples);
+
 void scarp_field_init(scarp_field* field, uint32_t struct_size);
 void scarp_points_init(scarp_points* points, uint32_t struct_size);
 void scarp_options_init(scarp_options* options, uint32_t struct_size);

@@ -30,13 +30,6 @@ bool is_of_program(const OptionRow& row) {
          std::find(std::begin(kOfProgram), std::end(kOfProgram), row.id) != std::end(kOfProgram);
 }
 
-const OptionRow* find_row(Commands command, const std::string& name) {
-  for (const OptionRow* row : cli::rows_of(command)) {
-    if (row->name == name) return row;
-  }
-  return nullptr;
-}
-
 /// "max_error", "max-error" and "--max-error" are one.
 std::string name_in_program(const char* name) {
   std::string text(name);
@@ -52,7 +45,7 @@ std::string without_dashes(std::string name) {
 }
 
 Result<void> check_name(const std::string& name) {
-  const OptionRow* const row = find_row(kDoorCommands, name);
+  const OptionRow* const row = cli::find_option(kDoorCommands, name);
   if (row != nullptr && !is_of_program(*row)) return {};
   if (row != nullptr) {
     return fail(ErrorKind::kUsage, fmt::format("option {} is the program's alone: it is about its terminal, its files, "
@@ -124,26 +117,29 @@ bool has_setting(const scarp_options& asked, const char* name) {
   return std::any_of(values.begin(), values.end(), [&](const auto& setting) { return setting.first == name; });
 }
 
-Result<void> parse_words(CLI::App& program, Commands command, std::vector<std::string> arguments,
-                         const scarp_options& asked) {
+Result<std::vector<std::string>> words_of(Commands command, std::vector<std::string> arguments,
+                                          const scarp_options& asked) {
   std::vector<std::string> words = std::move(arguments);
   const auto add = [&](const std::string& name, const std::string& value) -> Result<void> {
-    const OptionRow* const row = find_row(command, name);
+    const OptionRow* const row = cli::find_option(command, name);
     if (row == nullptr)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("option {} has no meaning here: no such option of 'scarp {}'", without_dashes(name),
-                              program.get_subcommands([](const CLI::App*) { return true; }).front()->get_name()));
+      return fail(ErrorKind::kUsage, fmt::format("option {} has no meaning here: no such option of 'scarp {}'",
+                                                 without_dashes(name), words.front()));
     return add_words(*row, value, words);
   };
   for (const auto& [name, value] : common_settings(asked)) {
     if (has_setting(asked, name.c_str())) continue;
-    if (auto added = add(name, value); !added) return added;
+    if (auto added = add(name, value); !added) return tl::unexpected(added.error());
   }
   if (asked.named != nullptr) {
     for (const auto& [name, value] : asked.named->values) {
-      if (auto added = add(name, value); !added) return added;
+      if (auto added = add(name, value); !added) return tl::unexpected(added.error());
     }
   }
+  return words;
+}
+
+Result<void> parse_words(CLI::App& program, std::vector<std::string> words) {
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {
     program.parse(words);
@@ -151,6 +147,13 @@ Result<void> parse_words(CLI::App& program, Commands command, std::vector<std::s
     return fail(ErrorKind::kUsage, error.what());
   }
   return {};
+}
+
+Result<void> parse_options(CLI::App& program, Commands command, std::vector<std::string> arguments,
+                           const scarp_options& asked) {
+  auto words = words_of(command, std::move(arguments), asked);
+  if (!words) return tl::unexpected(words.error());
+  return parse_words(program, std::move(*words));
 }
 
 }  // namespace scarp::door
@@ -169,7 +172,7 @@ scarp_status scarp_options_set(scarp_options* options, const char* name, const c
     if (auto checked = check_name(word); !checked) return report(checked.error());
     if (options->named == nullptr) options->named = new scarp_settings;
     auto& values = options->named->values;
-    const bool adds = value != nullptr && find_row(kDoorCommands, word)->is_repeatable;
+    const bool adds = value != nullptr && scarp::cli::find_option(kDoorCommands, word)->is_repeatable;
     if (!adds) std::erase_if(values, [&](const auto& setting) { return setting.first == word; });
     if (value != nullptr) values.emplace_back(word, value);
     return SCARP_OK;

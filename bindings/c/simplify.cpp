@@ -1,7 +1,11 @@
 // simplify() by the program's own plans, on what is in memory and on files.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "commands/points_work.h"
 #include "commands/simplify_work.h"
@@ -15,25 +19,69 @@
 namespace scarp::door {
 namespace {
 
-/// The command's options, as a run of the program would hold them. A thread keeps them: to make them anew takes longer
-/// than to simplify a small field.
-struct SimplifyWords {
-  CLI::App program;
-  CLI::App* command = cli::add_command(program, cli::kSimplify);
+enum class InputKind { kField, kPoints, kFile };  // a file holds either
+
+/// What the words of a call ask for.
+struct Request {
+  std::vector<std::string> words;
   cli::SimplifyArguments given;
   cli::PointsArguments points;
+  std::optional<cli::SimplifyPlan> plan;  ///< of a raster; no file is written that could be one of those that are read
+};
 
+Result<void> check_goal(const cli::SimplifyArguments& given) {
+  if (given.max_error || given.max_triangles || given.max_points || given.companions.find_tolerance() != nullptr)
+    return {};
+  return fail(ErrorKind::kUsage,
+              "no goal is given: say how good the mesh must be with max_error, or how small with max_triangles or "
+              "max_points");
+}
+
+/// The command's options, as a run of the program would hold them, and the last requests about fields. A thread keeps
+/// them: to make them anew takes longer than to simplify a small field.
+class SimplifyWords {
+ public:
   SimplifyWords() {
-    given.add_to(*command);
-    points.add_to(*command);
+    given_.add_to(*command_);
+    points_.add_to(*command_);
   }
-  Result<void> parse(const std::string& input, const scarp_options& asked) {
-    given = {};
-    points = {};
-    std::vector<std::string> words{"simplify", input, "-"};
-    if (!has_setting(asked, "--of")) words.push_back("--of=glb");
-    return parse_words(program, cli::kSimplify, std::move(words), asked);
+
+  /// As parsed last, where points are meant.
+  const CLI::App& command() const { return *command_; }
+
+  Result<std::shared_ptr<const Request>> parse(const std::string& input, InputKind kind, const scarp_options& asked) {
+    std::vector<std::string> arguments{"simplify", input, "-"};
+    if (kind == InputKind::kPoints) arguments.emplace_back("--points");
+    if (!has_setting(asked, "--of")) arguments.emplace_back("--of=glb");
+    auto words = words_of(cli::kSimplify, std::move(arguments), asked);
+    if (!words) return tl::unexpected(words.error());
+    for (const auto& request : last_) {
+      if (kind == InputKind::kField && request && request->words == *words) return request;
+    }
+    auto request = std::make_shared<Request>();
+    given_ = {};
+    points_ = {};
+    if (auto parsed = parse_words(program_, *words); !parsed) return tl::unexpected(parsed.error());
+    request->words = std::move(*words);
+    request->given = given_;
+    request->points = points_;
+    if (auto goal = check_goal(given_); !goal) return tl::unexpected(goal.error());
+    if (kind != InputKind::kField && points_.are_meant(input)) return request;
+    if (auto unused = points_.check_unused(input); !unused) return tl::unexpected(unused.error());
+    auto plan = cli::plan_simplify(given_, {});
+    if (!plan) return tl::unexpected(plan.error());
+    request->plan = std::move(*plan);
+    if (kind == InputKind::kField) last_[next_++ % last_.size()] = request;
+    return request;
   }
+
+ private:
+  CLI::App program_;
+  CLI::App* command_ = cli::add_command(program_, cli::kSimplify);
+  cli::SimplifyArguments given_;
+  cli::PointsArguments points_;
+  std::array<std::shared_ptr<const Request>, 8> last_;
+  std::size_t next_ = 0;
 };
 
 SimplifyWords& words_of_thread() {
@@ -44,14 +92,6 @@ SimplifyWords& words_of_thread() {
 /// Whoever does not say what the mesh is for gets the raster's own coordinates, in which arrays are compared.
 void choose_frame(const scarp_options& asked, ReadOptions& read) {
   if (!has_setting(asked, "--of")) read.default_frame = DefaultFrame::kMetric;
-}
-
-Result<void> check_goal(const cli::SimplifyArguments& given) {
-  if (given.max_error || given.max_triangles || given.max_points || given.companions.find_tolerance() != nullptr)
-    return {};
-  return fail(ErrorKind::kUsage,
-              "no goal is given: say how good the mesh must be with max_error, or how small with max_triangles or "
-              "max_points");
 }
 
 std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, const cli::SimplifyArguments& given,
@@ -84,42 +124,38 @@ Result<void> take_print(cli::Outcome& outcome, scarp_mesh& mesh) {
   return {};
 }
 
-Result<std::unique_ptr<scarp_mesh>> simplify_points_of(const SimplifyWords& words, const scarp_options& asked) {
-  const cli::SimplifyArguments given = words.given;
-  const cli::PointsArguments arguments = words.points;
+Result<std::unique_ptr<scarp_mesh>> simplify_points_of(const CLI::App& command, const Request& request,
+                                                       const scarp_options& asked) {
   cli::Runner runner{progress_of(asked)};
   runner.on_plan = [&](ReadOptions& read) { choose_frame(asked, read); };
   cli::SimplifyPlan plan;
   cli::PointsOutcome outcome;
-  if (auto made = cli::make_points_mesh(*words.command, given, arguments, runner, plan, outcome); !made)
+  if (auto made = cli::make_points_mesh(command, request.given, request.points, runner, plan, outcome); !made)
     return tl::unexpected(made.error());
-  if (auto completed = cli::complete_mesh(plan, arguments, outcome); !completed)
+  if (auto completed = cli::complete_mesh(plan, request.points, outcome); !completed)
     return tl::unexpected(completed.error());
-  return hand_over(plan, given, outcome);
+  return hand_over(plan, request.given, outcome);
 }
 
-Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, bool are_points,
+Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, InputKind kind,
                                                    const scarp_options& asked) {
   SimplifyWords& words = words_of_thread();
-  if (auto parsed = words.parse(input, asked); !parsed) return tl::unexpected(parsed.error());
-  const cli::SimplifyArguments given = words.given;  // the progress function may simplify, too
-  if (auto goal = check_goal(given); !goal) return tl::unexpected(goal.error());
-  words.points.points = are_points;
-  if (words.points.are_meant(input)) return simplify_points_of(words, asked);
-  if (auto unused = words.points.check_unused(input); !unused) return tl::unexpected(unused.error());
-  auto plan = cli::plan_simplify(given, {});  // no file is written that could be one of those that are read
-  if (!plan) return tl::unexpected(plan.error());
-  if (plan->format.kind == cli::OutputKind::kDem)
+  const auto parsed = words.parse(input, kind, asked);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const Request& request = **parsed;
+  if (!request.plan) return simplify_points_of(words.command(), request, asked);
+  cli::SimplifyPlan plan = *request.plan;
+  if (plan.format.kind == cli::OutputKind::kDem)
     return fail(ErrorKind::kUsage, "of dem is a raster, and a mesh is asked for: choose glb, obj, ply, stl ...");
-  choose_frame(asked, plan->read);
+  choose_frame(asked, plan.read);
   cli::Outcome outcome;
-  if (auto made = cli::make_mesh(given, *plan, {progress_of(asked)}, outcome); !made)
+  if (auto made = cli::make_mesh(request.given, plan, {progress_of(asked)}, outcome); !made)
     return tl::unexpected(made.error());
   if (!outcome.channels.empty()) color_by_channels(outcome.simplified.mesh, outcome.channels.bands);
-  auto glb = cli::glb_options(*plan, outcome);
+  auto glb = cli::glb_options(plan, outcome);
   if (!glb) return tl::unexpected(glb.error());
-  if (auto completed = cli::complete_mesh(*plan, outcome); !completed) return tl::unexpected(completed.error());
-  auto mesh = hand_over(*plan, given, outcome);
+  if (auto completed = cli::complete_mesh(plan, outcome); !completed) return tl::unexpected(completed.error());
+  auto mesh = hand_over(plan, request.given, outcome);
   mesh->glb = std::move(*glb);
   if (auto taken = take_print(outcome, *mesh); !taken) return tl::unexpected(taken.error());
   return mesh;
@@ -147,7 +183,7 @@ scarp_status scarp_simplify(const scarp_field* field, const scarp_options* optio
     const scarp_options asked = known(options, scarp_options_init);
     const LentInputs inputs(field, asked);
     if (auto checked = inputs.check(); !checked) return report(checked.error());
-    return hand_out_mesh(simplify_input(inputs.name(), false, asked), out);
+    return hand_out_mesh(simplify_input(inputs.name(), InputKind::kField, asked), out);
   });
 }
 
@@ -160,7 +196,7 @@ scarp_status scarp_simplify_file(const char* path, const scarp_options* options,
     if (asked.mask != nullptr || asked.tolerance != nullptr)
       return report(scarp::ErrorKind::kUsage,
                     "mask and tolerance are arrays on the grid of a field: beside a file they are files, set by name");
-    return hand_out_mesh(simplify_input(path, false, asked), out);
+    return hand_out_mesh(simplify_input(path, InputKind::kFile, asked), out);
   });
 }
 
@@ -170,7 +206,7 @@ scarp_status scarp_simplify_points(const scarp_points* points, const scarp_optio
     *out = nullptr;
     const LentInputs inputs(points);
     if (auto checked = inputs.check(); !checked) return report(checked.error());
-    return hand_out_mesh(simplify_input(inputs.name(), true, known(options, scarp_options_init)), out);
+    return hand_out_mesh(simplify_input(inputs.name(), InputKind::kPoints, known(options, scarp_options_init)), out);
   });
 }
 

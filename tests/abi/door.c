@@ -91,6 +91,13 @@ static void try_field(void) {
   EXPECT(scarp_options_set(&old, "effort", "high") == SCARP_USAGE);
   scarp_mesh_free(again);
 
+#ifdef IS_NEWEST
+  const double given[4] = {0.1, 16777217, NAN, 1e300};
+  float rounded[4];
+  EXPECT(scarp_round_samples(given, 4, rounded) == 1);
+  EXPECT(rounded[0] == 0.1f && rounded[1] == 16777216 && isnan(rounded[2]) && isinf(rounded[3]));
+#endif
+
   /* Arrays beside the heights, nodata, a solid. */
   static float mask[kCols * kRows], tolerance[kCols * kRows];
   for (int k = 0; k < kCols * kRows; ++k) {

@@ -22,7 +22,9 @@ succeeds "$scarp" simplify "$dem" of_program.obj -e 5 -q
 mkdir old
 cp "$SCARP_SOURCE/tests/abi/scarp_c_1.h" old/scarp_c.h
 for header in "$SCARP_SOURCE/bindings/c" old; do
-  succeeds cc "$SCARP_SOURCE/tests/abi/door.c" -o door "-I$header" "${flags[@]}"
+  newest=()
+  [ "$header" = old ] || newest=(-DIS_NEWEST)
+  succeeds cc "$SCARP_SOURCE/tests/abi/door.c" -o door "-I$header" "${newest[@]}" "${flags[@]}"
   succeeds ./door "$dem" of_program.glb of_program.obj out.glb
   grep -q "the C library holds" "$logs/out" || fail "the caller did not finish"
 done

@@ -226,8 +226,8 @@ class Arrays(unittest.TestCase):
         z = hills()
         self.assertEqual(_inputs.read(z).field.samples, z.ctypes.data)
         mesh = scarp.simplify(z, 2)
-        self.assertEqual(mesh.offsets.ctypes.data, _abi.lib.scarp_mesh_positions(mesh._handle.value))
-        self.assertEqual(mesh.triangles.ctypes.data, _abi.lib.scarp_mesh_triangles(mesh._handle.value))
+        self.assertEqual(mesh.offsets.ctypes.data, _abi.lib.scarp_mesh_positions(mesh._handle))
+        self.assertEqual(mesh.triangles.ctypes.data, _abi.lib.scarp_mesh_triangles(mesh._handle))
         for view, dtype in ((mesh.offsets, np.float64), (mesh.triangles, np.uint32)):
             self.assertFalse(view.flags.owndata)
             self.assertEqual(view.dtype, dtype)
@@ -255,11 +255,19 @@ class Arrays(unittest.TestCase):
         for other in (wide[:, ::2], np.asfortranarray(z), z.astype(">f4"), z.astype("f8"), z.astype("i2"),
                       z.astype("i8"), z.astype("f2"), z[::-1][::-1], z.tolist(), memoryview(z)):
             self.assertTrue(is_same(scarp.simplify(other, 2), expected))
+        locked = z.copy()
+        locked.flags.writeable = False
+        self.assertTrue(is_same(scarp.simplify(locked, 2), expected))
 
     def test_rounding_of_doubles_is_kept_in_reserve(self):
         z = hills(dtype="float64") / 3 + 1e5
         read = _inputs.read(z)
         self.assertEqual(read.field.sample_rounding, np.abs(z - z.astype("f4")).max())
+        self.assertEqual(_inputs.read(z[:, ::2]).field.sample_rounding, np.abs(z - z.astype("f4"))[:, ::2].max())
+        with_infinity = z.copy()
+        with_infinity[5, 5:8] = np.inf, np.nan, -1e300
+        self.assertEqual(_inputs.read(with_infinity[:, ::-1]).field.sample_rounding,
+                         _inputs.read(with_infinity).field.sample_rounding)
         mesh = scarp.simplify(z, 0.5)
         at = mesh.report.max_error_at
         self.assertIsNotNone(at)
@@ -370,6 +378,30 @@ class Arrays(unittest.TestCase):
             scarp.simplify(z, 2, transform=(1, 2, 3))
         with self.assertRaises(scarp.InputError):
             scarp.simplify(z, 2, transform=(0, 0, 0, 0, 0, 0))
+
+    def test_what_lies_below_a_mask_does_not_count(self):
+        z = hills(dtype="float64")
+        void = np.zeros(z.shape, bool)
+        void[30:50, 40:90] = True
+        z[void] = 1e20  # whose rounding to float32 is a trillion
+        mesh = scarp.simplify(np.ma.MaskedArray(z, void), 2)
+        self.assertLessEqual(mesh.max_error, 2)
+        self.assertEqual(mesh.report.samples, z.size - void.sum())
+
+    def test_options_of_earlier_calls_do_not_stay(self):
+        z = hills()
+        asked = [{"max_error": error, **more} for error in (2, 3.5, "2%")
+                 for more in ({}, {"effort": "high"}, {"normals": True}, {"max_triangles": 200}, {"threads": 1})]
+        first = [scarp.simplify(z, **options) for options in asked]
+        again = [scarp.simplify(z, **options) for options in reversed(asked)]
+        self.assertTrue(all(is_same(a, b) for a, b in zip(first, reversed(again))))
+        self.assertGreater(len({mesh.triangle_count for mesh in first}), 5)
+        for options in ({"fill_distance": 3}, {"effort": "hgih"}, {"of": "dem"}):
+            for _ in range(2):
+                with self.assertRaises(scarp.UsageError):
+                    scarp.simplify(z, 2, **options)
+        with self.assertRaises(scarp.UsageError):
+            scarp.simplify(z)
 
     def test_options_by_name(self):
         z = hills()
@@ -538,6 +570,15 @@ class Files(unittest.TestCase):
                                                          crs=dataset.crs, nodata=dataset.nodata)))
             with self.assertRaises(scarp.InputError):
                 scarp.simplify(dataset, 5, band=2)
+            with tempfile.TemporaryDirectory() as folder:
+                # A raster whose name is usual for points.
+                points = os.path.join(folder, "dem.txt")
+                with rasterio.open(points, "w", **{**dataset.profile, "driver": "GTiff"}) as other:
+                    other.write(dataset.read())
+                with rasterio.open(points) as other:
+                    again = scarp.simplify(other, 5)
+                    self.assertTrue(is_same(again, mesh))
+                    self.assertEqual(scarp.measure(other, again).max_error, mesh.max_error)
         with self.assertRaises(scarp.InputError):
             scarp.simplify(dataset, 5)
         self.assertTrue(is_same(mesh, scarp.simplify(DEM, 5)))

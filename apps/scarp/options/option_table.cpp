@@ -45,6 +45,11 @@ std::vector<const OptionRow*> sort_rows() {
   return rows;
 }
 
+const std::vector<const OptionRow*>& all_rows() {
+  static const std::vector<const OptionRow*> kAll = sort_rows();
+  return kAll;
+}
+
 const OptionRow& row_of(const CLI::App& command, OptionId id) {
   const CommandRow* const owner = find_command(command.get_name());
   if (owner != nullptr) {
@@ -89,12 +94,18 @@ std::string OptionRow::value_text() const {
 std::span<const GroupRow> group_rows() { return kGroups; }
 
 std::vector<const OptionRow*> rows_of(Commands command) {
-  static const std::vector<const OptionRow*> kAll = sort_rows();
   std::vector<const OptionRow*> rows;
-  for (const OptionRow* row : kAll) {
+  for (const OptionRow* row : all_rows()) {
     if ((row->commands & command) != 0) rows.push_back(row);
   }
   return rows;
+}
+
+const OptionRow* find_option(Commands commands, std::string_view name) {
+  for (const OptionRow* row : all_rows()) {
+    if ((row->commands & commands) != 0 && row->name == name) return row;
+  }
+  return nullptr;
 }
 
 const CommandRow* find_command(std::string_view name) {

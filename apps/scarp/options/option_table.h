@@ -237,6 +237,8 @@ std::span<const CommandRow> command_rows();
 std::span<const GroupRow> group_rows();
 /// Every row that the command has, in the order in which help lists them.
 std::vector<const OptionRow*> rows_of(Commands command);
+/// The row of the option ("--max-error") if one of the commands has it; else null.
+const OptionRow* find_option(Commands commands, std::string_view name);
 /// Null if there is no such command.
 const CommandRow* find_command(std::string_view name);
 

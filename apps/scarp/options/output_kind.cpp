@@ -167,7 +167,7 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
 }
 
 Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {
-  if (!format.is_mesh() || format.mesh == MeshFormat::k3mf) return {};
+  if (!format.is_landxml() && !format.is_gpkg()) return {};  // all others hold any CRS, or none
   Mesh sample;
   sample.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   sample.triangles = {0, 1, 2};

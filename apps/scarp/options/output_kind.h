@@ -33,6 +33,7 @@ struct OutputFormat {
   bool is_glb() const { return is_mesh() && mesh == MeshFormat::kGlb; }
   bool is_2dm() const { return is_mesh() && mesh == MeshFormat::k2dm; }
   bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
+  bool is_gpkg() const { return is_mesh() && mesh == MeshFormat::kGpkg; }
   /// Can be a print: its coordinates are millimetres to those who print it.
   bool holds_prints() const;
   /// Has a place for normals, uvs and colours.

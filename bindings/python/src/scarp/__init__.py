@@ -40,8 +40,7 @@ __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Repor
            "ScarpWarning", "has_gdal", "__version__"]
 
 
-def _finish(handle: Optional[int]) -> Mesh:
-    assert handle is not None
+def _finish(handle: Any) -> Mesh:
     mesh = Mesh(handle)
     _call.warn(handle, 3)
     return mesh
@@ -56,18 +55,24 @@ def _goals(settings: _call.Settings, max_error: float | str | None, max_triangle
         except TypeError:
             raise UsageError("max_error is a number or a text such as '1%%', not %s"
                              % type(max_error).__name__) from None
-    for name, count in (("max_triangles", max_triangles), ("max_points", max_points)):
-        if count is None:
-            continue
-        if count < 1:
-            raise UsageError("%s is %s: at least 1 is needed" % (name, count))
-        setattr(struct, name, int(count))
+    if max_triangles is not None:
+        struct.max_triangles = _count("max_triangles", max_triangles)
+    if max_points is not None:
+        struct.max_points = _count("max_points", max_points)
     struct.threads = threads
+
+
+def _count(name: str, count: int) -> int:
+    if count < 1:
+        raise UsageError("%s is %s: at least 1 is needed" % (name, count))
+    return int(count)
 
 
 def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance: Any,
           named: dict[str, Any]) -> None:
     """Arrays beside the heights; paths are options by name."""
+    if mask is None and tolerance is None:
+        return
     for name, values in (("mask", mask), ("tolerance", tolerance)):
         if values is None or name in named:
             continue
@@ -79,18 +84,19 @@ def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance:
 
 
 def _by_name(source: _inputs.Input, frame: str, band: int, nodata: Optional[float], mask: Any, tolerance: Any,
-             max_error: float | str | None, options: dict[str, Any]) -> dict[str, Any]:
-    named = dict(options)
+             max_error: float | str | None, named: dict[str, Any]) -> None:
+    """Adds to the options by name what the struct has no place for."""
     if frame != "auto":
         named["crs"] = frame
     if source.path is not None:
-        named.update({"band": None if band == 1 else band, "nodata": nodata})
-    for name, value in (("mask", mask), ("tolerance", tolerance)):
-        if value is not None and isinstance(value, (str, os.PathLike)):
-            named[name] = value
+        named["band"] = None if band == 1 else band
+        named["nodata"] = nodata
+    if mask is not None and isinstance(mask, (str, os.PathLike)):
+        named["mask"] = mask
+    if tolerance is not None and isinstance(tolerance, (str, os.PathLike)):
+        named["tolerance"] = tolerance
     if isinstance(max_error, str):
         named["max_error"] = max_error
-    return {name: value for name, value in named.items() if value is not None and value is not False}
 
 
 def simplify(source: Any, max_error: float | str | None = None, *, max_triangles: Optional[int] = None,
@@ -125,19 +131,19 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
     """
     read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
     out = C.c_void_p()
-    lib = _abi.lib
-    named = _by_name(read, frame, band, nodata, mask, tolerance, max_error,
-                     {"effort": effort, "normals": normals, **options})
-    with _call.Settings(named) as settings:
+    if effort is not None:
+        options["effort"] = effort
+    if normals:
+        options["normals"] = True
+    _by_name(read, frame, band, nodata, mask, tolerance, max_error, options)
+    with _call.Settings(options) as settings:
         _goals(settings, max_error, max_triangles, max_points, threads)
-        _lend(settings, read, mask, tolerance, named)
-
-        def work(pointer: Any) -> int:
-            if read.path is not None:
-                return lib.scarp_simplify_file(read.path, pointer, C.byref(out))  # type: ignore[no-any-return]
-            return lib.scarp_simplify(C.byref(read.field), pointer, C.byref(out))  # type: ignore[no-any-return]
-
-        _abi.check(_call.run(settings, progress, work))
+        _lend(settings, read, mask, tolerance, options)
+        settings.is_brief = read.is_small() and options.keys() <= {"effort"} and effort in (None, "fast", "normal")
+        if read.path is not None:
+            _call.run(settings, progress, _abi.lib.scarp_simplify_file, read.path, settings.pointer, C.byref(out))
+        else:
+            _call.run(settings, progress, _abi.lib.scarp_simplify, C.byref(read.field), settings.pointer, C.byref(out))
     return _finish(out.value)
 
 
@@ -151,26 +157,19 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
     """
     out = C.c_void_p()
     lib = _abi.lib
-    named = {**options, "max_error": max_error if isinstance(max_error, str) else None}
-    path = None
-    struct: Any = None
-    array: Any = None
-    if isinstance(points, (str, os.PathLike)):
-        path = os.fspath(points).encode()
-    else:
-        struct, array = _points_of(points)
-        if crs is not None:
-            struct.crs = _inputs._crs_text(crs).encode()
-    with _call.Settings(named) as settings:
-        settings.keep.append(array)
+    if isinstance(max_error, str):
+        options["max_error"] = max_error
+    with _call.Settings(options) as settings:
         _goals(settings, max_error, max_triangles, max_points, threads)
-
-        def work(pointer: Any) -> int:
-            if path is not None:
-                return lib.scarp_simplify_file(path, pointer, C.byref(out))  # type: ignore[no-any-return]
-            return lib.scarp_simplify_points(C.byref(struct), pointer, C.byref(out))  # type: ignore[no-any-return]
-
-        _abi.check(_call.run(settings, progress, work))
+        if isinstance(points, (str, os.PathLike)):
+            _call.run(settings, progress, lib.scarp_simplify_file, os.fspath(points).encode(), settings.pointer,
+                      C.byref(out))
+        else:
+            struct, array = _points_of(points)
+            settings.keep.append(array)
+            if crs is not None:
+                struct.crs = _inputs.crs_text(crs).encode()
+            _call.run(settings, progress, lib.scarp_simplify_points, C.byref(struct), settings.pointer, C.byref(out))
     return _finish(out.value)
 
 
@@ -211,18 +210,13 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
         read = _inputs.Input(None, field, keep)
     else:
         read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
-    named = _by_name(read, frame, band, nodata, mask, tolerance, None, options)
-    with _call.Settings(named) as settings:
+    _by_name(read, frame, band, nodata, mask, tolerance, None, options)
+    with _call.Settings(options) as settings:
         settings.struct.threads = threads
         if not is_points:
-            _lend(settings, read, mask, tolerance, named)
-        handle = mesh._handle.value
-
-        def work(pointer: Any) -> int:
-            if read.path is not None:
-                return lib.scarp_measure_file(read.path, handle, pointer, C.byref(struct))  # type: ignore[no-any-return]
-            call = lib.scarp_measure_points if is_points else lib.scarp_measure
-            return call(C.byref(read.field), handle, pointer, C.byref(struct))  # type: ignore[no-any-return]
-
-        _abi.check(_call.run(settings, progress, work))
+            _lend(settings, read, mask, tolerance, options)
+        judge = lib.scarp_measure_points if is_points else lib.scarp_measure
+        given = C.byref(read.field) if read.path is None else read.path
+        _call.run(settings, progress, judge if read.path is None else lib.scarp_measure_file, given, mesh._handle,
+                  settings.pointer, C.byref(struct))
     return report_of(struct)

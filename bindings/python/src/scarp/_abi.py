@@ -73,6 +73,7 @@ _FUNCTIONS = {
     "scarp_has_gdal": (_I, []),
     "scarp_abi_layout": (_S, []),
     "scarp_last_error": (_S, []),
+    "scarp_round_samples": (_D, [_P, _U, _P]),
     "scarp_field_init": (None, [_P, _T]),
     "scarp_points_init": (None, [_P, _T]),
     "scarp_options_init": (None, [_P, _T]),
@@ -139,22 +140,23 @@ def check(status: int) -> None:
         raise OF_STATUS.get(status, InternalError)(last_error())
 
 
+# Structs as the library makes them, which every call copies.
+_FIELD, _POINTS, _OPTIONS = Field(), Points(), Options()
+lib.scarp_field_init(C.byref(_FIELD), C.sizeof(Field))
+lib.scarp_points_init(C.byref(_POINTS), C.sizeof(Points))
+lib.scarp_options_init(C.byref(_OPTIONS), C.sizeof(Options))
+
+
 def new_field() -> Field:
-    field = Field()
-    lib.scarp_field_init(C.byref(field), C.sizeof(field))
-    return field
+    return Field.from_buffer_copy(_FIELD)
 
 
 def new_points() -> Points:
-    points = Points()
-    lib.scarp_points_init(C.byref(points), C.sizeof(points))
-    return points
+    return Points.from_buffer_copy(_POINTS)
 
 
 def new_options() -> Options:
-    options = Options()
-    lib.scarp_options_init(C.byref(options), C.sizeof(options))
-    return options
+    return Options.from_buffer_copy(_OPTIONS)
 
 
 def new_report() -> Report:

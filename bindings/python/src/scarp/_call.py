@@ -4,7 +4,6 @@ from __future__ import annotations
 import ctypes as C
 import os
 import sys
-import threading
 import warnings
 from _signal import SIGINT, default_int_handler, getsignal, signal  # type: ignore  # `signal` makes enums: 10 us a call
 from types import TracebackType
@@ -62,26 +61,38 @@ class _Bar:
 
 
 class _Interrupts:
-    """While it lasts, Ctrl-C in the main thread sets a flag in place of raising: in a callback it would be raised
+    """While a call of the main thread lasts, Ctrl-C sets a flag in place of raising: in a callback it would be raised
     before any `try`, and ctypes would swallow it. Whoever has a handler of their own keeps it."""
 
-    def __init__(self) -> None:
-        self.came = False
-        self._old: Any = None
+    came = False
 
-    def __enter__(self) -> _Interrupts:
-        if (getsignal(SIGINT) is default_int_handler
-                and threading.current_thread() is threading.main_thread()):
-            self._old = signal(SIGINT, self._note)
-        return self
+    @classmethod
+    def begin(cls) -> bool:
+        """Whether Ctrl-C sets the flag from now on: then end() must follow."""
+        if getsignal(SIGINT) is not default_int_handler:
+            return False
+        try:
+            signal(SIGINT, cls._note)
+        except ValueError:  # another thread than the main one
+            return False
+        cls.came = False
+        return True
 
-    def _note(self, *_: object) -> None:
-        self.came = True
+    @classmethod
+    def end(cls) -> None:
+        signal(SIGINT, default_int_handler)
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
-                 trace: TracebackType | None) -> None:
-        if self._old is not None:
-            signal(SIGINT, self._old)
+    @classmethod
+    def _note(cls, *_: object) -> None:
+        cls.came = True
+
+    @classmethod
+    def is_told(cls, *_: object) -> int:
+        """A progress function that knows of Ctrl-C alone."""
+        return 1 if cls.came else 0
+
+
+_ASK_INTERRUPTS = _abi.ProgressFn(_Interrupts.is_told)
 
 
 def text_of(name: str, value: object) -> str:
@@ -99,23 +110,25 @@ def text_of(name: str, value: object) -> str:
 
 
 class Settings:
-    """The options of one call."""
+    """The options of one call: the struct, and by name all that is neither None nor False."""
 
     def __init__(self, named: Mapping[str, object]) -> None:
         self.struct = _abi.new_options()
+        self.pointer = C.byref(self.struct)
         self.keep: list[object] = []
+        self.is_brief = False  #: over before anybody presses Ctrl-C
         try:
             for name, value in named.items():
-                for each in value if isinstance(value, list) else [value]:
-                    if each is not None:
-                        _abi.check(_abi.lib.scarp_options_set(C.byref(self.struct), name.encode(),
-                                                              text_of(name, each).encode()))
+                for each in value if isinstance(value, list) else (value,):
+                    if each is not None and each is not False:
+                        _abi.check(_abi.lib.scarp_options_set(self.pointer, name.encode(), text_of(name, each).encode()))
         except BaseException:
             self.close()
             raise
 
     def close(self) -> None:
-        _abi.lib.scarp_options_clear(C.byref(self.struct))
+        if self.struct.named:
+            _abi.lib.scarp_options_clear(self.pointer)
 
     def __enter__(self) -> Settings:
         return self
@@ -125,43 +138,58 @@ class Settings:
         self.close()
 
 
-def run(settings: Settings, progress: ProgressArgument, work: Callable[[Any], int]) -> int:
-    """Calls work(pointer to the options) and returns its status. An exception of the progress function, and Ctrl-C, end
-    the call and come out of here."""
+class _Teller:
+    """Tells a function of Python what the library tells, and keeps what it raises."""
+
+    def __init__(self, tell: Callable[[Progress], Any], catches: bool) -> None:
+        self.tell = tell
+        self.catches = catches
+        self.raised: Optional[BaseException] = None
+
+    def __call__(self, address: int, _: object) -> int:
+        if self.catches and _Interrupts.came:
+            return 1
+        try:
+            struct = _abi.Progress.from_address(address)
+            name: bytes = getattr(struct, "pass")
+            answer = self.tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error))
+            return 1 if answer is False else 0
+        except BaseException as error:  # it must not end in ctypes, which would print and swallow it
+            self.raised = error
+            return 1
+
+
+def run(settings: Settings, progress: ProgressArgument, function: Callable[..., int], *arguments: object) -> None:
+    """Calls a function of the library. An exception of the progress function, and Ctrl-C, end the call and come out of
+    here, and so does what the library has to complain of."""
     bar = _Bar() if progress is True else None
-    tell: Any = bar if bar is not None else (progress or None)
-    if tell is not None and not callable(tell):
+    tell: Any = bar if bar is not None else progress
+    if tell and not callable(tell):
         raise UsageError("progress is True or a function of one argument, not %s" % type(tell).__name__)
-    raised: list[BaseException] = []
-    with _Interrupts() as interrupts:
-
-        def told(address: int, _: object) -> int:
-            if interrupts.came:
-                return 1
-            if tell is None:
-                return 0
-            try:
-                struct = _abi.Progress.from_address(address)
-                name: bytes = getattr(struct, "pass")
-                answer = tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error))
-                return 1 if answer is False else 0
-            except BaseException as error:  # it must not end in ctypes, which would print and swallow it
-                raised.append(error)
-                return 1
-
-        settings.struct.progress = _abi.ProgressFn(told)
-        status = work(C.byref(settings.struct))
-    if bar is not None:
-        bar.close()
-    if raised:
-        raise raised[0]
-    if interrupts.came:
+    teller: Optional[_Teller] = None
+    catches = not (settings.is_brief and not tell) and _Interrupts.begin()
+    try:
+        if tell:
+            teller = _Teller(tell, catches)
+            settings.struct.progress = _abi.ProgressFn(teller)
+        elif catches:
+            settings.struct.progress = _ASK_INTERRUPTS
+        status = function(*arguments)
+    finally:
+        if catches:
+            _Interrupts.end()
+        if bar is not None:
+            bar.close()
+    if teller is not None and teller.raised is not None:
+        raise teller.raised
+    if catches and _Interrupts.came:
         raise KeyboardInterrupt
-    return status
+    if status:
+        _abi.check(status)
 
 
 def warn(handle: int, stacklevel: int) -> None:
     """Says what the library says of a mesh."""
     text: bytes = _abi.lib.scarp_mesh_warnings(handle)
-    for sentence in text.decode().splitlines():
+    for sentence in text.decode().splitlines() if text else ():
         warnings.warn(sentence, ScarpWarning, stacklevel=stacklevel + 1)

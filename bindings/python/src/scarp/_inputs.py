@@ -10,6 +10,7 @@ from .errors import InputError, UsageError
 
 _GRID, _SOURCE, _DEGREES = 0, 1, 2
 _LARGEST_SIDE = 2**31 - 1
+_SMALL = 2**14  # samples
 
 
 class Input(NamedTuple):
@@ -19,21 +20,34 @@ class Input(NamedTuple):
     field: Any
     keep: Any
 
+    def is_small(self) -> bool:
+        """Takes less than some 0.1 s unless the options say otherwise."""
+        return self.path is None and bool(self.field.rows * self.field.cols <= _SMALL)
+
 
 class _Raster(NamedTuple):
-    samples: Any
+    samples: Any = None
     transform: Any = None
     crs: Any = None
     nodata: Optional[float] = None
-    name: str = "heights"
+    name: Optional[str] = None
+
+
+_NO_PLACE = _Raster()
+
+_loaded_numpy: Any = None
 
 
 def _numpy() -> Any:
-    try:
-        import numpy
-    except ImportError:
-        return None
-    return numpy
+    """Imported at its first use; None where it is not there."""
+    global _loaded_numpy
+    if _loaded_numpy is None:
+        try:
+            import numpy
+            _loaded_numpy = numpy
+        except ImportError:
+            pass
+    return _loaded_numpy
 
 
 def _is_path(source: object) -> bool:
@@ -135,7 +149,7 @@ def _geotransform(transform: Any) -> tuple[float, ...]:
 def _is_geographic(crs: Any) -> bool:
     if hasattr(crs, "is_geographic"):
         return bool(crs.is_geographic)
-    text = _crs_text(crs)
+    text = crs_text(crs)
     if text.startswith(("GEOGCS", "GEOGCRS", "+proj=longlat")):
         return True
     if text.upper() in ("EPSG:4326", "EPSG:4258", "EPSG:4269", "OGC:CRS84", "WGS84"):
@@ -149,7 +163,7 @@ def _is_geographic(crs: Any) -> bool:
     return False
 
 
-def _crs_text(crs: Any) -> str:
+def crs_text(crs: Any) -> str:
     if isinstance(crs, int):
         return "EPSG:%d" % crs
     for name in ("to_epsg", "to_wkt", "to_string"):
@@ -179,20 +193,31 @@ def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
         raise UsageError("heights are numbers, and the array's dtype is %s: convert it, as in z.astype('float32')"
                          % z.dtype)
     _check_shape(z.shape)
-    samples = np.ascontiguousarray(z, dtype=np.float32)
     if mask is not np.ma.nomask and mask.any():
-        if samples is z or np.may_share_memory(samples, z):
-            samples = samples.copy()
-        samples[mask] = np.nan
-    rounding = 0.0
-    if z.dtype.itemsize > (4 if z.dtype.kind == "f" else 2):
-        with np.errstate(invalid="ignore", over="ignore"):
-            for row, given in zip(samples, z):
-                difference = np.abs(given.astype(np.float64) - row)
-                difference = difference[np.isfinite(difference)]
-                if difference.size:
-                    rounding = max(rounding, float(difference.max()))
+        z = np.where(mask, np.float32(np.nan), z)  # what lies below a mask may be anything
+    if z.dtype.type is np.float64 and z.flags.c_contiguous and z.flags.aligned and z.dtype.isnative:
+        samples = np.empty(z.shape, np.float32)
+        rounding = _abi.lib.scarp_round_samples(z.ctypes.data, z.size, samples.ctypes.data)
+    else:
+        with np.errstate(over="ignore"):  # the library warns of infinities
+            samples = np.ascontiguousarray(z, dtype=np.float32)
+        is_rounded = z.dtype.itemsize > (4 if z.dtype.kind == "f" else 2)
+        rounding = _largest_rounding(np, z, samples) if is_rounded else 0.0
     return samples, rounding
+
+
+def _largest_rounding(np: Any, given: Any, samples: Any) -> float:
+    """A few rows at once, so that it takes little memory."""
+    largest = 0.0
+    rows = max(1, _SMALL // max(samples.shape[1], 1))
+    with np.errstate(invalid="ignore", over="ignore"):
+        for first in range(0, len(samples), rows):
+            difference = np.abs(given[first:first + rows].astype(np.float64) - samples[first:first + rows])
+            most = difference.max(initial=0.0)
+            if not most < np.inf:  # of voids: no roundings
+                most = difference.max(initial=0.0, where=np.isfinite(difference))
+            largest = max(largest, float(most))
+    return largest
 
 
 def _from_buffer(z: Any) -> tuple[int, int, int, Any]:
@@ -227,8 +252,9 @@ def grid_values(values: Any, rows: int, cols: int, name: str) -> Any:
 def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
          wants_array: bool = False) -> Input:
     """The source as the library takes it. Arguments go before what the source says of itself."""
-    if type(source).__name__ == "ndarray":  # the most frequent first: what else it could be takes longer to find out
-        raster = _Raster(source)
+    np = _numpy()
+    if np is not None and type(source) is np.ndarray:  # the most frequent first
+        raster = _NO_PLACE
     elif _is_path(source):
         path = os.fspath(source)
         path = path.decode() if isinstance(path, bytes) else path
@@ -240,50 +266,60 @@ def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, 
     elif hasattr(source, "dims") and hasattr(source, "coords") and hasattr(source, "values"):
         raster = _read_xarray(source)
     else:
-        raster = _Raster(source)
-    if transform is not None:
-        raster = raster._replace(transform=transform)
-    if crs is not None:
-        raster = raster._replace(crs=crs)
+        raster = _NO_PLACE
+    field, keep = _field_of(np, source if raster is _NO_PLACE else raster.samples)
+    if nodata is None:
+        nodata = raster.nodata
     if nodata is not None:
-        raster = raster._replace(nodata=nodata)
-    return _as_input(raster)
+        field.nodata = float(nodata)
+    if raster.name is not None:
+        field.name = raster.name.encode()
+    if transform is None:
+        transform = raster.transform
+    if transform is not None:
+        _place(field, transform, raster.crs if crs is None else crs)
+    return Input(None, field, keep)
 
 
-def _as_input(raster: _Raster) -> Input:
-    np = _numpy()
+def _field_of(np: Any, samples: Any) -> tuple[Any, Any]:
+    """A field of samples without a place, and what holds them."""
     field = _abi.new_field()
-    keep: Any
-    if np is not None:
-        if isinstance(raster.samples, (list, tuple)):
-            try:
-                array = np.array(raster.samples, dtype=np.float64)
-            except (TypeError, ValueError):
-                raise UsageError("heights are rows of equal length of numbers") from None
-            raster = raster._replace(samples=array)
-        elif not hasattr(raster.samples, "__array__") and not hasattr(raster.samples, "__array_interface__"):
-            try:
-                memoryview(raster.samples)
-            except TypeError:
-                raise UsageError("heights are a two-dimensional array, a raster's path, an xarray.DataArray or a "
-                                 "rasterio dataset, not %s" % type(raster.samples).__name__) from None
-        samples, rounding = _as_float32(np, raster.samples)
+    if np is None:
+        field.rows, field.cols, field.samples, keep = _from_buffer(samples)
+        return field, keep
+    if (type(samples) is np.ndarray and samples.dtype.type is np.float32 and samples.flags.carray
+            and samples.dtype.isnative and samples.ndim == 2 and 0 < samples.size < _LARGEST_SIDE):
+        keep = C.c_char.from_buffer(samples)  # the most frequent: nothing is to be done
         field.rows, field.cols = samples.shape
-        field.samples = samples.ctypes.data
-        field.sample_rounding = rounding
-        keep = samples
-    else:
-        field.rows, field.cols, field.samples, keep = _from_buffer(raster.samples)
-    if raster.nodata is not None:
-        field.nodata = float(raster.nodata)
-    texts = [raster.name.encode()]
-    field.name = texts[0]
-    if raster.transform is not None:
-        field.geotransform[:] = _geotransform(raster.transform)
-        field.frame = _SOURCE
-        if raster.crs is not None:
-            texts.append(_crs_text(raster.crs).encode())
-            field.crs = texts[1]
-            if not _abi.lib.scarp_has_gdal() and _is_geographic(raster.crs):
-                field.frame = _DEGREES
-    return Input(None, field, (keep, texts))
+        field.samples = C.addressof(keep)
+        return field, keep
+    keep, field.sample_rounding = _as_float32(np, _as_array(np, samples))
+    field.rows, field.cols = keep.shape
+    field.samples = keep.ctypes.data
+    return field, keep
+
+
+def _as_array(np: Any, samples: Any) -> Any:
+    """Anything that numpy can make an array of."""
+    if isinstance(samples, (list, tuple)):
+        try:
+            return np.array(samples, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise UsageError("heights are rows of equal length of numbers") from None
+    if not hasattr(samples, "__array__") and not hasattr(samples, "__array_interface__"):
+        try:
+            memoryview(samples)
+        except TypeError:
+            raise UsageError("heights are a two-dimensional array, a raster's path, an xarray.DataArray or a "
+                             "rasterio dataset, not %s" % type(samples).__name__) from None
+    return samples
+
+
+def _place(field: Any, transform: Any, crs: Any) -> None:
+    """Where the samples lie."""
+    field.geotransform[:] = _geotransform(transform)
+    field.frame = _SOURCE
+    if crs is not None:
+        field.crs = crs_text(crs).encode()
+        if not _abi.lib.scarp_has_gdal() and _is_geographic(crs):
+            field.frame = _DEGREES

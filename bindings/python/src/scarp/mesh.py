@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import ctypes as C
-import json
 import os
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
@@ -50,6 +49,9 @@ def report_of(struct: Any) -> Report:
                   bool(struct.is_cut_short), struct.seconds)
 
 
+_Point = C.c_double * 3
+
+
 class _Memory:
     """A pointer into a mesh, for numpy: keeps the mesh alive."""
 
@@ -58,30 +60,18 @@ class _Memory:
         self.__array_interface__ = {"version": 3, "data": (address, True), "shape": shape, "typestr": kind}
 
 
-class _Handle:
-    """A mesh of the library, freed with the last view of it."""
-
-    def __init__(self, value: int) -> None:
-        self.value = value
-
-    def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
-        free(self.value)
-
-
 class Mesh:
     """A triangle mesh with its proven error. Made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()."""
 
+    __slots__ = ("_handle", "_vertices", "__weakref__")
+
     def __init__(self, handle: int) -> None:
         """Takes a handle of the library; for this package alone."""
-        self._handle = _Handle(handle)
+        self._handle = handle
         self._vertices: Any = None
-        lib = _abi.lib
-        #: Number of vertices and triangles.
-        self.vertex_count: int = lib.scarp_mesh_vertex_count(handle)
-        self.triangle_count: int = lib.scarp_mesh_triangle_count(handle)
-        x, y, z = (C.c_double * 3).from_address(lib.scarp_mesh_origin(handle))
-        #: What `offsets` are relative to: x, y, z in the mesh's frame.
-        self.origin: tuple[float, float, float] = (x, y, z)
+
+    def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
+        free(self._handle)
 
     @classmethod
     def from_arrays(cls, vertices: Any, triangles: Any) -> Mesh:
@@ -114,22 +104,43 @@ class Mesh:
         except ImportError:
             item: Any = {"<f8": C.c_double, "<f4": C.c_float, "<u4": C.c_uint32}[kind]
             array = (item * (rows * columns)).from_address(address)
-            setattr(array, "_keep", self._handle)
+            setattr(array, "_keep", self)
             code = {"<f8": "d", "<f4": "f", "<u4": "I"}[kind]
             return memoryview(array).toreadonly().cast("B").cast(code, (rows, columns))
-        return np.asarray(_Memory(self._handle, address, (rows, columns), kind))
+        return np.asarray(_Memory(self, address, (rows, columns), kind))
+
+    @property
+    def vertex_count(self) -> int:
+        """Number of vertices."""
+        count: int = _abi.lib.scarp_mesh_vertex_count(self._handle)
+        return count
+
+    @property
+    def triangle_count(self) -> int:
+        """Number of triangles."""
+        count: int = _abi.lib.scarp_mesh_triangle_count(self._handle)
+        return count
+
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """What `offsets` are relative to: x, y, z in the mesh's frame."""
+        x, y, z = _Point.from_address(_abi.lib.scarp_mesh_origin(self._handle))
+        return x, y, z
 
     @property
     def offsets(self) -> NDArray[float64]:
         """(N, 3) float64: x, y, z from `origin`. The library's own memory, read-only; it lives as long as the array."""
-        return self._view(_abi.lib.scarp_mesh_positions(self._handle.value), self.vertex_count, 3, "<f8")  # type: ignore
+        return self._view(_abi.lib.scarp_mesh_positions(self._handle), self.vertex_count, 3, "<f8")  # type: ignore
 
     @property
     def vertices(self) -> NDArray[float64]:
         """(N, 3) float64: absolute x, y, z; z in the units of the heights. One copy, made at the first use, unless the
         origin is 0."""
+        origin = self.origin
+        if origin == (0.0, 0.0, 0.0):
+            return self.offsets  # not kept: it holds the mesh
         if self._vertices is None:
-            self._vertices = self.offsets if self.origin == (0.0, 0.0, 0.0) else self.offsets + self.origin
+            self._vertices = self.offsets + origin
             self._vertices.flags.writeable = False
         return self._vertices  # type: ignore[no-any-return]
 
@@ -137,34 +148,39 @@ class Mesh:
     def triangles(self) -> NDArray[uint32]:
         """(M, 3) uint32: vertices of each triangle, counter-clockwise from above. The library's own memory,
         read-only."""
-        return self._view(_abi.lib.scarp_mesh_triangles(self._handle.value), self.triangle_count, 3, "<u4")  # type: ignore
+        return self._view(_abi.lib.scarp_mesh_triangles(self._handle), self.triangle_count, 3, "<u4")  # type: ignore
 
     @property
     def normals(self) -> Optional[NDArray[float32]]:
         """(N, 3) float32, of unit length; None unless they were asked for (`normals=True`)."""
-        return self._view(_abi.lib.scarp_mesh_normals(self._handle.value), self.vertex_count, 3, "<f4")  # type: ignore
+        return self._view(_abi.lib.scarp_mesh_normals(self._handle), self.vertex_count, 3, "<f4")  # type: ignore
 
     @property
     def uvs(self) -> Optional[NDArray[float32]]:
         """(N, 2) float32, (0, 0) top left of the raster; None unless they were asked for (`uvs=True`)."""
-        return self._view(_abi.lib.scarp_mesh_uvs(self._handle.value), self.vertex_count, 2, "<f4")  # type: ignore
+        return self._view(_abi.lib.scarp_mesh_uvs(self._handle), self.vertex_count, 2, "<f4")  # type: ignore
+
+    def _measured(self) -> Any:
+        struct = _abi.new_report()
+        _abi.check(_abi.lib.scarp_mesh_report(self._handle, C.byref(struct)))
+        return struct
 
     @property
     def report(self) -> Report:
         """The proof that the mesh was made with. UsageError for a mesh that nobody has measured: see measure()."""
-        struct = _abi.new_report()
-        _abi.check(_abi.lib.scarp_mesh_report(self._handle.value, C.byref(struct)))
-        return report_of(struct)
+        return report_of(self._measured())
 
     @property
     def max_error(self) -> float:
         """The largest |mesh - sample| of all samples, in the units of the heights."""
-        return self.report.max_error
+        error: float = self._measured().max_error
+        return error
 
     @property
     def rmse(self) -> float:
         """The root of the mean square error."""
-        return self.report.rmse
+        error: float = self._measured().rmse
+        return error
 
     @property
     def crs(self) -> Optional[str]:
@@ -178,20 +194,20 @@ class Mesh:
 
     def metadata(self, key: str) -> Optional[str]:
         """What the mesh says of itself: "command", "frame", "crs", "origin", "error" ..., as in every file of it."""
-        text: Optional[bytes] = _abi.lib.scarp_mesh_metadata(self._handle.value, key.encode())
+        text: Optional[bytes] = _abi.lib.scarp_mesh_metadata(self._handle, key.encode())
         return None if text is None else text.decode()
 
     def encode(self, format: Optional[str] = None) -> bytes:
         """The bytes of a file: "glb", "obj", "ply", "stl", "2dm", "vtu", "dxf", "landxml", "3mf", "svg" ... DEFAULT:
         the format that the mesh was made for (`of`), else GLB. OutputError where the format cannot hold it."""
         out = C.c_void_p()
-        _abi.check(_abi.lib.scarp_mesh_encode(self._handle.value, None if format is None else format.encode(),
+        _abi.check(_abi.lib.scarp_mesh_encode(self._handle, None if format is None else format.encode(),
                                               C.byref(out)))
         return _abi.take_bytes(out.value)
 
     def write(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> None:
         """Writes a file in the format of its ending: to a temporary name first, then renamed."""
-        _abi.check(_abi.lib.scarp_mesh_write(self._handle.value, os.fspath(path).encode(), int(overwrite)))
+        _abi.check(_abi.lib.scarp_mesh_write(self._handle, os.fspath(path).encode(), int(overwrite)))
 
     def measure(self, source: Any, **options: Any) -> Report:
         """scarp.measure(source, self, ...)."""
@@ -201,7 +217,7 @@ class Mesh:
     def add_base(self, z: float) -> Mesh:
         """A solid: walls along every border, and a flat base at z, below all vertices. UsageError if it is not."""
         out = C.c_void_p()
-        _abi.check(_abi.lib.scarp_mesh_add_base(self._handle.value, z, C.byref(out)))
+        _abi.check(_abi.lib.scarp_mesh_add_base(self._handle, z, C.byref(out)))
         assert out.value is not None
         return Mesh(out.value)
 
@@ -274,6 +290,7 @@ class Mesh:
 
     def error_facts(self) -> dict[str, Any]:
         """What the file says of the mesh's error: "asked", "max_error", "rmse", "samples"."""
+        import json
         text = self.metadata("error")
         facts: dict[str, Any] = json.loads(text) if text else {}
         return facts

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import ctypes as C
-import json
 import math
 import os
 import warnings
@@ -31,6 +30,7 @@ def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: 
     Returns what `scarp tile --report` writes: "max_zoom", "vertical", and "levels" with "tiles", "bytes" and "bound" of
     each. Raises and warns as simplify() does.
     """
+    import json
     out_bytes = C.c_void_p()
     lib = _abi.lib
     target = os.fspath(out).encode()
@@ -46,16 +46,13 @@ def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: 
         options = {"band": None if band == 1 else band, "nodata": nodata, **options}
     with _call.Settings(options) as settings:
         settings.struct.threads = threads
-
-        def work(pointer: Any) -> int:
-            if paths:
-                names = (C.c_char_p * len(paths))(*paths)
-                return lib.scarp_tile_files(names, len(paths), pointer, target, overwrite,  # type: ignore[no-any-return]
-                                            C.byref(out_bytes))
-            return lib.scarp_tile(C.byref(read.field), pointer, target, overwrite,  # type: ignore[no-any-return]
-                                  C.byref(out_bytes))
-
-        _abi.check(_call.run(settings, progress, work))
+        if paths:
+            names = (C.c_char_p * len(paths))(*paths)
+            _call.run(settings, progress, lib.scarp_tile_files, names, len(paths), settings.pointer, target, overwrite,
+                      C.byref(out_bytes))
+        else:
+            _call.run(settings, progress, lib.scarp_tile, C.byref(read.field), settings.pointer, target, overwrite,
+                      C.byref(out_bytes))
     report: dict[str, Any] = json.loads(_abi.take_bytes(out_bytes.value))
     for sentence in report.pop("warnings"):
         warnings.warn(sentence, ScarpWarning, stacklevel=2)
@@ -80,15 +77,11 @@ class Tiles:
             options.update({"band": None if band == 1 else band, "nodata": nodata})
         with _call.Settings(options) as settings:
             settings.struct.threads = threads
-            lib = _abi.lib
-
-            def work(pointer: Any) -> int:
-                if self._input.path is not None:
-                    return lib.scarp_tiles_open(self._input.path, pointer, C.byref(out))  # type: ignore[no-any-return]
-                return lib.scarp_tiles_open_field(C.byref(self._input.field), pointer,  # type: ignore[no-any-return]
-                                                  C.byref(out))
-
-            _abi.check(_call.run(settings, progress, work))
+            if self._input.path is not None:
+                _call.run(settings, progress, _abi.lib.scarp_tiles_open, self._input.path, settings.pointer, C.byref(out))
+            else:
+                _call.run(settings, progress, _abi.lib.scarp_tiles_open_field, C.byref(self._input.field),
+                          settings.pointer, C.byref(out))
         self._handle = out.value
 
     def __del__(self, free: Any = _abi.lib.scarp_tiles_free) -> None:

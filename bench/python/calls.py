@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""What a call of scarp.simplify() costs beyond the library's own time, and what `import scarp` costs.
+
+    PYTHONPATH=bindings/python/src SCARP_LIBRARY=build/bindings/python/libscarp_c.so python3 bench/python/calls.py
+        [--side N] [--rounds N] [--imports N] [--csv FILE]
+
+or, without the two variables, of the scarp that is installed.
+
+Calls: of N x N samples (33: 54 triangles), on one thread. All kinds take turns, call by call, so that a busy machine is
+as unkind to each. Of each: the median over the rounds (3000) of the call's time, until its mesh is freed, less the time
+that its report says simplify() took; in microseconds. "C" is scarp_simplify() and scarp_mesh_free() by ctypes, with all
+structs prepared: what it costs is the C door (options, plan, reading, metadata). "python" is what a row has beyond "C".
+
+Imports: fresh processes by turns (20 of each); the median of their processor time in milliseconds, less that of a
+process that imports nothing.
+"""
+import argparse
+import csv
+import ctypes
+import itertools
+import resource
+import statistics
+import subprocess
+import sys
+import time
+
+
+def find_calls(side):
+    """By name: a function that makes a mesh, one that takes the library's seconds from it, one that frees it."""
+    import numpy as np
+    import scarp
+    from scarp import _abi
+    y, x = np.mgrid[0:side, 0:side]
+    z = (40 * np.sin(x / 5) * np.cos(y / 4)).astype(np.float32)
+    doubles = z.astype(np.float64)
+    lib = _abi.lib
+    field, options, report, out = _abi.new_field(), _abi.new_options(), _abi.new_report(), ctypes.c_void_p()
+    field.rows, field.cols, field.samples = side, side, z.ctypes.data
+    options.max_error, options.threads = 8, 1
+    to_field, to_options, to_report, to_out = map(ctypes.byref, (field, options, report, out))
+
+    def by_c():
+        lib.scarp_simplify(to_field, to_options, to_out)
+
+    def look():
+        mesh = scarp.simplify(z, 8, threads=1)
+        return mesh, mesh.vertices, mesh.triangles, mesh.max_error
+
+    def seconds_of_c(_):
+        lib.scarp_mesh_report(out, to_report)
+        return report.seconds
+
+    errors = (8 + k * 1e-6 for k in itertools.count())
+    made = {
+        "simplify(z, 8)": lambda: scarp.simplify(z, 8, threads=1),
+        "with an error of its own": lambda: scarp.simplify(z, next(errors), threads=1),
+        "with effort=": lambda: scarp.simplify(z, 8, threads=1, effort="normal"),
+        "with progress=": lambda: scarp.simplify(z, 8, threads=1, progress=bool),
+        "of float64": lambda: scarp.simplify(doubles, 8, threads=1),
+    }
+    calls = {"C": (by_c, seconds_of_c, lambda _: lib.scarp_mesh_free(out))}
+    calls.update((name, (call, lambda mesh: mesh.report.seconds, None)) for name, call in made.items())
+    calls["and vertices, triangles, max_error"] = look, lambda looked: looked[0].report.seconds, None
+    return calls
+
+
+def time_calls(side, rounds):
+    """Microseconds beyond the library's, by name."""
+    calls = find_calls(side)
+    beyond = {name: [] for name in calls}
+    clock = time.perf_counter
+    for _ in range(rounds):
+        for name, (call, seconds_of, free) in calls.items():
+            begin = clock()
+            made = call()
+            end = clock()
+            seconds = seconds_of(made)
+            again = clock()
+            if free is None:
+                del made
+            else:
+                free(made)
+            beyond[name].append(1e6 * (clock() - again + end - begin - seconds))
+    return {name: statistics.median(values) for name, values in beyond.items()}
+
+
+def seconds_of_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def time_imports(rounds):
+    """Milliseconds beyond those of a process that imports nothing, by what is imported."""
+    lines = {"nothing": "pass", "numpy": "import numpy", "scarp": "import scarp", "numpy, scarp": "import numpy, scarp"}
+    spent = {name: [] for name in lines}
+    for _ in range(rounds):
+        for name, line in lines.items():
+            before = seconds_of_children()
+            subprocess.run([sys.executable, "-c", line], check=True)
+            spent[name].append(1e3 * (seconds_of_children() - before))
+    nothing = statistics.median(spent.pop("nothing"))
+    return {name: statistics.median(values) - nothing for name, values in spent.items()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--side", type=int, default=33)
+    parser.add_argument("--rounds", type=int, default=3000)
+    parser.add_argument("--imports", type=int, default=20)
+    parser.add_argument("--csv")
+    asked = parser.parse_args()
+    calls = time_calls(asked.side, asked.rounds)
+    rows = [("call", name, "us", "%.1f" % value, "%.1f" % (value - calls["C"])) for name, value in calls.items()]
+    rows += [("import", name, "ms", "%.1f" % value, "") for name, value in time_imports(asked.imports).items()]
+    for row in rows:
+        print("%-6s %-36s %s %7s %7s" % row)
+    if asked.csv:
+        with open(asked.csv, "w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([("what", "kind", "unit", "beyond", "python")] + rows)
+
+
+if __name__ == "__main__":
+    main()
