@@ -7,7 +7,9 @@
 
 #include "options/option_table.h"
 #include "scarp/version.h"
+#include "terminal/clock.h"
 #include "terminal/text.h"
+#include "terminal/time_left.h"
 
 namespace scarp::door {
 namespace {
@@ -73,11 +75,26 @@ scarp_status report_exception() {
   }
 }
 
-ProgressCallback progress_of(const scarp_options& asked) {
+ProgressCallback progress_of(const scarp_options& asked, const cli::TileCounts* counts) {
   if (asked.progress == nullptr) return {};
-  return [tell = asked.progress, user = asked.user](const Progress& progress) {
-    const std::string pass(progress.pass);
-    const scarp_progress told{sizeof told, 0, pass.c_str(), progress.fraction, progress.vertices, progress.max_error};
+  return [tell = asked.progress, user = asked.user, counts, pass = std::string(),
+          start = cli::Clock::time_point()](const Progress& progress) mutable {
+    if (pass != progress.pass) {
+      pass = progress.pass;
+      start = cli::Clock::now();
+    }
+    scarp_progress told{};
+    told.struct_size = sizeof told;
+    told.pass = pass.c_str();
+    told.fraction = progress.fraction;
+    told.vertices = progress.vertices;
+    told.max_error = progress.max_error;
+    told.seconds_left = cli::find_seconds_left(cli::seconds_since(start), progress.fraction)
+                            .value_or(std::numeric_limits<double>::quiet_NaN());
+    if (counts != nullptr) {
+      told.tiles = counts->tiles;
+      told.bytes = counts->bytes;
+    }
     return tell(&told, user) == 0;
   };
 }

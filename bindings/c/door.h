@@ -11,6 +11,7 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp_c.h"
+#include "terminal/tile_counts.h"
 
 namespace scarp::door {
 
@@ -47,6 +48,7 @@ void hand_out(const T& all, T* out) {
   out->struct_size = size;
 }
 
-ProgressCallback progress_of(const scarp_options& asked);
+/// `counts`, if not null: the tiles that the call has written.
+ProgressCallback progress_of(const scarp_options& asked, const cli::TileCounts* counts = nullptr);
 
 }  // namespace scarp::door

@@ -21,7 +21,8 @@ std::string describe_struct(const char* name, std::size_t size, Members members)
 std::string describe_all() {
   return describe_struct("scarp_progress", sizeof(scarp_progress),
                          {AT(scarp_progress, struct_size), AT(scarp_progress, reserved), AT(scarp_progress, pass),
-                          AT(scarp_progress, fraction), AT(scarp_progress, vertices), AT(scarp_progress, max_error)}) +
+                          AT(scarp_progress, fraction), AT(scarp_progress, vertices), AT(scarp_progress, max_error),
+                          AT(scarp_progress, seconds_left), AT(scarp_progress, tiles), AT(scarp_progress, bytes)}) +
          describe_struct(
              "scarp_field", sizeof(scarp_field),
              {AT(scarp_field, struct_size), AT(scarp_field, cols), AT(scarp_field, rows), AT(scarp_field, frame),

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -7,11 +8,56 @@
 #include "inputs.h"
 #include "mesh.h"
 #include "scarp/simplify.h"
+#include "terminal/clock.h"
 
 struct scarp_refiner {
   scarp::OwnedHeightField field;  ///< whose samples are the caller's, but where they had to be cleaned
   scarp::Refiner refiner;
 };
+
+namespace scarp::door {
+namespace {
+
+constexpr int kStepsUnwatched = 64;
+constexpr double kMinInterval = 0.1;  // seconds
+
+/// Of the work, which goes with the vertices, and they with the square of the error.
+double share_of(const Refiner& steps, double first_error, double max_error, std::uint64_t first,
+                std::uint64_t max_vertices) {
+  const double now = steps.max_error();
+  double share = max_error > 0 && first_error > max_error && now > 0 ? max_error * max_error / (now * now) : 0;
+  if (max_vertices > first) {
+    const auto done = static_cast<double>(steps.vertex_count() - first);
+    share = std::max(share, done / static_cast<double>(max_vertices - first));
+  }
+  return std::min(share, 1.0);
+}
+
+scarp_status go_on(scarp_refiner& refiner, double max_error, std::uint64_t max_vertices,
+                   const ProgressCallback& progress, std::uint64_t& inserted) {
+  Refiner& steps = refiner.refiner;
+  const double first_error = steps.max_error();
+  const std::uint64_t first = steps.vertex_count();
+  const auto tell = [&] {
+    const double share = share_of(steps, first_error, max_error, first, max_vertices);
+    return progress({"refine", share, steps.vertex_count(), steps.max_error()});
+  };
+  auto last = cli::Clock::now();
+  for (bool is_due = true;
+       steps.max_error() > max_error && (max_vertices == 0 || steps.vertex_count() < max_vertices);) {
+    if (progress && is_due) {
+      last = cli::Clock::now();
+      if (!tell()) return report(ErrorKind::kCancelled, "cancelled while refining");
+    }
+    if (!steps.insert_worst()) break;
+    ++inserted;
+    is_due = inserted % kStepsUnwatched == 0 && cli::seconds_since(last) > kMinInterval;
+  }
+  return SCARP_OK;
+}
+
+}  // namespace
+}  // namespace scarp::door
 
 using namespace scarp::door;
 
@@ -42,16 +88,23 @@ int32_t scarp_refiner_insert_worst(scarp_refiner* refiner) {
 }
 
 int64_t scarp_refiner_run(scarp_refiner* refiner, double max_error, uint64_t max_vertices) {
-  int64_t inserted = 0;
+  uint64_t inserted = 0;
+  const scarp_status status = guarded([&] { return go_on(*refiner, max_error, max_vertices, {}, inserted); });
+  return status == SCARP_OK ? static_cast<int64_t>(inserted) : -1;
+}
+
+scarp_status scarp_refiner_go_on(scarp_refiner* refiner, const scarp_options* options, uint64_t* inserted) {
+  uint64_t count = 0;
   const scarp_status status = guarded([&]() -> scarp_status {
-    scarp::Refiner& steps = refiner->refiner;
-    const auto goes_on = [&] {
-      return steps.max_error() > max_error && (max_vertices == 0 || steps.vertex_count() < max_vertices);
-    };
-    while (goes_on() && steps.insert_worst()) ++inserted;
-    return SCARP_OK;
+    if (refiner == nullptr) return report(scarp::ErrorKind::kUsage, "the refiner is a null pointer");
+    const scarp_options asked = known(options, scarp_options_init);
+    if (asked.named != nullptr || asked.max_triangles != 0 || asked.mask != nullptr || asked.tolerance != nullptr)
+      return report(scarp::ErrorKind::kUsage, "a refiner takes max_error, max_points and progress only");
+    const double max_error = std::isnan(asked.max_error) ? 0 : asked.max_error;
+    return go_on(*refiner, max_error, asked.max_points, progress_of(asked), count);
   });
-  return status == SCARP_OK ? inserted : -1;
+  if (inserted != nullptr) *inserted = count;
+  return status;
 }
 
 double scarp_refiner_max_error(const scarp_refiner* refiner) { return refiner->refiner.max_error(); }

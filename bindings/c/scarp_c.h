@@ -57,12 +57,16 @@ typedef struct scarp_settings scarp_settings; /* options by name */
 typedef struct scarp_progress {
   uint32_t struct_size;
   int32_t reserved;
-  const char* pass;  /* "read", "refine", "fit", "search", "measure" ...; valid during the call only */
-  double fraction;   /* 0 to 1 of this pass */
-  uint64_t vertices; /* so far; 0: not known */
-  double max_error;  /* so far, in z units; 0: not known */
+  const char* pass;    /* "read", "refine", "fit", "search", "measure", "tiles" ...; valid during the call only */
+  double fraction;     /* 0 to 1 of this pass */
+  uint64_t vertices;   /* so far; 0: not known */
+  double max_error;    /* so far, in z units; 0: not known */
+  double seconds_left; /* of this pass; NaN before it can be told */
+  uint64_t tiles;      /* written so far, in the pass "tiles" */
+  uint64_t bytes;      /* of them */
 } scarp_progress;
-/* Called in the thread of the call, a few times a second at most. Other than 0: cancel. Must not throw or jump. */
+/* Called in the thread of the call, at the start of a pass and a few times a second. Other than 0: cancel. Must not
+ * throw or jump. */
 typedef int32_t (*scarp_progress_fn)(const scarp_progress* progress, void* user);
 
 /* Where samples lie. */
@@ -206,6 +210,9 @@ int32_t scarp_refiner_insert_worst(scarp_refiner* refiner);
 /* Inserts until the max error is at most max_error, or there are max_vertices (0: any number). Returns how many were
  * inserted; -1: failed. */
 int64_t scarp_refiner_run(scarp_refiner* refiner, double max_error, uint64_t max_vertices);
+/* The same by options, of which max_error (DEFAULT: 0), max_points and progress count. `inserted`, if not NULL, is
+ * filled in always: the refiner keeps what was inserted before it was cancelled. */
+scarp_status scarp_refiner_go_on(scarp_refiner* refiner, const scarp_options* options, uint64_t* inserted);
 double scarp_refiner_max_error(const scarp_refiner* refiner);
 uint64_t scarp_refiner_vertex_count(const scarp_refiner* refiner);
 uint64_t scarp_refiner_triangle_count(const scarp_refiner* refiner);
@@ -218,10 +225,10 @@ scarp_status scarp_raster_read(const char* path, const scarp_options* options, s
 void scarp_raster_field(const scarp_raster* raster, scarp_field* field);
 void scarp_raster_free(scarp_raster* raster);
 
-/* All tiles of a raster, by the options of `scarp tile` ("zoom", "vertical", "max_error", "of", "only" ...): into a folder,
- * or into one file if `output` ends in .pmtiles, .mbtiles or .3tz. The set takes its name at the end; a call that fails
- * leaves nothing. `overwrite`, other than 0: a set that Scarp has made is replaced. `out`, if not NULL: the report of the
- * set, as JSON. Needs GDAL. */
+/* All tiles of a raster, by the options of `scarp tile` ("zoom", "vertical", "max_error", "of", "only" ...): into a
+ * folder, or into one file if `output` ends in .pmtiles, .mbtiles or .3tz. The set takes its name at the end; a call
+ * that fails leaves nothing. `overwrite`, other than 0: a set that Scarp has made is replaced. `out`, if not NULL: the
+ * report of the set, as JSON. Needs GDAL. */
 scarp_status scarp_tile(const scarp_field* field, const scarp_options* options, const char* output, int32_t overwrite,
                         scarp_bytes** out);
 /* The same of files: at each place the first that has a height there counts. */

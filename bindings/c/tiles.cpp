@@ -53,7 +53,8 @@ struct TileWords {
     given.add_to(*command);
     cli::add_option(*command, cli::OptionId::kThreads, threads);
   }
-  Result<void> parse(const std::vector<std::string>& inputs, const std::string& to, const scarp_options& asked) {
+  Result<void> parse(const std::vector<std::string>& inputs, const std::string& to, const scarp_options& asked,
+                     const cli::TileCounts* counts = nullptr) {
     std::vector<std::string> words{"tile"};
     words.insert(words.end(), inputs.begin(), inputs.end());
     words.push_back(to);
@@ -61,7 +62,7 @@ struct TileWords {
     const Result<int> count = cli::parse_threads(threads);
     if (!count) return tl::unexpected(count.error());
     run.threads = *count;
-    run.progress = progress_of(asked);
+    run.progress = progress_of(asked, counts);
     return {};
   }
 };
@@ -86,9 +87,9 @@ scarp_status open_tiles(const std::string& input, const scarp_options& asked, sc
 scarp_status make_all_tiles(const std::vector<std::string>& inputs, const scarp_options& asked, const char* output,
                             bool overwrite, scarp_bytes** out) {
   if (output == nullptr || *output == '\0') return report(ErrorKind::kUsage, "the output's path is empty");
-  TileWords words;
-  if (auto parsed = words.parse(inputs, output, asked); !parsed) return report(parsed.error());
   cli::TileCounts counts;
+  TileWords words;
+  if (auto parsed = words.parse(inputs, output, asked, &counts); !parsed) return report(parsed.error());
   const auto made = cli::make_tiles(words.given, output, overwrite, words.run, counts);
   if (!made) return report(made.error());
   if (out == nullptr) return SCARP_OK;

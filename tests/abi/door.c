@@ -234,6 +234,19 @@ static void try_refiner(void) {
   EXPECT(inserted > 0 && scarp_refiner_max_error(refiner) <= 4);
   const uint64_t count = scarp_refiner_vertex_count(refiner);
   EXPECT(scarp_refiner_run(refiner, 0, count + 10) == 10 && scarp_refiner_vertex_count(refiner) == count + 10);
+#ifdef IS_NEWEST
+  int calls = 0;
+  scarp_options options = make_options(NAN);
+  options.progress = cancel;
+  options.user = &calls;
+  uint64_t more = 7;
+  EXPECT(scarp_refiner_go_on(refiner, &options, &more) == SCARP_CANCELLED && more == 0 && calls == 1);
+  options.progress = NULL;
+  options.max_points = count + 13;
+  EXPECT(scarp_refiner_go_on(refiner, &options, &more) == SCARP_OK && more == 3);
+  options.max_triangles = 9;
+  EXPECT(scarp_refiner_go_on(refiner, &options, NULL) == SCARP_USAGE);
+#endif
   scarp_mesh* mesh = NULL;
   EXPECT(scarp_refiner_mesh(refiner, &mesh) == SCARP_OK);
   EXPECT(scarp_mesh_triangle_count(mesh) == scarp_refiner_triangle_count(refiner));

@@ -117,6 +117,8 @@ class Library(unittest.TestCase):
         scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=told.append)
         self.assertTrue(told)
         self.assertTrue(all(0 <= step.fraction <= 1 and step.name for step in told))
+        self.assertTrue(all(step.seconds_left is None or step.seconds_left >= 0 for step in told))
+        self.assertEqual({step.tiles for step in told}, {0})
 
         # A progress function may simplify, too.
         inner = []
@@ -135,6 +137,27 @@ class Library(unittest.TestCase):
         for _ in range(3):
             with self.assertRaises(Own):
                 scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=bad)
+
+    def test_a_refiner_is_watched_and_keeps_what_it_has(self):
+        refiner = scarp.Refiner(plain_hills(300, 300))
+        told = []
+        self.assertGreater(refiner.run(max_error=8, progress=told.append), 0)
+        self.assertEqual(told[0].name, "refine")
+        count = refiner.vertex_count
+
+        class Own(Exception):
+            pass
+
+        def bad(_):
+            raise Own
+
+        for kind, progress in ((scarp.Cancelled, lambda _: False), (Own, bad)):
+            with self.assertRaises(kind):
+                refiner.run(progress=progress)
+        self.assertEqual(refiner.vertex_count, count)
+        self.assertEqual(refiner.run(max_vertices=count + 5, progress=None), 5)
+        with self.assertRaises(scarp.UsageError):
+            refiner.run(progress=3)
 
     def test_nothing_leaks(self):
         z = plain_hills(33, 33)
@@ -169,16 +192,23 @@ class Library(unittest.TestCase):
             from test_scarp import plain_hills
             z = plain_hills(1025, 1025)
             threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            refiner = scarp.Refiner(plain_hills(2000, 2000))
+            for call in (lambda: scarp.simplify(z, 0.25, effort="max", time_limit=60), refiner.run):
+                try:
+                    call()
+                    print("finished")
+                except KeyboardInterrupt:
+                    print("interrupted", signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+                threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
             try:
-                scarp.simplify(z, 0.25, effort="max", time_limit=60)
-                print("finished")
+                time.sleep(30)
             except KeyboardInterrupt:
-                print("interrupted", signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+                print(refiner.vertex_count > 4)
         """ % os.path.dirname(os.path.abspath(__file__)))
         # pyproj, which the tests import by rioxarray, warns of its data in a virtual environment.
         done = subprocess.run([sys.executable, "-W", "ignore::UserWarning", "-c", script], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE)
-        self.assertEqual(done.stdout.strip(), b"interrupted True")
+        self.assertEqual(done.stdout.splitlines(), [b"interrupted True"] * 2 + [b"True"])
         self.assertEqual(done.stderr, b"")
 
     def test_other_threads_run_meanwhile(self):
@@ -694,6 +724,10 @@ class Files(unittest.TestCase):
             self.assertEqual(sum(level["tiles"] for level in report["levels"]),
                              sum(name.endswith(".terrain") for name in files_of(made)))
             self.assertIn("tiles", {step.name for step in told})
+            counts = [(step.tiles, step.bytes) for step in told if step.name == "tiles"]
+            self.assertEqual(counts, sorted(counts))
+            self.assertTrue(0 < counts[-1][0] <= sum(level["tiles"] for level in report["levels"]))
+            self.assertGreater(counts[-1][1], 0)
             scarp.tile([DEM, DEM], packed, vertical="egm96", zoom=9, threads=1)
             with self.assertRaises(scarp.OutputError):
                 scarp.tile(DEM, packed, vertical="egm96", zoom=9)

@@ -9,6 +9,7 @@
 
 #include "terminal/signals.h"
 #include "terminal/text.h"
+#include "terminal/time_left.h"
 
 namespace scarp::cli {
 namespace {
@@ -87,9 +88,7 @@ void ProgressDisplay::finish() {
 }
 
 std::optional<double> ProgressDisplay::seconds_left() const {
-  const double seconds = seconds_between(pass_start_, Clock::now());
-  if (!(fraction_ > 0.01) || !(seconds > 0.5)) return {};
-  return seconds * (1 - fraction_) / fraction_;
+  return find_seconds_left(seconds_between(pass_start_, Clock::now()), fraction_);
 }
 
 void ProgressDisplay::print_line() {

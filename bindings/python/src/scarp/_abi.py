@@ -32,7 +32,8 @@ lib = _open()
 
 class Progress(C.Structure):
     _fields_ = [("struct_size", C.c_uint32), ("reserved", C.c_int32), ("pass", C.c_char_p), ("fraction", C.c_double),
-                ("vertices", C.c_uint64), ("max_error", C.c_double)]
+                ("vertices", C.c_uint64), ("max_error", C.c_double), ("seconds_left", C.c_double),
+                ("tiles", C.c_uint64), ("bytes", C.c_uint64)]
 
 
 ProgressFn = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_void_p)  # the first: the address of a Progress
@@ -106,7 +107,7 @@ _FUNCTIONS = {
     "scarp_bytes_free": (None, [_P]),
     "scarp_refiner_create": (_I, [_P, _P]),
     "scarp_refiner_insert_worst": (_I, [_P]),
-    "scarp_refiner_run": (C.c_int64, [_P, _D, _U]),
+    "scarp_refiner_go_on": (_I, [_P, _P, _P]),
     "scarp_refiner_max_error": (_D, [_P]),
     "scarp_refiner_vertex_count": (_U, [_P]),
     "scarp_refiner_triangle_count": (_U, [_P]),

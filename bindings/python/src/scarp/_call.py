@@ -16,10 +16,13 @@ from .errors import ScarpWarning, UsageError
 class Progress(NamedTuple):
     """A snapshot of a running pass."""
 
-    name: str  #: "read", "refine", "fit", "search", "measure" ...
+    name: str  #: "read", "refine", "fit", "search", "measure", "tiles" ...
     fraction: float  #: 0 to 1 of this pass
     vertices: int  #: so far; 0 where the pass does not know it
     max_error: float  #: so far, in z units; 0 where the pass does not know it
+    seconds_left: Optional[float]  #: of this pass; None before it can be told
+    tiles: int  #: written so far, in the pass "tiles" of tile()
+    bytes: int  #: of them
 
 
 ProgressArgument = Union[bool, None, Callable[[Progress], Any]]
@@ -51,6 +54,8 @@ class _Bar:
             self.close()
             self._name = progress.name
             self._bar = self._tqdm(total=100, desc=progress.name, unit="%", leave=False)
+        if progress.tiles:
+            self._bar.set_postfix_str("%d tiles, %.1f MB" % (progress.tiles, progress.bytes / 1e6), refresh=False)
         self._bar.update(100 * progress.fraction - self._bar.n)
 
     def close(self) -> None:
@@ -152,7 +157,9 @@ class _Teller:
         try:
             struct = _abi.Progress.from_address(address)
             name: bytes = getattr(struct, "pass")
-            answer = self.tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error))
+            left = struct.seconds_left
+            answer = self.tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error,
+                                        left if left >= 0 else None, struct.tiles, struct.bytes))
             return 1 if answer is False else 0
         except BaseException as error:  # it must not end in ctypes, which would print and swallow it
             self.raised = error

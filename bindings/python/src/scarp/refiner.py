@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes as C
 from typing import Any, Iterator, Optional
 
-from . import _abi, _inputs
+from . import _abi, _call, _inputs
 from .errors import UsageError
 from .mesh import Mesh
 
@@ -41,14 +41,21 @@ class Refiner:
             raise MemoryError(_abi.last_error())
         return inserted == 1
 
-    def run(self, max_error: float = 0.0, max_vertices: Optional[int] = None) -> int:
-        """Inserts until the error is at most max_error, or there are max_vertices; returns how many were inserted."""
+    def run(self, max_error: float = 0.0, max_vertices: Optional[int] = None, *,
+            progress: _call.ProgressArgument = None) -> int:
+        """Inserts until the error is at most max_error, or there are max_vertices; returns how many were inserted.
+
+        `progress` as in simplify(). What was inserted before it was cancelled, or Ctrl-C was pressed, stays: run() goes on
+        from there."""
         if max_vertices is not None and max_vertices < 0:
             raise UsageError("max_vertices is %d, and a mesh cannot have less than none" % max_vertices)
-        inserted: int = _abi.lib.scarp_refiner_run(self._handle, max_error, max_vertices or 0)
-        if inserted < 0:
-            raise MemoryError(_abi.last_error())
-        return inserted
+        inserted = C.c_uint64()
+        with _call.Settings({}) as settings:
+            settings.struct.max_error = max_error
+            settings.struct.max_points = max_vertices or 0
+            _call.run(settings, progress, _abi.lib.scarp_refiner_go_on, self._handle, settings.pointer,
+                      C.byref(inserted))
+        return inserted.value
 
     def __iter__(self) -> Iterator[float]:
         """Inserts, and yields the error that is left."""
