@@ -112,6 +112,41 @@ class Library(unittest.TestCase):
             self.assertTrue(issubclass(kind, scarp.ScarpError))
         self.assertTrue(issubclass(scarp.UsageError, ValueError) and issubclass(scarp.OutputError, OSError))
 
+    def test_what_is_no_number_no_text_and_no_path_is_told_by_name(self):
+        z = plain_hills(20, 20)
+        mesh, refiner = scarp.simplify(z, 1), scarp.Refiner(z)
+        cases = [("max_error", lambda: scarp.simplify(z, 10**400)), ("max_error", lambda: scarp.simplify(z, 1j)),
+                 ("max_triangles", lambda: scarp.simplify(z, max_triangles="5")),
+                 ("max_triangles", lambda: scarp.simplify(z, max_triangles=1.5)),
+                 ("max_points", lambda: scarp.simplify(z, max_points=float("nan"))),
+                 ("threads", lambda: scarp.simplify(z, 1, threads=None)), ("threads", lambda: scarp.simplify(z, 1, threads=-1)),
+                 ("nodata", lambda: scarp.simplify(z, 1, nodata="none")),
+                 ("transform", lambda: scarp.simplify(z, 1, transform=5)),
+                 ("transform", lambda: scarp.simplify(z, 1, transform=(1, 2, 3, 4, 5, "six"))),
+                 ("crs", lambda: scarp.simplify(z, 1, crs=4326)),
+                 ("crs", lambda: scarp.simplify(z, 1, crs="a\0b", transform=(0, 1, 0, 0, 0, -1))),
+                 ("null character", lambda: scarp.simplify("a\0b.pgm", 1)),
+                 ("null character", lambda: scarp.simplify(z, 1, cutline="a\0b")),
+                 ("null character", lambda: mesh.write("a\0b.glb")), ("null character", lambda: scarp.read_mesh("a\0b")),
+                 ("null character", lambda: scarp.tile(z, "a\0b")), ("Unicode", lambda: scarp.read_mesh("\ud800.glb")),
+                 ("path", lambda: mesh.write(3)), ("format", lambda: mesh.encode(3)), ("key", lambda: mesh.metadata(None)),
+                 ("base", lambda: mesh.add_base("low")), ("breaklines", lambda: scarp.simplify(z, 1, breaklines={"a": 1})),
+                 ("max_error", lambda: refiner.run(None)), ("max_vertices", lambda: refiner.run(max_vertices=-1))]
+        for words, call in cases:
+            with self.assertRaises(scarp.UsageError) as caught:
+                call()
+            self.assertIn(words, str(caught.exception))
+        for path in (b"missing.pgm", "missing\udcff.pgm", "h\u00f6he.pgm"):
+            with self.assertRaises(scarp.InputError):
+                scarp.simplify(path, 1)
+            with self.assertRaises(scarp.InputError):
+                scarp.read_mesh(path)
+        self.assertEqual(scarp.simplify(z, max_triangles=10**30).max_error, 0)
+        self.assertLessEqual(scarp.simplify(z, max_points=40.0).vertex_count, 40)
+        for make in (scarp.Mesh, scarp.Refiner, lambda: scarp.Mesh(None)):
+            with self.assertRaises(TypeError):
+                make()
+
     def test_progress_is_told_and_what_it_raises_comes_out(self):
         told = []
         scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=told.append)
@@ -470,7 +505,8 @@ class Arrays(unittest.TestCase):
         self.assertTrue({tuple(v) for v in np.round(mesh.vertices, 2)} <= {tuple(p) for p in np.round(points, 2)})
         self.assertEqual(scarp.measure(points, mesh, points=True).samples, 2000)
         for kind, bad in ((scarp.InputError, points[:2]), (scarp.UsageError, points[:, :2]),
-                          (scarp.UsageError, points.astype(object)), (scarp.InputError, points * np.nan)):
+                          (scarp.UsageError, points.astype(object)), (scarp.InputError, points * np.nan), (scarp.InputError, points[:0]),
+                          (scarp.UsageError, None), (scarp.UsageError, [[1, 2, 3], [4]])):
             with self.assertRaises(kind):
                 scarp.simplify_points(bad, 1)
 

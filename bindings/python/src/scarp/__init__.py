@@ -20,7 +20,7 @@ import ctypes as C
 import os
 from typing import TYPE_CHECKING, Any, Optional
 
-from . import _abi, _call, _inputs
+from . import _abi, _call, _inputs, _values
 from ._call import Progress
 from .errors import (Cancelled, InputError, InternalError, OutputError, PromiseError, ScarpError, ScarpWarning,
                      UsageError)
@@ -40,6 +40,9 @@ __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Repor
            "ScarpWarning", "has_gdal", "__version__"]
 
 
+_MOST = 2**63  # as good as no limit
+
+
 def _finish(handle: Any) -> Mesh:
     mesh = Mesh(handle)
     _call.warn(handle, 3)
@@ -50,22 +53,12 @@ def _goals(settings: _call.Settings, max_error: float | str | None, max_triangle
            max_points: Optional[int], threads: int) -> None:
     struct = settings.struct
     if max_error is not None and not isinstance(max_error, str):
-        try:
-            struct.max_error = float(max_error)
-        except TypeError:
-            raise UsageError("max_error is a number or a text such as '1%%', not %s"
-                             % type(max_error).__name__) from None
+        struct.max_error = _values.number_of("max_error", max_error)
     if max_triangles is not None:
-        struct.max_triangles = _count("max_triangles", max_triangles)
+        struct.max_triangles = _values.whole_of("max_triangles", max_triangles, 1, _MOST)
     if max_points is not None:
-        struct.max_points = _count("max_points", max_points)
-    struct.threads = threads
-
-
-def _count(name: str, count: int) -> int:
-    if count < 1:
-        raise UsageError("%s is %s: at least 1 is needed" % (name, count))
-    return int(count)
+        struct.max_points = _values.whole_of("max_points", max_points, 1, _MOST)
+    settings.use_threads(threads)
 
 
 def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance: Any,
@@ -161,21 +154,24 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
         options["max_error"] = max_error
     with _call.Settings(options) as settings:
         _goals(settings, max_error, max_triangles, max_points, threads)
-        if isinstance(points, (str, os.PathLike)):
-            _call.run(settings, progress, lib.scarp_simplify_file, os.fspath(points).encode(), settings.pointer,
+        if isinstance(points, (str, bytes, os.PathLike)):
+            _call.run(settings, progress, lib.scarp_simplify_file, _values.path_of(points), settings.pointer,
                       C.byref(out))
         else:
             struct, array = _points_of(points)
             settings.keep.append(array)
             if crs is not None:
-                struct.crs = _inputs.crs_text(crs).encode()
+                struct.crs = _values.text_of("crs", _inputs.crs_text(crs))
             _call.run(settings, progress, lib.scarp_simplify_points, C.byref(struct), settings.pointer, C.byref(out))
     return _finish(out.value)
 
 
 def _points_of(points: Any) -> tuple[Any, Any]:
     import numpy as np
-    given = np.asarray(points)
+    try:
+        given = np.asarray(points)
+    except ValueError:
+        raise UsageError("points are rows of x, y, z") from None
     if given.dtype.kind not in "iuf":
         raise UsageError("points are numbers, and their dtype is %s" % given.dtype)
     array = np.ascontiguousarray(given, dtype=np.float64)
@@ -212,7 +208,7 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
         read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
     _by_name(read, frame, band, nodata, mask, tolerance, None, options)
     with _call.Settings(options) as settings:
-        settings.struct.threads = threads
+        settings.use_threads(threads)
         if not is_points:
             _lend(settings, read, mask, tolerance, options)
         judge = lib.scarp_measure_points if is_points else lib.scarp_measure

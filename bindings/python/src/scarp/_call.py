@@ -9,7 +9,7 @@ from _signal import SIGINT, default_int_handler, getsignal, signal  # type: igno
 from types import TracebackType
 from typing import Any, Callable, Iterable, Mapping, NamedTuple, Optional, Union
 
-from . import _abi
+from . import _abi, _values
 from .errors import ScarpWarning, UsageError
 
 
@@ -104,12 +104,12 @@ def text_of(name: str, value: object) -> str:
     """An option's value as the program takes it."""
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (str, os.PathLike)):
-        return str(os.fspath(value))
+    if isinstance(value, (str, bytes, os.PathLike)):
+        return os.fsdecode(value)
     if isinstance(value, (int, float)) or hasattr(value, "__float__"):
         number: Any = value
         return str(int(number)) if hasattr(number, "__index__") else repr(float(number))
-    if isinstance(value, Iterable):
+    if isinstance(value, Iterable) and not isinstance(value, Mapping):
         return " ".join(text_of(name, part) for part in value)
     raise UsageError("option %s takes a number, a text or True, not %s" % (name, type(value).__name__))
 
@@ -126,10 +126,15 @@ class Settings:
             for name, value in named.items():
                 for each in value if isinstance(value, list) else (value,):
                     if each is not None and each is not False:
-                        _abi.check(_abi.lib.scarp_options_set(self.pointer, name.encode(), text_of(name, each).encode()))
+                        _abi.check(_abi.lib.scarp_options_set(self.pointer, _values.text_of("an option", name),
+                                                              _values.text_of(name, text_of(name, each))))
         except BaseException:
             self.close()
             raise
+
+    def use_threads(self, threads: int) -> None:
+        if threads != 0:
+            self.struct.threads = _values.whole_of("threads", threads, 0, 2**31 - 1)
 
     def close(self) -> None:
         if self.struct.named:

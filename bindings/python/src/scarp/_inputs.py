@@ -5,7 +5,7 @@ import ctypes as C
 import os
 from typing import Any, NamedTuple, Optional
 
-from . import _abi
+from . import _abi, _values
 from .errors import InputError, UsageError
 
 _GRID, _SOURCE, _DEGREES = 0, 1, 2
@@ -51,7 +51,7 @@ def _numpy() -> Any:
 
 
 def _is_path(source: object) -> bool:
-    return isinstance(source, (str, os.PathLike))
+    return isinstance(source, (str, bytes, os.PathLike))
 
 
 def _has_file_reader(path: str) -> bool:
@@ -73,6 +73,11 @@ def _read_dataset(dataset: Any, band: int, name: str) -> _Raster:
                    dataset.nodatavals[band - 1], name)
 
 
+def _refuse(path: str, error: Exception) -> InputError:
+    sentence = str(error)
+    return InputError(sentence if path and sentence.startswith(path) else "%s: %s" % (path, sentence))
+
+
 def _read_path(path: str, band: int) -> _Raster:
     """By rasterio, else by GDAL's own Python."""
     try:
@@ -83,8 +88,8 @@ def _read_path(path: str, band: int) -> _Raster:
         try:
             with rasterio.open(path) as dataset:
                 return _read_dataset(dataset, band, os.path.basename(path))
-        except (rasterio.errors.RasterioError, OSError) as error:
-            raise InputError("%s: %s" % (path, error)) from error
+        except (rasterio.errors.RasterioError, OSError, UnicodeError) as error:
+            raise _refuse(path, error) from error
     try:
         from osgeo import gdal
     except ImportError:
@@ -98,7 +103,7 @@ def _read_path(path: str, band: int) -> _Raster:
         return _Raster(gdal_band.ReadAsArray(), transform, dataset.GetProjection() or None,
                        gdal_band.GetNoDataValue(), os.path.basename(path))
     except RuntimeError as error:
-        raise InputError("%s: %s" % (path, error)) from error
+        raise _refuse(path, error) from error
 
 
 def _read_xarray(array: Any) -> _Raster:
@@ -139,11 +144,14 @@ def _geotransform(transform: Any) -> tuple[float, ...]:
         t = transform
         numbers: tuple[Any, ...] = (t.c, t.a, t.b, t.f, t.d, t.e)
     else:
-        numbers = tuple(transform)
+        try:
+            numbers = tuple(transform)
+        except TypeError:
+            numbers = ()
     if len(numbers) != 6:
         raise UsageError("transform is an Affine, or GDAL's six numbers x0, dx, rx, y0, ry, dy: %d were given"
                          % len(numbers))
-    return tuple(float(number) for number in numbers)
+    return tuple(_values.number_of("each of the six numbers of transform", number) for number in numbers)
 
 
 def _is_geographic(crs: Any) -> bool:
@@ -160,6 +168,8 @@ def _is_geographic(crs: Any) -> bool:
             return bool(getattr(crs_class, maker)(crs).is_geographic)
         except ImportError:
             continue
+        except (ValueError, RuntimeError) as error:
+            raise UsageError("the CRS %s: %s" % (text, error)) from error
     return False
 
 
@@ -243,7 +253,10 @@ def grid_values(values: Any, rows: int, cols: int, name: str) -> Any:
         raise UsageError("%s needs numpy" % name)
     if isinstance(values, np.ma.MaskedArray):
         values = values.astype(np.float32).filled(np.nan)
-    array = np.ascontiguousarray(values, dtype=np.float32)
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float32)
+    except (TypeError, ValueError):
+        raise UsageError("%s is an array of numbers, (rows, columns)" % name) from None
     if array.shape != (rows, cols):
         raise UsageError("%s has the shape %s, and the heights have (%d, %d)" % (name, array.shape, rows, cols))
     return array
@@ -256,11 +269,10 @@ def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, 
     if np is not None and type(source) is np.ndarray:  # the most frequent first
         raster = _NO_PLACE
     elif _is_path(source):
-        path = os.fspath(source)
-        path = path.decode() if isinstance(path, bytes) else path
-        if _has_file_reader(path) and not wants_array and transform is None and crs is None:
-            return Input(path.encode(), None, None)
-        raster = _read_path(path, band)
+        path = _values.path_of(source)
+        if _has_file_reader(os.fsdecode(path)) and not wants_array and transform is None and crs is None:
+            return Input(path, None, None)
+        raster = _read_path(os.fsdecode(path), band)
     elif hasattr(source, "read") and hasattr(source, "transform") and hasattr(source, "crs"):
         raster = _read_dataset(source, band, os.path.basename(str(getattr(source, "name", "dataset"))))
     elif hasattr(source, "dims") and hasattr(source, "coords") and hasattr(source, "values"):
@@ -271,13 +283,15 @@ def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, 
     if nodata is None:
         nodata = raster.nodata
     if nodata is not None:
-        field.nodata = float(nodata)
+        field.nodata = _values.number_of("nodata", nodata)
     if raster.name is not None:
-        field.name = raster.name.encode()
+        field.name = _values.text_of("the name", raster.name)
     if transform is None:
         transform = raster.transform
     if transform is not None:
         _place(field, transform, raster.crs if crs is None else crs)
+    elif crs is not None:
+        raise UsageError("crs says what x and y of the transform are, and there is no transform")
     return Input(None, field, keep)
 
 
@@ -320,6 +334,6 @@ def _place(field: Any, transform: Any, crs: Any) -> None:
     field.geotransform[:] = _geotransform(transform)
     field.frame = _SOURCE
     if crs is not None:
-        field.crs = crs_text(crs).encode()
+        field.crs = _values.text_of("crs", crs_text(crs))
         if not _abi.lib.scarp_has_gdal() and _is_geographic(crs):
             field.frame = _DEGREES

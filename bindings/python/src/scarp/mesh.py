@@ -5,7 +5,7 @@ import ctypes as C
 import os
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
-from . import _abi
+from . import _abi, _values
 from .errors import InputError, UsageError
 
 if TYPE_CHECKING:
@@ -67,11 +67,14 @@ class Mesh:
 
     def __init__(self, handle: int) -> None:
         """Takes a handle of the library; for this package alone."""
+        if not isinstance(handle, int):
+            raise TypeError("meshes are made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()")
         self._handle = handle
         self._vertices: Any = None
 
     def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
-        free(self._handle)
+        if hasattr(self, "_handle"):
+            free(self._handle)
 
     @classmethod
     def from_arrays(cls, vertices: Any, triangles: Any) -> Mesh:
@@ -79,8 +82,11 @@ class Mesh:
 
         Both are copied. Raises InputError for an index out of range, UsageError for other shapes."""
         import numpy as np
-        positions = np.ascontiguousarray(vertices, dtype=np.float64)
-        given = np.asarray(triangles)
+        try:
+            positions = np.ascontiguousarray(vertices, dtype=np.float64)
+            given = np.asarray(triangles)
+        except (TypeError, ValueError):
+            raise UsageError("vertices are an array of numbers, (N, 3), and triangles one of indices, (M, 3)") from None
         for name, array in (("vertices", positions), ("triangles", given)):
             if array.ndim != 2 or array.shape[1] != 3:
                 raise UsageError("%s are an array of (N, 3), not of %s" % (name, array.shape))
@@ -194,20 +200,20 @@ class Mesh:
 
     def metadata(self, key: str) -> Optional[str]:
         """What the mesh says of itself: "command", "frame", "crs", "origin", "error" ..., as in every file of it."""
-        text: Optional[bytes] = _abi.lib.scarp_mesh_metadata(self._handle, key.encode())
+        text: Optional[bytes] = _abi.lib.scarp_mesh_metadata(self._handle, _values.text_of("the key", key))
         return None if text is None else text.decode()
 
     def encode(self, format: Optional[str] = None) -> bytes:
         """The bytes of a file: "glb", "obj", "ply", "stl", "2dm", "vtu", "dxf", "landxml", "3mf", "svg" ... DEFAULT:
         the format that the mesh was made for (`of`), else GLB. OutputError where the format cannot hold it."""
         out = C.c_void_p()
-        _abi.check(_abi.lib.scarp_mesh_encode(self._handle, None if format is None else format.encode(),
+        _abi.check(_abi.lib.scarp_mesh_encode(self._handle, None if format is None else _values.text_of("the format", format),
                                               C.byref(out)))
         return _abi.take_bytes(out.value)
 
     def write(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> None:
         """Writes a file in the format of its ending: to a temporary name first, then renamed."""
-        _abi.check(_abi.lib.scarp_mesh_write(self._handle, os.fspath(path).encode(), int(overwrite)))
+        _abi.check(_abi.lib.scarp_mesh_write(self._handle, _values.path_of(path), int(overwrite)))
 
     def measure(self, source: Any, **options: Any) -> Report:
         """scarp.measure(source, self, ...)."""
@@ -217,7 +223,7 @@ class Mesh:
     def add_base(self, z: float) -> Mesh:
         """A solid: walls along every border, and a flat base at z, below all vertices. UsageError if it is not."""
         out = C.c_void_p()
-        _abi.check(_abi.lib.scarp_mesh_add_base(self._handle, z, C.byref(out)))
+        _abi.check(_abi.lib.scarp_mesh_add_base(self._handle, _values.number_of("the base", z), C.byref(out)))
         assert out.value is not None
         return Mesh(out.value)
 
@@ -299,6 +305,6 @@ class Mesh:
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """Reads a mesh file: GLB, OBJ, PLY, STL, 2DM, VTU ..., told by its content. InputError if it is none."""
     out = C.c_void_p()
-    _abi.check(_abi.lib.scarp_mesh_read(os.fspath(path).encode(), C.byref(out)))
+    _abi.check(_abi.lib.scarp_mesh_read(_values.path_of(path), C.byref(out)))
     assert out.value is not None
     return Mesh(out.value)

@@ -4,8 +4,7 @@ from __future__ import annotations
 import ctypes as C
 from typing import Any, Iterator, Optional
 
-from . import _abi, _call, _inputs
-from .errors import UsageError
+from . import _abi, _call, _inputs, _values
 from .mesh import Mesh
 
 
@@ -21,9 +20,10 @@ class Refiner:
     >>> mesh = refiner.mesh()
     """
 
+    _handle: Optional[int] = None
+
     def __init__(self, source: Any, *, band: int = 1, transform: Any = None, crs: Any = None,
                  nodata: Optional[float] = None) -> None:
-        self._handle: Optional[int] = None
         self._input = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata, wants_array=True)
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_refiner_create(C.byref(self._input.field), C.byref(out)))
@@ -32,7 +32,6 @@ class Refiner:
     def __del__(self, free: Any = _abi.lib.scarp_refiner_free) -> None:
         if self._handle:
             free(self._handle)
-            self._handle = None
 
     def insert_worst(self) -> bool:
         """Inserts the sample with the largest error; False once every sample is exact."""
@@ -47,12 +46,11 @@ class Refiner:
 
         `progress` as in simplify(). What was inserted before it was cancelled, or Ctrl-C was pressed, stays: run() goes on
         from there."""
-        if max_vertices is not None and max_vertices < 0:
-            raise UsageError("max_vertices is %d, and a mesh cannot have less than none" % max_vertices)
         inserted = C.c_uint64()
         with _call.Settings({}) as settings:
-            settings.struct.max_error = max_error
-            settings.struct.max_points = max_vertices or 0
+            settings.struct.max_error = _values.number_of("max_error", max_error)
+            if max_vertices is not None:
+                settings.struct.max_points = _values.whole_of("max_vertices", max_vertices, 0, 2**63)
             _call.run(settings, progress, _abi.lib.scarp_refiner_go_on, self._handle, settings.pointer,
                       C.byref(inserted))
         return inserted.value

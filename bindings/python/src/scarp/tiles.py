@@ -7,12 +7,15 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any, Optional
 
-from . import _abi, _call, _inputs
+from . import _abi, _call, _inputs, _values
 from .errors import ScarpWarning, UsageError
 
 if TYPE_CHECKING:
     from numpy import uint32
     from numpy.typing import NDArray
+
+
+_NO_TILE = 2**31 - 1  # no level, no column and no row
 
 
 def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: Any = None, crs: Any = None,
@@ -33,19 +36,19 @@ def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: 
     import json
     out_bytes = C.c_void_p()
     lib = _abi.lib
-    target = os.fspath(out).encode()
-    if isinstance(source, (list, tuple)) and source and all(isinstance(one, (str, os.PathLike)) for one in source):
+    target = _values.path_of(out, "out")
+    if isinstance(source, (list, tuple)) and source and all(isinstance(one, (str, bytes, os.PathLike)) for one in source):
         if transform is not None or crs is not None:
             raise UsageError("transform and crs are for arrays: files tell theirs")
         read = _inputs.Input(None, None, None)
-        paths = [os.fspath(one).encode() for one in source]
+        paths = [_values.path_of(one) for one in source]
     else:
         read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
         paths = [] if read.path is None else [read.path]
     if paths:
         options = {"band": None if band == 1 else band, "nodata": nodata, **options}
     with _call.Settings(options) as settings:
-        settings.struct.threads = threads
+        settings.use_threads(threads)
         if paths:
             names = (C.c_char_p * len(paths))(*paths)
             _call.run(settings, progress, lib.scarp_tile_files, names, len(paths), settings.pointer, target, overwrite,
@@ -67,16 +70,17 @@ class Tiles:
     ... Several threads may read tiles at once.
     """
 
+    _handle: Optional[int] = None
+
     def __init__(self, source: Any, *, band: int = 1, transform: Any = None, crs: Any = None,
                  nodata: Optional[float] = None, threads: int = 0, progress: _call.ProgressArgument = None,
                  **options: Any) -> None:
-        self._handle: Optional[int] = None
         self._input = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
         out = C.c_void_p()
         if self._input.path is not None:
             options.update({"band": None if band == 1 else band, "nodata": nodata})
         with _call.Settings(options) as settings:
-            settings.struct.threads = threads
+            settings.use_threads(threads)
             if self._input.path is not None:
                 _call.run(settings, progress, _abi.lib.scarp_tiles_open, self._input.path, settings.pointer, C.byref(out))
             else:
@@ -87,7 +91,6 @@ class Tiles:
     def __del__(self, free: Any = _abi.lib.scarp_tiles_free) -> None:
         if self._handle:
             free(self._handle)
-            self._handle = None
 
     @property
     def max_level(self) -> int:
@@ -98,6 +101,7 @@ class Tiles:
     def list(self, level: int) -> NDArray[uint32]:
         """(N, 2) uint32: x and y of the tiles of the level, y from the south."""
         import numpy as np
+        level = _values.whole_of("level", level, 0, _NO_TILE)
         count = _abi.lib.scarp_tiles_count(self._handle, level)
         if count == 0:
             return np.empty((0, 2), dtype=np.uint32)
@@ -112,7 +116,8 @@ class Tiles:
     def read_with_bound(self, level: int, x: int, y: int) -> tuple[bytes, Optional[float]]:
         """The same, and its proven error in metres; None for the coarsest tiles, of which nobody looked at all."""
         out, bound = C.c_void_p(), C.c_double()
-        _abi.check(_abi.lib.scarp_tiles_read(self._handle, level, x, y, C.byref(out), C.byref(bound)))
+        place = [_values.whole_of(name, value, 0, _NO_TILE) for name, value in (("level", level), ("x", x), ("y", y))]
+        _abi.check(_abi.lib.scarp_tiles_read(self._handle, *place, C.byref(out), C.byref(bound)))
         return _abi.take_bytes(out.value), None if math.isnan(bound.value) else bound.value
 
     def layer_json(self) -> bytes:
