@@ -226,8 +226,8 @@ class Library(unittest.TestCase):
             import scarp
             from test_scarp import plain_hills
             z = plain_hills(1025, 1025)
+            refiner = scarp.Refiner(z)
             threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-            refiner = scarp.Refiner(plain_hills(2000, 2000))
             for call in (lambda: scarp.simplify(z, 0.25, effort="max", time_limit=60), refiner.run):
                 try:
                     call()
@@ -245,6 +245,24 @@ class Library(unittest.TestCase):
                               stderr=subprocess.PIPE)
         self.assertEqual(done.stdout.splitlines(), [b"interrupted True"] * 2 + [b"True"])
         self.assertEqual(done.stderr, b"")
+
+    @unittest.skipUnless(hasattr(signal, "setitimer"), "needs setitimer")
+    def test_what_a_handler_of_signals_raises_comes_out(self):
+        class Alarm(BaseException):
+            pass
+
+        def ring(*_):
+            raise Alarm
+
+        z = plain_hills(1025, 1025)
+        old = signal.signal(signal.SIGALRM, ring)
+        try:
+            for progress in (None, lambda step: None):
+                signal.setitimer(signal.ITIMER_REAL, 0.3)
+                with self.assertRaises(Alarm):
+                    scarp.simplify(z, 0.25, effort="max", time_limit=60, progress=progress)
+        finally:
+            signal.signal(signal.SIGALRM, old)
 
     def test_other_threads_run_meanwhile(self):
         z = plain_hills(300, 300)

@@ -36,7 +36,7 @@ class Progress(C.Structure):
                 ("tiles", C.c_uint64), ("bytes", C.c_uint64)]
 
 
-ProgressFn = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_void_p)  # the first: the address of a Progress
+ProgressFn = C.CFUNCTYPE(C.c_int32, C.c_void_p)  # the address of a Progress; `user`, which is NULL, is not looked at
 
 
 class Field(C.Structure):

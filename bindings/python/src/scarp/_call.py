@@ -5,9 +5,8 @@ import ctypes as C
 import os
 import sys
 import warnings
-from _signal import SIGINT, default_int_handler, getsignal, signal  # type: ignore  # `signal` makes enums: 10 us a call
 from types import TracebackType
-from typing import Any, Callable, Iterable, Mapping, NamedTuple, Optional, Union
+from typing import Any, Callable, Generator, Iterable, Mapping, NamedTuple, Optional, Union
 
 from . import _abi, _values
 from .errors import ScarpWarning, UsageError
@@ -65,41 +64,6 @@ class _Bar:
             sys.stderr.write("\r\x1b[K")
 
 
-class _Interrupts:
-    """While a call of the main thread lasts, Ctrl-C sets a flag in place of raising: in a callback it would be raised
-    before any `try`, and ctypes would swallow it. Whoever has a handler of their own keeps it."""
-
-    came = False
-
-    @classmethod
-    def begin(cls) -> bool:
-        """Whether Ctrl-C sets the flag from now on: then end() must follow."""
-        if getsignal(SIGINT) is not default_int_handler:
-            return False
-        try:
-            signal(SIGINT, cls._note)
-        except ValueError:  # another thread than the main one
-            return False
-        cls.came = False
-        return True
-
-    @classmethod
-    def end(cls) -> None:
-        signal(SIGINT, default_int_handler)
-
-    @classmethod
-    def _note(cls, *_: object) -> None:
-        cls.came = True
-
-    @classmethod
-    def is_told(cls, *_: object) -> int:
-        """A progress function that knows of Ctrl-C alone."""
-        return 1 if cls.came else 0
-
-
-_ASK_INTERRUPTS = _abi.ProgressFn(_Interrupts.is_told)
-
-
 def text_of(name: str, value: object) -> str:
     """An option's value as the program takes it."""
     if isinstance(value, bool):
@@ -148,54 +112,49 @@ class Settings:
         self.close()
 
 
-class _Teller:
-    """Tells a function of Python what the library tells, and keeps what it raises."""
+def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseException]) -> Generator[int, int, None]:
+    """Its send() is called with the address of what the library tells, and says whether to cancel.
 
-    def __init__(self, tell: Callable[[Progress], Any], catches: bool) -> None:
-        self.tell = tell
-        self.catches = catches
-        self.raised: Optional[BaseException] = None
-
-    def __call__(self, address: int, _: object) -> int:
-        if self.catches and _Interrupts.came:
-            return 1
+    What is raised within it is kept: in ctypes it would be printed and swallowed. Ctrl-C, and what other handlers of
+    signals raise, comes wherever Python code goes on: in a function before its first `try`, but here at the `yield`."""
+    answer = 0
+    while True:
         try:
-            struct = _abi.Progress.from_address(address)
-            name: bytes = getattr(struct, "pass")
-            left = struct.seconds_left
-            answer = self.tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error,
-                                        left if left >= 0 else None, struct.tiles, struct.bytes))
-            return 1 if answer is False else 0
-        except BaseException as error:  # it must not end in ctypes, which would print and swallow it
-            self.raised = error
-            return 1
+            while True:
+                address = yield answer
+                if tell is not None:
+                    struct = _abi.Progress.from_address(address)
+                    name: bytes = getattr(struct, "pass")
+                    left = struct.seconds_left
+                    told = tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error,
+                                         left if left >= 0 else None, struct.tiles, struct.bytes))
+                    answer = 1 if told is False else 0
+        except GeneratorExit:
+            return
+        except BaseException as error:
+            raised.append(error)
+            answer = 1
 
 
 def run(settings: Settings, progress: ProgressArgument, function: Callable[..., int], *arguments: object) -> None:
     """Calls a function of the library. An exception of the progress function, and Ctrl-C, end the call and come out of
     here, and so does what the library has to complain of."""
     bar = _Bar() if progress is True else None
-    tell: Any = bar if bar is not None else progress
-    if tell and not callable(tell):
+    tell: Any = bar if bar is not None else (progress or None)
+    if tell is not None and not callable(tell):
         raise UsageError("progress is True or a function of one argument, not %s" % type(tell).__name__)
-    teller: Optional[_Teller] = None
-    catches = not (settings.is_brief and not tell) and _Interrupts.begin()
+    raised: list[BaseException] = []
+    if tell is not None or not settings.is_brief:
+        listener = _listen(tell, raised)
+        next(listener)
+        settings.struct.progress = _abi.ProgressFn(listener.send)
     try:
-        if tell:
-            teller = _Teller(tell, catches)
-            settings.struct.progress = _abi.ProgressFn(teller)
-        elif catches:
-            settings.struct.progress = _ASK_INTERRUPTS
         status = function(*arguments)
     finally:
-        if catches:
-            _Interrupts.end()
         if bar is not None:
             bar.close()
-    if teller is not None and teller.raised is not None:
-        raise teller.raised
-    if catches and _Interrupts.came:
-        raise KeyboardInterrupt
+    if raised:
+        raise raised[0]
     if status:
         _abi.check(status)
 
