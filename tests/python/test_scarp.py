@@ -16,6 +16,7 @@ import threading
 import time
 import unittest
 import warnings
+import weakref
 
 import scarp
 from scarp import _abi, _inputs
@@ -172,6 +173,18 @@ class Library(unittest.TestCase):
         for _ in range(3):
             with self.assertRaises(Own):
                 scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=bad)
+
+        # What it raised holds nothing in a circle.
+        gc.collect()
+        gc.disable()
+        try:
+            try:
+                scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=bad)
+            except Own as error:
+                alive = weakref.ref(error)
+            self.assertIsNone(alive())
+        finally:
+            gc.enable()
 
     def test_a_refiner_is_watched_and_keeps_what_it_has(self):
         refiner = scarp.Refiner(plain_hills(300, 300))

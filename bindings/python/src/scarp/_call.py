@@ -154,7 +154,7 @@ def run(settings: Settings, progress: ProgressArgument, function: Callable[..., 
         if bar is not None:
             bar.close()
     if raised:
-        raise raised[0]
+        raise raised.pop(0)  # not kept in this frame, which its traceback holds
     if status:
         _abi.check(status)
 
