@@ -1,6 +1,7 @@
 // Where a raster lies on the globe, and what its heights are above.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,43 @@ struct RasterOnGlobe {
 /// CRS's own if it is another planet's: more than 1 % larger or smaller.
 Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, const Datum& datum,
                                      const std::string& path);
+
+/// Where the plane of a local grid lies on the globe.
+struct PlaneOnGlobe {
+  /// From metres east, north and up of the sample at the raster's centre, as LocalRaster has it, to the earth's centre:
+  /// 4 × 4, by columns. It is exact at the centre, where it has the projection's turn and scale.
+  std::array<double, 16> transform{};
+  std::string crs;                  ///< of the raster, as RasterInfo::crs
+  double convergence = 0;           ///< degrees from true north to the raster's, clockwise
+  double scale_x = 1, scale_y = 1;  ///< of the projection there: metres of the plane to one on the ground
+  /// Metres from where the transform puts the raster to where it lies, at most, along the ground and in height: what
+  /// the earth's curve, and scale and turn away from the centre, leave.
+  double off_along = 0, off_height = 0;
+
+  friend bool operator==(const PlaneOnGlobe&, const PlaneOnGlobe&) = default;
+};
+
+/// A raster on a plane.
+struct RasterOnPlane {
+  double cell_x = 1, cell_y = 1;
+  std::string units;                  ///< of cell_x and cell_y: "metre", "cell", or "unit of the raster's x and y"
+  std::string vertical;               ///< what the heights are above, in words
+  std::optional<PlaneOnGlobe> globe;  ///< nothing for a raster that has no place there
+};
+
+/// The grid of tiles that suits a raster: a local one where it has no position, no CRS, or a CRS of its own.
+GridKind grid_for(const RasterInfo& info);
+
+/// `cell_size`: metres, of a raster without a position. Heights stay as they are; `datum` tells how high the whole
+/// plane lies, and kAuto without a word in the CRS is kNone. Fails with kInput for rasters in degrees, and those that
+/// are turned or mirrored in their CRS; with kUsage for a datum that does not go with such a raster; and as
+/// place_on_globe().
+Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows, const std::optional<double>& cell_size,
+                                     const Datum& datum);
+/// REQUIRES: a raster with a position, in a projected CRS.
+Result<PlaneOnGlobe> find_plane_on_globe(const RasterInfo& info, const LocalRaster& raster, const RasterOnGlobe& globe);
+/// Whether a raster's CRS has no way to the globe, as those of building sites.
+bool is_local_crs(const RasterInfo& info);
 
 /// A surface that heights are above.
 struct Zero {

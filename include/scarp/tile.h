@@ -7,6 +7,9 @@
 // NODES. The source is sampled on a lattice: `cells` cells a side for tiles of the finest level. Coarser tiles use all
 // nodes below them, down to the plan's level of blocks. The max error of a tile counts all of them.
 //
+// A LOCAL GRID lies on a plane, its nodes are the samples of one raster, and tiles end where that does. All that is
+// said of the earth's curve is 0 there.
+//
 // HEIGHTS are multiples of a quantum that a level shares, and a tile's header is chosen so that clients decode a height
 // to the same float32 in each tile.
 #pragma once
@@ -72,6 +75,11 @@ struct RasterPlace {
 /// place of a node is exact at each 16th node and interpolated between where `from_degrees` is given; so is the place
 /// of a sample on the globe. Borrows the field's samples. Fails with kUsage for an affine map without an inverse.
 Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, const RasterPlace& place);
+
+/// The samples of the raster of a local grid, whose north is up: nodes of its finest level, or every second, fourth …
+/// one. Beyond the raster its outermost samples are repeated: tiles read them, and end before. Borrows the field's
+/// samples.
+std::unique_ptr<NodeSource> make_local_nodes(const HeightField& field);
 
 /// The surface that heights are above, such as the sea: itself above the ellipsoid.
 class HeightZero {
@@ -200,9 +208,10 @@ int finest_level(const PyramidPlan& plan, TileId id);
 /// A tile's mesh, as clients decode it.
 struct TerrainTile {
   TileId id;
-  std::vector<std::uint16_t> u, v;                   ///< 0 … 32767 from west, from south
+  std::int32_t units = 32767;                        ///< a side of the tile, as TileGrid::side_units()
+  std::vector<std::uint16_t> u, v;                   ///< 0 … units from west, from south
   std::vector<std::int32_t> heights;                 ///< in quanta of the level
-  std::vector<std::array<std::uint8_t, 2>> normals;  ///< octahedral, earth-centred
+  std::vector<std::array<std::uint8_t, 2>> normals;  ///< octahedral, earth-centred or on the plane
   std::vector<std::uint32_t> triangles;              ///< counter-clockwise seen from above
   double quantum = 1;
   double max_error = 0;  ///< asked of its interior, metres: the level's, or more because of max_tile_bytes

@@ -33,15 +33,19 @@ namespace scarp {
 struct TileJob;
 
 /// Rasters in the order of their priority, open as one source of nodes on the globe: a node has the height of the first
-/// that has one there. Each has a CRS, cells, a nodata value and a datum of its own.
+/// that has one there. Each has a CRS, cells, a nodata value and a datum of its own. Or one raster on a plane.
 class GlobeRaster {
  public:
   /// `mosaics`: at least one; the rasters of each lie on one grid, as find_mosaics() puts them together. Reads them, or
   /// leaves them in their files where memory does not hold them, as open_height_field(); options.crs and
   /// options.view.more are not read. Fails as that and place_on_globe() do; with kUsage for options.view of several
   /// mosaics, and where the datum is another one than a raster's CRS says; with kInput for several planets.
+  ///
+  /// `grid`: nothing: what suits the first raster, grid_for(). With a local one there is one mosaic, kUsage else, which
+  /// place_on_plane() places.
   static Result<std::unique_ptr<GlobeRaster>> open(const std::vector<std::vector<std::string>>& mosaics,
-                                                   const ReadOptions& options, const Datum& datum);
+                                                   const ReadOptions& options, const Datum& datum,
+                                                   std::optional<GridKind> grid = GridKind::kGeographic);
   GlobeRaster(const GlobeRaster&) = delete;
   GlobeRaster& operator=(const GlobeRaster&) = delete;
   ~GlobeRaster();
@@ -52,6 +56,9 @@ class GlobeRaster {
   void add_waters(const PyramidPlan& plan);
   /// For plan_pyramid(). REQUIRES: opened with options.with_range.
   std::vector<SourceFacts> facts() const;
+  /// Its grid of tiles, with so many cells a side of one of the finest level.
+  TileGrid grid(int cells) const;
+  const std::optional<RasterOnPlane>& plane() const;  ///< with a local grid
   const RasterInfo& info() const;             ///< of the first
   const RasterOnGlobe& place() const;         ///< of the first
   std::string heights_above() const;          ///< RasterOnGlobe::vertical of all, each once

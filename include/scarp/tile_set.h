@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "scarp/globe_image.h"
+#include "scarp/globe_place.h"
 #include "scarp/result.h"
 #include "scarp/tile.h"
 
@@ -83,6 +84,9 @@ class TileSetReader {
 /// Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 
+/// The grid of tiles that a set's layer.json or tileset.json names; else the geographic one.
+TileGrid find_grid(const TileSetReader& set);
+
 /// What a set says of itself besides the tiles.
 struct LayerFacts {
   std::string name = "terrain";
@@ -90,6 +94,8 @@ struct LayerFacts {
   std::string attribution;
   std::string heights_above;  ///< what the source's heights are above, in words; those of tiles: the ellipsoid
   std::string body;           ///< whose ellipsoid, as RasterOnGlobe::body
+  std::string units;          ///< of a local grid's cells, as RasterOnPlane::units; empty with others
+  std::optional<PlaneOnGlobe> plane;  ///< of a local grid that has a place on the globe
   std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies; sinks find it
 };
 

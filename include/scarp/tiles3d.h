@@ -3,7 +3,8 @@
 // of 3D Tiles.
 //
 // POSITIONS are earth-centred and lie on one lattice a level: whole multiples of a power of two, at most 1/32 of the
-// level's max error. Vertices that neighbours share are the same doubles in both.
+// level's max error. Vertices that neighbours share are the same doubles in both. On the plane of a local grid they are
+// metres from the raster's centre, and on its samples.
 #pragma once
 
 #include <array>
@@ -25,21 +26,24 @@
 namespace scarp {
 
 /// Metres between the points of a level's lattice: where 16 bits hold a tile of the level, as fine as they do, but no
-/// finer than 1/256 of its max error.
+/// finer than 1/256 of its max error. On a local grid's plane a power of two of its cells' width.
 double lattice_step(const PyramidPlan& plan, int z);
 
-/// What the lattice moves a vertex by at most, in metres: √3/2 of the step. Adds to TerrainTile::bound(). The sum
-/// bounds the distance in space between a node and the triangles.
+/// What the lattice moves a vertex by at most, in metres: √3/2 of the step; half of it on a plane of square cells,
+/// where it moves heights alone. Adds to TerrainTile::bound(). The sum bounds the distance in space between a node and
+/// the triangles.
 double lattice_error(const PyramidPlan& plan, int z);
 
 /// What clients ask of a tile besides its mesh.
 struct TileFacts {
-  /// Bounds of the triangles, metres above the ellipsoid; what flat ones lie below its curve is included.
+  /// Bounds of the triangles, metres above the ellipsoid or the plane; what flat ones lie below its curve is included.
   double min_height = 0, max_height = 0;
   std::array<double, 4> sphere{};  ///< holds the triangles: centre, radius
   /// In units of the ellipsoid's axes: who does not see it sees none of the tile. Always finite; far out for tiles that
-  /// cannot be hidden so.
+  /// cannot be hidden so. 0, 0, 0 where there is no horizon: on the plane of a local grid.
   std::array<double, 3> horizon_point{};
+
+  bool has_horizon() const { return horizon_point != std::array<double, 3>{}; }
 
   friend bool operator==(const TileFacts&, const TileFacts&) = default;
 };
@@ -50,7 +54,7 @@ struct EarthTile {
   std::array<std::int64_t, 3> origin{};                 ///< in steps: x towards 0° E, z towards the north pole
   std::vector<std::array<std::uint32_t, 3>> offsets;    ///< from there, in steps, below 2^24
   std::vector<std::array<double, 3>> normals;           ///< of unit length
-  std::vector<std::array<std::uint16_t, 2>> places;     ///< 0 … 32767 of the tile from west, from south
+  std::vector<std::array<double, 2>> places;            ///< 0 … 1 of the tile from west, from north
   std::vector<std::uint32_t> triangles;                 ///< counter-clockwise seen from outside
   std::vector<std::uint32_t> west, south, east, north;  ///< vertices on the edges, by place
   TileFacts facts;
@@ -95,8 +99,9 @@ struct NamedFile {
 };
 
 /// tileset.json and "subtrees/r/z/x/y.subtree": two roots of 180° with implicit children, named as TileFormat::kGlb
-/// says. A tile's geometric error is a power of two below its root's, and no less than what is proven of its level.
-/// REQUIRES: both roots are there, and each other tile's parent.
+/// says; of a local grid one, in a box, with the transform of facts.plane. A tile's geometric error is a power of two
+/// below its root's, and no less than what is proven of its level. REQUIRES: both roots are there, and each other
+/// tile's parent.
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
                                       const LayerFacts& facts = {});
 

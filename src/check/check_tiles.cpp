@@ -39,7 +39,7 @@ class TilesCheck {
         options_(options),
         claims_(read_set_claims(set)),
         grid_(options.grid.value_or(claims_.grid)),
-        ellipsoid_(options.ellipsoid.value_or(claims_.ellipsoid.value_or(Geodetic{}))),
+        world_(grid_, options.ellipsoid.value_or(claims_.ellipsoid.value_or(Geodetic{}))),
         reporter_(options.run.progress) {}
 
   Result<TileCheck> run() {
@@ -60,7 +60,7 @@ class TilesCheck {
     }
     if (options_.nodes.source != nullptr) {
       faults.clear();
-      if (auto checked = check_nodes(set_, claims_, options_, grid_, ellipsoid_, check_, faults); !checked)
+      if (auto checked = check_nodes(set_, claims_, options_, grid_, world_, check_, faults); !checked)
         return tl::unexpected(checked.error());
       add(faults);
     }
@@ -155,7 +155,7 @@ class TilesCheck {
       return refuse(fmt::format("{} cannot be read: {}", tile_name(set_.format(), id), bytes.error().message));
     findings.is_gzip = is_gzip(*bytes);
     const auto facts = claims_.facts.find({id.z, id.y, id.x});
-    const auto tile = decode_client_tile(set_.format(), *bytes, id, grid_, ellipsoid_,
+    const auto tile = decode_client_tile(set_.format(), *bytes, id, grid_, world_,
                                          facts == claims_.facts.end() ? nullptr : &facts->second);
     if (!tile) return refuse(tile.error().message);
     findings.triangles = tile->triangles.size() / 3;
@@ -165,8 +165,11 @@ class TilesCheck {
     if (!std::isfinite(tile->low) || !std::isfinite(tile->high)) return findings;
     check_coverage(*tile, findings.faults);
     check_edge_lists(*tile, findings.faults);
-    check_horizon(*tile, ellipsoid_, findings.faults);
-    findings.sag = measure_sag(*tile, ellipsoid_);
+    if (tile->is_flat)
+      check_land(*tile, grid_, findings.faults);
+    else
+      check_horizon(*tile, world_, findings.faults);
+    findings.sag = measure_sag(*tile, world_);
     const std::optional<double>& bound = check_.levels[static_cast<std::size_t>(id.z)].promised_bound;
     if (bound && findings.sag > *bound * (1 + 1e-9) + 1e-6)
       findings.faults.push_back({TileFaultKind::kBound,
@@ -181,7 +184,7 @@ class TilesCheck {
   const TileCheckOptions& options_;
   SetClaims claims_;
   TileGrid grid_;
-  Ellipsoid ellipsoid_;
+  World world_;
   Reporter reporter_;
   TileCheck check_;
   std::uint64_t tiles_ = 0, done_ = 0;

@@ -13,13 +13,13 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 /// In units of the axes: farther out a point tells that the tile is never to be hidden. 3D Tiles need a finite one.
 constexpr double kFarOut = 100;
 
-Result<ClientTile> take_quantized(QuantizedMesh mesh, const DegreeBox& box, const Ellipsoid& ellipsoid) {
+Result<ClientTile> take_quantized(QuantizedMesh mesh, const DegreeBox& box, const World& world) {
   ClientTile tile;
   for (std::size_t k = 0; k < mesh.u.size(); ++k) {
     tile.u.push_back(mesh.u[k]);
     tile.v.push_back(mesh.v[k]);
     tile.heights.push_back(mesh.height(k));
-    tile.places.push_back(ellipsoid.place(geographic_at(box, mesh.u[k], mesh.v[k], tile.heights.back())));
+    tile.places.push_back(world.place(geographic_at(box, mesh.u[k], mesh.v[k], tile.heights.back())));
   }
   for (const auto& normal : mesh.normals)
     tile.normals.push_back({static_cast<float>(normal[0]), static_cast<float>(normal[1]), 0});
@@ -52,15 +52,17 @@ void place_at_poles(ClientTile& tile, const std::vector<bool>& is_pole) {
   }
 }
 
-Result<ClientTile> take_glb(TileGlb glb, const DegreeBox& box, const Ellipsoid& ellipsoid, const TileFacts* facts) {
+Result<ClientTile> take_glb(TileGlb glb, const DegreeBox& box, const World& world, const TileFacts* facts) {
   ClientTile tile;
   tile.places = std::move(glb.positions);
   std::vector<bool> is_pole(tile.places.size());
   const double middle = (box.west + box.east) / 2;
   for (std::size_t k = 0; k < tile.places.size(); ++k) {
-    Geographic at = ellipsoid.find(tile.places[k]);
-    at.longitude += 360 * std::floor((middle - at.longitude) / 360 + 0.5);
-    is_pole[k] = std::hypot(tile.places[k][0], tile.places[k][1]) <= 2 * glb.step;
+    Geographic at = world.find(tile.places[k]);
+    if (!world.is_flat()) {
+      at.longitude += 360 * std::floor((middle - at.longitude) / 360 + 0.5);
+      is_pole[k] = std::hypot(tile.places[k][0], tile.places[k][1]) <= 2 * glb.step;
+    }
     tile.u.push_back((at.longitude - box.west) / (box.east - box.west) * kWholeTile);
     tile.v.push_back((at.latitude - box.south) / (box.north - box.south) * kWholeTile);
     tile.heights.push_back(at.height);
@@ -90,7 +92,7 @@ Geographic geographic_at(const DegreeBox& box, double u, double v, double height
 }
 
 Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::uint8_t> bytes, TileId id,
-                                      const TileGrid& grid, const Ellipsoid& ellipsoid, const TileFacts* facts) {
+                                      const TileGrid& grid, const World& world, const TileFacts* facts) {
   const std::string name = tile_name(format, id);
   std::vector<std::uint8_t> unpacked;
   if (is_gzip(bytes)) {
@@ -104,15 +106,16 @@ Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::ui
   if (format == TileFormat::kGlb) {
     auto glb = decode_tile_glb(bytes, name);
     if (!glb) return tl::unexpected(glb.error());
-    tile = take_glb(std::move(*glb), box, ellipsoid, facts);
+    tile = take_glb(std::move(*glb), box, world, facts);
   } else {
     auto mesh = decode_quantized_mesh(bytes, name);
     if (!mesh) return tl::unexpected(mesh.error());
-    tile = take_quantized(std::move(*mesh), box, ellipsoid);
+    tile = take_quantized(std::move(*mesh), box, world);
   }
   tile->id = id;
   tile->format = format;
   tile->box = box;
+  tile->is_flat = world.is_flat();
   return tile;
 }
 

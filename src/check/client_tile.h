@@ -24,9 +24,10 @@ struct ClientTile {
   TileId id;
   TileFormat format = TileFormat::kQuantizedMesh;
   DegreeBox box;
+  bool is_flat = false;  ///< on the plane of a local grid
   /// Of 0 … 32767 from west, from south; whole numbers but in GLB files, which hold places in space.
   std::vector<double> u, v;
-  std::vector<double> heights;  ///< metres above the ellipsoid
+  std::vector<double> heights;  ///< metres above the world
   std::vector<Place> places;
   std::vector<std::array<float, 3>> normals;  ///< empty, or of each vertex what the file holds, as numbers
   std::vector<std::uint32_t> triangles;
@@ -43,7 +44,7 @@ struct ClientTile {
 
 /// `facts`: what a subtree says of it; without them the file's own count. Fails with kInput.
 Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::uint8_t> bytes, TileId id,
-                                      const TileGrid& grid, const Ellipsoid& ellipsoid, const TileFacts* facts);
+                                      const TileGrid& grid, const World& world, const TileFacts* facts);
 
 /// Degrees of a place in a tile.
 Geographic geographic_at(const DegreeBox& box, double u, double v, double height);

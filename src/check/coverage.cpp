@@ -58,6 +58,8 @@ bool faces_down(const ClientTile& tile, std::size_t k) {
   // On the map: a needle along a parallel may face down in space, where its long side is straight.
   const Place ab = tile.places[b] - tile.places[a], ac = tile.places[c] - tile.places[a];
   const double longest = std::max({length(ab), length(ac), length(ac - ab)});
+  const auto is_turned = [&](double area) { return area < -3 * tile.resolution * longest; };
+  if (tile.is_flat) return is_turned(ab[0] * ac[1] - ac[0] * ab[1]);
   const double polar =
       std::max({std::abs(latitude(tile, a)), std::abs(latitude(tile, b)), std::abs(latitude(tile, c))});
   if (polar > kAlmostPole) return false;  // all longitudes
@@ -69,7 +71,7 @@ bool faces_down(const ClientTile& tile, std::size_t k) {
       ((tile.u[b] - tile.u[a]) * (tile.v[c] - tile.v[a]) - (tile.u[c] - tile.u[a]) * (tile.v[b] - tile.v[a])) * east *
       north;
   // Rounding moves each of the three corners by up to √3/2 steps: needles may turn by it.
-  return area < -3 * tile.resolution * longest;
+  return is_turned(area);
 }
 
 std::string describe_place(const ClientTile& tile, std::uint32_t vertex) {
@@ -147,6 +149,29 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults) {
   }
   const double whole = 2 * kWholeTile * kWholeTile;
   if (area != whole) add(fmt::format("covers {:.9g} times its area", area / whole));
+}
+
+void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFault>& faults) {
+  // Above the blocks tiles end at one of 256 nodes, the next beyond the raster where it does not end at one.
+  constexpr double kCoarseSteps = 256;
+  const LocalRaster& raster = grid.local;
+  const double beyond = std::max(0.0, (tile.box.east - tile.box.west) / kCoarseSteps - 1);
+  const double cols = std::min(tile.box.east, raster.cols - 1.0) - tile.box.west,
+               rows = std::min(tile.box.north, raster.rows - 1.0) - tile.box.south;
+  const double width = cols * raster.cell_x, height = rows * raster.cell_y;
+  const double more_x = std::max(0.0, std::min(cols + beyond, tile.box.east - tile.box.west) - cols) * raster.cell_x,
+               more_y = std::max(0.0, std::min(rows + beyond, tile.box.north - tile.box.south) - rows) * raster.cell_y;
+  double area = 0;
+  for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
+    const Place ab = tile.places[tile.triangles[k + 1]] - tile.places[tile.triangles[k]];
+    const Place ac = tile.places[tile.triangles[k + 2]] - tile.places[tile.triangles[k]];
+    area += (ab[0] * ac[1] - ac[0] * ab[1]) / 2;
+  }
+  const double slack = 2 * tile.resolution * (width + height + more_x + more_y);
+  const double most = (width + more_x) * (height + more_y);
+  if (area < width * height - slack || area > most + slack)
+    faults.push_back({TileFaultKind::kCoverage, fmt::format("{} covers {:.9g} times its part of the raster",
+                                                            tile_name(tile.format, tile.id), area / (width * height))});
 }
 
 void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults) {

@@ -71,7 +71,7 @@ void check_header(const ClientTile& tile, std::vector<TileFault>& faults) {
     add("has a centre outside of its bounding sphere");
 }
 
-void check_horizon(const ClientTile& tile, const Ellipsoid& ellipsoid, std::vector<TileFault>& faults) {
+void check_horizon(const ClientTile& tile, const World& world, std::vector<TileFault>& faults) {
   const Place& point = tile.horizon;
   if (std::isnan(point[0]) || std::isnan(point[1]) || std::isnan(point[2])) return;  // never hidden
   const std::string name = tile_name(tile.format, tile.id);
@@ -81,10 +81,10 @@ void check_horizon(const ClientTile& tile, const Ellipsoid& ellipsoid, std::vect
   };
   const double far = length(point);
   if (!std::isfinite(far) || !(far > 0)) return add();
-  // Those below the ellipsoid count as on it, a little above so that rays along it reach them.
+  // Those below the world count as on it, a little above so that rays along it reach them.
   std::vector<Place> vertices;
   for (const Place& at : tile.places) {
-    const Place place = ellipsoid.scaled(at);
+    const Place place = world.scaled(at);
     const double out = length(place);
     vertices.push_back(out < 1 ? (1 / out) * place : place);
   }
@@ -113,7 +113,7 @@ void check_horizon(const ClientTile& tile, const Ellipsoid& ellipsoid, std::vect
   }
 }
 
-double measure_sag(const ClientTile& tile, const Ellipsoid& ellipsoid) {
+double measure_sag(const ClientTile& tile, const World& world) {
   double worst = 0;
   for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
     const Place &a = tile.places[tile.triangles[k]], &b = tile.places[tile.triangles[k + 1]],
@@ -124,7 +124,7 @@ double measure_sag(const ClientTile& tile, const Ellipsoid& ellipsoid) {
     const double area = length(cross(b - a, c - a)) / 2;
     const bool is_blunt = sides[2] * sides[2] >= sides[0] * sides[0] + sides[1] * sides[1];
     const double radius = is_blunt || area == 0 ? sides[2] / 2 : sides[0] * sides[1] * sides[2] / (4 * area);
-    worst = std::max(worst, radius * radius / (2 * ellipsoid.least_radius()));
+    worst = std::max(worst, radius * radius / (2 * world.least_radius()));
   }
   return worst;
 }

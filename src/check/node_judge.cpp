@@ -13,19 +13,14 @@ namespace {
 /// Nodes that all triangles are looked at for, of one tile in one block: a tile with more is far off anyway.
 constexpr int kMostSecondLooks = 100'000;
 
-double radians_of(double degrees) { return degrees * 0.017453292519943295; }
-
 }  // namespace
 
-NodeBlock NodeBlock::begin(const NodeWindow& window, const Ellipsoid& ellipsoid) {
-  NodeBlock block{window, ellipsoid, {}, {}, {}, {}};
-  for (int col = 0; col < window.cols; ++col) {
-    const double longitude = radians_of(window.longitude(window.col + col));
-    block.sines.push_back(std::sin(longitude));
-    block.cosines.push_back(std::cos(longitude));
-  }
+NodeBlock NodeBlock::begin(const NodeWindow& window, const World& world) {
+  NodeBlock block{window, world, {}, {}, {}};
+  for (int col = 0; col < window.cols; ++col)
+    block.meridians.push_back(world.meridian(window.longitude(window.col + col)));
   for (int row = 0; row < window.rows; ++row)
-    block.parallels.push_back(ellipsoid.parallel(window.latitude(window.row + row)));
+    block.parallels.push_back(world.parallel(window.latitude(window.row + row)));
   return block;
 }
 
@@ -139,7 +134,7 @@ NodeVerdict NodeJudge::judge(const NodeBlock& block) const {
           (x * (triangle.rows[2] - triangle.rows[0]) - (triangle.cols[2] - triangle.cols[0]) * y) / triangle.area;
       double share_c =
           ((triangle.cols[1] - triangle.cols[0]) * y - x * (triangle.rows[1] - triangle.rows[0])) / triangle.area;
-      const Ellipsoid::Parallel& parallel = block.parallels[in_row];
+      const World::Parallel& parallel = block.parallels[in_row];
       const float* const nodes = block.heights.data() + in_row * static_cast<std::size_t>(block.window.cols);
       for (auto col = static_cast<std::size_t>(from - west); col <= static_cast<std::size_t>(to - west); ++col) {
         const double node = std::isnan(nodes[col]) ? background_ : double{nodes[col]};
@@ -169,7 +164,7 @@ NodeVerdict NodeJudge::judge(const NodeBlock& block) const {
   return verdict;
 }
 
-NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const Ellipsoid& ellipsoid) const {
+NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const World& world) const {
   NodeVerdict verdict;
   const double slack = 1e-9 + 1e-15 * steps_;
   const auto turn = static_cast<double>(per_turn_);
@@ -233,7 +228,7 @@ NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const Ellipsoi
     ClientTile alone;
     alone.places = {tile_.places[a], tile_.places[b], tile_.places[c]};
     alone.triangles = {0, 1, 2};
-    verdict.distance = std::max(verdict.distance, error + measure_sag(alone, ellipsoid));
+    verdict.distance = std::max(verdict.distance, error + measure_sag(alone, world));
   }
   return verdict;
 }

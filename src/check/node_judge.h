@@ -12,10 +12,10 @@ namespace scarp {
 /// Heights of a rectangle of nodes, counted from the western and northern ends of the grid.
 struct NodeBlock {
   NodeWindow window;
-  Ellipsoid ellipsoid;
+  World world;
   std::vector<float> heights;          ///< NaN: none
-  std::vector<double> sines, cosines;  ///< of the columns' longitudes
-  std::vector<Ellipsoid::Parallel> parallels;
+  std::vector<World::Meridian> meridians;  ///< of the columns
+  std::vector<World::Parallel> parallels;
 
   /// Of the four nodes around a cell, from its north-western corner.
   bool has_heights_around(std::int64_t col, std::int64_t row) const {
@@ -24,12 +24,12 @@ struct NodeBlock {
     const float sum = heights[first] + heights[first + 1] + heights[first + side] + heights[first + side + 1];
     return sum == sum;
   }
-  Place place(const Ellipsoid::Parallel& parallel, std::size_t col, double height) const {
-    return ellipsoid.place(parallel, sines[col], cosines[col], height);
+  Place place(const World::Parallel& parallel, std::size_t col, double height) const {
+    return world.place(parallel, meridians[col], height);
   }
 
   /// All of it but the heights.
-  static NodeBlock begin(const NodeWindow& window, const Ellipsoid& ellipsoid);
+  static NodeBlock begin(const NodeWindow& window, const World& world);
 };
 
 /// Nodes from the western and northern ends of the grid, the last ones included.
@@ -57,7 +57,7 @@ class NodeJudge {
   NodeVerdict judge(const NodeBlock& block) const;
   /// All nodes under the tile but those of the rectangle, or a turn from there: they have the background's height.
   /// Distances are upper bounds.
-  NodeVerdict judge_outside(const NodeRectangle& inside, const Ellipsoid& ellipsoid) const;
+  NodeVerdict judge_outside(const NodeRectangle& inside, const World& world) const;
 
  private:
   /// A triangle on the lattice, columns and rows from the tile's north-western corner.

@@ -29,19 +29,20 @@ std::uint64_t key_of_tile(TileId id) { return std::uint64_t{id.y} << 32 | id.x; 
 class NodesCheck {
  public:
   NodesCheck(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options, const TileGrid& grid,
-             const Ellipsoid& ellipsoid, TileCheck& check, std::vector<TileFault>& faults)
+             const World& world, TileCheck& check, std::vector<TileFault>& faults)
       : set_(set),
         claims_(claims),
         options_(options),
         check_(check),
         faults_(faults),
         grid_(grid),
-        ellipsoid_(ellipsoid),
+        world_(world),
         reporter_(options.run.progress) {}
 
   Result<void> run() {
     finest_ = static_cast<int>(set_.tiles().size()) - 1;
     cells_ = options_.nodes.cells > 0 ? options_.nodes.cells : claims_.cells.value_or(128);
+    if (grid_.is_flat()) cells_ = static_cast<int>(grid_.local.side >> finest_);
     background_ = options_.nodes.background.value_or(claims_.background.value_or(0));
     if (cells_ < 1 || (std::int64_t{cells_} << finest_) > (std::int64_t{1} << 31))
       return fail(ErrorKind::kUsage, fmt::format("{} cells a tile of level {} make no lattice", cells_, finest_));
@@ -90,6 +91,11 @@ class NodesCheck {
     const auto all = std::int64_t{grid_.columns(z)};
     const auto first = static_cast<std::int64_t>(std::floor((covered.west - margin - box.west) / width));
     const auto last = static_cast<std::int64_t>(std::floor((covered.east + margin - box.west) / width));
+    if (grid_.is_flat()) {
+      first_col_ = std::max<std::int64_t>(first, 0);
+      columns_ = std::min(last, all - 1) - first_col_ + 1;
+      return;
+    }
     first_col_ = ((first % all) + all) % all;
     columns_ = std::min(last - first + 1, all);
     if (columns_ == all) first_col_ = 0;
@@ -125,7 +131,7 @@ class NodesCheck {
   Result<ClientTile> read(TileId id) const {
     const auto bytes = set_.read_tile(id);
     if (!bytes) return tl::unexpected(bytes.error());
-    return decode_client_tile(set_.format(), *bytes, id, grid_, ellipsoid_, nullptr);
+    return decode_client_tile(set_.format(), *bytes, id, grid_, world_, nullptr);
   }
 
   NodeJudge judge_of(const ClientTile& tile) const {
@@ -134,8 +140,7 @@ class NodesCheck {
   }
 
   Result<void> judge_block(TileId block) {
-    NodeBlock nodes =
-        NodeBlock::begin(grid_.window_of(block, static_cast<std::int32_t>(steps_of(block.z))), ellipsoid_);
+    NodeBlock nodes = NodeBlock::begin(grid_.window_of(block, static_cast<std::int32_t>(steps_of(block.z))), world_);
     const auto cols = static_cast<std::size_t>(nodes.window.cols);
     nodes.heights.resize(cols * static_cast<std::size_t>(nodes.window.rows));
     std::vector<Result<void>> read_bands(
@@ -226,7 +231,7 @@ class NodesCheck {
       std::vector<NodeVerdict> verdicts(outside.size());
       parallel_for(outside.size(), options_.run.threads, [&](std::size_t k) {
         const auto tile = read(outside[k]);
-        if (tile) verdicts[k] = judge_of(*tile).judge_outside(inside, ellipsoid_);
+        if (tile) verdicts[k] = judge_of(*tile).judge_outside(inside, world_);
       });
       for (std::size_t k = 0; k < outside.size(); ++k) take(outside[k], verdicts[k]);
     }
@@ -279,7 +284,7 @@ class NodesCheck {
   TileCheck& check_;
   std::vector<TileFault>& faults_;
   TileGrid grid_;
-  Ellipsoid ellipsoid_;
+  World world_;
   Reporter reporter_;
   int finest_ = 0, depth_ = 0, cells_ = 128;  ///< blocks are tiles of level finest_ − depth_
   double background_ = 0;
@@ -292,9 +297,8 @@ class NodesCheck {
 }  // namespace
 
 Result<void> check_nodes(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options,
-                         const TileGrid& grid, const Ellipsoid& ellipsoid, TileCheck& check,
-                         std::vector<TileFault>& faults) {
-  return NodesCheck(set, claims, options, grid, ellipsoid, check, faults).run();
+                         const TileGrid& grid, const World& world, TileCheck& check, std::vector<TileFault>& faults) {
+  return NodesCheck(set, claims, options, grid, world, check, faults).run();
 }
 
 }  // namespace scarp

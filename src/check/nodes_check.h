@@ -13,7 +13,6 @@ namespace scarp {
 /// Compares each node under each tile of the set with the tile's triangles. Adds to the check's levels, its nodes and
 /// the faults. Tiles that cannot be decoded are left out. Fails as the source does, and with kCancelled.
 Result<void> check_nodes(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options,
-                         const TileGrid& grid, const Ellipsoid& ellipsoid, TileCheck& check,
-                         std::vector<TileFault>& faults);
+                         const TileGrid& grid, const World& world, TileCheck& check, std::vector<TileFault>& faults);
 
 }  // namespace scarp

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scarp {
 namespace {
@@ -26,14 +27,19 @@ Place cross(const Place& a, const Place& b) {
 }
 double length(const Place& a) { return std::sqrt(inner(a, a)); }
 
-Ellipsoid::Ellipsoid(const Geodetic& geodetic) : a_(geodetic.semi_major) {
+World::World(const TileGrid& grid, const Geodetic& geodetic)
+    : raster_(grid.local), is_flat_(grid.is_flat()), a_(geodetic.semi_major) {
   const double flattening = geodetic.inverse_flattening == 0 ? 0 : 1 / geodetic.inverse_flattening;
   b_ = a_ * (1 - flattening);
   e2_ = flattening * (2 - flattening);
 }
 
-Ellipsoid::Parallel Ellipsoid::parallel(double latitude) const {
+World::Parallel World::parallel(double latitude) const {
   Parallel parallel;
+  if (is_flat_) {
+    parallel.north = (latitude - static_cast<double>(raster_.centre_row())) * raster_.cell_y;
+    return parallel;
+  }
   parallel.sine = std::sin(latitude * kRadiansOfDegree);
   // At the poles exactly none, so that all longitudes are one place.
   parallel.cosine = std::abs(latitude) == 90 ? 0 : std::cos(latitude * kRadiansOfDegree);
@@ -41,12 +47,22 @@ Ellipsoid::Parallel Ellipsoid::parallel(double latitude) const {
   return parallel;
 }
 
-Place Ellipsoid::place(const Geographic& at) const {
-  const double angle = at.longitude * kRadiansOfDegree;
-  return place(parallel(at.latitude), std::sin(angle), std::cos(angle), at.height);
+World::Meridian World::meridian(double longitude) const {
+  if (is_flat_) return {0, 0, (longitude - static_cast<double>(raster_.centre_col())) * raster_.cell_x};
+  const double angle = longitude * kRadiansOfDegree;
+  return {std::sin(angle), std::cos(angle), 0};
 }
 
-Geographic Ellipsoid::find(const Place& at) const {
+Place World::place(const Geographic& at) const {
+  return place(parallel(at.latitude), meridian(at.longitude), at.height);
+}
+
+double World::least_radius() const { return is_flat_ ? std::numeric_limits<double>::infinity() : a_ * (1 - e2_); }
+
+Geographic World::find(const Place& at) const {
+  if (is_flat_)
+    return {at[0] / raster_.cell_x + static_cast<double>(raster_.centre_col()),
+            at[1] / raster_.cell_y + static_cast<double>(raster_.centre_row()), at[2]};
   constexpr int kRounds = 8;  // each leaves 1/150 of the one before
   const double out = std::hypot(at[0], at[1]);
   double latitude = std::atan2(at[2], out * (1 - e2_));
@@ -59,7 +75,7 @@ Geographic Ellipsoid::find(const Place& at) const {
   return {std::atan2(at[1], at[0]) / kRadiansOfDegree, latitude / kRadiansOfDegree, height};
 }
 
-Place Ellipsoid::up(double longitude, double latitude) {
+Place World::up(double longitude, double latitude) {
   const double east = longitude * kRadiansOfDegree, north = latitude * kRadiansOfDegree;
   return {std::cos(north) * std::cos(east), std::cos(north) * std::sin(east), std::sin(north)};
 }

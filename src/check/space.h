@@ -1,13 +1,14 @@
-// The ellipsoid, for who judges tiles: not the arithmetic that they were made with.
+// What tiles lie on, for who judges them: not the arithmetic that they were made with.
 #pragma once
 
 #include <array>
 
 #include "scarp/degrees.h"
+#include "scarp/tile_grid.h"
 
 namespace scarp {
 
-/// Earth-centred metres, or a way.
+/// Earth-centred metres, or those from the centre of a plane; or a way.
 using Place = std::array<double, 3>;
 
 Place operator+(const Place& a, const Place& b);
@@ -17,24 +18,35 @@ double inner(const Place& a, const Place& b);
 Place cross(const Place& a, const Place& b);
 double length(const Place& a);
 
-/// Degrees, and metres above the ellipsoid.
+/// Degrees, and metres above the ellipsoid; cells of a local grid, and metres above its plane.
 struct Geographic {
   double longitude = 0, latitude = 0, height = 0;
 };
 
-class Ellipsoid {
+/// The ellipsoid, or the plane of a local grid.
+class World {
  public:
-  explicit Ellipsoid(const Geodetic& geodetic);
+  World(const TileGrid& grid, const Geodetic& geodetic);
+
+  bool is_flat() const { return is_flat_; }
 
   /// What a row of places with one latitude shares.
   struct Parallel {
     double sine = 0, cosine = 0;
     double normal = 0;  ///< metres from the surface to the axis, along the vertical
+    double north = 0;   ///< metres, on the plane
   };
   Parallel parallel(double latitude) const;
-  Place place(const Parallel& parallel, double sine, double cosine, double height) const {
+  /// What a column of places with one longitude shares.
+  struct Meridian {
+    double sine = 0, cosine = 0;
+    double east = 0;  ///< metres, on the plane
+  };
+  Meridian meridian(double longitude) const;
+  Place place(const Parallel& parallel, const Meridian& meridian, double height) const {
+    if (is_flat_) return {meridian.east, parallel.north, height};
     const double out = (parallel.normal + height) * parallel.cosine;
-    return {out * cosine, out * sine, (parallel.normal * (1 - e2_) + height) * parallel.sine};
+    return {out * meridian.cosine, out * meridian.sine, (parallel.normal * (1 - e2_) + height) * parallel.sine};
   }
   Place place(const Geographic& at) const;
   /// The reverse, to 10⁻⁸ m; longitudes of −180 … 180.
@@ -45,10 +57,12 @@ class Ellipsoid {
   /// In units of the axes: the ellipsoid becomes the sphere of radius 1.
   Place scaled(const Place& at) const { return {at[0] / a_, at[1] / a_, at[2] / b_}; }
   double semi_major() const { return a_; }
-  /// The least radius of curvature anywhere.
-  double least_radius() const { return a_ * (1 - e2_); }
+  /// The least radius of curvature anywhere; infinite on the plane.
+  double least_radius() const;
 
  private:
+  LocalRaster raster_;
+  bool is_flat_;
   double a_, b_, e2_;
 };
 

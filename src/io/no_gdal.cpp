@@ -45,6 +45,13 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo&, int, int, const Datum&, 
   return fail(ErrorKind::kInput, path + ": this build of Scarp knows no place on the globe: it was built without GDAL");
 }
 
+bool is_local_crs(const RasterInfo&) { return false; }
+
+Result<PlaneOnGlobe> find_plane_on_globe(const RasterInfo& info, const LocalRaster&, const RasterOnGlobe&) {
+  return fail(ErrorKind::kInput,
+              info.path + ": this build of Scarp knows no place on the globe: it was built without GDAL");
+}
+
 Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info) {
   const std::string& wanted = options.crs;
   const int cols = raster.cols, rows = raster.rows;

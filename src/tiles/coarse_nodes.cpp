@@ -155,13 +155,15 @@ CoarseTile CoarseTile::flat(float height) {
 CoarseTile CoarseTile::join(const TileGrid& grid, TileId id, const std::array<const CoarseTile*, 4>& children) {
   CoarseTile tile;
   const TileRows rows(grid, id, 2 * kCoarseCells);
+  // A local grid's raster may end on the border of two tiles, of which the one beyond is none.
+  const bool has_north = grid.has({id.z + 1, 2 * id.x, 2 * id.y + 1});
   const auto child_of = [&](std::int32_t& col, std::int32_t& row, std::int32_t last) {
     std::size_t which = 0;
     if (col > last) {
       col -= kCoarseCells;
       which += 1;
     }
-    if (row > last) {
+    if (row > last || (row == kCoarseCells && !has_north)) {
       row -= kCoarseCells;
       which += 2;
     }
@@ -236,13 +238,18 @@ const CoarseTile& CoarseLevel::at(std::uint32_t x, std::uint32_t y) const {
 
 Result<void> CoarseLevel::read(const NodeWindow& window, std::span<float> out) const {
   const std::int64_t down = window.grid.rows(z_), turn = std::int64_t{window.grid.columns(z_)} * kCoarseCells;
+  // Beyond a local grid's land its last nodes are repeated.
+  const NodeRange columns = window.grid.land_columns(turn), rows = window.grid.land_rows(turn);
+  const std::int64_t last_column = (columns.last - 1) / kCoarseCells;
   for (int j = 0; j < window.rows; ++j) {
-    const std::int64_t row = window.row + j, tile_row = std::min(row / kCoarseCells, down - 1);
+    const std::int64_t row = std::max(window.row + j, rows.first), tile_row = std::min(row / kCoarseCells, down - 1);
     for (int i = 0; i < window.cols; ++i) {
-      const std::int64_t col = (((window.col + i) % turn) + turn) % turn;
+      const std::int64_t place = std::clamp(window.col + i, columns.first, columns.last);
+      const std::int64_t col = window.grid.is_flat() ? place : ((place % turn) + turn) % turn;
+      const std::int64_t tile_col = std::min(col / kCoarseCells, last_column);
       out[static_cast<std::size_t>(j) * static_cast<std::size_t>(window.cols) + static_cast<std::size_t>(i)] =
-          at(static_cast<std::uint32_t>(col / kCoarseCells), static_cast<std::uint32_t>(down - 1 - tile_row))
-              .node(static_cast<std::int32_t>(col % kCoarseCells),
+          at(static_cast<std::uint32_t>(tile_col), static_cast<std::uint32_t>(down - 1 - tile_row))
+              .node(static_cast<std::int32_t>(col - tile_col * kCoarseCells),
                     static_cast<std::int32_t>(row - tile_row * kCoarseCells));
     }
   }

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "scarp/tiles3d.h"
-#include "tiles/globe.h"
+#include "tiles/ground.h"
 #include "tiles/powers.h"
 #include "tiles/tile_mesh_parts.h"
 
@@ -21,11 +21,14 @@ std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, double step) 
 }
 
 /// The degrees of shared vertices, the same bits on both sides of an edge, around the antimeridian too.
-Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const Globe& globe) {
+Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const Ground& ground) {
   const DegreeBox box = grid.bounds_of(tile.id);
-  const double longitude = tile.u[v] == 32767 ? box.east : box.west + (box.east - box.west) * (tile.u[v] / 32767.0);
-  const double latitude = tile.v[v] == 32767 ? box.north : box.south + (box.north - box.south) * (tile.v[v] / 32767.0);
-  return globe.position(longitude == 180 ? -180 : longitude, latitude, tile.quantum * tile.heights[v]);
+  const double units = tile.units;
+  const double longitude = tile.u[v] == tile.units ? box.east : box.west + (box.east - box.west) * (tile.u[v] / units);
+  const double latitude =
+      tile.v[v] == tile.units ? box.north : box.south + (box.north - box.south) * (tile.v[v] / units);
+  const bool is_around = longitude == 180 && grid.turns().size() > 1;
+  return ground.position(is_around ? -180 : longitude, latitude, tile.quantum * tile.heights[v]);
 }
 
 std::vector<std::uint32_t> vertices_along(const std::vector<std::uint16_t>& across, std::uint16_t edge,
@@ -38,7 +41,7 @@ std::vector<std::uint32_t> vertices_along(const std::vector<std::uint16_t>& acro
   return vertices;
 }
 
-TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Globe& globe) {
+TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Ground& ground) {
   std::vector<Space> positions;
   for (const auto& offset : placed.offsets) {
     Space at{};
@@ -52,15 +55,30 @@ TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Glo
   facts.max_height = tile.quantum * *highest + placed.step;
   const Globe::Sphere sphere = Globe::sphere_around(positions);
   facts.sphere = {sphere.centre[0], sphere.centre[1], sphere.centre[2], sphere.radius};
-  facts.horizon_point = globe.horizon_point(sphere.centre, positions);
+  facts.horizon_point = ground.horizon_point(sphere.centre, positions);
   if (std::isnan(facts.horizon_point[0])) facts.horizon_point = scaled(normalized(sphere.centre), kFarOut);
   return facts;
 }
 
 }  // namespace
 
+namespace {
+
+/// On a plane of square cells vertices' places are whole steps, which 16 bits hold where the max error is not small.
+double plane_step(const LocalRaster& raster, int z, double max_error) {
+  constexpr double kMost = 24, kFinest = 256, kPartsOfCell = 8;
+  double step = std::ldexp(static_cast<double>(raster.side) * raster.cell_x / LocalRaster::kPlaces, -z);
+  const double least = step * LocalRaster::kPlaces / 0x1p21;
+  while (step > max_error / kMost && step > least) step /= 2;
+  while (2 * step <= std::min(max_error / kFinest, raster.cell_x / kPartsOfCell)) step *= 2;
+  return step;
+}
+
+}  // namespace
+
 double lattice_step(const PyramidPlan& plan, int z) {
   const double max_error = plan.levels[static_cast<std::size_t>(z)].max_error;
+  if (plan.grid.is_flat()) return plane_step(plan.grid.local, z, max_error);
   const double side = plan.grid.tile_width(z, plan.ellipsoid.semi_major);
   // Room for the relief besides; and float32 holds what 16 bits do not.
   const double short_step = power_of_two_above(1.1 * side / 65535), least_step = power_of_two_above(side / 0x1p21);
@@ -68,15 +86,19 @@ double lattice_step(const PyramidPlan& plan, int z) {
                   std::clamp(short_step, power_of_two_below(max_error / 256), power_of_two_below(max_error / 32)));
 }
 
-double lattice_error(const PyramidPlan& plan, int z) { return std::sqrt(0.75) * lattice_step(plan, z); }
+double lattice_error(const PyramidPlan& plan, int z) {
+  const LocalRaster& raster = plan.grid.local;
+  const double moved = !plan.grid.is_flat() ? 3 : raster.cell_x == raster.cell_y ? 1 : 2;  // of the three ways
+  return std::sqrt(moved / 4) * lattice_step(plan, z);
+}
 
 EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
-  const Globe globe(plan.ellipsoid);
+  const Ground ground(plan.grid, plan.ellipsoid);
   EarthTile placed;
   placed.step = lattice_step(plan, tile.id.z);
   std::vector<std::array<std::int64_t, 3>> points;
   for (std::size_t v = 0; v < tile.u.size(); ++v)
-    points.push_back(nearest_lattice_point(shared_position(tile, v, plan.grid, globe), placed.step));
+    points.push_back(nearest_lattice_point(shared_position(tile, v, plan.grid, ground), placed.step));
   placed.origin.fill(std::numeric_limits<std::int64_t>::max());
   for (const auto& point : points) {
     for (std::size_t k = 0; k < 3; ++k) placed.origin[k] = std::min(placed.origin[k], point[k]);
@@ -87,13 +109,16 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
     placed.offsets.push_back(offset);
   }
   for (const auto& normal : tile.normals) placed.normals.push_back(decode_octahedral(normal));
-  for (std::size_t v = 0; v < tile.u.size(); ++v) placed.places.push_back({tile.u[v], tile.v[v]});
+  const double units = tile.units;
+  for (std::size_t v = 0; v < tile.u.size(); ++v)
+    placed.places.push_back({tile.u[v] / units, (units - tile.v[v]) / units});
   placed.triangles = tile.triangles;
   placed.west = vertices_along(tile.u, 0, tile.v);
   placed.south = vertices_along(tile.v, 0, tile.u);
-  placed.east = vertices_along(tile.u, 32767, tile.v);
-  placed.north = vertices_along(tile.v, 32767, tile.u);
-  placed.facts = find_facts(tile, placed, globe);
+  // Where a local grid's raster ends in the tile, so does the mesh.
+  placed.east = vertices_along(tile.u, *std::max_element(tile.u.begin(), tile.u.end()), tile.v);
+  placed.north = vertices_along(tile.v, *std::max_element(tile.v.begin(), tile.v.end()), tile.u);
+  placed.facts = find_facts(tile, placed, ground);
   return placed;
 }
 

@@ -30,8 +30,15 @@ constexpr double kSpacing = 1.1;
 /// planets with higher mountains.
 constexpr double kHighestOnEarth = 20000, kHighest = 60000;
 
+/// Of a local grid, whose heights may be in units of one's own.
+constexpr double kHighestLocal = 1e6;
+
+/// Relief of it in cells, at most: 24 bits hold it in eighths of one.
+constexpr double kSteepest = 0x1p20;
+
 /// Edges between grid points are so short that the sag is at most an eighth of the geometric error.
 int segments_of(int z, const TileGrid& grid) {
+  if (grid.is_flat()) return 1;
   const int halves = z + std::countr_zero(grid.roots());  // of a whole turn
   return halves < 11 ? 64 >> ((halves + 1) / 2) : 1;
 }
@@ -64,6 +71,7 @@ bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
 }
 
 int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, const Globe& globe) {
+  if (grid.is_flat()) return grid.finest_local(cells);
   const DegreeBox& covered = source.covered;
   // Where a pole is covered, nodes are as dense as anybody likes there: what counts is the edge.
   const double latitude = covered.north >= 90    ? std::max(covered.south, 0.0)
@@ -78,8 +86,11 @@ int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, co
   return z;
 }
 
+/// Whether it goes all round the globe.
+bool is_round(const TileGrid& grid, const DegreeBox& box) { return !grid.is_flat() && box.east - box.west >= 360; }
+
 /// The range of all, around all.
-SourceFacts join_facts(std::span<const SourceFacts> stack) {
+SourceFacts join_facts(std::span<const SourceFacts> stack, const TileGrid& grid) {
   SourceFacts all = stack.front();
   for (const SourceFacts& one : stack) {
     all.covered = {std::min(all.covered.west, one.covered.west), std::min(all.covered.south, one.covered.south),
@@ -88,7 +99,7 @@ SourceFacts join_facts(std::span<const SourceFacts> stack) {
     all.min = std::min(all.min, one.min);
     all.max = std::max(all.max, one.max);
   }
-  if (all.covered.east - all.covered.west >= 360) {
+  if (is_round(grid, all.covered)) {
     all.covered.west = -180;
     all.covered.east = 180;
   }
@@ -98,7 +109,7 @@ SourceFacts join_facts(std::span<const SourceFacts> stack) {
 /// What two boxes share; where they meet in two places, the larger. A source that goes all round covers any box.
 std::optional<DegreeBox> intersection_of(const TileGrid& grid, const DegreeBox& covered, const DegreeBox& only) {
   std::optional<DegreeBox> best;
-  if (covered.east - covered.west >= 360) best = {only.west, covered.south, only.east, covered.north};
+  if (is_round(grid, covered)) best = {only.west, covered.south, only.east, covered.north};
   for (const double turn : grid.turns()) {
     const DegreeBox shared{std::max(covered.west, only.west + turn), covered.south,
                            std::min(covered.east, only.east + turn), covered.north};
@@ -129,28 +140,45 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
     return fail(ErrorKind::kUsage,
                 fmt::format("the {} grid ends at {:.4f} degrees, and the raster lies beyond: take the geographic grid",
                             settings.grid.name(), settings.grid.bounds().north));
-  const SourceFacts source = join_facts(stack);
+  const SourceFacts source = join_facts(stack, settings.grid);
   if (settings.cells < 16 || settings.cells > 256 || !std::has_single_bit(static_cast<unsigned>(settings.cells)))
     return fail(ErrorKind::kUsage, fmt::format("{} cells a tile: give 16, 32, 64, 128 or 256", settings.cells));
   if (settings.max_zoom < -1 || settings.max_zoom > kMaxTileLevel)
     return fail(ErrorKind::kUsage,
                 fmt::format("level {} does not exist: the finest is at most {}", settings.max_zoom, kMaxTileLevel));
+  if (settings.grid.is_flat() && settings.max_zoom >= 0 &&
+      settings.max_zoom != settings.grid.finest_local(settings.cells))
+    return fail(ErrorKind::kUsage,
+                fmt::format("the nodes of a local grid are the raster's samples, and its finest level "
+                            "is {}: leave --zoom out, or reduce the raster first (gdalwarp -tr)",
+                            settings.grid.finest_local(settings.cells)));
   if (!(settings.quality >= 0.5) || !(settings.quality <= 1e6))
     return fail(ErrorKind::kUsage, fmt::format("a quality of {} is none: give 0.5 to 1000000", settings.quality));
   if (!(settings.max_error >= 0) || !std::isfinite(settings.max_error))
     return fail(ErrorKind::kUsage, fmt::format("a max error of {} m is none: give more than 0", settings.max_error));
-  if (!std::isfinite(settings.background) || std::abs(settings.background) > 20000)
-    return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within 20000",
-                                               settings.background));
+  const double most_background = settings.grid.is_flat() ? kHighestLocal : kHighestOnEarth;
+  if (!std::isfinite(settings.background) || std::abs(settings.background) > most_background)
+    return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within {}",
+                                               settings.background, most_background));
   if (!settings.lines.empty() && !settings.grid.has_even_rows())
     return fail(ErrorKind::kUsage, fmt::format("breaklines do not go with the {} grid: lines cross its tiles at places "
                                                "that nodes do not divide evenly; take the geographic one",
                                                settings.grid.name()));
-  const double overshoot = kOvershoot * (source.max - source.min);
+  // The nodes of a local grid are samples.
+  const double overshoot = settings.grid.is_flat() ? 0 : kOvershoot * (source.max - source.min);
   const double low = std::min<double>(source.min - overshoot, settings.background);
   const double high = std::max<double>(source.max + overshoot, settings.background);
   const bool is_earth = std::abs(settings.ellipsoid.semi_major / Geodetic{}.semi_major - 1) <= 0.01;
-  const double highest = is_earth ? kHighestOnEarth : kHighest;
+  const double highest = settings.grid.is_flat() ? kHighestLocal : is_earth ? kHighestOnEarth : kHighest;
+  if (settings.grid.is_flat() && !(std::max(std::abs(low), std::abs(high)) <= highest))
+    return fail(ErrorKind::kUsage, fmt::format("heights of {} to {} are beyond {}: is nodata undeclared? Else give "
+                                               "--z-scale",
+                                               source.min, source.max, highest));
+  if (settings.grid.is_flat() && !(high - low <= kSteepest * source.cell))
+    return fail(ErrorKind::kUsage,
+                fmt::format("heights of {} to {} on cells of {} are no land: is nodata undeclared? Else "
+                            "give --z-scale",
+                            source.min, source.max, source.cell));
   if (!(source.cell > 0) || !(high - low <= 2 * highest) || std::max(std::abs(low), std::abs(high)) > highest)
     return fail(ErrorKind::kUsage,
                 fmt::format("heights of {} to {} are not metres of a planet: give them in metres, within {} (is "

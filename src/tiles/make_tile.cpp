@@ -12,7 +12,7 @@
 #include "scarp/mesh.h"
 #include "scarp/simplify.h"
 #include "scarp/tile.h"
-#include "tiles/globe.h"
+#include "tiles/ground.h"
 #include "tiles/node_scan.h"
 #include "tiles/source_samples.h"
 #include "tiles/tile_edges.h"
@@ -39,6 +39,8 @@ class TileMaker {
         level_(plan.levels[static_cast<std::size_t>(id.z)]),
         id_(id),
         nodes_(nodes),
+        land_(nodes.land()),
+        units_(plan.grid.side_units()),
         rows_(plan.grid, id, nodes.steps()),
         judge_(judge) {
     if (plan.lines == nullptr) return;
@@ -95,28 +97,32 @@ class TileMaker {
 
  private:
   std::int32_t steps() const { return nodes_.steps(); }
+  std::int32_t cols() const { return land_.right + 1; }
+  std::int32_t rows() const { return land_.bottom - land_.top + 1; }
   std::size_t index(std::int32_t col, std::int32_t row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(steps() + 1) + static_cast<std::size_t>(col);
+    return static_cast<std::size_t>(row - land_.top) * static_cast<std::size_t>(cols()) + static_cast<std::size_t>(col);
   }
 
   /// The samples that the engine sees: multiples of the quantum; on the edges the lines themselves.
   void lay_edges() {
-    samples_.resize(index(0, steps() + 1));
-    for (std::int32_t row = 0; row <= steps(); ++row) {
-      for (std::int32_t col = 0; col <= steps(); ++col) samples_[index(col, row)] = rounded(nodes_.at(col, row));
+    samples_.resize(index(0, land_.bottom + 1));
+    for (std::int32_t row = land_.top; row <= land_.bottom; ++row) {
+      for (std::int32_t col = 0; col <= land_.right; ++col) samples_[index(col, row)] = rounded(nodes_.at(col, row));
     }
-    const std::int32_t last = steps();
+    const std::int32_t last = steps(), top = land_.top, right = land_.right;
     EdgeNodes across, down;
-    for (std::int32_t i = 0; i <= last; ++i) {
+    for (std::int32_t i = 0; i <= right; ++i) {
       across.places.push_back(i);
-      across.decoded.push_back(static_cast<double>(quantized(i, last)) * last / 32767);
-      down.places.push_back(rows_.line(i));
-      down.decoded.push_back(static_cast<double>(32767 - rows_.v_of(last - i)) * last / 32767);
+      across.decoded.push_back(static_cast<double>(quantized(i, last, units_)) * last / units_);
     }
-    edges_.top = lay_edge(across, &EdgeVertices::top, [&](std::int32_t i) { return std::pair{i, 0}; });
+    for (std::int32_t i = top; i <= last; ++i) {
+      down.places.push_back(rows_.line(i));
+      down.decoded.push_back(static_cast<double>(units_ - rows_.v_of(last - i)) * last / units_);
+    }
+    edges_.top = lay_edge(across, &EdgeVertices::top, [&](std::int32_t i) { return std::pair{i, top}; });
     edges_.bottom = lay_edge(across, &EdgeVertices::bottom, [&](std::int32_t i) { return std::pair{i, last}; });
-    edges_.left = lay_edge(down, &EdgeVertices::left, [&](std::int32_t i) { return std::pair{0, i}; });
-    edges_.right = lay_edge(down, &EdgeVertices::right, [&](std::int32_t i) { return std::pair{last, i}; });
+    edges_.left = lay_edge(down, &EdgeVertices::left, [&](std::int32_t i) { return std::pair{0, top + i}; });
+    edges_.right = lay_edge(down, &EdgeVertices::right, [&](std::int32_t i) { return std::pair{right, top + i}; });
   }
 
   /// Of the tile's nodes, those between two of the lattice of lines.
@@ -127,7 +133,10 @@ class TileMaker {
                                      const Place& place) {
     std::vector<float>& heights = nodes.heights;
     heights.clear();
-    for (std::int32_t i = 0; i <= steps(); ++i) heights.push_back(nodes_.at(place(i).first, place(i).second));
+    for (std::size_t i = 0; i < nodes.places.size(); ++i) {
+      const auto [col, row] = place(static_cast<std::int32_t>(i));
+      heights.push_back(nodes_.at(col, row));
+    }
     std::vector<std::int32_t> crossed;
     if (paths_ != nullptr) crossed = paths_->edges.*edge;
     for (std::int32_t& i : crossed) i *= line_step();
@@ -156,8 +165,8 @@ class TileMaker {
   bool force_around(const std::vector<SampleAt>& nodes) {
     const std::size_t before = forced_.size();
     for (const auto& [col, row] : nodes) {
-      for (std::int32_t y = std::max(row - 1, 1); y <= std::min(row + 1, steps() - 1); ++y) {
-        for (std::int32_t x = std::max(col - 1, 1); x <= std::min(col + 1, steps() - 1); ++x) {
+      for (std::int32_t y = std::max(row - 1, land_.top + 1); y <= std::min(row + 1, land_.bottom - 1); ++y) {
+        for (std::int32_t x = std::max(col - 1, 1); x <= std::min(col + 1, land_.right - 1); ++x) {
           if (!is_beside_line(x, y)) forced_.insert({y, x});
         }
       }
@@ -207,7 +216,8 @@ class TileMaker {
   Result<Mesh> refine(double max_error) const {
     HeightField field;
     field.samples = samples_.data();
-    field.cols = field.rows = steps() + 1;
+    field.cols = cols();
+    field.rows = rows();
     field.frame = grid_frame(field.rows);
     SimplifyOptions options;
     options.goals.max_error = max_error;
@@ -220,7 +230,7 @@ class TileMaker {
     for (std::int32_t row = side; row < steps(); row += side) {
       for (std::int32_t col = side; col < steps(); col += side) options.features.points.push_back({col, row});
     }
-    for (const auto& [row, col] : forced_) options.features.points.push_back({col, row});
+    for (const auto& [row, col] : forced_) options.features.points.push_back({col, row - land_.top});
     add_lines_to(options);
     auto simplified = simplify(field, options);
     if (!simplified) return tl::unexpected(simplified.error());
@@ -234,13 +244,14 @@ class TileMaker {
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
       const std::array<double, 3> at = mesh.vertex(v);
       const auto parts = [](double way) { return static_cast<std::int64_t>(std::floor(way * kParts + 0.5)); };
-      whole.positions.push_back(quantized(parts(at[0]), std::int64_t{kParts} * steps()));
+      whole.positions.push_back(quantized(parts(at[0]), std::int64_t{kParts} * steps(), units_));
       whole.positions.push_back(rows_.v_of(parts(at[1]), kParts));
       whole.positions.push_back(quanta_of(at[2], level_.quantum));
     }
     optimize_order(whole);
     TerrainTile tile;
     tile.id = id_;
+    tile.units = units_;
     tile.quantum = level_.quantum;
     tile.triangles = std::move(whole.triangles);
     for (std::size_t v = 0; v < whole.vertex_count(); ++v) {
@@ -252,7 +263,7 @@ class TileMaker {
     return tile;
   }
 
-  /// Twice its area, in 32767ths.
+  /// Twice its area, in units.
   static std::int64_t area_of(const TerrainTile& tile, std::size_t first) {
     const std::uint32_t a = tile.triangles[first], b = tile.triangles[first + 1], c = tile.triangles[first + 2];
     const std::int64_t abx = tile.u[b] - tile.u[a], aby = tile.v[b] - tile.v[a];
@@ -309,22 +320,24 @@ class TileMaker {
     for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
       if (area_of(tile, k) > 0) continue;
       for (const std::uint32_t v : {tile.triangles[k], tile.triangles[k + 1], tile.triangles[k + 2]}) {
-        nodes.push_back({nearest_node(tile.u[v], steps()), rows_.nearest(tile.v[v])});
+        nodes.push_back({nearest_node(tile.u[v], steps(), units_), rows_.nearest(tile.v[v])});
       }
     }
     return nodes;
   }
 
   void finish(TerrainTile& tile) const {
-    const Globe globe(plan_.ellipsoid);
-    tile.sag = largest_sag(tile, plan_.grid, globe);
-    tile.normals = node_normals(tile, nodes_, rows_, plan_.grid, globe);
+    const Ground ground(plan_.grid, plan_.ellipsoid);
+    tile.sag = largest_sag(tile, plan_.grid, ground);
+    tile.normals = node_normals(tile, nodes_, rows_, plan_.grid, ground);
   }
 
   const PyramidPlan& plan_;
   const PyramidLevel& level_;
   TileId id_;
   const TileNodes& nodes_;
+  const NodeArea land_;
+  const std::int32_t units_;
   const TileRows rows_;
   const TileJudge& judge_;
   const TileLines::Paths* paths_ = nullptr;  ///< null: no line passes the tile
@@ -338,11 +351,11 @@ class TileMaker {
 
 namespace {
 
-/// The nodes next to places in 32767ths of the tile.
-std::vector<SampleAt> nodes_at(const std::vector<FarPoint>& points, const TileRows& rows) {
+/// The nodes next to places in units of the tile.
+std::vector<SampleAt> nodes_at(const std::vector<FarPoint>& points, const TileRows& rows, std::int32_t units) {
   std::vector<SampleAt> nodes;
   for (const FarPoint& far : points) {
-    nodes.push_back({static_cast<std::int32_t>(std::floor(far.u * rows.steps() / 32767 + 0.5)),
+    nodes.push_back({static_cast<std::int32_t>(std::floor(far.u * rows.steps() / units + 0.5)),
                      rows.nearest(static_cast<std::uint16_t>(std::floor(far.v + 0.5)))});
   }
   return nodes;
@@ -352,10 +365,11 @@ TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const
   const std::int32_t steps = nodes.steps();
   TileSurface surface(tile, tile.max_error);
   for (std::int32_t row = 0; row <= steps; ++row) {
-    const double v = 32767 * (1 - rows.line(row) / steps);
-    surface.judge({0, v, 32767.0 / steps, 0, {nodes.from(0, row), static_cast<std::size_t>(steps) + 1}});
+    const double v = tile.units * (1 - rows.line(row) / steps);
+    surface.judge(
+        {0, v, static_cast<double>(tile.units) / steps, 0, {nodes.from(0, row), static_cast<std::size_t>(steps) + 1}});
   }
-  return {surface.largest_error(), nodes_at(surface.far_points(), rows)};
+  return {surface.largest_error(), nodes_at(surface.far_points(), rows, tile.units)};
 }
 
 Result<TileVerdict> judge_at_nodes_and_samples(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid,
@@ -365,7 +379,7 @@ Result<TileVerdict> judge_at_nodes_and_samples(const TerrainTile& tile, const Ti
   const Result<SampleVerdict> samples = judge_at_samples(tile, grid, nodes, source, tile.max_error);
   if (!samples) return tl::unexpected(samples.error());
   verdict->sample_error = samples->error;
-  verdict->beside = nodes_at(samples->far_points, TileRows(grid, tile.id, nodes.steps()));
+  verdict->beside = nodes_at(samples->far_points, TileRows(grid, tile.id, nodes.steps()), tile.units);
   return verdict;
 }
 
@@ -401,7 +415,7 @@ Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileCo
                                 const TileEncoder& encode) {
   const bool has_lines = plan.lines != nullptr && plan.lines->find(id) != nullptr;
   const std::int32_t least = 2 * plan.levels[static_cast<std::size_t>(id.z)].segments;
-  const TileNodes nodes = TileNodes::flat(has_lines ? std::max(least, plan.cells) : least, plan.background);
+  const TileNodes nodes = TileNodes::flat(plan, id, has_lines ? std::max(least, plan.cells) : least);
   return make_tile_of(
       plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); }, complete,
       encode);

@@ -1,5 +1,5 @@
-// Triangles have corners on 32767ths of the tile, nodes lie on its steps-th parts: in units of both, a (32767 ·
-// steps)th, all are whole numbers, and the functions of the sides that tell in from out are exact in 64 bits.
+// Triangles have corners on units of the tile, nodes lie on its steps-th parts: in parts of both, a (units · steps)th,
+// all are whole numbers, and the functions of the sides that tell in from out are exact in 64 bits.
 #include "tiles/node_scan.h"
 
 #include <algorithm>
@@ -9,10 +9,9 @@
 namespace scarp {
 namespace {
 
-constexpr std::int64_t kNode = 32767;  ///< from a node to the next, in units
 constexpr std::int32_t kLanes = 4;
 
-/// A point in units, y to the south.
+/// A point in such parts, y to the south. From a node to the next are as many as the tile has units.
 struct UnitPoint {
   std::int64_t x = 0, y = 0;
 };
@@ -20,7 +19,8 @@ struct UnitPoint {
 /// What is on the right of a way to the south, or on the left of one to the north, on rows that the way crosses.
 class Side {
  public:
-  Side(UnitPoint from, UnitPoint to) : from_(from), dx_(to.x - from.x), dy_(to.y - from.y) {
+  Side(UnitPoint from, UnitPoint to, std::int64_t node)
+      : from_(from), dx_(to.x - from.x), dy_(to.y - from.y), node_(node) {
     slope_ = static_cast<double>(dx_) / static_cast<double>(dy_);
   }
   /// The first column east of the side on a row of nodes, or on it; REQUIRES: not level.
@@ -41,37 +41,42 @@ class Side {
  private:
   /// A column next to the side, as rounding leaves it.
   std::int32_t near(std::int32_t row) const {
-    const auto y = static_cast<double>(kNode * row - from_.y);
-    return static_cast<std::int32_t>(std::floor((static_cast<double>(from_.x) + slope_ * y) / kNode));
+    const auto y = static_cast<double>(node_ * row - from_.y);
+    return static_cast<std::int32_t>(
+        std::floor((static_cast<double>(from_.x) + slope_ * y) / static_cast<double>(node_)));
   }
   std::int64_t east_of(std::int32_t col, std::int32_t row) const {
-    const std::int64_t across = (kNode * col - from_.x) * dy_ - (kNode * row - from_.y) * dx_;
+    const std::int64_t across = (node_ * col - from_.x) * dy_ - (node_ * row - from_.y) * dx_;
     return dy_ > 0 ? across : -across;
   }
   bool is_east(std::int32_t col, std::int32_t row) const { return east_of(col, row) >= 0; }
   bool is_west(std::int32_t col, std::int32_t row) const { return east_of(col, row) <= 0; }
 
   UnitPoint from_;
-  std::int64_t dx_, dy_;
+  std::int64_t dx_, dy_, node_;
   double slope_;
 };
 
 class NodeScan {
  public:
-  NodeScan(const TileNodes& nodes, double limit)
-      : nodes_(nodes), limit_(limit), side_(static_cast<std::size_t>(nodes.steps()) + 1), covered_(side_ * side_, 0) {}
+  NodeScan(const TileNodes& nodes, std::int64_t node, double limit)
+      : nodes_(nodes),
+        node_(node),
+        limit_(limit),
+        side_(static_cast<std::size_t>(nodes.steps()) + 1),
+        covered_(side_ * side_, 0) {}
 
   void scan(const std::array<UnitPoint, 3>& corners, const std::array<double, 3>& heights) {
     // From north to south.
     std::array<std::size_t, 3> order{0, 1, 2};
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return corners[a].y < corners[b].y; });
     const UnitPoint top = corners[order[0]], middle = corners[order[1]], bottom = corners[order[2]];
-    const auto row_from = [](std::int64_t y) { return static_cast<std::int32_t>((y + kNode - 1) / kNode); };
-    const auto row_to = [](std::int64_t y) { return static_cast<std::int32_t>(y / kNode); };
+    const auto row_from = [this](std::int64_t y) { return static_cast<std::int32_t>((y + node_ - 1) / node_); };
+    const auto row_to = [this](std::int64_t y) { return static_cast<std::int32_t>(y / node_); };
     const std::int64_t area = (middle.x - top.x) * (bottom.y - top.y) - (middle.y - top.y) * (bottom.x - top.x);
     plane(corners, heights);
     worst_ = limit_;
-    const Side long_side(top, bottom);
+    const Side long_side(top, bottom, node_);
     const auto rows = [&](const Side& short_side, std::int32_t first, std::int32_t last) {
       for (std::int32_t row = first; row <= last; ++row) {
         if (area > 0)
@@ -82,16 +87,20 @@ class NodeScan {
     };
     // The middle corner's row belongs to the upper part, or to the lower one where the upper is level.
     const std::int32_t last_above = row_to(middle.y);
-    if (top.y < middle.y) rows(Side(top, middle), row_from(top.y), last_above);
+    if (top.y < middle.y) rows(Side(top, middle, node_), row_from(top.y), last_above);
     const std::int32_t first_below = row_from(middle.y);
     if (middle.y < bottom.y)
-      rows(Side(middle, bottom), top.y < middle.y ? last_above + 1 : first_below, row_to(bottom.y));
+      rows(Side(middle, bottom, node_), top.y < middle.y ? last_above + 1 : first_below, row_to(bottom.y));
     if (worst_ > limit_) errors_.worst.push_back(worst_at_);
   }
 
   NodeErrors finish() {
     errors_.largest = largest_;
-    errors_.uncovered = static_cast<std::uint64_t>(std::count(covered_.begin(), covered_.end(), 0));
+    const NodeArea& land = nodes_.land();
+    for (std::int32_t row = land.top; row <= land.bottom; ++row) {
+      const auto first = covered_.begin() + static_cast<std::ptrdiff_t>(side_ * static_cast<std::size_t>(row));
+      errors_.uncovered += static_cast<std::uint64_t>(std::count(first, first + land.right + 1, 0));
+    }
     return std::move(errors_);
   }
 
@@ -110,9 +119,9 @@ class NodeScan {
 
   void look_at(std::int32_t row, std::int32_t first, std::int32_t last) {
     if (first > last) return;
-    const double start = height_ + slope_y_ * static_cast<double>(kNode * row - base_.y) +
-                         slope_x_ * static_cast<double>(kNode * first - base_.x);
-    const double step = slope_x_ * kNode;
+    const double start = height_ + slope_y_ * static_cast<double>(node_ * row - base_.y) +
+                         slope_x_ * static_cast<double>(node_ * first - base_.x);
+    const double step = slope_x_ * static_cast<double>(node_);
     const float* const heights = nodes_.from(first, row);
     const std::int32_t count = last - first + 1, whole = count / kLanes * kLanes;
     std::fill_n(covered_.begin() + static_cast<std::ptrdiff_t>(side_ * static_cast<std::size_t>(row)) + first, count,
@@ -138,6 +147,7 @@ class NodeScan {
   }
 
   const TileNodes& nodes_;
+  std::int64_t node_;
   double limit_;
   std::size_t side_;
   std::vector<std::uint8_t> covered_;
@@ -152,13 +162,13 @@ class NodeScan {
 }  // namespace
 
 NodeErrors scan_nodes(const TerrainTile& tile, const TileNodes& nodes, double limit) {
-  NodeScan scan(nodes, limit);
+  NodeScan scan(nodes, tile.units, limit);
   for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
     std::array<UnitPoint, 3> corners;
     std::array<double, 3> heights{};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = tile.triangles[k + i];
-      corners[i] = {std::int64_t{tile.u[v]} * nodes.steps(), std::int64_t{32767 - tile.v[v]} * nodes.steps()};
+      corners[i] = {std::int64_t{tile.u[v]} * nodes.steps(), std::int64_t{tile.units - tile.v[v]} * nodes.steps()};
       heights[i] = tile.quantum * tile.heights[v];
     }
     scan.scan(corners, heights);

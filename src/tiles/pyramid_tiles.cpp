@@ -50,9 +50,10 @@ int finest_level(const PyramidPlan& plan, TileId id) {
   return finest;
 }
 
-bool is_covered(const PyramidPlan& plan, TileId id) { return finest_level(plan, id) >= 0; }
+bool is_covered(const PyramidPlan& plan, TileId id) { return plan.grid.has(id) && finest_level(plan, id) >= 0; }
 
 bool is_wanted(const PyramidPlan& plan, TileId id) {
+  if (!plan.grid.has(id)) return false;
   if (id.z <= plan.block_level || plan.sources.empty()) return true;
   if (!plan.has_siblings) return finest_level(plan, id) >= id.z;
   const std::array<TileId, 4> siblings = children_of({id.z - 1, id.x / 2, id.y / 2});
@@ -75,7 +76,9 @@ std::vector<TileSet> choose_tiles(const PyramidPlan& plan) {
     for (const auto& [y, x] : chosen.back()) {
       const std::array<TileId, 4> children = children_of({z - 1, x, y});
       if (std::none_of(children.begin(), children.end(), [&](TileId id) { return is_covered(plan, id); })) continue;
-      for (const TileId child : children) level.insert({child.y, child.x});
+      for (const TileId child : children) {
+        if (plan.grid.has(child)) level.insert({child.y, child.x});
+      }
     }
     chosen.push_back(std::move(level));
   }

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "scarp/tile.h"
-#include "tiles/globe.h"
+#include "tiles/ground.h"
 #include "tiles/tile_mesh_parts.h"
 
 namespace scarp {
@@ -192,8 +192,8 @@ bool take_indices(Reader& reader, QuantizedMesh& mesh) {
 
 std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid,
                                                 const TileGrid& grid, std::span<const std::uint8_t> water_mask) {
-  const Globe globe(ellipsoid);
-  const std::vector<Space> positions = positions_in_space(tile, grid, globe);
+  const Ground ground(grid, ellipsoid);
+  const std::vector<Space> positions = positions_in_space(tile, grid, ground);
   const Globe::Sphere sphere = Globe::sphere_around(positions);
   const HeightSteps steps = choose_steps(tile);
   Writer writer;
@@ -202,7 +202,7 @@ std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const G
   writer.add(steps.high);
   writer.add_all(sphere.centre);
   writer.add(sphere.radius);
-  writer.add_all(globe.horizon_point(sphere.centre, positions));
+  writer.add_all(ground.horizon_point(sphere.centre, positions));
   writer.add(static_cast<std::uint32_t>(tile.u.size()));
   for (const std::vector<std::uint16_t>* values : {&tile.u, &tile.v, &steps.h}) add_deltas(writer, *values);
   const bool is_wide = tile.u.size() > kWideIndices;

@@ -12,12 +12,12 @@ Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& 
                                        const NodeSource& source, double limit) {
   if (!source.has_samples()) return SampleVerdict{std::numeric_limits<double>::quiet_NaN(), {}};
   const DegreeBox box = grid.bounds_of(tile.id);
-  const double per_u = 32767 / (box.east - box.west), per_v = 32767 / (box.north - box.south);
+  const double units = tile.units, per_u = units / (box.east - box.west), per_v = units / (box.north - box.south);
   TileSurface::Counts counts;
   const TileRows rows(grid, tile.id, nodes.steps());
   if (nodes.has_voids()) {
     counts = [&](double u, double v) {
-      return nodes.has_heights_around(u / 32767 * nodes.steps(), rows.above((1 - v / 32767) * nodes.steps()));
+      return nodes.has_heights_around(u / units * nodes.steps(), rows.above((1 - v / units) * nodes.steps()));
     };
   }
   TileSurface surface(tile, limit, counts);

@@ -9,9 +9,9 @@
 
 namespace scarp {
 
-/// Columns or rows of nodes that become 0 … 32767 in a tile of `steps` steps a side.
-inline std::uint16_t quantized(std::int64_t node, std::int64_t steps) {
-  return static_cast<std::uint16_t>((2 * 32767 * node + steps) / (2 * steps));
+/// Columns or rows of nodes that become 0 … `units` in a tile of `steps` steps a side.
+inline std::uint16_t quantized(std::int64_t node, std::int64_t steps, std::int64_t units) {
+  return static_cast<std::uint16_t>((2 * units * node + steps) / (2 * steps));
 }
 
 /// The nearest multiple of the quantum; halves go up.

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tiles/sine.h"
-
 namespace scarp {
 namespace {
-
-constexpr double kRadians = 0.017453292519943295;
 
 struct Degrees {
   double longitude = 0, latitude = 0;
 };
 
-Degrees degrees_at(const DegreeBox& box, double u, double v) {
-  return {box.west + (box.east - box.west) * (u / 32767), box.south + (box.north - box.south) * (v / 32767)};
+Degrees degrees_at(const DegreeBox& box, double u, double v, double units) {
+  return {box.west + (box.east - box.west) * (u / units), box.south + (box.north - box.south) * (v / units)};
 }
 
 }  // namespace
@@ -23,50 +19,51 @@ Degrees degrees_at(const DegreeBox& box, double u, double v) {
 std::int32_t normal_reach(std::int32_t steps) { return std::max(1, steps / 256); }
 
 std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, const TileNodes& nodes,
-                                                      const TileRows& rows, const TileGrid& grid, const Globe& globe) {
+                                                      const TileRows& rows, const TileGrid& grid,
+                                                      const Ground& ground) {
   const std::int32_t steps = nodes.steps(), reach = normal_reach(steps);
   const DegreeBox box = grid.bounds_of(tile.id);
   const NodeWindow window = grid.window_of(tile.id, steps);
+  const NodeRange columns = grid.land_columns(window.per_turn), land = grid.land_rows(window.per_turn);
   std::vector<std::array<std::uint8_t, 2>> normals;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
-    const std::int32_t col = nearest_node(tile.u[k], steps), row = rows.nearest(tile.v[k]);
+    const std::int32_t col = nearest_node(tile.u[k], steps, tile.units), row = rows.nearest(tile.v[k]);
     // The node's degrees by its place on the globe, so that tiles on either side of an edge have the same bits.
     const double longitude = window.longitude(window.col + col), latitude = window.latitude(window.row + row);
-    const Space up = Globe::up(longitude, latitude);
-    Space normal = up;
+    const Ground::Axes axes = ground.axes(longitude, latitude);
+    Space normal = axes.up;
     if (!window.is_pole(window.row + row)) {
-      const Globe::Radii radii = globe.radii(latitude);
-      // Beyond the grid's ends the last row's nodes are repeated.
-      const double north_of = window.latitude(std::max<std::int64_t>(window.row + row - reach, 0)),
-                   south_of = window.latitude(std::min(window.row + row + reach, window.last_row()));
-      const double across = 2 * reach * ((box.east - box.west) / steps * kRadians),
-                   down = (north_of - south_of) * kRadians;
+      const Globe::Radii radii = ground.metres(latitude);
+      // Beyond the land the last nodes are repeated.
+      const double north_of = window.latitude(std::max(window.row + row - reach, land.first)),
+                   south_of = window.latitude(std::min(window.row + row + reach, land.last));
+      const std::int64_t west_of = std::max(window.col + col - reach, columns.first),
+                         east_of = std::min(window.col + col + reach, columns.last);
+      const double across = static_cast<double>(east_of - west_of) * ((box.east - box.west) / steps * ground.unit()),
+                   down = (north_of - south_of) * ground.unit();
       const double rise_east =
           (double{nodes.at(col + reach, row)} - double{nodes.at(col - reach, row)}) / (across * radii.parallel);
       const double rise_north =
           (double{nodes.at(col, row - reach)} - double{nodes.at(col, row + reach)}) / (down * radii.meridian);
-      const auto [sin_lon, cos_lon] = sine_of_degrees(longitude);
-      const auto [sin_lat, cos_lat] = sine_of_degrees(latitude);
-      const Space east{-sin_lon, cos_lon, 0}, north{-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat};
-      normal = normalized(sum(up, sum(scaled(east, -rise_east), scaled(north, -rise_north))));
+      normal = normalized(sum(axes.up, sum(scaled(axes.east, -rise_east), scaled(axes.north, -rise_north))));
     }
     normals.push_back(encode_octahedral(normal));
   }
   return normals;
 }
 
-std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& grid, const Globe& globe) {
+std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& grid, const Ground& ground) {
   const DegreeBox box = grid.bounds_of(tile.id);
   std::vector<Space> positions;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
-    const Degrees at = degrees_at(box, tile.u[k], tile.v[k]);
-    positions.push_back(globe.position(at.longitude, at.latitude, tile.quantum * tile.heights[k]));
+    const Degrees at = degrees_at(box, tile.u[k], tile.v[k], tile.units);
+    positions.push_back(ground.position(at.longitude, at.latitude, tile.quantum * tile.heights[k]));
   }
   return positions;
 }
 
-double largest_sag(const TerrainTile& tile, const TileGrid& grid, const Globe& globe) {
-  const std::vector<Space> positions = positions_in_space(tile, grid, globe);
+double largest_sag(const TerrainTile& tile, const TileGrid& grid, const Ground& ground) {
+  const std::vector<Space> positions = positions_in_space(tile, grid, ground);
   const auto square = [&](std::uint32_t a, std::uint32_t b) {
     const Space way = sum(positions[a], scaled(positions[b], -1));
     return dot(way, way);
@@ -82,15 +79,15 @@ double largest_sag(const TerrainTile& tile, const TileGrid& grid, const Globe& g
     const double area = 4 * a * b - (a + b - c) * (a + b - c);
     worst = std::max(worst, c >= a + b || area <= 0 ? c / 4 : a * b * c / area);
   }
-  return worst / (2 * globe.least_radius());
+  return ground.sag(worst);
 }
 
 Mesh decoded(const TerrainTile& tile, std::int32_t steps) {
   Mesh mesh;
   mesh.triangles = tile.triangles;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
-    mesh.positions.push_back(static_cast<double>(tile.u[k]) * steps / 32767);
-    mesh.positions.push_back(static_cast<double>(tile.v[k]) * steps / 32767);
+    mesh.positions.push_back(static_cast<double>(tile.u[k]) * steps / tile.units);
+    mesh.positions.push_back(static_cast<double>(tile.v[k]) * steps / tile.units);
     mesh.positions.push_back(tile.quantum * tile.heights[k]);
   }
   return mesh;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/bits.h"
 #include "base/parallel.h"
+#include "tiles/coarse_nodes.h"
+#include "tiles/tile_maker.h"
 
 namespace scarp {
 namespace {
@@ -14,11 +17,19 @@ constexpr int kRowsTogether = 256;
 
 }  // namespace
 
+NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps) {
+  const NodeWindow window = grid.window_of(id, steps);
+  const NodeRange columns = grid.land_columns(window.per_turn), rows = grid.land_rows(window.per_turn);
+  return {static_cast<std::int32_t>(std::max<std::int64_t>(rows.first - window.row, 0)),
+          static_cast<std::int32_t>(std::min<std::int64_t>(columns.last - window.col, steps)), steps};
+}
+
 Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                   const NodeSource& source) {
   TileNodes nodes;
   nodes.steps_ = steps;
   nodes.halo_ = halo;
+  nodes.land_ = land_of(plan.grid, id, steps);
   const NodeWindow window = plan.grid.window_of(id, steps, halo);
   const std::int64_t first_row = plan.grid.window_of(id, steps).row - halo;
   const std::int32_t side = nodes.side();
@@ -68,11 +79,20 @@ bool TileNodes::has_heights_around(double col, double row) const {
   return !voids_[first] && !voids_[first + 1] && !voids_[first + side] && !voids_[first + side + 1];
 }
 
-TileNodes TileNodes::flat(std::int32_t steps, float height) {
+TileNodes TileNodes::flat(const PyramidPlan& plan, TileId id, std::int32_t least_steps) {
+  // Above the blocks, where the land ends between nodes, as many as tiles have there.
+  const std::int32_t most = id.z >= plan.block_level ? steps_of(plan, id.z) : 2 * kCoarseCells;
   TileNodes nodes;
-  nodes.steps_ = steps;
+  nodes.steps_ = least_steps;
   nodes.halo_ = 1;
-  nodes.heights_.assign(static_cast<std::size_t>(nodes.side()) * static_cast<std::size_t>(nodes.side()), height);
+  const auto end_of = [&](std::int32_t steps) {
+    const NodeArea land = land_of(plan.grid, id, steps);
+    return std::pair{std::int64_t{land.top} * most / steps, std::int64_t{land.right} * most / steps};
+  };
+  while (nodes.steps_ < most && end_of(nodes.steps_) != end_of(most)) nodes.steps_ *= 2;
+  nodes.land_ = land_of(plan.grid, id, nodes.steps_);
+  nodes.heights_.assign(static_cast<std::size_t>(nodes.side()) * static_cast<std::size_t>(nodes.side()),
+                        plan.background);
   return nodes;
 }
 

@@ -9,6 +9,15 @@
 
 namespace scarp {
 
+/// Nodes from the western and to the southern side of a tile.
+struct NodeArea {
+  std::int32_t top = 0, right = 0, bottom = 0;
+
+  friend bool operator==(const NodeArea&, const NodeArea&) = default;
+};
+/// What has land of a tile with so many steps: all of it, but for tiles that a local grid's raster fills in part.
+NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps);
+
 /// steps + 1 nodes a side, and `halo` more on each side; beyond the grid's ends the last row's own.
 class TileNodes {
  public:
@@ -16,10 +25,12 @@ class TileNodes {
   static Result<TileNodes> read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                 const NodeSource& source);
 
-  /// All of one height, with one more around.
-  static TileNodes flat(std::int32_t steps, float height);
+  /// All of one height, with one more around; at least so many steps, and as many as it takes to end where the land
+  /// does.
+  static TileNodes flat(const PyramidPlan& plan, TileId id, std::int32_t least_steps);
 
   std::int32_t steps() const { return steps_; }
+  const NodeArea& land() const { return land_; }
   bool has_heights() const { return has_heights_; }  ///< of its own nodes at least one
   /// Of its own nodes some got the background's height.
   bool has_voids() const { return !voids_.empty(); }
@@ -42,6 +53,7 @@ class TileNodes {
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 
   std::int32_t steps_ = 0, halo_ = 0;
+  NodeArea land_;
   std::vector<float> heights_;
   std::vector<bool> voids_;  ///< of its own nodes; empty without any
   bool has_heights_ = false, is_flat_ = true;

@@ -27,14 +27,14 @@ std::int32_t TileRows::above(double line) const {
 }
 
 std::int32_t TileRows::nearest(std::uint16_t v) const {
-  if (are_even()) return steps_ - nearest_node(v, steps_);
+  if (are_even()) return steps_ - nearest_node(v, steps_, grid_.side_units());
   const double line = (32767 - v) * static_cast<double>(steps_) / 32767;
   const std::int32_t row = above(line);
   return row + (this->line(row + 1) - line < line - this->line(row) ? 1 : 0);
 }
 
 std::uint16_t TileRows::v_of(std::int64_t parts, std::int32_t per_step) const {
-  if (are_even()) return quantized(parts, std::int64_t{per_step} * steps_);
+  if (are_even()) return quantized(parts, std::int64_t{per_step} * steps_, grid_.side_units());
   const double latitude = grid_.latitude((first_row_ + steps_) * per_step - parts, last_row_ * per_step);
   return static_cast<std::uint16_t>(std::floor(32767 * ((latitude - south_) / (north_ - south_)) + 0.5));
 }

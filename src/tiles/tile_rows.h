@@ -1,5 +1,5 @@
 // Where the rows of nodes of a tile lie for clients, who divide the degrees between its southern and its northern end
-// into 32767 equal steps.
+// into 32767 equal steps, or into those of a local grid.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class TileRows {
   std::int32_t above(double line) const;
   /// The row next to a vertex's v.
   std::int32_t nearest(std::uint16_t v) const;
-  /// v, 0 … 32767 from the southern end, of a place `parts` of `per_step` steps north of it.
+  /// v, 0 … grid.side_units() from the southern end, of a place `parts` of `per_step` steps north of it.
   std::uint16_t v_of(std::int64_t parts, std::int32_t per_step = 1) const;
 
  private:

@@ -9,7 +9,6 @@
 namespace scarp {
 namespace {
 
-constexpr double kSide = 32767;
 /// A point this far beyond a side, times the side's length, is still in the triangle. Rounding makes 1e-7 of it.
 constexpr double kSlack = 1e-6;
 /// Triangles that a walk passes at most before all are looked at: on meshes that are not Delaunay it may go in circles.
@@ -28,7 +27,7 @@ std::array<double, 3> weights(const Facet& facet, double u, double v) {
 }  // namespace
 
 TileSurface::TileSurface(const TerrainTile& tile, double limit, Counts counts)
-    : counts_(std::move(counts)), limit_(limit) {
+    : counts_(std::move(counts)), side_(tile.units), limit_(limit) {
   facets_.resize(tile.triangles.size() / 3);
   for (std::size_t t = 0; t < facets_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -88,7 +87,7 @@ void TileSurface::note(std::uint32_t facet, const FarPoint& point) {
 
 void TileSurface::judge(const PointRow& row) {
   const auto [first, end] =
-      range_within(row.u, row.step_u, row.v, row.step_v, row.heights.size(), {0, 0, kSide, kSide});
+      range_within(row.u, row.step_u, row.v, row.step_v, row.heights.size(), {0, 0, side_, side_});
   if (first >= end) return;
   const auto u_of = [&](std::size_t i) { return row.u + row.step_u * static_cast<double>(i); };
   const auto v_of = [&](std::size_t i) { return row.v + row.step_v * static_cast<double>(i); };

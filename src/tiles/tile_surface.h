@@ -17,7 +17,7 @@
 
 namespace scarp {
 
-/// Heights at equal steps on a straight line, in 32767ths of the tile from its south-western corner; NaN: none.
+/// Heights at equal steps on a straight line, in units of the tile from its south-western corner; NaN: none.
 struct PointRow {
   double u = 0, v = 0, step_u = 0, step_v = 0;
   std::span<const float> heights;
@@ -59,6 +59,7 @@ class TileSurface {
 
   std::vector<Facet> facets_;
   Counts counts_;
+  double side_ = 0;  ///< of the tile, in units
   double limit_ = 0, worst_ = 0;
   std::uint32_t start_ = 0;    ///< where the row before began
   std::vector<FarPoint> far_;  ///< by facet, where there is a limit

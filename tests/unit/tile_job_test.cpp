@@ -47,6 +47,38 @@ TileJob make_job() {
   return job;
 }
 
+TEST(tile_job, holds_a_local_grid_and_its_place) {
+  PyramidSettings settings;
+  settings.cells = 16;
+  settings.has_siblings = true;
+  settings.grid = TileGrid::of_raster(300, 129, 82.764156697136983, 30, settings.cells);
+  TileJob job = make_job();
+  job.format = TileFormat::kGlb;
+  job.plan = *plan_pyramid({{0, 0, 299, 128}, 50, 0, 800, 0}, settings);
+  job.facts.units = "metre";
+  job.facts.plane.emplace();
+  job.facts.plane->transform[12] = 6378137.123456789;
+  job.facts.plane->crs = "EPSG:32616";
+  job.facts.plane->off_height = 0.1;
+  job.reading.cell_size = 0.3;
+  const auto bytes = encode_tile_job(job);
+  const auto back = decode_tile_job(bytes, "plan.json");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->plan.grid.kind, GridKind::kLocal);
+  EXPECT_EQ(back->plan.grid.local, job.plan.grid.local);
+  EXPECT_EQ(back->facts.plane, job.facts.plane);
+  EXPECT_EQ(back->facts.units, "metre");
+  EXPECT_EQ(back->reading.cell_size, 0.3);
+  EXPECT_EQ(encode_tile_job(*back), bytes);
+  // Its place is no part of what tiles are made of.
+  TileJob moved = job;
+  moved.facts.plane->transform[12] += 1;
+  EXPECT_EQ(settings_key_of(moved), settings_key_of(job));
+  // A square of another size than its levels' is none.
+  job.plan.grid.local.side *= 2;
+  EXPECT_FALSE(decode_tile_job(encode_tile_job(job), "plan.json"));
+}
+
 TEST(tile_job, keys_tell_settings_from_sources) {
   const TileJob job = make_job();
   TileJob other = job;

@@ -51,6 +51,7 @@ std::string describe(const std::string& input, const TileSetReader& set, const L
 
 ServeCommand::ServeCommand(CLI::App& program) : command_(add_command(program, kServe)) {
   tiles_.default_effort = Effort::kFast;
+  tiles_.takes_local = false;
   add_arguments(*command_, OptionId::kInput, tiles_.raster.paths);
   tiles_.add_to(*command_);
   add_option(*command_, OptionId::kMemory, memory_);

@@ -43,7 +43,8 @@ Result<void> TileCheckCommand::check_unused() const {
   return {};
 }
 
-Result<OpenedJob> TileCheckCommand::open_source(const ProgressCallback& progress, int threads) const {
+Result<OpenedJob> TileCheckCommand::open_source(const TileGrid& of_set, const ProgressCallback& progress,
+                                                int threads) const {
   if (lower_extension(*source_) == ".json") {
     auto job = read_tile_job(*source_);
     if (!job) return tl::unexpected(job.error());
@@ -51,6 +52,8 @@ Result<OpenedJob> TileCheckCommand::open_source(const ProgressCallback& progress
   }
   TileArguments tiles = tiles_;
   tiles.raster.paths = {*source_};
+  if (!tiles.grid) tiles.grid = std::string(of_set.name());
+  if (of_set.is_flat()) tiles.format = "3dtiles";
   return tiles.open(progress, kSourceBytes);
 }
 
@@ -63,18 +66,27 @@ Result<void> TileCheckCommand::run(const std::string& command_line) const {
   if (auto unused = check_unused(); !unused) return unused;
   const auto set = open_tile_set(set_);
   if (!set) return tl::unexpected(set.error());
+  const TileGrid of_set = find_grid(**set);
   if (tiles_.grid) {
-    const Result<TileGrid> grid = parse_grid(*tiles_.grid);
-    if (!grid) return tl::unexpected(grid.error());
-    options.grid = *grid;
+    const Result<GridKind> kind = parse_grid(*tiles_.grid, false);
+    if (!kind) return tl::unexpected(kind.error());
+    if (of_set.is_flat())
+      return fail(ErrorKind::kUsage, "--grid is for sets that do not name theirs, and those of a local grid do");
+    options.grid = TileGrid{.kind = *kind};
   }
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   OpenedJob opened;
   if (source_) {
-    auto source = open_source(display.callback(), *threads);
+    auto source = open_source(of_set, display.callback(), *threads);
     if (!source) return tl::unexpected(source.error());
     opened = std::move(*source);
     const PyramidPlan& plan = opened.job.plan;
+    const LocalRaster &mine = plan.grid.local, &theirs = of_set.local;
+    if (mine.cols != theirs.cols || mine.rows != theirs.rows || mine.cell_x != theirs.cell_x ||
+        mine.cell_y != theirs.cell_y)
+      return fail(ErrorKind::kUsage, fmt::format("the local grid of {} is that of another raster than {}: their rows, "
+                                                 "columns or cells differ",
+                                                 set_, *source_));
     options.nodes.source = &opened.raster->nodes();
     options.nodes.covered = plan.covered;
     options.ellipsoid = plan.ellipsoid;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands/counted_set.h"
+#include "commands/tile_work.h"
 #include "options/option_table.h"
 #include "options/plan_options.h"
 #include "reports/report.h"
@@ -38,6 +39,7 @@ Result<void> TileFinishCommand::run(const std::string& command_line) const {
   if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
   const Result<TileJob> job = read_tile_job(plan_);
   if (!job) return tl::unexpected(job.error());
+  if (auto fits = check_container(*job, output_); !fits) return fits;
   auto container = create_tile_set(output_, job->format, overwrite_);
   if (!container) return tl::unexpected(container.error());
   TileCounts counts;

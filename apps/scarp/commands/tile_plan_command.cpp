@@ -30,6 +30,7 @@ std::string make_summary(const TileJob& job, const std::string& plan, const Tile
                          std::uint64_t shards) {
   std::string text = fmt::format("{} -> {}\n", job.facts.name, plan);
   text += fmt::format("  heights above  {}\n", job.facts.heights_above);
+  text += grid_lines(job);
   text += waters_line(job);
   text += fmt::format("  levels         0 to {}, {} of level {}\n", job.plan.max_zoom(),
                       format_plural(estimate.blocks, "block"), job.plan.block_level);

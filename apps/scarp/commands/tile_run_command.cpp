@@ -62,6 +62,8 @@ Result<void> TileRunCommand::run() const {
   }
   Result<TileJob> job = read_tile_job(plan_);
   if (!job) return tl::unexpected(job.error());
+  if (*only && job->plan.grid.is_flat())
+    return fail(ErrorKind::kUsage, "--only does not go with a local grid: it is a box in degrees");
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   const Result<OpenedJob> opened = open_job(std::move(*job), memory, *threads);
   if (!opened) return tl::unexpected(opened.error());

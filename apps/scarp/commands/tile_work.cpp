@@ -1,17 +1,30 @@
 #include "commands/tile_work.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "commands/counted_set.h"
+#include "options/options.h"
 #include "reports/tile_report.h"
 
 namespace scarp::cli {
+
+Result<void> check_container(const TileJob& job, const std::string& output) {
+  const std::string ending = lower_extension(output);
+  if (!job.plan.grid.is_flat() || (ending != ".pmtiles" && ending != ".mbtiles")) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("{}: {} knows tiles of the globe alone: keep a local grid in a folder or a "
+                          ".3tz",
+                          output, ending));
+}
 
 Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts) {
   auto opened = tiles.open(run.progress);
   if (!opened) return tl::unexpected(opened.error());
   const TileJob& job = opened->job;
+  if (auto fits = check_container(job, output); !fits) return tl::unexpected(fits.error());
   auto encoder = open_tile_encoder(job);
   if (!encoder) return tl::unexpected(encoder.error());
   auto container = create_tile_set(output, job.format, overwrite);

@@ -15,6 +15,9 @@ struct MadeTiles {
   std::vector<std::string> warnings;
 };
 
+/// Fails with kUsage for a set that the container of that name cannot tell of.
+Result<void> check_container(const TileJob& job, const std::string& output);
+
 /// Makes the set under its final name, or nothing. Counts its tiles meanwhile.
 Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts);

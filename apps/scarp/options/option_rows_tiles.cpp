@@ -15,7 +15,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kChoice,
      .value = "FORMAT",
      .choices = "qm 3dtiles",
-     .by_default = "qm",
+     .by_default = "qm; 3dtiles with a local grid",
      .help = "Output format. qm: quantized-mesh. 3dtiles: 3D Tiles 1.1, terrain as compressed GLB files that other "
              "clients of 3D Tiles read as well.",
      .brief = "Output format: qm (quantized-mesh) or 3dtiles"},
@@ -73,7 +73,20 @@ constexpr OptionRow kTileRows[] = {
      .brief = "The finest level"},
     {.id = kGrid,
      .name = "--grid",
-     .commands = kTile | kTilePlan | kServe,
+     .commands = kTile | kTilePlan,
+     .group = OptionGroup::kLevels,
+     .type = kChoice,
+     .value = "GRID",
+     .choices = "geographic mercator local",
+     .by_default = "geographic; local for a raster without a place on the globe",
+     .help =
+         "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at level "
+         "0, which ends at 85.0511 degrees; quantized-mesh only. local: a plane over one raster, with its samples as "
+         "nodes; 3D Tiles only.",
+     .brief = "Grid of the tiles: geographic, mercator, or local (a plane)"},
+    {.id = kGrid,
+     .name = "--grid",
+     .commands = kServe,
      .group = OptionGroup::kLevels,
      .type = kChoice,
      .value = "GRID",
@@ -81,7 +94,7 @@ constexpr OptionRow kTileRows[] = {
      .by_default = "geographic",
      .help =
          "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at level "
-         "0, which ends at 85.0511 degrees; quantized-mesh only.",
+         "0, which ends at 85.0511 degrees.",
      .brief = "Grid of the tiles: geographic or mercator"},
     {.id = kGrid,
      .name = "--grid",
@@ -192,7 +205,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "V",
      .unit = "metres above the ellipsoid",
      .by_default = "0",
-     .help = "Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says.",
+     .help = "Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says. With a "
+             "local grid that of nodata alone, by default the raster's lowest.",
      .brief = "Height of nodata and of the globe around, above the ellipsoid"},
     {.id = kPlan,
      .name = "PLAN",

@@ -18,7 +18,9 @@ namespace {
 
 constexpr Choice<Effort> kTileEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
-constexpr Choice<GridKind> kGrids[] = {{"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}};
+constexpr Choice<GridKind> kGrids[] = {
+    {"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}, {"local", GridKind::kLocal}};
+constexpr Choice<GridKind> kGlobeGrids[] = {{"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}};
 constexpr Choice<bool> kBounds[] = {{"nodes", false}, {"samples", true}};
 constexpr Choice<bool> kFills[] = {{"background", false}, {"fill", true}};
 constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
@@ -78,6 +80,12 @@ Result<Geodetic> parse_ellipsoid(const std::string& text) {
   return ellipsoid;
 }
 
+void add_plane(const GlobeRaster& raster, LayerFacts& facts) {
+  if (!raster.plane()) return;
+  facts.units = raster.plane()->units;
+  facts.plane = raster.plane()->globe;
+}
+
 }  // namespace
 
 Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
@@ -85,7 +93,7 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
   ReadOptions options = job.reading;
   options.run.memory.limit = memory;
   options.run.threads = threads;
-  auto raster = GlobeRaster::open(mosaics_of(job), options, job.datum);
+  auto raster = GlobeRaster::open(mosaics_of(job), options, job.datum, job.plan.grid.kind);
   if (!raster) return tl::unexpected(raster.error());
   (*raster)->add_waters(job.plan);
   return OpenedJob{std::move(*raster), std::move(job)};
@@ -112,10 +120,8 @@ Result<std::optional<DegreeBox>> parse_box(const Given& text) {
   return std::optional(box);
 }
 
-Result<TileGrid> parse_grid(const std::string& text) {
-  const Result<GridKind> kind = choose("--grid", text, kGrids);
-  if (!kind) return tl::unexpected(kind.error());
-  return TileGrid{*kind};
+Result<GridKind> parse_grid(const std::string& text, bool takes_local) {
+  return takes_local ? choose("--grid", text, kGrids) : choose("--grid", text, kGlobeGrids);
 }
 
 void TileArguments::add_nodes_to(CLI::App& command) {
@@ -125,6 +131,7 @@ void TileArguments::add_nodes_to(CLI::App& command) {
   add_option(command, OptionId::kDecode, raster.decode);
   add_option(command, OptionId::kZScale, raster.z_scale);
   add_option(command, OptionId::kZOffset, raster.z_offset);
+  if (command.get_name() != "serve") add_option(command, OptionId::kCellSize, raster.cell_size);
   add_option(command, OptionId::kVertical, vertical);
   add_option(command, OptionId::kGeoid, geoid);
   add_option(command, OptionId::kEllipsoid, ellipsoid);
@@ -175,11 +182,6 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
     const Result<std::uint64_t> level = parse_count("--zoom", *zoom, 0);
     if (!level) return tl::unexpected(level.error());
     settings.max_zoom = static_cast<int>(std::min<std::uint64_t>(*level, kMaxTileLevel + 1));
-  }
-  if (grid) {
-    const Result<TileGrid> chosen = parse_grid(*grid);
-    if (!chosen) return tl::unexpected(chosen.error());
-    settings.grid = *chosen;
   }
   if (max_tile_bytes) {
     const Result<std::uint64_t> bytes = parse_bytes("--max-tile-bytes", *max_tile_bytes);
@@ -254,7 +256,33 @@ Result<WaterFiles> TileArguments::parse_waters() const {
   return files;
 }
 
+Result<TileFormat> TileArguments::choose_format(const TileGrid& of_tiles) const {
+  const Result<TileFormat> kept = choose("--of", format.value_or(of_tiles.is_flat() ? "3dtiles" : "qm"), kTileFormats);
+  if (!kept) return kept;
+  if (auto fits = of_tiles.is_flat() ? check_flat() : Result<void>(); !fits) return tl::unexpected(fits.error());
+  if (auto fits = check_format(*kept, of_tiles); !fits) return tl::unexpected(fits.error());
+  return kept;
+}
+
+Result<void> TileArguments::check_flat() const {
+  const std::pair<bool, const char*> refused[] = {
+      {!water.empty() || !rivers.empty(),
+       "--water and --rivers do not go with a local grid: lakes and rivers are laid "
+       "in degrees; flatten them first (scarp simplify --water)"},
+      {!breaklines.empty(), "--breaklines does not go with a local grid: lines are laid in degrees"},
+      {drape.has_value(), "--drape does not go with a local grid: images are laid in degrees; load them in the client"},
+      {only.has_value(),
+       "--only does not go with a local grid: it is a box in degrees; give a part of the raster with "
+       "--te"}};
+  for (const auto& [is_given, sentence] : refused) {
+    if (is_given) return fail(ErrorKind::kUsage, sentence);
+  }
+  return {};
+}
+
 Result<void> TileArguments::check_format(TileFormat kept, const TileGrid& of_tiles) const {
+  if (of_tiles.is_flat() && kept != TileFormat::kGlb)
+    return fail(ErrorKind::kUsage, "a local grid goes with --of 3dtiles alone: quantized-mesh lies on the ellipsoid");
   if (kept == TileFormat::kGlb && !of_tiles.has_even_rows())
     return fail(ErrorKind::kUsage,
                 fmt::format("--of 3dtiles does not go with --grid {}: clients of 3D Tiles halve tiles in degrees of "
@@ -288,16 +316,20 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!options) return tl::unexpected(options.error());
   const Result<WaterFiles> waters = parse_waters();
   if (!waters) return tl::unexpected(waters.error());
-  const Result<TileFormat> kept = choose("--of", format.value_or("qm"), kTileFormats);
-  if (!kept) return tl::unexpected(kept.error());
-  if (auto fits = check_format(*kept, settings->grid); !fits) return tl::unexpected(fits.error());
+  // What the options alone can tell; without --grid the raster tells the rest.
+  if (auto known = choose("--of", format.value_or("qm"), kTileFormats); !known) return tl::unexpected(known.error());
+  std::optional<GridKind> kind;
+  if (grid) {
+    const Result<GridKind> given = parse_grid(*grid, takes_local);
+    if (!given) return tl::unexpected(given.error());
+    kind = *given;
+    if (auto fits = choose_format({.kind = *kind}); !fits) return tl::unexpected(fits.error());
+  }
   auto image = parse_drape();
   if (!image) return tl::unexpected(image.error());
   OpenedJob opened;
   TileJob& job = opened.job;
-  job.format = *kept;
   job.drape = std::move(*image);
-  settings->has_siblings = *kept == TileFormat::kGlb;
   job.reading = *options;
   job.datum = *datum;
   if (geoid) job.geoid = stamp_of(*geoid);
@@ -305,9 +337,20 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   options->run.progress = progress;
   options->run.memory.limit = memory;
   const std::vector<std::vector<std::string>> mosaics = find_mosaics(raster.paths);
-  auto globe = GlobeRaster::open(mosaics, *options, *datum);
+  auto globe = GlobeRaster::open(mosaics, *options, *datum, kind);
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   opened.raster = std::move(*globe);
+  if (settings->binds_samples && opened.raster->grid(settings->cells).is_flat()) {  // nodes are samples
+    settings->binds_samples = false;
+    if (!cells) settings->cells = PyramidSettings{}.cells;
+  }
+  settings->grid = opened.raster->grid(settings->cells);
+  const Result<TileFormat> kept = choose_format(settings->grid);
+  if (!kept) return tl::unexpected(kept.error());
+  job.format = *kept;
+  settings->has_siblings = *kept == TileFormat::kGlb;
+  // Nodata of a plane that lies anywhere is no sea.
+  if (settings->grid.is_flat() && !background) settings->background = static_cast<float>(opened.raster->info().min);
   settings->ellipsoid = opened.raster->place().ellipsoid;
   if (settings->binds_samples && !opened.raster->nodes().has_samples())
     return fail(ErrorKind::kUsage,
@@ -338,6 +381,7 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (auto found = find_waters(job, *opened.raster); !found) return tl::unexpected(found.error());
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
+  add_plane(*opened.raster, job.facts);
   job.facts.name = base_name(raster.path());
   job.facts.description = fmt::format("heights above {}", job.facts.heights_above);
   return opened;
@@ -349,7 +393,7 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
   options.with_range = true;
   options.run.progress = progress;
   const std::vector<std::vector<std::string>> mosaics = find_mosaics(raster.paths);
-  auto globe = GlobeRaster::open(mosaics, options, earlier.datum);
+  auto globe = GlobeRaster::open(mosaics, options, earlier.datum, earlier.plan.grid.kind);
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   OpenedJob opened;
   opened.raster = std::move(*globe);
@@ -360,6 +404,11 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
   settings.background = earlier.plan.background;
   settings.ellipsoid = earlier.plan.ellipsoid;
   settings.grid = earlier.plan.grid;
+  if (settings.grid.local != opened.raster->grid(settings.cells).local)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} has other rows, columns or cells than the raster of the earlier plan, "
+                            "whose grid is local: make the set anew",
+                            raster.path()));
   auto plan = plan_pyramid(opened.raster->facts(), settings);
   if (!plan) return tl::unexpected(plan.error());
   now.plan = std::move(*plan);
@@ -376,6 +425,7 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
   now.facts = earlier.facts;
   now.facts.heights_above = opened.raster->heights_above();
   now.facts.body = opened.raster->place().body;
+  add_plane(*opened.raster, now.facts);
   now.facts.name = base_name(raster.path());
   now.facts.description = fmt::format("heights above {}", now.facts.heights_above);
   auto job = follow_job(earlier, std::move(now));

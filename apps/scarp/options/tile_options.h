@@ -28,14 +28,15 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 /// "WEST,SOUTH,EAST,NORTH" in degrees. East of a box across the antimeridian is beyond 180. Fails with kUsage.
 Result<std::optional<DegreeBox>> parse_box(const Given& text);
 
-/// "geographic", "mercator". Fails with kUsage.
-Result<TileGrid> parse_grid(const std::string& text);
+/// "geographic", "mercator", and "local" where that is taken. Fails with kUsage.
+Result<GridKind> parse_grid(const std::string& text, bool takes_local);
 
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, nodata_policy, fill_distance, format, only;
   Given bound, max_tile_bytes, drape, drape_format, percentile;
   bool has_water_mask = false;
+  bool takes_local = true;  ///< a local grid
   std::vector<std::string> water, rivers, breaklines;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 
@@ -55,7 +56,9 @@ struct TileArguments {
   Result<ReadOptions> parse_reading() const;
   Result<WaterFiles> parse_waters() const;
   Result<std::optional<TileDrape>> parse_drape() const;
-  /// Fails with kUsage where tiles of this format cannot have what is asked for.
+  /// The format of tiles of a grid. Fails with kUsage where these cannot have what is asked for.
+  Result<TileFormat> choose_format(const TileGrid& of_tiles) const;
+  Result<void> check_flat() const;
   Result<void> check_format(TileFormat kept, const TileGrid& of_tiles) const;
 };
 

@@ -65,10 +65,33 @@ std::string waters_line(const TileJob& job) {
                             format_plural(job.plan.waters->rivers.size(), "river"));
 }
 
+std::string grid_lines(const TileJob& job) {
+  if (!job.plan.grid.is_flat()) return "";
+  const LocalRaster& raster = job.plan.grid.local;
+  const std::string unit = job.facts.units == "metre" ? " m" : "";
+  const std::string width = format_number(raster.cell_x) + unit, height = format_number(raster.cell_y) + unit;
+  std::string text = fmt::format("  grid           local, 3D Tiles: {} x {} samples, cells of {}{}\n", raster.cols,
+                                 raster.rows, width, width == height ? "" : " x " + height);
+  if (!job.facts.plane) return text + "  on the globe   nowhere: the set has no transform\n";
+  const PlaneOnGlobe& plane = *job.facts.plane;
+  text += fmt::format(
+      "  on the globe   by a plane at its centre, turned by {:.4f} degrees, scale {:.6f}; off by up to {} along "
+      "the ground, {} in height\n",
+      plane.convergence, plane.scale_x, format_metres(plane.off_along), format_metres(plane.off_height));
+  return text;
+}
+
 void add_tiles(Json& json, const TileJob& job, const std::string& output, const PyramidReport& report) {
   json["output"] = output;
   json["vertical"] = job.facts.heights_above;
   json["ellipsoid"] = {job.plan.ellipsoid.semi_major, semi_minor(job.plan.ellipsoid)};
+  json["grid"] = job.plan.grid.name();
+  if (const auto& plane = job.facts.plane)
+    json["plane"] = {{"crs", plane->crs},
+                     {"convergence", plane->convergence},
+                     {"scale", {plane->scale_x, plane->scale_y}},
+                     {"off_along", plane->off_along},
+                     {"off_height", plane->off_height}};
   json["water"] = describe_waters(job);
   json["max_zoom"] = job.plan.max_zoom();
   json["levels"] = describe_levels(job.plan, report);
@@ -85,10 +108,12 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
   }
   std::string text = fmt::format("{} -> {}\n", job.facts.name, output);
   text += fmt::format("  heights above  {}\n", job.facts.heights_above);
+  text += grid_lines(job);
   text += waters_line(job);
   text += fmt::format("  tiles          {}, levels 0 to {}, {}, {}\n", format_count(all.tiles), plan.max_zoom(),
                       format_plural(all.triangles, "triangle"), format_bytes(all.bytes));
-  text += "  level      tiles  triangles/tile  bytes/tile      asked   at nodes  with the earth's curve  at samples\n";
+  text += fmt::format("  level      tiles  triangles/tile  bytes/tile      asked   at nodes  {:>22}  at samples\n",
+                      plan.grid.is_flat() ? "in space" : "with the earth's curve");
   for (std::size_t z = 0; z < plan.levels.size(); ++z) {
     const LevelSummary& level = report.levels[z];
     const std::uint64_t tiles = std::max<std::uint64_t>(level.tiles, 1);

@@ -12,6 +12,8 @@ namespace scarp::cli {
 /// The set, and "levels": one object a level.
 void add_tiles(Json& json, const TileJob& job, const std::string& output, const PyramidReport& report);
 /// The line of a summary that tells of lakes and rivers; empty without water.
+/// What is to be known of a local grid, for summaries; "" for others.
+std::string grid_lines(const TileJob& job);
 std::string waters_line(const TileJob& job);
 /// A table of the levels, with what was read and written above it, and the time below.
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,

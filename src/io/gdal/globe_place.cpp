@@ -202,7 +202,7 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
   if (!info.has_georeference || !source)
     return fail(ErrorKind::kInput,
                 fmt::format("{} does not say where on the globe it lies: give it a position and a CRS (gdal_translate "
-                            "-a_ullr … -a_srs EPSG:4326)",
+                            "-a_ullr … -a_srs EPSG:4326), or take --grid local",
                             path));
   if (!is_metre(info.unit))
     return fail(ErrorKind::kInput, fmt::format("the heights of {} are in {}, tiles need metres: give --z-scale 0.3048 "

@@ -20,6 +20,7 @@ constexpr std::uint64_t kLeastMemory = 4'000'000;
 struct GlobeSource {
   OwnedHeightField field;
   RasterOnGlobe globe;
+  std::optional<RasterOnPlane> plane;
   DegreeBox covered;
   std::unique_ptr<NodeSource> samples, raised;
 
@@ -32,10 +33,40 @@ struct GlobeSource {
   }
 };
 
+/// On the globe.
+Result<void> place_source(GlobeSource& source, const Datum& datum) {
+  const OwnedHeightField& raster = source.field;
+  auto globe = place_on_globe(raster.info, raster.cols, raster.rows, datum, raster.info.path);
+  if (!globe) return tl::unexpected(globe.error());
+  source.globe = std::move(*globe);
+  const auto covered = degrees_covered(raster, source.globe.place.affine, source.globe.to_degrees.get());
+  if (!covered) return tl::unexpected(covered.error());
+  source.covered = *covered;
+  auto nodes = make_node_source(raster, source.globe.place);
+  if (!nodes) return tl::unexpected(nodes.error());
+  source.samples = std::move(*nodes);
+  if (source.globe.zero) source.raised = make_raised_source(*source.samples, source.globe.zero);
+  return {};
+}
+
+/// On the plane of a local grid.
+Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_size, const Datum& datum) {
+  const OwnedHeightField& raster = source.field;
+  auto plane = place_on_plane(raster.info, raster.cols, raster.rows, cell_size, datum);
+  if (!plane) return tl::unexpected(plane.error());
+  source.plane = std::move(*plane);
+  source.globe.vertical = source.plane->vertical;
+  source.covered = {0, 0, raster.cols - 1.0, raster.rows - 1.0};
+  source.samples = make_local_nodes(raster);
+  return {};
+}
+
+/// `grid`: where nothing, it becomes what suits the raster.
 Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>& mosaic, ReadOptions options,
-                                                 const Datum& datum) {
+                                                 const Datum& datum, std::optional<GridKind>& grid) {
   auto source = std::make_unique<GlobeSource>();
-  options.crs = "source";
+  options.crs = "";
+  options.default_frame = DefaultFrame::kSource;
   // The last of a mosaic lies on top.
   const std::string& path = mosaic.back();
   options.view.more.assign(mosaic.rbegin() + 1, mosaic.rend());
@@ -43,17 +74,9 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   if (!field) return tl::unexpected(field.error());
   source->field = std::move(*field);
   source->field.info.path = mosaic.front();
-  const OwnedHeightField& raster = source->field;
-  auto globe = place_on_globe(raster.info, raster.cols, raster.rows, datum, mosaic.front());
-  if (!globe) return tl::unexpected(globe.error());
-  source->globe = std::move(*globe);
-  const auto covered = degrees_covered(raster, source->globe.place.affine, source->globe.to_degrees.get());
-  if (!covered) return tl::unexpected(covered.error());
-  source->covered = *covered;
-  auto nodes = make_node_source(raster, source->globe.place);
-  if (!nodes) return tl::unexpected(nodes.error());
-  source->samples = std::move(*nodes);
-  if (source->globe.zero) source->raised = make_raised_source(*source->samples, source->globe.zero);
+  if (!grid) grid = grid_for(source->field.info);
+  auto placed = grid == GridKind::kLocal ? lay_source(*source, options.cell_size, datum) : place_source(*source, datum);
+  if (!placed) return tl::unexpected(placed.error());
   return source;
 }
 
@@ -90,6 +113,7 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
 }  // namespace
 
 struct GlobeRaster::Impl {
+  GridKind grid = GridKind::kGeographic;
   std::vector<std::unique_ptr<GlobeSource>> sources;
   std::unique_ptr<NodeSource> stack;  ///< of more than one
   std::unique_ptr<NodeSource> watered;  ///< with water
@@ -103,7 +127,8 @@ GlobeRaster::GlobeRaster(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 GlobeRaster::~GlobeRaster() = default;
 
 Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::vector<std::string>>& mosaics,
-                                                       const ReadOptions& options, const Datum& datum) {
+                                                       const ReadOptions& options, const Datum& datum,
+                                                       std::optional<GridKind> grid) {
   if (mosaics.size() > 1 && (options.view.extent || options.view.resolution))
     return fail(ErrorKind::kUsage,
                 fmt::format("--te and --resolution are for one raster or mosaic, and {} is no mosaic with {}: cut them "
@@ -114,8 +139,14 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
   std::uint64_t& memory = reading.run.memory.limit;
   if (mosaics.size() > 1 && memory == 0) memory = kBytesPerSample * max_samples(0);
   for (const std::vector<std::string>& mosaic : mosaics) {
-    auto source = open_source(mosaic, reading, datum);
+    auto source = open_source(mosaic, reading, datum, grid);
     if (!source) return tl::unexpected(source.error());
+    impl->grid = *grid;
+    if (mosaics.size() > 1 && grid == GridKind::kLocal)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("a local grid has the samples of one raster, and {} is no mosaic with {}: put them "
+                              "together first (gdalbuildvrt), or take --grid geographic",
+                              mosaics[1].front(), mosaics[0].front()));
     // What is in memory is not there for those behind it, down to a little for windows of files.
     if (mosaics.size() > 1) memory -= std::min((*source)->bytes(), memory - std::min(memory, kLeastMemory));
     if (mosaics.size() > 1) {
@@ -143,12 +174,22 @@ std::vector<SourceFacts> GlobeRaster::facts() const {
   for (const auto& source : impl_->sources) {
     const RasterInfo& raster = source->field.info;
     const double reserve = source->globe.zero_reach;
-    const bool are_degrees = source->globe.to_degrees == nullptr;
-    facts.push_back({source->covered, std::sqrt(raster.cell_x_m * raster.cell_y_m), raster.min - reserve,
-                     raster.max + reserve, are_degrees ? std::sqrt(raster.cell_x * raster.cell_y) : 0});
+    const bool are_degrees = !source->plane && source->globe.to_degrees == nullptr;
+    const double cell2 =
+        source->plane ? source->plane->cell_x * source->plane->cell_y : raster.cell_x_m * raster.cell_y_m;
+    facts.push_back({source->covered, std::sqrt(cell2), raster.min - reserve, raster.max + reserve,
+                     are_degrees ? std::sqrt(raster.cell_x * raster.cell_y) : 0});
   }
   return facts;
 }
+
+TileGrid GlobeRaster::grid(int cells) const {
+  if (impl_->grid != GridKind::kLocal) return {.kind = impl_->grid};
+  const GlobeSource& source = *impl_->sources.front();
+  return TileGrid::of_raster(source.field.cols, source.field.rows, source.plane->cell_x, source.plane->cell_y, cells);
+}
+
+const std::optional<RasterOnPlane>& GlobeRaster::plane() const { return impl_->sources.front()->plane; }
 
 const RasterInfo& GlobeRaster::info() const { return impl_->sources.front()->field.info; }
 

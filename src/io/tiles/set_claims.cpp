@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "io/tiles/grid_json.h"
 #include "io/tiles/json_members.h"
 #include "io/tiles/subtree_claims.h"
 
@@ -42,6 +43,11 @@ void read_own(const Json* scarp, SetClaims& claims) {
       claims.ellipsoid->semi_major = a;
       claims.ellipsoid->inverse_flattening = a == b ? 0 : a / (a - b);
     }
+  }
+  if (const Json* const grid = find_member(scarp, "grid")) {
+    const auto read = parse_grid(*grid);
+    if (!read) claims.faults.emplace_back("the set names a grid that makes no sense");
+    claims.grid = read.value_or(claims.grid);
   }
   const Json* const levels = find_member(scarp, "levels");
   if (levels == nullptr || !levels->is_array()) return;
@@ -82,6 +88,18 @@ void read_ranges(const Json& available, const TileGrid& grid, SetClaims& claims)
   }
 }
 
+void read_projection(const Json& layer, SetClaims& claims) {
+  const Json* const projection = find_member(&layer, "projection");
+  if (projection == nullptr) return;
+  const auto grid = projection->is_string() ? TileGrid::find_projection(projection->get<std::string>()) : std::nullopt;
+  if (!grid) claims.faults.push_back("layer.json names another projection than EPSG:4326 and EPSG:3857");
+  claims.grid = grid.value_or(TileGrid{});
+}
+
+const Json* find_own(const Json& tileset) {
+  return find_member(find_member(find_member(&tileset, "asset"), "extras"), "scarp");
+}
+
 void read_layer(const TileSetReader& set, SetClaims& claims) {
   const auto layer = read_json(set, "layer.json", claims);
   if (!layer) {
@@ -91,12 +109,7 @@ void read_layer(const TileSetReader& set, SetClaims& claims) {
   const Json* const format = find_member(&*layer, "format");
   if (format == nullptr || *format != "quantized-mesh-1.0")
     claims.faults.push_back("layer.json does not name the format \"quantized-mesh-1.0\"");
-  if (const Json* const projection = find_member(&*layer, "projection"); projection != nullptr) {
-    const auto grid =
-        projection->is_string() ? TileGrid::find_projection(projection->get<std::string>()) : std::nullopt;
-    if (!grid) claims.faults.push_back("layer.json names another projection than EPSG:4326 and EPSG:3857");
-    claims.grid = grid.value_or(TileGrid{});
-  }
+  read_projection(*layer, claims);
   const Json* const extensions = find_member(&*layer, "extensions");
   claims.has_water_mask = extensions != nullptr && extensions->is_array() &&
                           std::find(extensions->begin(), extensions->end(), "watermask") != extensions->end();
@@ -117,7 +130,7 @@ void read_tileset(const TileSetReader& set, SetClaims& claims) {
     claims.announces_all = false;
     return;
   }
-  read_own(find_member(find_member(find_member(&*tileset, "asset"), "extras"), "scarp"), claims);
+  read_own(find_own(*tileset), claims);
   read_subtrees(set, *tileset, claims);
   // A level's geometric error is what clients take for its error.
   double error = 0;
@@ -136,6 +149,15 @@ void read_tileset(const TileSetReader& set, SetClaims& claims) {
 }
 
 }  // namespace
+
+TileGrid find_grid(const TileSetReader& set) {
+  SetClaims claims;
+  const bool is_glb = set.format() == TileFormat::kGlb;
+  const auto json = read_json(set, is_glb ? "tileset.json" : "layer.json", claims);
+  if (json && is_glb) read_own(find_own(*json), claims);
+  if (json && !is_glb) read_projection(*json, claims);
+  return claims.grid;
+}
 
 SetClaims read_set_claims(const TileSetReader& set) {
   SetClaims claims;

@@ -25,7 +25,7 @@ struct SetClaims {
   std::optional<int> cells;
   std::optional<double> background;
   std::optional<Geodetic> ellipsoid;
-  TileGrid grid = {};  ///< of the projection that layer.json names
+  TileGrid grid = {};  ///< of the projection that layer.json names, or the one in tileset.json
   FactsByTile facts;   ///< of 3D Tiles
 };
 

@@ -167,7 +167,7 @@ class SubtreeWalk {
                               highs = subtree.read_property("max_height", there, 1),
                               spheres = subtree.read_property("sphere", there, 4),
                               horizons = subtree.read_property("horizon_point", there, 3);
-    const bool has_facts = !lows.empty() && !highs.empty() && !spheres.empty() && !horizons.empty();
+    const bool has_facts = !lows.empty() && !highs.empty() && !spheres.empty();
     std::size_t first = 0, row = 0;
     for (int deeper = 0; deeper < levels_; ++deeper) {
       const std::size_t of_level = std::size_t{1} << (2 * deeper);
@@ -188,7 +188,8 @@ class SubtreeWalk {
         facts.min_height = lows[k];
         facts.max_height = highs[k];
         std::copy_n(spheres.begin() + static_cast<std::ptrdiff_t>(4 * k), 4, facts.sphere.begin());
-        std::copy_n(horizons.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, facts.horizon_point.begin());
+        if (!horizons.empty())
+          std::copy_n(horizons.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, facts.horizon_point.begin());
       }
       first += of_level;
     }

@@ -79,7 +79,7 @@ class TileGlbWriter {
     Json extras = {{"min_height", facts.min_height},
                    {"max_height", facts.max_height},
                    {"sphere", facts.sphere},
-                   {"horizon_point", facts.horizon_point}};
+                   {"horizon_point", facts.has_horizon() ? Json(facts.horizon_point) : Json(nullptr)}};
     glb_.json["asset"] = {
         {"version", "2.0"}, {"generator", std::string("scarp ") + version()}, {"extras", {{"scarp", extras}}}};
     std::vector<std::string> used{kTileEdges}, required;
@@ -193,9 +193,9 @@ class TileGlbWriter {
     std::vector<std::uint8_t> items(count * kStride);
     std::uint8_t* at = items.data();
     for (const std::uint32_t v : vertices_) {
-      const auto& [u, north] = tile_.places[v];
-      store_number(at, whole(u / 32767.0));
-      store_number(at, whole((32767 - north) / 32767.0));
+      const auto& [west, north] = tile_.places[v];
+      store_number(at, whole(west));
+      store_number(at, whole(north));
     }
     const std::size_t view = is_packed_ ? glb_.add_packed(encode_meshopt_attributes(items, kStride), kArrayBuffer,
                                                           count, kStride, "ATTRIBUTES")
@@ -321,8 +321,9 @@ Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb) {
   const Json* const scarp = find_member(find_member(find_member(&*json, "asset"), "extras"), "scarp");
   TileFacts facts;
   const auto low = find_number(scarp, "min_height"), high = find_number(scarp, "max_height");
-  if (!low || !high || !read_numbers(*scarp, "sphere", facts.sphere) ||
-      !read_numbers(*scarp, "horizon_point", facts.horizon_point))
+  if (!low || !high || !read_numbers(*scarp, "sphere", facts.sphere)) return refuse();
+  const Json* const horizon = find_member(scarp, "horizon_point");
+  if (horizon == nullptr || (!horizon->is_null() && !read_numbers(*scarp, "horizon_point", facts.horizon_point)))
     return refuse();
   facts.min_height = *low;
   facts.max_height = *high;

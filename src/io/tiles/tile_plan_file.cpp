@@ -12,14 +12,13 @@
 #include <utility>
 
 #include "io/tiles/byte_source.h"
+#include "io/tiles/grid_json.h"
 #include "io/tiles/plan_waters.h"
 #include "scarp/tile_job.h"
 #include "scarp/version.h"
 
 namespace scarp {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// FNV-1a.
 constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325, kFnvPrime = 0x100000001b3;
@@ -67,14 +66,16 @@ std::optional<T> optional_of(const Json& json) {
 }
 
 Json describe_reading(const ReadOptions& reading) {
-  return {{"band", reading.band},
-          {"nodata", or_null(reading.nodata)},
-          {"decode", word_of(reading.decode, kDecodes)},
-          {"z_scale", reading.z_scale},
-          {"z_offset", reading.z_offset},
-          {"fill_distance", reading.fill_distance},
-          {"extent", or_null(reading.view.extent)},
-          {"resolution", or_null(reading.view.resolution)}};
+  Json json{{"band", reading.band},
+            {"nodata", or_null(reading.nodata)},
+            {"decode", word_of(reading.decode, kDecodes)},
+            {"z_scale", reading.z_scale},
+            {"z_offset", reading.z_offset},
+            {"fill_distance", reading.fill_distance},
+            {"extent", or_null(reading.view.extent)},
+            {"resolution", or_null(reading.view.resolution)}};
+  if (reading.cell_size) json["cell_size"] = *reading.cell_size;
+  return json;
 }
 
 Json describe_box(const DegreeBox& box) { return {box.west, box.south, box.east, box.north}; }
@@ -93,15 +94,15 @@ Json describe_plan(const PyramidPlan& plan) {
   for (const PlannedSource& source : plan.sources)
     sources.push_back({{"covered", describe_box(source.covered)}, {"max_zoom", source.max_zoom}});
   Json json{{"cells", plan.cells},
-          {"block_level", plan.block_level},
-          {"effort", word_of(plan.effort, kEfforts)},
-          {"background", plan.background},
-          {"has_siblings", plan.has_siblings},
-          {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
-          {"grid", {{"kind", plan.grid.name()}}},
-          {"covered", describe_box(plan.covered)},
-          {"sources", std::move(sources)},
-          {"levels", std::move(levels)}};
+            {"block_level", plan.block_level},
+            {"effort", word_of(plan.effort, kEfforts)},
+            {"background", plan.background},
+            {"has_siblings", plan.has_siblings},
+            {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
+            {"grid", describe_grid(plan.grid)},
+            {"covered", describe_box(plan.covered)},
+            {"sources", std::move(sources)},
+            {"levels", std::move(levels)}};
   if (plan.has_water_mask) json["has_water_mask"] = true;
   if (plan.waters) json["waters"] = describe_waters(*plan.waters);
   if (plan.max_tile_bytes > 0) json["max_tile_bytes"] = plan.max_tile_bytes;
@@ -143,6 +144,22 @@ void parse_datum(const Json& json, TileJob& job) {
   datum.ellipsoid->inverse_flattening = json["ellipsoid"].at(1);
 }
 
+Json describe_plane(const PlaneOnGlobe& plane) {
+  return {{"transform", plane.transform},     {"crs", plane.crs},
+          {"convergence", plane.convergence}, {"scale", {plane.scale_x, plane.scale_y}},
+          {"off_along", plane.off_along},     {"off_height", plane.off_height}};
+}
+
+PlaneOnGlobe parse_plane(const Json& json) {
+  return {json.at("transform").get<std::array<double, 16>>(),
+          json.at("crs"),
+          json.at("convergence"),
+          json.at("scale").at(0),
+          json.at("scale").at(1),
+          json.at("off_along"),
+          json.at("off_height")};
+}
+
 Json describe_drape(const TileDrape& drape) {
   Json files = Json::array();
   for (const FileStamp& file : drape.files) files.push_back(describe_stamp(file));
@@ -155,6 +172,7 @@ bool is_sound(const PyramidPlan& plan) {
       plan.block_level > plan.max_zoom() || plan.max_zoom() - plan.block_level > 8 || plan.cells < 16 ||
       plan.cells > 256 || (plan.cells & (plan.cells - 1)) != 0)
     return false;
+  if (plan.grid.is_flat() && plan.grid.local.side != std::int64_t{plan.cells} << plan.max_zoom()) return false;
   return std::all_of(plan.levels.begin(), plan.levels.end(), [](const PyramidLevel& level) {
     return level.max_error > 0 && level.quantum > 0 && level.segments >= 1 && level.segments <= 256 &&
            (level.segments & (level.segments - 1)) == 0;
@@ -183,7 +201,7 @@ PyramidPlan parse_plan(const Json& json) {
   plan.binds_samples = json.value("binds_samples", false);
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
-  plan.grid = TileGrid::find(json.at("grid").at("kind").get<std::string>()).value();
+  plan.grid = parse_grid(json.at("grid")).value();
   plan.covered = parse_box(json.at("covered"));
   for (const Json& source : json.at("sources"))
     plan.sources.push_back({parse_box(source.at("covered")), source.at("max_zoom")});
@@ -227,6 +245,7 @@ TileJob parse_job(const Json& json) {
   job.reading.fill_distance = reading.at("fill_distance");
   job.reading.view.extent = optional_of<std::array<double, 4>>(reading.at("extent"));
   job.reading.view.resolution = optional_of<double>(reading.at("resolution"));
+  if (reading.contains("cell_size")) job.reading.cell_size = reading["cell_size"].get<double>();
   parse_datum(json.at("datum"), job);
   if (json.contains("waters")) {
     const Json& waters = json["waters"];
@@ -236,8 +255,13 @@ TileJob parse_job(const Json& json) {
   job.format = value_of(json.at("format"), kFormats);
   if (json.contains("drape"))
     job.drape = {parse_stamps(json["drape"].at("files")), value_of(json["drape"].at("format"), kImageFormats)};
-  job.facts = {json.at("name"),          json.at("description"), json.at("attribution"),
-               json.at("heights_above"), json.at("body"),        ""};
+  job.facts = {.name = json.at("name"),
+               .description = json.at("description"),
+               .attribution = json.at("attribution"),
+               .heights_above = json.at("heights_above"),
+               .body = json.at("body"),
+               .units = json.value("units", "")};
+  if (json.contains("plane")) job.facts.plane = parse_plane(json["plane"]);
   job.parts = json.value("parts", "");
   job.costs = json.value("costs", std::vector<std::uint32_t>());
   if (json.contains("estimate")) {
@@ -275,6 +299,8 @@ Json describe_job(const TileJob& job) {
             {"description", job.facts.description},
             {"attribution", job.facts.attribution},
             {"pyramid", describe_plan(job.plan)}};
+  if (!job.facts.units.empty()) json["units"] = job.facts.units;
+  if (job.facts.plane) json["plane"] = describe_plane(*job.facts.plane);
   if (!job.waters.is_empty())
     json["waters"] = {{"lakes", job.waters.lakes},
                       {"rivers", job.waters.rivers},
@@ -393,8 +419,8 @@ std::uint64_t key_of(const TileJob& job) {
 
 std::uint64_t settings_key_of(const TileJob& job) {
   Json json = describe_job(job);
-  for (const char* other : {"estimate", "costs", "rasters", "files", "waters", "parts", "heights_above", "body",
-                            "name", "description", "attribution"})
+  for (const char* other : {"estimate", "costs", "rasters", "files", "waters", "parts", "heights_above", "body", "name",
+                            "description", "attribution", "units", "plane"})
     json.erase(other);
   json["datum"].erase("geoid");
   json["pyramid"].erase("covered");

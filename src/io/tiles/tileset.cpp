@@ -10,6 +10,7 @@
 
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/glb_json.h"
+#include "io/tiles/grid_json.h"
 #include "scarp/tiles3d.h"
 #include "scarp/version.h"
 
@@ -20,6 +21,7 @@ constexpr double kPi = 3.141592653589793;
 /// Levels of a subtree: 341 tiles.
 constexpr int kSubtreeLevels = 5;
 constexpr const char* kClass = "tile";
+constexpr const char* kSphere = "TILE_BOUNDING_SPHERE";
 
 /// Of x and y, x first: where a tile of a level stands in a subtree.
 std::uint32_t interleave(std::uint32_t x, std::uint32_t y) {
@@ -82,7 +84,7 @@ std::vector<std::uint8_t> join_subtree(std::string json, const std::vector<std::
 }
 
 /// The subtree below a tile: which of its tiles are there, and what is known of them.
-std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles) {
+std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles, bool is_flat) {
   constexpr std::size_t kTiles = ((std::size_t{1} << (2 * kSubtreeLevels)) - 1) / 3;
   constexpr std::size_t kChildren = std::size_t{1} << (2 * kSubtreeLevels);
   Bits there(kTiles), below(kChildren);
@@ -122,13 +124,12 @@ std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles) 
   json["tileAvailability"] = available;
   json["contentAvailability"] = Json::array({available});
   json["childSubtreeAvailability"] = bits(below);
-  json["propertyTables"] = Json::array({{{"class", kClass},
-                                         {"count", there.count()},
-                                         {"properties",
-                                          {{"min_height", {{"values", views.add_numbers(lows)}}},
-                                           {"max_height", {{"values", views.add_numbers(highs)}}},
-                                           {"sphere", {{"values", views.add_numbers(spheres)}}},
-                                           {"horizon_point", {{"values", views.add_numbers(horizons)}}}}}}});
+  Json properties = {{"min_height", {{"values", views.add_numbers(lows)}}},
+                     {"max_height", {{"values", views.add_numbers(highs)}}},
+                     {"sphere", {{"values", views.add_numbers(spheres)}}}};
+  if (!is_flat) properties["horizon_point"] = {{"values", views.add_numbers(horizons)}};
+  json["propertyTables"] =
+      Json::array({{{"class", kClass}, {"count", there.count()}, {"properties", std::move(properties)}}});
   json["tileMetadata"] = 0;
   json["buffers"] = Json::array({{{"byteLength", views.bytes().size()}}});
   json["bufferViews"] = views.json();
@@ -138,23 +139,62 @@ std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles) 
 std::string content_name(std::uint32_t root) { return fmt::format("{}/{{level}}/{{x}}/{{y}}.glb", root); }
 std::string subtree_name(std::uint32_t root) { return fmt::format("subtrees/{}/{{level}}/{{x}}/{{y}}.subtree", root); }
 
-Json describe_classes() {
-  const auto number = [](const char* type, const char* semantic) {
-    return Json{{"type", type}, {"componentType", "FLOAT64"}, {"required", true}, {"semantic", semantic}};
+/// Heights of a local grid are not those that the semantics mean, above the ellipsoid.
+Json describe_classes(bool is_flat) {
+  const auto number = [&](const char* type, const char* semantic) {
+    Json json{{"type", type}, {"componentType", "FLOAT64"}, {"required", true}};
+    if (!is_flat || std::string_view(semantic) == kSphere) json["semantic"] = semantic;
+    return json;
   };
-  Json sphere = number("SCALAR", "TILE_BOUNDING_SPHERE");
+  Json sphere = number("SCALAR", kSphere);
   sphere["array"] = true;
   sphere["count"] = 4;
-  const Json properties = {{"min_height", number("SCALAR", "TILE_MINIMUM_HEIGHT")},
-                           {"max_height", number("SCALAR", "TILE_MAXIMUM_HEIGHT")},
-                           {"sphere", std::move(sphere)},
-                           {"horizon_point", number("VEC3", "TILE_HORIZON_OCCLUSION_POINT")}};
+  Json properties = {{"min_height", number("SCALAR", "TILE_MINIMUM_HEIGHT")},
+                     {"max_height", number("SCALAR", "TILE_MAXIMUM_HEIGHT")},
+                     {"sphere", std::move(sphere)}};
+  if (!is_flat) properties["horizon_point"] = number("VEC3", "TILE_HORIZON_OCCLUSION_POINT");
   return {{"id", "terrain"}, {"classes", {{kClass, {{"properties", properties}}}}}};
+}
+
+/// A root of implicit tiles.
+Json describe_root(std::uint32_t root, Json volume, double error, const PyramidPlan& plan) {
+  return {{"boundingVolume", std::move(volume)},
+          {"geometricError", error},
+          {"refine", "REPLACE"},
+          {"content", {{"uri", content_name(root)}}},
+          {"implicitTiling",
+           {{"subdivisionScheme", "QUADTREE"},
+            {"subtreeLevels", kSubtreeLevels},
+            {"availableLevels", plan.max_zoom() + 1},
+            {"subtrees", {{"uri", subtree_name(root)}}}}}};
+}
+
+/// The square of a local grid, as high as its tiles.
+Json describe_square(const PyramidPlan& plan, double low, double high) {
+  const LocalRaster& raster = plan.grid.local;
+  const double half = static_cast<double>(raster.side) / 2, east = half * raster.cell_x, north = half * raster.cell_y;
+  const double x = east - static_cast<double>(raster.centre_col()) * raster.cell_x,
+               y = north - static_cast<double>(raster.centre_row()) * raster.cell_y;
+  return {{"box", {x, y, (low + high) / 2, east, 0, 0, 0, north, 0, 0, 0, (high - low) / 2}}};
+}
+
+/// What is told of a local grid besides.
+void describe_plane(const PyramidPlan& plan, const LayerFacts& facts, Json& scarp) {
+  scarp.erase("ellipsoid");
+  scarp["grid"] = describe_grid(plan.grid);
+  scarp["units"] = {{"horizontal", facts.units}, {"vertical", facts.plane ? "metre" : "unit of the raster's heights"}};
+  if (!facts.plane) return;
+  const PlaneOnGlobe& plane = *facts.plane;
+  scarp["crs"] = plane.crs;
+  scarp["convergence"] = plane.convergence;
+  scarp["scale"] = {plane.scale_x, plane.scale_y};
+  scarp["off_globe"] = {{"along", plane.off_along}, {"height", plane.off_height}};
 }
 
 std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const PyramidReport& report,
                                               const FactsByTile& tiles, const LayerFacts& facts) {
-  double low = 0, high = 0, root_error = 0;
+  const bool is_flat = plan.grid.is_flat();
+  double low = is_flat ? INFINITY : 0, high = is_flat ? -INFINITY : 0, root_error = 0;
   for (const auto& [id, tile] : tiles) {
     low = std::min(low, tile.min_height);
     high = std::max(high, tile.max_height);
@@ -191,28 +231,25 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
       {"background", plan.background},
       {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
       {"levels", std::move(levels)}};
-  Json children = Json::array();
-  for (const std::uint32_t root : {0u, 1u}) {
-    children.push_back({{"boundingVolume", region(root == 0 ? -kPi : 0, root == 0 ? 0 : kPi)},
-                        {"geometricError", root_error},
-                        {"refine", "REPLACE"},
-                        {"content", {{"uri", content_name(root)}}},
-                        {"implicitTiling",
-                         {{"subdivisionScheme", "QUADTREE"},
-                          {"subtreeLevels", kSubtreeLevels},
-                          {"availableLevels", plan.max_zoom() + 1},
-                          {"subtrees", {{"uri", subtree_name(root)}}}}}});
+  // Who draws nothing misses the whole planet, or the whole plane.
+  const double nothing = std::max(is_flat ? plan.grid.tile_width(0, a) : a, 2 * root_error);
+  Json root;
+  if (is_flat) {
+    describe_plane(plan, facts, asset["extras"]["scarp"]);
+    root = describe_root(0, describe_square(plan, low, high), root_error, plan);
+    if (facts.plane) root["transform"] = facts.plane->transform;
+  } else {
+    root = {
+        {"boundingVolume", region(-kPi, kPi)},
+        {"geometricError", nothing},  // it has no triangles
+        {"refine", "REPLACE"},
+        {"children",
+         {describe_root(0, region(-kPi, 0), root_error, plan), describe_root(1, region(0, kPi), root_error, plan)}}};
   }
-  // The root has no triangles: who draws it alone misses the whole planet.
-  const double nothing = std::max(plan.ellipsoid.semi_major, 2 * root_error);
   Json tileset = {{"asset", std::move(asset)},
-                  {"schema", describe_classes()},
+                  {"schema", describe_classes(is_flat)},
                   {"geometricError", nothing},
-                  {"root",
-                   {{"boundingVolume", region(-kPi, kPi)},
-                    {"geometricError", nothing},
-                    {"refine", "REPLACE"},
-                    {"children", std::move(children)}}}};
+                  {"root", std::move(root)}};
   if (!facts.body.empty()) {
     tileset["extensionsUsed"] = {"3DTILES_ellipsoid"};
     tileset["extensions"]["3DTILES_ellipsoid"] = {{"body", facts.body}, {"radii", {a, a, b}}};
@@ -231,8 +268,8 @@ std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidRepo
     const auto& [z, y, x] = key;
     if (z % kSubtreeLevels != 0) continue;
     const std::uint32_t root = x >> z;
-    files.push_back(
-        {fmt::format("subtrees/{}/{}/{}/{}.subtree", root, z, x - (root << z), y), encode_subtree({z, x, y}, tiles)});
+    files.push_back({fmt::format("subtrees/{}/{}/{}/{}.subtree", root, z, x - (root << z), y),
+                     encode_subtree({z, x, y}, tiles, plan.grid.is_flat())});
   }
   return files;
 }

@@ -1,0 +1,15 @@
+// A grid of tiles in the JSON of plans and sets.
+#pragma once
+
+#include <optional>
+
+#include "io/tiles/json_members.h"
+#include "scarp/tile.h"
+
+namespace scarp {
+
+Json describe_grid(const TileGrid& grid);
+/// Nothing for what is no grid, or a local one of no raster.
+std::optional<TileGrid> parse_grid(const Json& json);
+
+}  // namespace scarp

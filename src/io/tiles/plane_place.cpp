@@ -1,0 +1,62 @@
+// Where a raster lies on the plane of a local grid.
+#include <fmt/format.h>
+
+#include "scarp/globe_place.h"
+
+namespace scarp {
+namespace {
+
+/// Of a tile: the centre does not depend on them.
+constexpr int kAnyCells = 128;
+
+}  // namespace
+
+GridKind grid_for(const RasterInfo& info) {
+  return !info.has_georeference || info.crs.empty() || is_local_crs(info) ? GridKind::kLocal : GridKind::kGeographic;
+}
+
+Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows, const std::optional<double>& cell_size,
+                                     const Datum& datum) {
+  const std::array<double, 6>& gt = info.geotransform;
+  if (info.has_georeference && info.is_geographic)
+    return fail(ErrorKind::kInput,
+                fmt::format("{} is in degrees, and a local grid lies on a plane: put it into metres (gdalwarp -t_srs "
+                            "EPSG:326… for UTM), or take --grid geographic",
+                            info.path));
+  if (info.has_georeference && (gt[2] != 0 || gt[4] != 0 || !(gt[1] > 0) || !(gt[5] < 0)))
+    return fail(ErrorKind::kInput, fmt::format("{} is turned or mirrored in its CRS, and rows of a local grid go from "
+                                               "west to east, the northern first: put it straight (gdalwarp)",
+                                               info.path));
+  if (datum.ellipsoid) return fail(ErrorKind::kUsage, "--ellipsoid is for globes: a local grid lies on a plane");
+  RasterOnPlane plane;
+  if (info.has_georeference) {
+    const bool are_metres = info.cell_x_m > 0;
+    plane.cell_x = are_metres ? info.cell_x_m : info.cell_x;
+    plane.cell_y = are_metres ? info.cell_y_m : info.cell_y;
+    plane.units = are_metres ? "metre" : "unit of the raster's x and y";
+  } else {
+    plane.cell_x = plane.cell_y = cell_size.value_or(1);
+    plane.units = cell_size ? "metre" : "cell";
+  }
+  if (grid_for(info) == GridKind::kLocal) {
+    if (datum.vertical != Vertical::kAuto && datum.vertical != Vertical::kNone)
+      return fail(ErrorKind::kUsage, fmt::format("{} has no place on the globe: leave --vertical and --geoid out, its "
+                                                 "heights are taken as they are",
+                                                 info.path));
+    plane.vertical = info.vertical.empty() ? "a surface that nobody names" : info.vertical;
+    return plane;
+  }
+  Datum known = datum;
+  if (datum.vertical == Vertical::kAuto && !info.is_ellipsoidal && info.vertical.empty())
+    known.vertical = Vertical::kNone;
+  const auto globe = place_on_globe(info, cols, rows, known, info.path);
+  if (!globe) return tl::unexpected(globe.error());
+  plane.vertical = globe->vertical;
+  auto on_globe =
+      find_plane_on_globe(info, TileGrid::of_raster(cols, rows, plane.cell_x, plane.cell_y, kAnyCells).local, *globe);
+  if (!on_globe) return tl::unexpected(on_globe.error());
+  plane.globe = std::move(*on_globe);
+  return plane;
+}
+
+}  // namespace scarp
