@@ -28,24 +28,24 @@ _scarp() {
       "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
       "measure --z-field" | "view --band" | "view --te" | "view --resolution" | "view --z-scale" | \
       "view --z-offset" | "view --cell-size" | "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | \
-      "tile --z-scale" | "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | \
-      "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --fill-distance" | \
-      "tile --background" | "tile --water-percentile" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
-      "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | \
-      "tile-plan --ellipsoid" | "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | \
-      "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --max-tile-bytes" | \
-      "tile-plan --nodata" | "tile-plan --fill-distance" | "tile-plan --background" | \
+      "tile --z-scale" | "tile --z-offset" | "tile --cell-size" | "tile --ellipsoid" | "tile --only" | "tile -e" | \
+      "tile --max-error" | "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | \
+      "tile --fill-distance" | "tile --background" | "tile --water-percentile" | "tile -j" | "tile --num-threads" | \
+      "tile-plan --band" | "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | \
+      "tile-plan --z-offset" | "tile-plan --cell-size" | "tile-plan --ellipsoid" | "tile-plan --only" | \
+      "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | \
+      "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --fill-distance" | "tile-plan --background" | \
       "tile-plan --water-percentile" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
       "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "tile-check --band" | \
       "tile-check --te" | "tile-check --resolution" | "tile-check --z-scale" | "tile-check --z-offset" | \
-      "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --fill-distance" | "tile-check --background" | \
-      "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | "serve --resolution" | \
-      "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | \
-      "serve --quality" | "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | "serve --fill-distance" | \
-      "serve --background" | "serve --water-percentile" | "serve --memory" | "serve --port" | "serve -j" | \
-      "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
-      "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
-      "generate --seed" | "generate --range" | "generate --size")
+      "tile-check --cell-size" | "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --fill-distance" | \
+      "tile-check --background" | "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | \
+      "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | \
+      "serve --max-error" | "serve --quality" | "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | \
+      "serve --fill-distance" | "serve --background" | "serve --water-percentile" | "serve --memory" | \
+      "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | \
+      "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
+      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -150,8 +150,8 @@ _scarp() {
       COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
       return
       ;;
-    "tile --grid" | "tile-plan --grid" | "tile-check --grid" | "serve --grid")
-      COMPREPLY=($(compgen -W 'geographic mercator' -- "$current"))
+    "tile --grid" | "tile-plan --grid")
+      COMPREPLY=($(compgen -W 'geographic mercator local' -- "$current"))
       return
       ;;
     "tile --bound" | "tile-plan --bound")
@@ -172,6 +172,10 @@ _scarp() {
       ;;
     "tile-run --parts" | "tile-finish --parts" | "paper --data" | "paper --out")
       COMPREPLY=($(compgen -d -- "$current"))
+      return
+      ;;
+    "tile-check --grid" | "serve --grid")
+      COMPREPLY=($(compgen -W 'geographic mercator' -- "$current"))
       return
       ;;
     "serve --host")
@@ -213,19 +217,19 @@ _scarp() {
         options+=' --version'
         ;;
       tile)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
-        options+=' --geoid --ellipsoid --only --report --overwrite --of --drape --drape-format'
-        options+=' --effort --max-error --quality --zoom --grid --bound --max-tile-bytes --cells'
-        options+=' --nodata --nodata-policy --fill-distance --background --water --watermask --water-percentile --rivers'
-        options+=' --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --breaklines'
+        options+=' --vertical --geoid --ellipsoid --only --report --overwrite --of --drape'
+        options+=' --drape-format --effort --max-error --quality --zoom --grid --bound --max-tile-bytes'
+        options+=' --cells --nodata --nodata-policy --fill-distance --background --water --watermask --water-percentile'
+        options+=' --rivers --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       tile-plan)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
-        options+=' --geoid --ellipsoid --only --changed-since --hash --overwrite --of --drape'
-        options+=' --drape-format --shards --slurm --effort --max-error --quality --zoom --grid'
-        options+=' --bound --max-tile-bytes --cells --nodata --nodata-policy --fill-distance --background --water'
-        options+=' --watermask --water-percentile --rivers --survey --quiet --json-progress --help --help-all'
-        options+=' --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --breaklines'
+        options+=' --vertical --geoid --ellipsoid --only --changed-since --hash --overwrite --of'
+        options+=' --drape --drape-format --shards --slurm --effort --max-error --quality --zoom'
+        options+=' --grid --bound --max-tile-bytes --cells --nodata --nodata-policy --fill-distance --background'
+        options+=' --water --watermask --water-percentile --rivers --survey --quiet --json-progress --help'
+        options+=' --help-all --version'
         ;;
       tile-run)
         options+=' --shard --only --parts --memory --num-threads --quiet --json-progress --help'
@@ -236,9 +240,9 @@ _scarp() {
         options+=' --version'
         ;;
       tile-check)
-        options+=' --source --band --te --resolution --decode --z-scale --z-offset --grid'
-        options+=' --vertical --geoid --ellipsoid --json --cells --nodata --nodata-policy --fill-distance'
-        options+=' --background --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --source --band --te --resolution --decode --z-scale --z-offset --cell-size'
+        options+=' --grid --vertical --geoid --ellipsoid --json --cells --nodata --nodata-policy'
+        options+=' --fill-distance --background --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       serve)
         options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
