@@ -1,5 +1,6 @@
 // GLB: glTF 2.0 in one file, y up. A JSON chunk describes one binary chunk of arrays by vertex and indices.
 import { ScarpError } from './module.js';
+import { checkOptions } from './heights.js';
 import { encodeAttributes, encodeTriangles, orderForCodec } from './meshopt.js';
 
 const MESHOPT = 'EXT_meshopt_compression';
@@ -160,7 +161,9 @@ function addPlain(glb, { positions, indices, normals, uvs }) {
 
 /// The bytes of a GLB file, whose node's translation is the mesh's origin. `compress`: meshoptimizer's codec, which loaders of
 /// three.js, Babylon.js and CesiumJS know; positions on a lattice (simplify's option) take 16 bits each.
-export function encodeGlb(mesh, { compress = false } = {}) {
+export function encodeGlb(mesh, options = {}) {
+  checkOptions(options);
+  const { compress = false } = options;
   const { positions, indices, origin: [x, y, z] = [0, 0, 0] } = mesh ?? {};
   if (!positions?.length || !indices?.length) throw new ScarpError('usage', 'the mesh needs positions and indices');
   const glb = new Builder();

@@ -7,6 +7,10 @@ function refuse(message) {
   throw new ScarpError('usage', message);
 }
 
+export function checkOptions(options) {
+  if (options === null || typeof options !== 'object') refuse(`the options are ${options === null ? 'null' : `a ${typeof options}`}, and no object: leave them out, or give { name: value }`);
+}
+
 function checkSide(name, side) {
   if (!Number.isInteger(side) || side < 2 || side > 2 ** 31 - 1) refuse(`${name} is ${side}; it is a whole number, at least 2`);
 }

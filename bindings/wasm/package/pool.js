@@ -2,7 +2,7 @@
 import { ScarpError, compiledModule } from './module.js';
 import { defaults, ready } from './ready.js';
 import { Mesh } from './mesh.js';
-import { checkHeights } from './heights.js';
+import { checkHeights, checkOptions } from './heights.js';
 import { checkSignal } from './simplify.js';
 
 /// A worker of the browser or of Node, behind the same two functions.
@@ -118,7 +118,9 @@ class Pool {
   #jobs = new Set();
   #isOver = false;
 
-  constructor({ size = Math.min(4, Math.max(1, cores() - 1)), worker = defaults.worker } = {}) {
+  constructor(options = {}) {
+    checkOptions(options);
+    const { size = Math.min(4, Math.max(1, cores() - 1)), worker = defaults.worker } = options;
     if (!Number.isInteger(size) || size < 1) throw new ScarpError('usage', `size is ${size}; it is a whole number of workers, at least 1`);
     this.#hands = Array.from({ length: size }, () => new Hand(worker));
   }
@@ -172,6 +174,7 @@ class Pool {
 
   /// As simplifySync(), in a worker. `transfer`: the heights' buffer is moved there, not copied.
   async simplify(z, width, height, options = {}) {
+    checkOptions(options);
     const { samples, rounding } = checkHeights(z, width, height);
     const isMoved = Boolean(options.transfer) && samples === z;
     // Float64 goes as it is: the worker counts what float32 rounds.
@@ -179,6 +182,7 @@ class Pool {
   }
 
   async simplifyPoints(points, options = {}) {
+    checkOptions(options);
     return this.#add('simplifyPoints', [points], points?.buffer, options);
   }
 

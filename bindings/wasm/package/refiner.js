@@ -1,6 +1,6 @@
 // A mesh that grows by one vertex at a time, the worst sample first.
 import { Blocks, ScarpError, call, callOrThrow, lastError, withBlocks } from './module.js';
-import { putField } from './heights.js';
+import { checkOptions, putField } from './heights.js';
 import { takeMesh } from './mesh.js';
 
 const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
@@ -12,6 +12,7 @@ export class Refiner {
   #held;
 
   constructor(z, width, height, options = {}) {
+    checkOptions(options);
     const blocks = new Blocks();
     try {
       this.#held = { handle: callOrThrow('scarp_refiner_create', [putField(blocks, z, width, height, options)]), blocks };

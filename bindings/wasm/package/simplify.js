@@ -1,6 +1,6 @@
 // Rasters to meshes, and their measurement.
 import { ScarpError, callOrThrow, view, withBlocks } from './module.js';
-import { checkNumbers, putBeside, putDoubles, putField } from './heights.js';
+import { checkNumbers, checkOptions, putBeside, putDoubles, putField } from './heights.js';
 import { REPORT_DOUBLES, readReport, takeMesh } from './mesh.js';
 
 const CHOICES = {
@@ -22,6 +22,7 @@ export function choose(name, value) {
 }
 
 export function checkKnown(options, known) {
+  checkOptions(options);
   for (const name of Object.keys(options)) {
     if (!known.includes(name)) throw new ScarpError('usage', `option ${name} is unknown; there are ${known.join(', ')}`);
   }

@@ -226,6 +226,7 @@ test('a pool that is terminated rejects what it had, and leaves no worker', asyn
 
 test('simplify() needs neither ready() nor a pool', async () => {
   assert.ok((await simplify(z, width, height, { maxError: 4 })).triangleCount > 0);
+  for (const work of [simplify(z, width, height, null), simplifyPoints([0, 0, 1], null)]) await rejects(work, 'usage', /options are null/);
   assert.ok((await simplifyPoints([0, 0, 1, 9, 0, 2, 0, 9, 3, 9, 9, 4, 5, 5, 60], { maxError: 1 })).triangleCount === 4);
 });
 
@@ -255,6 +256,10 @@ test('bad input gets a sentence that names it', () => {
     [() => encodeGlb({}), 'usage', /positions/],
     [() => new Tiler(z, width, height, { bounds: [0, 0, 0, 0] }), 'usage', /bounds/],
     [() => createPool({ size: 0 }), 'usage', /size is 0/],
+    [() => new Tiler(z, width, height, { bounds: [0, 0, 1, 1] }).layerJson(null), 'usage', /options are null/],
+    [() => new Tiler(z, width, height, 'bounds'), 'usage', /options are a string/],
+    ...[() => simplifySync(z, width, height, null), () => new Refiner(z, width, height, null), () => createPool(null), () => encodeGlb({}, null)]
+      .map(work => [work, 'usage', /options are null/]),
   ];
   for (const [work, code, sentence] of cases) refuses(work, code, sentence);
 });
