@@ -14,6 +14,20 @@ succeeds "$scarp" simplify "$dem" levels.glb -e 5 --lods 3:4 --html levels.html 
 succeeds "$scarp" simplify "$dem" plain.obj -e 20 --crs source -q
 succeeds "$scarp" simplify "$dem" bent.glb -e 20 --crs EPSG:32616 -q
 
+# Under an image: red in the north-west, green, blue, yellow in the south-east.
+python3 - << 'E2'
+import struct, zlib
+width, height = 403, 344
+colors = {(0, 0): (220, 40, 40), (0, 1): (40, 200, 40), (1, 0): (40, 40, 230), (1, 1): (220, 200, 40)}
+pixels = b"".join(b"\0" + bytes(c for col in range(width) for c in colors[row * 2 // height, col * 2 // width]) for row in range(height))
+chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+open("quarters.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                                chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+E2
+succeeds "$scarp" simplify "$dem" image.glb -e 20 --drape quarters.png --drape-format png --normals --html image.html -q
+succeeds "$scarp" simplify "$dem" packed_image.glb -e 20 --drape quarters.png --drape-format jpeg --compress -q
+succeeds "$scarp" simplify "$dem" places.glb -e 20 --uvs -q
+
 # The page: beside the mesh, or where -o says; nothing is replaced.
 succeeds "$scarp" view plain.glb "$dem"
 grep -q '^plain.html: .* open it in a browser$' "$logs/out" || fail "the page is not named: $(cat "$logs/out")"
@@ -114,6 +128,16 @@ open("nan.glb", "wb").write(broken)
 broken = bytearray(plain)
 struct.pack_into("<H", broken, binary + views[1]["byteOffset"], 65535)
 open("index.glb", "wb").write(broken)
+
+# Images that are damaged, or elsewhere.
+whole = open("image.glb", "rb").read()
+length = struct.unpack_from("<I", whole, 12)[0]
+document, binary = json.loads(whole[20:20 + length]), whole[20 + length:]
+open("image_damaged.glb", "wb").write(whole.replace(b"IHDR", b"IHDX"))
+document["images"] = [{"uri": "elsewhere.png"}]
+text = json.dumps(document).encode()
+text += b" " * (-len(text) % 4)
+open("image_elsewhere.glb", "wb").write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(binary), len(text), 0x4E4F534A) + text + binary)
 E2
 
 cat > judge.py << 'E2'
@@ -171,16 +195,16 @@ job(plain, "plain.html", [
 
 
 def restored(values):
-    errors, exaggeration, orbit, words = values[0]
-    assert errors and exaggeration == 3, values
+    errors, smooth, exaggeration, orbit, words = values[0]
+    assert errors and smooth and exaggeration == 3, values
     assert all(abs(a - b) < 0.01 for a, b in zip(orbit, (30, 45, 20000))), orbit
     assert "3 ×" in words, words
 
 
 job(restored, "plain.html", [
-    {"until": READY, "read": "[scarp_page.look.errors, scarp_page.look.exaggeration, (o => [o.azimuth, o.altitude, o.distance])"
+    {"until": READY, "read": "[scarp_page.look.errors, scarp_page.look.smooth, scarp_page.look.exaggeration, (o => [o.azimuth, o.altitude, o.distance])"
                              "(scarp_page.scene.orbit()), document.getElementById('panel').innerText]", "shot": "fragment"}],
-    fragment="#errors=1&exaggeration=3&view=30,45,20000,0,0,0")
+    fragment="#errors=1&smooth=1&exaggeration=3&view=30,45,20000,0,0,0")
 job(lambda values: same("packed.json", values[0][0]), "by_simplify.html", [{"until": READY, "read": READ, "shot": "dark"}], axe=True, dark=True)
 
 
@@ -248,9 +272,65 @@ open("empty.html", "w").write(empty)
 job(lambda values: values[0].index("here"), "empty.html", [{"until": NOTICE, "read": NOTICE}])
 
 
+# Colours as drawn in the middle of each quarter, north-west, north-east, south-west, south-east; which parts of the page tell of the image.
+QUARTERS = """(() => {
+  const {scene, shown: [terrain], document: {place}} = scarp_page, picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
+  scene.draw();
+  [picture.width, picture.height] = [scene.canvas.width, scene.canvas.height];
+  picture.getContext('2d').drawImage(scene.canvas, 0, 0);
+  const between = (k, share) => place.low[k] + share * (place.high[k] - place.low[k]);
+  const colors = [[.25, .75], [.75, .75], [.25, .25], [.75, .25]].map(([u, v]) => {
+    const [x, y] = [between(0, u), between(1, v)], at = scene.project(place.to_scene(x, y, terrain.height_at(x, y)));
+    const [red, green, blue] = picture.getContext('2d').getImageData(...at.map(c => c * ratio), 1, 1).data;
+    return [red > 1.5 * blue && 'r', green > 1.5 * blue && 'g', blue > 1.5 * green && 'b'].filter(Boolean).join('');
+  });
+  return [colors.join(' '), !document.getElementById('image-choice').hidden, document.getElementById('image').checked,
+    document.getElementById('notes').textContent, picture.toDataURL()];
+})()"""
+# The file's normals, beside those of the triangles: the mean cosine.
+NORMALS = """(() => {
+  const {terrain, surface: {geometry}} = scarp_page.scene.views[0], given = geometry.attributes.normal.array.slice();
+  geometry.computeVertexNormals();
+  const own = geometry.attributes.normal.array, count = given.length / 3;
+  let sum = 0;
+  for (let k = 0; k < own.length; ++k) sum += given[k] * own[k] / Math.hypot(...given.subarray(k - k % 3, k - k % 3 + 3));
+  return [terrain.normals !== null, sum / count];
+})()"""
+UNDER = "r g b rg"
+
+
+def image(values):
+    first, smooth, (given, cosine), errors, relief, again, dropped, plain, one, damaged, elsewhere, state = values
+    for found in (first, smooth, again, dropped):
+        assert found[:3] == [UNDER, True, True] and "image" not in found[3], found[:4]
+    assert len({found[4] for found in (first, smooth, errors, relief)}) == 4, "a key changes nothing"
+    assert given and 0.9 < cosine < 0.9999, (given, cosine)
+    assert errors[1:3] == relief[1:3] == [True, False] and relief[0] != UNDER, (errors[:3], relief[:3])
+    for found, words in ((plain, ""), (one, ""), (damaged, "cannot read it (image/png)"), (elsewhere, "does not lie in the file")):
+        assert found[0] != UNDER and found[1:3] == [False, False] and words in found[3] and ("image" in found[3]) == bool(words), found[:4]
+    assert "smooth=1" in state and "image" not in state, state
+
+
+def dropped(name):
+    return {"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === '{name}'", "read": QUARTERS}
+
+
+job(image, "image.html", [
+    {"until": READY, "read": QUARTERS, "shot": "image"},
+    {"keys": ["n"], "read": QUARTERS, "shot": "image_smooth"}, {"read": NORMALS},
+    {"keys": ["e"], "read": QUARTERS}, {"keys": ["i", "i"], "read": QUARTERS, "shot": "smooth"}, {"keys": ["i"], "read": QUARTERS},
+    dropped("packed_image.glb"), dropped("plain.glb"), dropped("places.glb"), dropped("image_damaged.glb"), dropped("image_elsewhere.glb"),
+    {"until": "location.hash.includes('smooth=1')", "read": "location.hash"}], axe=True)
+
+
+def image_kept(values):
+    _, mesh, found = values
+    assert mesh[1][0] == "greedy" and found[:3] == [UNDER, True, True], (mesh, found[:4])
+
+
 def loads(values):
     first, last = values[0]
-    assert first == last and 0 < last["geometries"] < 10, values
+    assert first == last and 0 < last["geometries"] < 10 and last["textures"] >= 2, values
 
 
 DRAG = ("(slider => { slider.value = String(%d); slider.dispatchEvent(new Event('input')); })(document.getElementById('error'))")
@@ -324,6 +404,8 @@ if os.path.exists("live.html"):
         steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
                    "after": "document.getElementById('notice').hidden = true"}]
     job(rasters, "try.html", steps, axe=True)
+    # The image lies over the engine's meshes, too.
+    job(image_kept, "image.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"read": QUARTERS}])
     # A worker that ends while it works: a sentence, and the next wish has a new one.
     job(killed, "live.html", [
         {"until": READY}, {"do": DRAG % 40 + "; scarp_page.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
@@ -333,12 +415,12 @@ if os.path.exists("live.html"):
                                                     "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
 
 # Each load replaces what the last one holds.
-job(loads, "plain.html", [{"until": READY}, {"do": """(async () => {
+job(loads, "image.html", [{"until": READY}, {"do": """(async () => {
   const data = JSON.parse(document.getElementById('scarp-data').textContent), page = scarp_page, memory = page.scene.renderer.info.memory;
   const buffer = Uint8Array.from(atob(data.meshes[0].glb), letter => letter.charCodeAt(0)).buffer, seen = [];
   for (let k = 0; k < 50; ++k) {
     await page.load([new File([buffer], 'again.glb')]);
-    page.change({errors: true, edges: true});
+    page.change({errors: true, edges: true, smooth: true});
     page.scene.draw();
     if (k === 9 || k === 49) seen.push({geometries: memory.geometries, textures: memory.textures, programs: page.scene.renderer.info.programs.length});
   }

@@ -25,16 +25,17 @@ export async function read_inline(data) {
 
 /** `metres` a unit of x, y, z; null: as the first file says of itself. */
 export async function make_document(files, field, metres = null, unit = null) {
-  const parts = [];
+  const parts = [], notes = [];
   for (const { name, bytes, buffer } of files) {
-    const { levels, extras } = await read_glb(buffer, name);
+    const { levels, extras, notes: told } = await read_glb(buffer, name);
+    notes.push(...told);
     const error = extras.error ?? {};
     levels.forEach((level, k) => parts.push({ name: levels.length > 1 ? `${name}, level ${k}` : name, bytes: k === 0 ? bytes : null, told: k === 0 ? error : null, extras, ...level }));
   }
   const frame = parts[0].extras.crs_option;
   const known = metres !== null || frame === 'local' || frame === 'enu', place = new Place(parts[0].positions, metres ?? [1, 1, 1]);
   const terrains = parts.map(part => new Terrain(part, place, field));
-  return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known, notes: [] };
+  return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known, notes };
 }
 
 /** The raster itself, with the mesh that the engine has made of it: on the grid, as live.js has it. */
@@ -43,14 +44,16 @@ export function document_of_raster(field, knows_metres, notes, { mesh, judged })
   return { name: field.name, levels: [place_on_grid('greedy', mesh, judged, field, place)], place, field, unit: knows_metres ? 'm' : '', knows_metres, notes };
 }
 
-/** A mesh whose x is the column, and whose y counts rows from the last one up. */
-export function place_on_grid(name, { positions, indices, origin }, judged, field, place) {
+/** A mesh whose x is the column, and whose y counts rows from the last one up; under the image of `shown`, if there is one. */
+export function place_on_grid(name, { positions, indices, origin }, judged, field, place, shown = null) {
   const placed = new Float64Array(positions.length);
   for (let v = 0; v < positions.length; v += 3) {
     const [x, y] = field.to_place(positions[v] + origin[0], field.rows - 1 - positions[v + 1] - origin[1]);
     placed.set([x, y, positions[v + 2] + origin[2]], v);
   }
-  return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), judged }, place, field);
+  const in_image = shown?.placing, uvs = in_image ? new Float32Array(placed.length / 3 * 2) : null;
+  for (let v = 0; uvs && v < uvs.length; v += 2) uvs.set(in_image(placed[1.5 * v], placed[1.5 * v + 1]), v);
+  return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), judged, uvs, image: uvs && shown.image }, place, field);
 }
 
 /** Whether a mesh lies where the raster does, so that one can judge the other. */

@@ -1,4 +1,5 @@
 // Reads the meshes of a GLB file: x east, y north, z up, in double precision. Trusts no number in the file.
+import { NOWHERE, read_image, surface_of } from './images.js';
 import { Sentence } from './sentence.js';
 
 const COMPONENTS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
@@ -36,9 +37,21 @@ function matrix_of(node) {
     2 * (x * z + y * w) * s[2], 2 * (y * z - x * w) * s[2], (1 - 2 * (x * x + y * y)) * s[2], 0, t[0], t[1], t[2], 1];
 }
 
+/** Normals as a matrix turns them, z up. */
+function turn_normals(m, normals) {
+  const column = k => [m[4 * k], m[4 * k + 1], m[4 * k + 2]], cross = (a, b) => [0, 1, 2].map(k => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+  const [a, b, c] = [[1, 2], [2, 0], [0, 1]].map(([j, k]) => cross(column(j), column(k)));
+  const out = new Float64Array(normals.length);
+  for (let at = 0; at < out.length; at += 3) {
+    const [x, y, z] = normals.subarray(at, at + 3), along = k => a[k] * x + b[k] * y + c[k] * z;
+    out.set([along(0), -along(2), along(1)], at);
+  }
+  return out;
+}
+
 class Reader {
   constructor(json, binary, name) {
-    Object.assign(this, { json, binary, name, views: new Map() });
+    Object.assign(this, { json, binary, name, views: new Map(), images: {}, notes: new Set() });
   }
 
   damaged(what) {
@@ -115,40 +128,67 @@ class Reader {
       }
       const indices = primitive.indices === undefined ? Uint32Array.from({ length: vertices }, (_, k) => k) : this.numbers(primitive.indices, 1);
       for (const v of indices) if (v >= vertices) throw this.damaged(`a triangle names vertex ${v} of ${vertices}`);
-      level.push({ positions, indices });
+      level.push({ positions, indices, ...this.surface(primitive, vertices, matrix) });
     }
     for (const child of node.children ?? []) this.collect(child, matrix, level, depth + 1);
   }
 
-  join(parts) {
+  /** Normals and places in an image, where the primitive has them. A normal map's own normals all point up. */
+  surface(primitive, vertices, matrix) {
+    const { texture, places, has_normal_map, is_moved } = surface_of(this.json, primitive), { attributes } = primitive;
+    const of_vertices = (name, size) => {
+      const numbers = this.numbers(attributes[name], size);
+      if (numbers.length !== size * vertices) throw this.damaged(`${name} is not there for each vertex`);
+      return numbers;
+    };
+    return { texture, is_moved, uvs: texture === null ? null : of_vertices(places, 2),
+      normals: attributes.NORMAL === undefined || has_normal_map ? null : turn_normals(matrix, of_vertices('NORMAL', 3)) };
+  }
+
+  /** The one image of some parts, if they have one that can be shown. */
+  async image(parts) {
+    const used = parts.filter(part => part.texture !== null), [first] = used;
+    if (!first) return null;
+    const { image = null, why } = used.some(part => part.texture !== first.texture) ? { why: 'there are several' }
+      : used.some(part => part.is_moved) ? { why: 'KHR_texture_transform moves it' }
+      : await (this.images[first.texture] ??= read_image(this.json, first.texture, index => this.view(index).bytes));
+    if (why) this.notes.add(`The image of ${this.name} is not shown: ${why}.`);
+    return image;
+  }
+
+  async join(parts) {
     const count = key => parts.reduce((sum, part) => sum + part[key].length, 0);
     const positions = new Float64Array(count('positions')), indices = new Uint32Array(count('indices') - count('indices') % 3);
+    const image = await this.image(parts), uvs = image && new Float32Array(positions.length / 3 * 2).fill(NOWHERE);
+    const normals = parts.every(part => part.normals) ? new Float64Array(positions.length) : null;
     let p = 0, i = 0;
     for (const part of parts) {
       indices.set(part.indices.map(v => v + p / 3), i);
       positions.set(part.positions, p);
+      normals?.set(part.normals, p);
+      if (part.uvs) uvs?.set(part.uvs, p / 3 * 2);
       p += part.positions.length;
       i += part.indices.length;
     }
     if (indices.length === 0) throw new Sentence(`${this.name} holds no triangles.`);
-    return { positions, indices };
+    return { positions, indices, normals, uvs, image };
   }
 
   /** Level 0 is the scene; level k what MSFT_lod puts in its place. */
   levels() {
     const scene = this.json.scenes?.[this.json.scene ?? 0]?.nodes ?? (this.json.nodes ?? []).map((_, k) => k);
     const deepest = Math.max(0, ...scene.map(k => this.json.nodes?.[k]?.extensions?.MSFT_lod?.ids?.length ?? 0));
-    return Array.from({ length: deepest + 1 }, (_, level) => {
+    return Promise.all(Array.from({ length: deepest + 1 }, (_, level) => {
       const parts = [];
       for (const root of scene) this.collect(level === 0 ? root : this.json.nodes[root]?.extensions?.MSFT_lod?.ids?.[level - 1] ?? root, IDENTITY, parts);
       return this.join(parts);
-    });
+    }));
   }
 }
 
-/** {levels: [{positions, indices}], extras}: what the file says of itself is in `extras`. Throws a Sentence. */
+/** {levels: [{positions, indices, normals, uvs, image}], extras, notes}: the last three of a level may be null; what the file says of itself is in `extras`. Throws a Sentence. */
 export async function read_glb(bytes, name) {
   const { json, binary } = split(bytes, name), reader = new Reader(json, binary, name);
   await reader.open();
-  return { levels: reader.levels(), extras: json.asset?.extras ?? {} };
+  return { levels: await reader.levels(), extras: json.asset?.extras ?? {}, notes: [...reader.notes] };
 }

@@ -8,6 +8,8 @@ export function listen_to_keys(page) {
     const action = {
       w: () => page.change({ edges: !page.look.edges }),
       e: () => page.document.field && page.change({ errors: !page.look.errors }),
+      i: () => page.has_image && page.change({ image: page.look.errors || !page.look.image, errors: false }),
+      n: () => page.change({ smooth: !page.look.smooth }),
       s: () => page.live.toggle_both(),
       m: () => page.measuring.turn(!page.measuring.is_on),
       r: () => page.scene.reset(),

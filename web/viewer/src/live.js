@@ -172,8 +172,8 @@ export class Live {
       this.say(`No mesh: ${error}`);
       return false;
     }
-    const { field, place } = this.page.document;
-    this.meshes.set(key, place_on_grid(name, mesh, judged, field, place));
+    const { field, place, levels } = this.page.document;
+    this.meshes.set(key, place_on_grid(name, mesh, judged, field, place, levels[0]));
     return true;
   }
 

@@ -22,7 +22,7 @@ function complain(error) {
 
 class Page {
   constructor() {
-    this.look = { errors: false, edges: false, exaggeration: 1, sun: { azimuth: 315, altitude: 40 }, scale: 1, divider: 0.5, covered: () => $('panel').getBoundingClientRect() };
+    this.look = { errors: false, image: false, edges: false, smooth: false, exaggeration: 1, sun: { azimuth: 315, altitude: 40 }, scale: 1, divider: 0.5, covered: () => $('panel').getBoundingClientRect() };
     this.scene = new Scene($('canvas'), this.look);
     this.measuring = new Measuring(this.scene);
     this.live = new Live(this);
@@ -41,7 +41,10 @@ class Page {
     $('level-row').hidden = document_.levels.length < 2;
     $('errors').disabled = !document_.field;
     this.look.errors = Boolean(state.errors) && Boolean(document_.field);
-    this.look.edges = Boolean(state.edges ?? this.look.edges);
+    this.has_image = document_.levels.some(terrain => terrain.image);
+    $('image-choice').hidden = !this.has_image;
+    this.look.image = Boolean(state.image ?? true) && this.has_image;
+    for (const name of ['edges', 'smooth']) this.look[name] = Boolean(state[name] ?? this.look[name]);
     this.look.exaggeration = Math.min(10, Math.max(0.1, state.exaggeration ?? 1));
     this.look.sun = { azimuth: state.azimuth ?? 315, altitude: state.altitude ?? 40 };
     this.measuring.clear();
@@ -74,8 +77,9 @@ class Page {
   /** Makes the controls and the readout agree with the state. */
   update() {
     const { look, shown, document: { field, unit, levels, place, knows_metres } } = this, [terrain] = shown;
-    $('errors').checked = look.errors;
-    $('edges').checked = look.edges;
+    const colors = look.errors ? 'errors' : look.image ? 'image' : 'relief';
+    for (const name of ['relief', 'errors', 'image']) $(name).checked = name === colors;
+    for (const name of ['edges', 'smooth']) $(name).checked = look[name];
     $('exaggeration').value = String(Math.round(Math.log10(look.exaggeration) * 100));
     $('exaggeration-text').textContent = look.exaggeration === 1 ? (knows_metres ? '1 (true)' : '1') : `${Number(look.exaggeration.toPrecision(2))} ×`;
     $('azimuth').value = String(look.sun.azimuth);
@@ -91,7 +95,7 @@ class Page {
       if (shown.length > 1) line.textContent = summarize(shown[k], unit);
     });
     $('divider').hidden = shown.length < 2;
-    draw_legend({ errors: look.errors, scale: look.scale, low: place.low[2], high: place.high[2], unit });
+    draw_legend({ errors: look.errors, image: look.image && terrain.image !== null, scale: look.scale, low: place.low[2], high: place.high[2], unit });
     $('map').hidden = !look.errors;
     if (look.errors && (this.mapped !== terrain || this.mapped_scale !== look.scale)) draw_map(terrain.judged, field, look.scale);
     [this.mapped, this.mapped_scale] = look.errors ? [terrain, look.scale] : [];
@@ -103,7 +107,7 @@ class Page {
     const made = shown.at(-1), how = { greedy: '--effort fast --order greedy', high: '--effort high' }[made.name];
     $('command').hidden = how === undefined;
     if (how) $('command').textContent = `scarp simplify ${field.name} mesh.glb -e ${number(made.judged.max_error)} ${how}`;
-    $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${look.errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : ''}`);
+    $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${look.errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`);
     this.scene.invalidate();
   }
 
@@ -126,7 +130,7 @@ class Page {
       $('side-left').style.maxWidth = `${left - scene.free(0)[0] - 40}px`;
       $('side-right').style.maxWidth = `${width - left - (innerWidth > 640 ? 90 : 30)}px`;
     }
-    write_fragment(() => ({ errors: Number(look.errors), edges: Number(look.edges), exaggeration: look.exaggeration, azimuth: look.sun.azimuth, altitude: look.sun.altitude,
+    write_fragment(() => ({ errors: Number(look.errors), ...(this.has_image ? { image: Number(look.image) } : {}), edges: Number(look.edges), smooth: Number(look.smooth), exaggeration: look.exaggeration, azimuth: look.sun.azimuth, altitude: look.sun.altitude,
       ...(this.level ? { level: this.level } : {}), ...this.live.state(), view: [azimuth, altitude, distance, ...target] }));
     this.drawn = (this.drawn ?? 0) + 1;
   }
@@ -137,8 +141,8 @@ class Page {
 
   wire() {
     const on = (id, event, action) => $(id).addEventListener(event, action);
-    on('errors', 'change', () => this.change({ errors: $('errors').checked }));
-    on('edges', 'change', () => this.change({ edges: $('edges').checked }));
+    for (const name of ['relief', 'errors', 'image']) on(name, 'change', () => this.change({ errors: name === 'errors', image: name === 'image' }));
+    for (const name of ['edges', 'smooth']) on(name, 'change', () => this.change({ [name]: $(name).checked }));
     on('exaggeration', 'input', () => this.change({ exaggeration: Number((10 ** ($('exaggeration').value / 100)).toPrecision(2)) }));
     for (const id of ['azimuth', 'altitude']) on(id, 'input', () => this.change({ sun: { ...this.look.sun, [id]: Number($(id).value) } }));
     on('level', 'input', () => this.choose_level(Number($('level').value)));

@@ -18,7 +18,8 @@ export function draw_bar(metres_per_pixel, unit) {
   $('bar').hidden = false;
 }
 
-export function draw_legend({ errors, scale, low, high, unit }) {
+export function draw_legend({ errors, image, scale, low, high, unit }) {
+  $('legend').hidden = image && !errors;
   $('legend-bar').style.background = errors ? ERRORS : RELIEF;
   const end = Number(scale.toPrecision(3));
   const words = errors ? [`−${end} below`, '0', `+${with_unit(end, unit)} above`] : [number(low), '', with_unit(high, unit)];

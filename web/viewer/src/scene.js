@@ -21,13 +21,23 @@ function error_texture(judged, { cols, rows }) {
   return texture;
 }
 
+const WRAPS = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
+function image_texture({ bitmap, wraps }) {
+  const texture = new THREE.Texture(bitmap);
+  texture.flipY = false;
+  [texture.wrapS, texture.wrapT] = wraps.map(number => WRAPS[number] ?? THREE.RepeatWrapping);
+  texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
+}
+
 /** One terrain and its edges. */
 class View {
   constructor(shared) {
     this.scene = new THREE.Scene();
     this.group = new THREE.Group();
     this.scene.add(this.group);
-    this.uniforms = { ...shared, errors: { value: null } };
+    this.uniforms = { ...shared, errors: { value: null }, image: { value: null }, shows_image: { value: false } };
     this.surface = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
       uniforms: this.uniforms, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT, side: THREE.DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
@@ -44,25 +54,32 @@ class View {
     this.terrain = terrain;
     this.surface.geometry.dispose();
     this.edges.geometry.dispose();
-    this.uniforms.errors.value?.dispose();
-    this.uniforms.errors.value = null;
+    for (const texture of [this.uniforms.errors, this.uniforms.image]) {
+      texture.value?.dispose();
+      texture.value = null;
+    }
     this.has_edges = false;
     const geometry = new THREE.BufferGeometry(), { field, grid } = terrain;
     geometry.setAttribute('position', new THREE.BufferAttribute(terrain.scene, 3));
     const sampled = new Float32Array(terrain.heights.length * 2);
     if (field) for (let k = 0; k < sampled.length; ++k) sampled[k] = (grid[k] + 0.5) / (k % 2 ? field.rows : field.cols);
     geometry.setAttribute('sampled', new THREE.BufferAttribute(sampled, 2));
+    if (terrain.normals) geometry.setAttribute('normal', new THREE.BufferAttribute(terrain.normals, 3));
+    if (terrain.uvs) geometry.setAttribute('uv', new THREE.BufferAttribute(terrain.uvs, 2));
     geometry.setIndex(new THREE.BufferAttribute(terrain.indices, 1));
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), terrain.place.radius * 2);
     this.surface.geometry = geometry;
   }
 
   /** Made when they are first looked at. */
-  prepare(shows_errors, shows_edges) {
-    const { terrain } = this;
-    if (shows_errors && !this.uniforms.errors.value && terrain.judged) this.uniforms.errors.value = error_texture(terrain.judged, terrain.field);
-    this.edges.visible = shows_edges;
-    if (!shows_edges || this.has_edges) return;
+  prepare(look) {
+    const { terrain, uniforms } = this, { geometry } = this.surface;
+    if (look.errors && !uniforms.errors.value && terrain.judged) uniforms.errors.value = error_texture(terrain.judged, terrain.field);
+    uniforms.shows_image.value = look.image && terrain.image !== null;
+    if (uniforms.shows_image.value) uniforms.image.value ??= image_texture(terrain.image);
+    if (look.smooth && !geometry.attributes.normal) geometry.computeVertexNormals();
+    this.edges.visible = look.edges;
+    if (!look.edges || this.has_edges) return;
     this.has_edges = true;
     const pairs = terrain.edges(), here = new Float32Array(pairs.length * 3), there = new Float32Array(pairs.length * 3);
     for (let k = 0; k < pairs.length; ++k) {
@@ -75,7 +92,7 @@ class View {
 }
 
 export class Scene {
-  /** `look`: {errors, edges, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller changes. */
+  /** `look`: {errors, image, edges, smooth, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller changes. */
   constructor(canvas, look) {
     Object.assign(this, { canvas, look, listeners: [], views: [] });
     try {
@@ -91,7 +108,7 @@ export class Scene {
     this.controls.zoomToCursor = true;
     this.controls.maxPolarAngle = Math.PI * 0.52;
     this.controls.addEventListener('change', () => this.invalidate());
-    this.shared = { shows_errors: { value: false }, scale: { value: 1 }, range: { value: new THREE.Vector2() }, sun: { value: new THREE.Vector3() },
+    this.shared = { shows_errors: { value: false }, is_smooth: { value: false }, scale: { value: 1 }, range: { value: new THREE.Vector2() }, sun: { value: new THREE.Vector3() },
       pixels: { value: new THREE.Vector2() }, ink: { value: new THREE.Color() }, weight: { value: 0.5 } };
     new ResizeObserver(() => this.invalidate()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.invalidate());
@@ -198,6 +215,7 @@ export class Scene {
     const style = getComputedStyle(document.documentElement), azimuth = look.sun.azimuth * Math.PI / 180, altitude = look.sun.altitude * Math.PI / 180;
     renderer.setClearColor(style.getPropertyValue('--sky').trim());
     shared.shows_errors.value = look.errors;
+    shared.is_smooth.value = look.smooth;
     shared.scale.value = Math.max(look.scale, 1e-12);
     shared.sun.value.set(Math.sin(azimuth) * Math.cos(altitude), Math.cos(azimuth) * Math.cos(altitude), Math.sin(altitude));
     shared.range.value.set(place.to_scene(0, 0, place.low[2])[2], place.to_scene(0, 0, place.high[2])[2]);
@@ -209,7 +227,7 @@ export class Scene {
     for (let k = 0; k < this.count; ++k) {
       const view = this.views[k], [left, wide] = this.part(k);
       if (wide < 1) continue;
-      view.prepare(look.errors, look.edges);
+      view.prepare(look);
       view.group.scale.z = look.exaggeration;
       this.aim(k);
       shared.pixels.value.set(wide, height);

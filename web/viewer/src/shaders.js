@@ -4,24 +4,33 @@ attribute vec2 sampled;
 varying vec2 at;
 varying vec3 seen;
 varying float height;
+varying vec3 facing;
+varying vec2 in_image;
 void main() {
   at = sampled;
+  facing = normalMatrix * normal;
+  in_image = uv;
   height = position.z;
   vec4 view = modelViewMatrix * vec4(position, 1.0);
   seen = view.xyz;
   gl_Position = projectionMatrix * view;
 }`;
 
-// The error map is lit by 28 % at most: a dark slope would hide the sign.
+// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent, or has no place, the relief shows.
 export const SURFACE_FRAGMENT = `
 uniform sampler2D errors;
 uniform bool shows_errors;
+uniform sampler2D image;
+uniform bool shows_image;
+uniform bool is_smooth;
 uniform float scale;
 uniform vec2 range;
 uniform vec3 sun;
 varying vec2 at;
 varying vec3 seen;
 varying float height;
+varying vec3 facing;
+varying vec2 in_image;
 vec3 ramp(float t) {
   vec3 a = vec3(.36, .47, .35), b = vec3(.66, .63, .47), c = vec3(.62, .55, .49), d = vec3(.97, .97, .98);
   return t < .35 ? mix(a, b, t / .35) : t < .7 ? mix(b, c, (t - .35) / .35) : mix(c, d, (t - .7) / .3);
@@ -30,7 +39,7 @@ vec3 diverge(float t) {
   return t < 0. ? mix(vec3(.95), vec3(.13, .40, .67), -t) : mix(vec3(.95), vec3(.70, .09, .17), t);
 }
 void main() {
-  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
+  vec3 normal = normalize(is_smooth ? facing : cross(dFdx(seen), dFdy(seen)));
   vec3 up = (viewMatrix * vec4(0., 0., 1., 0.)).xyz;
   if (dot(normal, up) < 0.) normal = -normal;
   float lit = max(dot(normal, (viewMatrix * vec4(sun, 0.)).xyz), 0.);
@@ -41,6 +50,8 @@ void main() {
     color *= .72 + .28 * lit;
   } else {
     color = ramp(clamp((height - range.x) / max(range.y - range.x, 1e-9), 0., 1.)) * (.34 + .90 * lit);
+    vec4 texel = texture2D(image, in_image);
+    if (shows_image && in_image.x > -1e8) color = mix(color, texel.rgb * (.5 + .6 * lit), texel.a);
   }
   gl_FragColor = vec4(color, 1.);
 }`;

@@ -1,5 +1,6 @@
 // A mesh in place: in metres around the page's centre for drawing, in columns and rows for judging.
 import { judge } from './errors.js';
+import { find_placing } from './images.js';
 
 /** Where the page's scene lies: `metres` a unit of x, y and z. */
 export class Place {
@@ -27,9 +28,9 @@ export class Place {
 }
 
 export class Terrain {
-  /** `positions`: x, y, z of the mesh's own frame; `field` may be null. `judged`: what judge() found, if it is known. */
-  constructor({ name, positions, indices, bytes = null, told = null, judged = null }, place, field) {
-    Object.assign(this, { name, positions, indices, bytes, told, place, field, known: judged });
+  /** `positions`: x, y, z of the mesh's own frame, as are `normals`; these, `uvs`, `image` and `field` may be null. `judged`: what judge() found, if it is known. */
+  constructor({ name, positions, indices, bytes = null, told = null, judged = null, normals = null, uvs = null, image = null }, place, field) {
+    Object.assign(this, { name, positions, indices, bytes, told, place, field, known: judged, uvs, image });
     const vertices = positions.length / 3;
     this.scene = new Float32Array(positions.length);
     this.grid = field ? new Float64Array(2 * vertices) : null;
@@ -40,6 +41,7 @@ export class Terrain {
       this.heights[v] = z;
       if (field) this.grid.set(field.to_grid(x, y), 2 * v);
     }
+    this.normals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
 
   get triangles() {
@@ -51,6 +53,12 @@ export class Terrain {
     if (!this.field) return null;
     this.known ??= judge(this.field, this);
     return this.known;
+  }
+
+  /** Where x and y lie in the image; null where that is no affine map, or without an image. */
+  get placing() {
+    if (this.known_placing === undefined) this.known_placing = this.image && find_placing(this);
+    return this.known_placing;
   }
 
   /** Each edge once, as pairs of vertices. */

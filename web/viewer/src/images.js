@@ -1,0 +1,45 @@
+// Images that lie over a mesh: what a material of a GLB says of them, and their pixels.
+
+/** Of a vertex that has no place in the image. */
+export const NOWHERE = -1e9;
+const SLACK = 1e-3;  // of the image's side
+
+/** {texture, places, has_normal_map} of a primitive: an index or null, the name of an attribute. */
+export function surface_of(json, primitive) {
+  const material = json.materials?.[primitive.material] ?? {}, base = material.pbrMetallicRoughness?.baseColorTexture;
+  const places = `TEXCOORD_${base?.texCoord ?? 0}`, has_places = base && primitive.attributes?.[places] !== undefined;
+  return { texture: has_places ? base.index : null, places, has_normal_map: Boolean(material.normalTexture), is_moved: Boolean(base?.extensions?.KHR_texture_transform) };
+}
+
+/** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for the single pixel that stands in for an image; or {why} there is none. */
+export async function read_image(json, index, bytes_of) {
+  const texture = json.textures?.[index] ?? {}, source = json.images?.[texture.extensions?.EXT_texture_webp?.source ?? texture.source];
+  if (source?.bufferView === undefined) return { why: 'it does not lie in the file' };
+  const blob = new Blob([bytes_of(source.bufferView)], { type: source.mimeType });
+  try {
+    const bitmap = await createImageBitmap(blob, { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+    const { wrapS = 10497, wrapT = 10497 } = json.samplers?.[texture.sampler] ?? {};
+    return { image: bitmap.width * bitmap.height > 1 ? { bitmap, wraps: [wrapS, wrapT] } : null };
+  } catch {
+    return { why: `this browser cannot read it (${source.mimeType ?? 'of no type'})` };
+  }
+}
+
+/** Where x and y of a mesh lie in its image, if that is an affine map: (x, y) => [u, v]; null if it is none. */
+export function find_placing({ positions, uvs }) {
+  const count = uvs.length / 2, row = v => [positions[3 * v], positions[3 * v + 1], uvs[2 * v], uvs[2 * v + 1]];
+  const mean = [0, 0, 0, 0], products = Array.from({ length: 2 }, () => [0, 0, 0, 0]);  // of x and of y, with each of the four
+  for (let v = 0; v < count; ++v) row(v).forEach((value, k) => { mean[k] += value / count; });
+  for (let v = 0; v < count; ++v) {
+    const from_mean = row(v).map((value, k) => value - mean[k]);
+    for (let j = 0; j < 2; ++j) for (let k = 0; k < 4; ++k) products[j][k] += from_mean[j] * from_mean[k];
+  }
+  const [[xx, xy], [, yy]] = products, determinant = xx * yy - xy * xy;
+  const slopes = [2, 3].map(k => [products[0][k] * yy - products[1][k] * xy, products[1][k] * xx - products[0][k] * xy].map(sum => sum / determinant));
+  const place = (x, y) => slopes.map(([a, b], k) => mean[2 + k] + a * (x - mean[0]) + b * (y - mean[1]));
+  for (let v = 0; v < count; ++v) {
+    const [x, y, u, w] = row(v), [a, b] = place(x, y);
+    if (!(Math.abs(a - u) < SLACK && Math.abs(b - w) < SLACK)) return null;
+  }
+  return place;
+}
