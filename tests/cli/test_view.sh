@@ -53,6 +53,25 @@ refuses 1 '(--band 2), and no RASTER' "$scarp" view plain.glb --band 2 -o x.html
 refuses 2 'no_such.glb' "$scarp" view no_such.glb
 refuses 2 'no_such.tif' "$scarp" view plain.glb no_such.tif -o x.html
 refuses 1 '--html cannot be combined with --solid' "$scarp" simplify "$dem" x.stl -e 20 --solid size=100mm --html x.html
+# Sets of tiles: the finest levels of a folder, or of one file.
+succeeds "$scarp" tile "$dem" set --vertical egm96 -e 20 -q
+succeeds "$scarp" tile "$dem" set.3tz --of 3dtiles --vertical egm96 -e 20 -q
+succeeds "$scarp" view set/
+[ -s set.html ] || fail "the page of a folder is elsewhere"
+succeeds "$scarp" view set.3tz -o archive.html
+succeeds "$scarp" generate fractal 150 150 no_place.tif -q
+succeeds "$scarp" tile no_place.tif plane --grid local --cell-size 90 -e 20 -q
+succeeds "$scarp" view plane
+refuses 1 "tile check set --source $dem" "$scarp" view set "$dem" -o x.html
+mkdir folder
+refuses 2 'it is a folder' "$scarp" view folder -o x.html
+cp -r set damaged
+tile=$(find damaged -path "*/$(ls set | grep -E '^[0-9]+$' | sort -n | tail -1)/*.terrain" | sort | head -1)
+head -c 200 "$tile" > cut
+cp cut "$tile"
+refuses 2 'damaged: ' "$scarp" view damaged -o x.html
+head -c 9000000 /dev/zero > "$tile"
+refuses 1 "'scarp serve damaged'" "$scarp" view damaged -o x.html
 # Elsewhere, without its page: a sentence that tells how to build it.
 mkdir -p other/bin
 cp "$scarp" other/bin/
@@ -218,6 +237,35 @@ job(levels, "levels_lod0.html", [
     {"do": "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))",
      "after": "document.getElementById('fold').click()"},
     {"read": READ, "shot": "phone_controls"}], axe=True, width=390, height=780)
+
+
+def tile_levels(values):
+    levels, notes, reaches = values[0]
+    assert len(levels) > 2 and all(0 < coarse < fine for (_, fine), (_, coarse) in zip(levels, levels[1:])), levels
+    numbers = [int(name.split()[-1]) for name, _ in levels]
+    assert numbers == list(range(numbers[0], numbers[0] - len(levels), -1)), levels
+    assert "flat map" in notes and "scarp view MESH RASTER" not in notes, notes
+    # The raster is 30 km wide: its heights are above the ellipsoid, 30 m lower here.
+    assert 15000 < reaches[0] < 60000 and reaches == sorted(reaches), reaches
+    assert 980 < values[1] < 1070, values[1]
+
+
+TILES = ("[scarp_page.document.levels.map(l => [l.name, l.triangles]), document.getElementById('notes').textContent,"
+         " scarp_page.document.levels.map(l => l.reach)]")
+TOP = "scarp_page.document.place.high[2]"
+COARSE = "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))"
+
+
+def plane(values):
+    east, north = values[0]
+    assert abs(east - 149 * 90) < 2 and abs(north - 149 * 90) < 2, values
+
+
+job(plane, "plane.html", [{"until": READY, "read": "[0, 1].map(k => scarp_page.document.place.high[k] - scarp_page.document.place.low[k])", "shot": "tiles_plane"}])
+for name in ("set", "archive"):
+    job(tile_levels, f"{name}.html", [
+        {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP},
+        {"do": COARSE, "until": "scarp_page.level === 2 && !scarp_page.scene.asked", "shot": f"tiles_{name}_coarse"}])
 job(lambda values: same("plain.json", values[0][0]), "obj.html", [{"until": READY, "read": READ}])
 
 

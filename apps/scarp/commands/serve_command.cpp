@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -24,12 +23,6 @@ constexpr const char* kPort = "8080";
 constexpr const char* kHost = "127.0.0.1";
 constexpr const char* kMemory = "1G";
 constexpr std::uint64_t kMostPort = 65535;
-
-bool is_set(const std::string& path) {
-  std::error_code error;
-  const std::string ending = lower_extension(path);
-  return ending == ".pmtiles" || ending == ".mbtiles" || ending == ".3tz" || std::filesystem::is_directory(path, error);
-}
 
 std::string describe(const std::string& input, const TileSetReader& set, const LiveTileSet* live,
                      const std::string& heights_above, const std::string& url) {
@@ -83,10 +76,10 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
   Served served;
   const std::string& path = tiles_.raster.path();
   const bool is_plan = lower_extension(path) == ".json";
-  if (is_plan || is_set(path)) {
+  if (is_plan || names_tile_set(path)) {
     if (auto alone = check_alone(); !alone) return tl::unexpected(alone.error());
   }
-  if (!is_plan && is_set(path)) {
+  if (!is_plan && names_tile_set(path)) {
     auto answers = TileAnswers::open(path);
     if (!answers) return tl::unexpected(answers.error());
     served.answers = std::make_unique<TileAnswers>(std::move(*answers));

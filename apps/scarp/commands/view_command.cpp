@@ -14,10 +14,16 @@
 #include "options/output_kind.h"
 #include "scarp/io.h"
 #include "scarp/solid.h"
+#include "scarp/tile_set_mesh.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
+
+std::string without_slash(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
 
 Result<void> open_in_browser(const std::string& path) {
   std::string program = "xdg-open", file = std::filesystem::absolute(path).string();
@@ -29,6 +35,39 @@ Result<void> open_in_browser(const std::string& path) {
   if (is_open) return {};
   return fail(ErrorKind::kOutput,
               fmt::format("{} is written, but xdg-open cannot open it: open it in a browser", path));
+}
+
+/// Of tiles as they are kept: above this a page takes longer to open than one waits for it.
+constexpr std::uint64_t kMostTileBytes = 8'000'000;
+
+/// A folder of something else is told apart by what is not in it.
+bool is_tile_set(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path folder = path;
+  return names_tile_set(path) &&
+         (!std::filesystem::is_directory(folder, error) || std::filesystem::exists(folder / "layer.json", error) ||
+          std::filesystem::exists(folder / "tileset.json", error));
+}
+
+/// A mesh for each level, the finest first.
+Result<std::vector<PageMesh>> read_levels(const std::string& path) {
+  const auto set = open_tile_set(path);
+  if (!set) return tl::unexpected(set.error());
+  const auto levels = read_level_meshes(**set, kMostTileBytes);
+  if (!levels && levels.error().kind == ErrorKind::kUsage) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is too large for a page: {}; 'scarp serve {}' serves it to globes, with a page of "
+                            "docs/guide/globe.md",
+                            path, levels.error().message, shell_word(path)));
+  }
+  if (!levels) return fail(levels.error().kind, path + ": " + levels.error().message);
+  std::vector<PageMesh> meshes;
+  for (const LevelMesh& level : *levels) {
+    auto glb = encode_mesh(level.mesh, MeshFormat::kGlb);
+    if (!glb) return tl::unexpected(glb.error());
+    meshes.push_back({fmt::format("{}, level {}", without_slash(path), level.z), level.tile_bytes, std::move(*glb)});
+  }
+  return meshes;
 }
 
 }  // namespace
@@ -97,12 +136,20 @@ Result<void> ViewCommand::run() const {
   }
   const Result<bool> is_y_up = parse_up(up_);
   if (!is_y_up) return tl::unexpected(is_y_up.error());
+  const bool is_set = is_tile_set(mesh_);
+  if (is_set && !raster_.paths.empty()) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is a set of tiles, which is shown without a raster: 'scarp tile check {} "
+                            "--source {}' judges it",
+                            mesh_, shell_word(mesh_), shell_word(raster_.path())));
+  }
   const auto page_template = read_page_template();
   if (!page_template) return tl::unexpected(page_template.error());
-  const std::string path = page_.value_or(std::filesystem::path(mesh_).replace_extension(".html").string());
+  const std::string path =
+      page_.value_or(std::filesystem::path(without_slash(mesh_)).replace_extension(".html").string());
   if (auto checked = check_outputs({{"--output", path}}, files_read(*command_), overwrite_); !checked) return checked;
   Mesh mesh;
-  const auto meshes = read_meshes(*is_y_up, mesh);
+  const auto meshes = is_set ? read_levels(mesh_) : read_meshes(*is_y_up, mesh);
   if (!meshes) return tl::unexpected(meshes.error());
   std::optional<OwnedHeightField> field;
   std::vector<std::string> warnings;

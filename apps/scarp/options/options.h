@@ -113,6 +113,8 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
                            bool overwrite);
 /// The path's extension in lower case, with its point (".png"); empty if there is none.
 std::string lower_extension(const std::string& path);
+/// Whether the path can be a set of tiles: a folder, or a file with the ending of an archive of tiles.
+bool names_tile_set(const std::string& path);
 /// Fails unless the path ends in .png or is a device.
 Result<void> check_png_name(const PlannedOutput& output);
 /// Fails unless the path ends in .tif or .tiff or is a device.

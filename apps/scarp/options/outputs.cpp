@@ -149,6 +149,12 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
+bool names_tile_set(const std::string& path) {
+  std::error_code error;
+  const std::string ending = lower_extension(path);
+  return ending == ".pmtiles" || ending == ".mbtiles" || ending == ".3tz" || fs::is_directory(path, error);
+}
+
 Result<void> check_png_name(const PlannedOutput& output) {
   if (names_device(output.path) || lower_extension(output.path) == ".png") return {};
   return fail(ErrorKind::kUsage,

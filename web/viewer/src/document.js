@@ -35,7 +35,7 @@ export async function make_document(files, field, metres = null, unit = null) {
   const frame = parts[0].extras.crs_option;
   const known = metres !== null || frame === 'local' || frame === 'enu', place = new Place(parts[0].positions, metres ?? [1, 1, 1]);
   const terrains = parts.map(part => new Terrain(part, place, field));
-  return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known, notes };
+  return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known, is_of_tiles: parts[0].extras.tile_level !== undefined, notes };
 }
 
 /** The raster itself, with the mesh that the engine has made of it: on the grid, as live.js has it. */

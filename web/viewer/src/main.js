@@ -76,7 +76,7 @@ class Page {
 
   /** Makes the controls and the readout agree with the state. */
   update() {
-    const { look, shown, document: { field, unit, levels, place, knows_metres } } = this, [terrain] = shown;
+    const { look, shown, document: { field, unit, levels, place, knows_metres, is_of_tiles } } = this, [terrain] = shown;
     const colors = look.errors ? 'errors' : look.image ? 'image' : 'relief';
     for (const name of ['relief', 'errors', 'image']) $(name).checked = name === colors;
     for (const name of ['edges', 'smooth']) $(name).checked = look[name];
@@ -100,7 +100,8 @@ class Page {
     if (look.errors && (this.mapped !== terrain || this.mapped_scale !== look.scale)) draw_map(terrain.judged, field, look.scale);
     [this.mapped, this.mapped_scale] = look.errors ? [terrain, look.scale] : [];
     const notes = [...this.document.notes];
-    if (!field) notes.push('Without its raster nothing can be judged here: scarp view MESH RASTER.');
+    if (is_of_tiles) notes.push('Tiles side by side on a flat map; heights are those of the tiles. What judges them is scarp tile check SET.');
+    else if (!field) notes.push('Without its raster nothing can be judged here: scarp view MESH RASTER.');
     if (!knows_metres) notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
     if (field && !this.live.is_there) notes.push('This page was built without the engine: the mesh is as in its file.');
     $('notes').textContent = notes.join(' ');

@@ -67,7 +67,7 @@ class View {
     if (terrain.normals) geometry.setAttribute('normal', new THREE.BufferAttribute(terrain.normals, 3));
     if (terrain.uvs) geometry.setAttribute('uv', new THREE.BufferAttribute(terrain.uvs, 2));
     geometry.setIndex(new THREE.BufferAttribute(terrain.indices, 1));
-    geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), terrain.place.radius * 2);
+    geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), terrain.reach * 2);
     this.surface.geometry = geometry;
   }
 
@@ -221,7 +221,7 @@ export class Scene {
     shared.range.value.set(place.to_scene(0, 0, place.low[2])[2], place.to_scene(0, 0, place.high[2])[2]);
     shared.ink.value.setRGB(0.05, 0.06, 0.08);
     shared.weight.value = look.errors ? 0.3 : 0.5;
-    const radius = place.radius * Math.max(1, look.exaggeration), away = camera.position.length();
+    const radius = Math.max(...this.views.slice(0, this.count).map(view => view.terrain.reach)) * Math.max(1, look.exaggeration), away = camera.position.length();
     camera.near = Math.max(away - radius * 1.1, radius * 1e-4);
     camera.far = away + radius * 1.1;
     for (let k = 0; k < this.count; ++k) {

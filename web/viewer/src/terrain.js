@@ -35,9 +35,12 @@ export class Terrain {
     this.scene = new Float32Array(positions.length);
     this.grid = field ? new Float64Array(2 * vertices) : null;
     this.heights = new Float64Array(vertices);
+    this.reach = place.radius;  // from the scene's middle: other levels may be wider than the first
     for (let v = 0; v < vertices; ++v) {
       const [x, y, z] = [positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]];
-      this.scene.set(place.to_scene(x, y, z), 3 * v);
+      const at = place.to_scene(x, y, z);
+      this.scene.set(at, 3 * v);
+      this.reach = Math.max(this.reach, Math.hypot(...at));
       this.heights[v] = z;
       if (field) this.grid.set(field.to_grid(x, y), 2 * v);
     }
