@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import base64
+import ctypes
 import html
 import json
 import os
@@ -45,11 +46,11 @@ def _affine(field: Any, to_source: Optional[list[float]]) -> list[float]:
     return affine
 
 
-def _describe(field: Any, samples: Any, to_source: Optional[list[float]]) -> dict[str, Any]:
+def _describe(field: Any, to_source: Optional[list[float]]) -> dict[str, Any]:
     nodata = None if field.nodata != field.nodata else field.nodata
     return {"name": field.name.decode() if field.name else "heights", "cols": field.cols, "rows": field.rows,
             "affine": _affine(field, to_source), "type": "float32", "nodata": nodata,
-            "samples": base64.b64encode(memoryview(samples).cast("B")).decode()}
+            "samples": base64.b64encode(ctypes.string_at(field.samples, 4 * field.cols * field.rows)).decode()}
 
 
 class Page(str):
@@ -69,6 +70,6 @@ def make_page(mesh: Mesh, source: Any, options: dict[str, Any]) -> str:
     if source is not None:
         given = _inputs.read(source, wants_array=True, **options)
         told = mesh.metadata("to_source")
-        data["field"] = _describe(given.field, given.keep[0], json.loads(told) if told else None)
+        data["field"] = _describe(given.field, json.loads(told) if told else None)
     script = '<script type="application/json" id="scarp-data">%s</script>' % json.dumps(data).replace("<", "\\u003c")
     return _read_template().replace(_PLACE, script, 1)
