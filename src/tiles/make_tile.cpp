@@ -79,10 +79,12 @@ class TileMaker {
       const double worst = std::max(verdict->error, verdict->sample_error);
       if (worst < least || !best) best = std::move(tile);
       least = std::min(least, worst);
-      const bool is_new = force_around(verdict->offenders) | force_around(verdict->beside);
+      const std::size_t before = forced_.size();
+      force_around(verdict->offenders);
+      force_around(verdict->beside);
       if (worst <= max_error || verdict->offenders.size() + verdict->beside.size() == 0) break;
       // The land between the nodes is too far from a sample.
-      if (!is_new && verdict->error <= max_error) break;
+      if (forced_.size() == before && verdict->error <= max_error) break;
     }
     if (!best) return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} folds over", id_.z, id_.x, id_.y));
     finish(*best);
@@ -161,9 +163,7 @@ class TileMaker {
 
   /// Nodes of which the mesh is too far become vertices, and those around them, so that no needle of a triangle ends
   /// there, whose corner's rounding would tilt it.
-  /// Whether one is new among them.
-  bool force_around(const std::vector<SampleAt>& nodes) {
-    const std::size_t before = forced_.size();
+  void force_around(const std::vector<SampleAt>& nodes) {
     for (const auto& [col, row] : nodes) {
       for (std::int32_t y = std::max(row - 1, land_.top + 1); y <= std::min(row + 1, land_.bottom - 1); ++y) {
         for (std::int32_t x = std::max(col - 1, 1); x <= std::min(col + 1, land_.right - 1); ++x) {
@@ -171,7 +171,6 @@ class TileMaker {
         }
       }
     }
-    return forced_.size() > before;
   }
 
   /// Of a node from a straight piece of a line, in nodes.
