@@ -44,7 +44,7 @@ succeeds "$scarp" tile void.tif high.tif void_first --background 200 -q
 # Nodata within a raster goes down to the background, or is filled before anything else.
 make_raster hole.tif 'math.nan if 150 <= col < 250 and 110 <= row < 210 else 500 + row / 2'
 succeeds "$scarp" tile hole.tif hole --vertical ellipsoid -q
-succeeds "$scarp" tile hole.tif filled --vertical ellipsoid --nodata-policy fill --report r.json -q
+succeeds "$scarp" tile hole.tif filled --vertical ellipsoid --nodata-policy fill -q
 read -r lowest highest < <(python3 - "$reader" hole.tif << 'PY'
 import importlib.util, pathlib, subprocess, sys, json
 spec = importlib.util.spec_from_file_location("tiles", sys.argv[1])

@@ -33,7 +33,7 @@ diff -r globe again || fail "3 threads make other tiles"
 succeeds "$scarp" tile "$dem" bound --vertical egm96 --bound samples --report b.json -j 1
 python3 "$reader" bound > /dev/null
 [ "$(json bound/layer.json maxzoom)" = 11 ] || fail "denser nodes move the finest level"
-succeeds "$scarp" tile check bound --source "$dem" --vertical egm96 --report checked.json
+succeeds "$scarp" tile check bound --source "$dem" --vertical egm96
 broken=0
 for z in 11 10 9 8 7 6; do
   holds "$(json b.json levels $z node_error) <= $(json b.json levels $z asked)"
@@ -103,7 +103,7 @@ refuses 1 "quantized-mesh holds" "$scarp" tile "$dem" no --vertical egm96 -e 0.0
 refuses 2 "no such file" "$scarp" tile missing.tif no
 refuses 4 "no folder can be made" "$scarp" tile "$dem" missing/no --vertical egm96
 printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n4 5 6\n7 8 9\n" > bare.asc
-refuses 2 "where on the globe" "$scarp" tile bare.asc no
+refuses 2 "where on the globe" "$scarp" tile bare.asc no --grid geographic
 
 # What is not Scarp's is not deleted.
 touch globe/mine
