@@ -25,13 +25,12 @@
 
 namespace scarp {
 
-/// Metres between the points of a level's lattice: where 16 bits hold a tile of the level, as fine as they do, but no
-/// finer than 1/256 of its max error. On a local grid's plane a power of two of its cells' width.
-double lattice_step(const PyramidPlan& plan, int z);
+/// Metres between the points of a level's lattice, each way: where 16 bits hold a tile of the level, as fine as they do,
+/// but no finer than 1/256 of its max error. On a local grid's plane vertices lie on it, east, north and up.
+std::array<double, 3> lattice_steps(const PyramidPlan& plan, int z);
 
-/// What the lattice moves a vertex by at most, in metres: √3/2 of the step; half of it on a plane of square cells,
-/// where it moves heights alone. Adds to TerrainTile::bound(). The sum bounds the distance in space between a node and
-/// the triangles.
+/// What the lattice moves a vertex by at most, in metres: √3/2 of the step, 0 on a plane. Adds to TerrainTile::bound().
+/// The sum bounds the distance in space between a node and the triangles.
 double lattice_error(const PyramidPlan& plan, int z);
 
 /// What clients ask of a tile besides its mesh.
@@ -50,7 +49,7 @@ struct TileFacts {
 
 /// A tile in space.
 struct EarthTile {
-  double step = 1;
+  std::array<double, 3> steps{1, 1, 1};                 ///< metres, each way; all the same on a globe
   std::array<std::int64_t, 3> origin{};                 ///< in steps: x towards 0° E, z towards the north pole
   std::vector<std::array<std::uint32_t, 3>> offsets;    ///< from there, in steps, below 2^24
   std::vector<std::array<double, 3>> normals;           ///< of unit length
@@ -83,7 +82,7 @@ struct TileGlb {
   std::vector<std::array<double, 3>> normals;    ///< empty, or one a vertex
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> west, south, east, north;  ///< of CESIUM_tile_edges
-  double step = 0;  ///< metres between the positions that the file can tell apart; 0 for single precision
+  double step = 0;  ///< metres between the positions that the file can tell apart, the most; 0 for single precision
   TileFacts facts;
 };
 

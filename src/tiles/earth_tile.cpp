@@ -14,9 +14,9 @@ namespace {
 /// A horizon point from which no viewer near a planet is hidden.
 constexpr double kFarOut = 1000;
 
-std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, double step) {
+std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, const Space& steps) {
   std::array<std::int64_t, 3> point{};
-  for (std::size_t k = 0; k < 3; ++k) point[k] = static_cast<std::int64_t>(std::floor(at[k] / step + 0.5));
+  for (std::size_t k = 0; k < 3; ++k) point[k] = static_cast<std::int64_t>(std::floor(at[k] / steps[k] + 0.5));
   return point;
 }
 
@@ -46,13 +46,13 @@ TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Gro
   for (const auto& offset : placed.offsets) {
     Space at{};
     for (std::size_t k = 0; k < 3; ++k)
-      at[k] = placed.step * static_cast<double>(placed.origin[k] + std::int64_t{offset[k]});
+      at[k] = placed.steps[k] * static_cast<double>(placed.origin[k] + std::int64_t{offset[k]});
     positions.push_back(at);
   }
   TileFacts facts;
   const auto [lowest, highest] = std::minmax_element(tile.heights.begin(), tile.heights.end());
-  facts.min_height = tile.quantum * *lowest - tile.sag - placed.step;
-  facts.max_height = tile.quantum * *highest + placed.step;
+  facts.min_height = tile.quantum * *lowest - tile.sag - placed.steps[2];
+  facts.max_height = tile.quantum * *highest + placed.steps[2];
   const Globe::Sphere sphere = Globe::sphere_around(positions);
   facts.sphere = {sphere.centre[0], sphere.centre[1], sphere.centre[2], sphere.radius};
   facts.horizon_point = ground.horizon_point(sphere.centre, positions);
@@ -62,43 +62,32 @@ TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Gro
 
 }  // namespace
 
-namespace {
-
-/// On a plane of square cells vertices' places are whole steps, which 16 bits hold where the max error is not small.
-double plane_step(const LocalRaster& raster, int z, double max_error) {
-  constexpr double kMost = 24, kFinest = 256, kPartsOfCell = 8;
-  double step = std::ldexp(static_cast<double>(raster.side) * raster.cell_x / LocalRaster::kPlaces, -z);
-  const double least = step * LocalRaster::kPlaces / 0x1p21;
-  while (step > max_error / kMost && step > least) step /= 2;
-  while (2 * step <= std::min(max_error / kFinest, raster.cell_x / kPartsOfCell)) step *= 2;
-  return step;
-}
-
-}  // namespace
-
-double lattice_step(const PyramidPlan& plan, int z) {
-  const double max_error = plan.levels[static_cast<std::size_t>(z)].max_error;
-  if (plan.grid.is_flat()) return plane_step(plan.grid.local, z, max_error);
+Space lattice_steps(const PyramidPlan& plan, int z) {
+  const PyramidLevel& level = plan.levels[static_cast<std::size_t>(z)];
+  if (plan.grid.is_flat()) {
+    const LocalRaster& raster = plan.grid.local;
+    const double cells = std::ldexp(static_cast<double>(raster.side) / LocalRaster::kPlaces, -z);
+    return {cells * raster.cell_x, cells * raster.cell_y, level.quantum};
+  }
   const double side = plan.grid.tile_width(z, plan.ellipsoid.semi_major);
   // Room for the relief besides; and float32 holds what 16 bits do not.
   const double short_step = power_of_two_above(1.1 * side / 65535), least_step = power_of_two_above(side / 0x1p21);
-  return std::max(least_step,
-                  std::clamp(short_step, power_of_two_below(max_error / 256), power_of_two_below(max_error / 32)));
+  const double step = std::max(least_step, std::clamp(short_step, power_of_two_below(level.max_error / 256),
+                                                      power_of_two_below(level.max_error / 32)));
+  return {step, step, step};
 }
 
 double lattice_error(const PyramidPlan& plan, int z) {
-  const LocalRaster& raster = plan.grid.local;
-  const double moved = !plan.grid.is_flat() ? 3 : raster.cell_x == raster.cell_y ? 1 : 2;  // of the three ways
-  return std::sqrt(moved / 4) * lattice_step(plan, z);
+  return plan.grid.is_flat() ? 0 : std::sqrt(3.0 / 4) * lattice_steps(plan, z)[0];
 }
 
 EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   const Ground ground(plan.grid, plan.ellipsoid);
   EarthTile placed;
-  placed.step = lattice_step(plan, tile.id.z);
+  placed.steps = lattice_steps(plan, tile.id.z);
   std::vector<std::array<std::int64_t, 3>> points;
   for (std::size_t v = 0; v < tile.u.size(); ++v)
-    points.push_back(nearest_lattice_point(shared_position(tile, v, plan.grid, ground), placed.step));
+    points.push_back(nearest_lattice_point(shared_position(tile, v, plan.grid, ground), placed.steps));
   placed.origin.fill(std::numeric_limits<std::int64_t>::max());
   for (const auto& point : points) {
     for (std::size_t k = 0; k < 3; ++k) placed.origin[k] = std::min(placed.origin[k], point[k]);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Every command of the README and of the guides runs as it stands, in the folder of examples, and does what it says.
 source "$(dirname "$0")/lib.sh"
-need python3 gdaldem
+need python3 gdaldem gdalwarp
 readme=$SCARP_SOURCE/README.md
 [ "$(wc -l < "$readme")" -le 120 ] || fail "the README has more than 120 lines: $(wc -l < "$readme")"
 PATH=$(dirname "$scarp"):$PATH
@@ -12,7 +12,7 @@ commands() {
 import re, sys
 text = open(sys.argv[1], encoding="utf-8").read().replace("\\\n", " ")
 for line in text.split("\n"):
-    for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    ((?:scarp|gdaldem|printf) .*)", line):
+    for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    ((?:scarp|gdaldem|gdalwarp|printf) .*)", line):
         print(re.sub(r"\s+", " ", re.sub(r" +#.*", "", command)))
 PYTHON
 }

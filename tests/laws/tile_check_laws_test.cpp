@@ -414,7 +414,7 @@ TEST(tile_check, a_tile_of_glb_is_read_as_it_was_placed) {
     for (const auto& offset : placed.offsets) {
       std::array<double, 3> at{};
       for (std::size_t k = 0; k < 3; ++k)
-        at[k] = placed.step * static_cast<double>(placed.origin[k] + std::int64_t{offset[k]});
+        at[k] = placed.steps[k] * static_cast<double>(placed.origin[k] + std::int64_t{offset[k]});
       want.push_back(at);
     }
     std::sort(want.begin(), want.end());

@@ -24,6 +24,7 @@ constexpr const char* kWebpExtension = "EXT_texture_webp";
 /// 65535 itself ends a strip of triangles.
 constexpr std::size_t kShortIndices = 65535;
 constexpr std::uint32_t kShort = 65535;
+constexpr double kMostUnlike = 4;
 
 /// Octahedral in signed bytes, as EXT_meshopt_compression's filter undoes it: x, y, what 1 is, and nothing.
 std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
@@ -97,14 +98,27 @@ class TileGlbWriter {
     if (!required.empty()) glb_.json["extensionsRequired"] = required;
     glb_.json["scene"] = 0;
     glb_.json["scenes"] = Json::array({{{"nodes", {0}}}});
-    const double scale = tile_.step * (is_short_ ? kShort : 1);
-    const std::array<double, 3> origin = to_y_up(tile_.step * static_cast<double>(tile_.origin[0]),
-                                                 tile_.step * static_cast<double>(tile_.origin[1] + size_[1]),
-                                                 tile_.step * static_cast<double>(tile_.origin[2]));
-    glb_.json["nodes"] = Json::array(
-        {{{"mesh", 0},
-          {"matrix",
-           {scale, 0.0, 0.0, 0.0, 0.0, scale, 0.0, 0.0, 0.0, 0.0, scale, 0.0, origin[0], origin[1], origin[2], 1.0}}}});
+    const auto& [east, north, up] = tile_.steps;
+    const double unit = is_short_ ? kShort : 1;
+    const std::array<double, 3> origin =
+        to_y_up(east * static_cast<double>(tile_.origin[0]), north * static_cast<double>(tile_.origin[1] + size_[1]),
+                up * static_cast<double>(tile_.origin[2]));
+    glb_.json["nodes"] = Json::array({{{"mesh", 0},
+                                       {"matrix",
+                                        {unit * east, 0.0, 0.0, 0.0, 0.0, unit * up, 0.0, 0.0, 0.0, 0.0, unit * north,
+                                         0.0, origin[0], origin[1], origin[2], 1.0}}}});
+  }
+
+  /// Clients put normals through the inverse of the matrix; on a globe it is the same each way.
+  std::array<double, 3> normal_before_matrix(std::uint32_t v) const {
+    auto [x, y, z] = tile_.normals[v];
+    const auto& [east, north, up] = tile_.steps;
+    if (east == up && north == up) return to_y_up(x, y, z);
+    x *= east;
+    y *= north;
+    z *= up;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    return to_y_up(x / length, y / length, z / length);
   }
 
   /// Steps from the node's origin.
@@ -158,13 +172,15 @@ class TileGlbWriter {
   std::size_t add_normals() {
     const std::uint64_t count = vertices_.size();
     std::size_t view = 0;
-    if (is_packed_) {
+    // Of a plane whose steps are very unlike each way, bytes do not hold them.
+    const auto [least, most] = std::minmax_element(tile_.steps.begin(), tile_.steps.end());
+    const bool is_packed = is_packed_ && *most <= kMostUnlike * *least;
+    if (is_packed) {
       constexpr std::size_t kStride = 4;
       std::vector<std::uint8_t> items(count * kStride);
       std::uint8_t* at = items.data();
       for (const std::uint32_t v : vertices_) {
-        const auto& [x, y, z] = tile_.normals[v];
-        for (const std::int8_t part : to_octahedral(to_y_up(x, y, z))) store_number(at, part);
+        for (const std::int8_t part : to_octahedral(normal_before_matrix(v))) store_number(at, part);
       }
       view = glb_.add_packed(encode_meshopt_attributes(items, kStride), kArrayBuffer, count, kStride, "ATTRIBUTES",
                              "OCTAHEDRAL");
@@ -172,13 +188,12 @@ class TileGlbWriter {
       std::vector<std::uint8_t> items(count * 12);
       std::uint8_t* at = items.data();
       for (const std::uint32_t v : vertices_) {
-        const auto& [x, y, z] = tile_.normals[v];
-        for (const double part : to_y_up(x, y, z)) store_number(at, static_cast<float>(part));
+        for (const double part : normal_before_matrix(v)) store_number(at, static_cast<float>(part));
       }
       view = add_plain(std::move(items), kArrayBuffer);
     }
-    Json& accessor = glb_.add_accessor(view, is_packed_ ? kInt8Component : kFloatComponent, count, "VEC3");
-    if (is_packed_) accessor["normalized"] = true;
+    Json& accessor = glb_.add_accessor(view, is_packed ? kInt8Component : kFloatComponent, count, "VEC3");
+    if (is_packed) accessor["normalized"] = true;
     return glb_.accessor_count() - 1;
   }
 
@@ -212,9 +227,9 @@ class TileGlbWriter {
     if (options_.texture) {
       const TileTexture& texture = *options_.texture;
       const bool is_webp = texture.format == ImageFormat::kWebp;
-      const char* const type = is_webp                                   ? "image/webp"
+      const char* const type = is_webp                                ? "image/webp"
                                : texture.format == ImageFormat::kJpeg ? "image/jpeg"
-                                                                         : "image/png";
+                                                                      : "image/png";
       glb_.json["images"] = Json::array({{{"bufferView", add_plain(texture.bytes, 0)}, {"mimeType", type}}});
       constexpr int kLinear = 9729, kLinearMipmaps = 9987, kClamp = 33071;
       glb_.json["samplers"] =

@@ -1,6 +1,7 @@
 // Tiles of terrain from GLB files: the part of glTF that Scarp writes of them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -67,28 +68,28 @@ class TileGlbReader : public GlbArrays {
       if (!(*matrix)[k].is_number()) return refuse("it has no node with a matrix");
       m[k] = (*matrix)[k].get<double>();
     }
-    scale_ = m[0];
     for (std::size_t k = 0; k < 12; ++k) {
-      if (m[k] != (k % 5 == 0 ? scale_ : 0)) return refuse("it is turned or sheared by its matrix");
+      if (k % 5 != 0 && m[k] != 0) return refuse("it is turned or sheared by its matrix");
     }
+    scale_ = {m[0], m[5], m[10]};
     origin_ = {m[12], m[13], m[14]};
-    return scale_ > 0 || refuse("it has no node with a matrix");
+    return *std::min_element(scale_.begin(), scale_.end()) > 0 || refuse("it has no node with a matrix");
   }
 
   bool read_positions(std::uint64_t accessor) {
     GlbItems items;
     if (!find_items(accessor, "VEC3", items)) return false;
-    double scale = scale_;
+    std::array<double, 3> scale = scale_;
     if (items.is_normalized) {
       // Exactly: the numbers themselves are whole steps.
       if (items.component_type != kUint16Component) return refuse("it has positions of another type than Scarp writes");
       items.is_normalized = false;
-      scale /= 65535;
+      for (double& step : scale) step /= 65535;
     }
-    tile.step = scale;
+    tile.step = *std::max_element(scale.begin(), scale.end());
     for (std::uint64_t v = 0; v < items.count; ++v) {
       std::array<double, 3> at{};
-      for (std::size_t k = 0; k < 3; ++k) at[k] = items.number(v, k) * scale + origin_[k];
+      for (std::size_t k = 0; k < 3; ++k) at[k] = items.number(v, k) * scale[k] + origin_[k];
       for (const double metres : at) {
         if (!(std::abs(metres) < 1e9)) return refuse("it has a position far from any planet");
       }
@@ -101,8 +102,19 @@ class TileGlbReader : public GlbArrays {
     GlbItems items;
     if (!find_items(accessor, "VEC3", items)) return false;
     if (items.count != tile.positions.size()) return refuse("it has another number of normals than of positions");
-    for (std::uint64_t v = 0; v < items.count; ++v)
-      tile.normals.push_back({items.number(v, 0), 0.0 - items.number(v, 2), items.number(v, 1)});
+    const bool is_even = scale_[0] == scale_[1] && scale_[0] == scale_[2];
+    for (std::uint64_t v = 0; v < items.count; ++v) {
+      std::array<double, 3> normal{items.number(v, 0), items.number(v, 1), items.number(v, 2)};
+      if (!is_even) {
+        double length = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          normal[k] *= scale_[1] / scale_[k];
+          length += normal[k] * normal[k];
+        }
+        for (double& part : normal) part /= std::sqrt(length);
+      }
+      tile.normals.push_back({normal[0], 0.0 - normal[2], normal[1]});
+    }
     return true;
   }
 
@@ -132,7 +144,7 @@ class TileGlbReader : public GlbArrays {
     return true;
   }
 
-  double scale_ = 1;
+  std::array<double, 3> scale_{1, 1, 1};
   std::array<double, 3> origin_{};
 };
 

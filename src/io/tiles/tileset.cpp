@@ -204,7 +204,7 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
     const double bound = report.levels[z].bound + lattice_error(plan, static_cast<int>(z));
     root_error = std::max(root_error, std::ldexp(bound, static_cast<int>(z)));
     Json level{{"max_error", plan.levels[z].max_error},
-               {"lattice_step", lattice_step(plan, static_cast<int>(z))},
+               {"lattice_step", lattice_steps(plan, static_cast<int>(z))[2]},
                {"node_error", report.levels[z].node_error},
                {"bound", bound},
                {"source_error", report.levels[z].source_error},
