@@ -153,7 +153,9 @@ TEST(tile_source_laws, samples_that_are_bound_are_nearer_and_land_that_nodes_can
     EXPECT_LE(bound->source_error, free->source_error);
     EXPECT_LE(bound->node_error, bound->max_error);
     EXPECT_NEAR(brute_force(*bound, 32, *land), bound->source_error, allowance(false));
-    if (land == &smooth) EXPECT_LE(bound->source_error, bound->max_error);
+    if (land == &smooth) {
+      EXPECT_LE(bound->source_error, bound->max_error);
+    }
   }
 }
 
