@@ -247,10 +247,10 @@ class NodesCheck {
     const auto breaks = [](double found, const std::optional<double>& promised) {
       return promised && found > *promised * (1 + kRounding) + kDust;
     };
-    // Places in GLB files are rounded in space: what is promised of them is the distance.
-    const bool is_error =
-        set_.format() == TileFormat::kQuantizedMesh && (breaks(verdict.node_error, level.promised_node_error) ||
-                                                        breaks(verdict.source_error, level.promised_source_error));
+    // Places in GLB files are rounded in space, but for those on a plane: what is promised of them is the distance.
+    const bool is_error = (set_.format() == TileFormat::kQuantizedMesh || grid_.is_flat()) &&
+                          (breaks(verdict.node_error, level.promised_node_error) ||
+                           breaks(verdict.source_error, level.promised_source_error));
     if (is_error || breaks(verdict.distance, level.promised_bound)) broken_[{id.z, id.y, id.x}].add(verdict);
   }
 

@@ -156,10 +156,10 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
     return fail(ErrorKind::kUsage, fmt::format("a quality of {} is none: give 0.5 to 1000000", settings.quality));
   if (!(settings.max_error >= 0) || !std::isfinite(settings.max_error))
     return fail(ErrorKind::kUsage, fmt::format("a max error of {} m is none: give more than 0", settings.max_error));
-  const double most_background = settings.grid.is_flat() ? kHighestLocal : kHighestOnEarth;
-  if (!std::isfinite(settings.background) || std::abs(settings.background) > most_background)
+  const bool is_high = !settings.grid.is_flat() && std::abs(settings.background) > kHighestOnEarth;
+  if (!std::isfinite(settings.background) || is_high)
     return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within {}",
-                                               settings.background, most_background));
+                                               settings.background, kHighestOnEarth));
   if (!settings.lines.empty() && !settings.grid.has_even_rows())
     return fail(ErrorKind::kUsage, fmt::format("breaklines do not go with the {} grid: lines cross its tiles at places "
                                                "that nodes do not divide evenly; take the geographic one",
@@ -225,9 +225,11 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
     if (level.quantum > level.max_error / 4)
       return fail(
           ErrorKind::kUsage,
-          fmt::format("a max error of {} m is less than quantized-mesh holds for heights of {} to {} m, the background "
-                      "included: its steps are {} m; give {} or more",
-                      level.max_error, low, high, level.quantum, 4 * level.quantum));
+          fmt::format(
+              "a max error of {} m is less than {} for heights of {} to {} m, the background included: steps are "
+              "{} m; give {} or more",
+              level.max_error, settings.grid.is_flat() ? "a tile of a local grid holds" : "quantized-mesh holds", low,
+              high, level.quantum, 4 * level.quantum));
     level.segments = segments_of(z, settings.grid);
     plan.levels.push_back(level);
   }

@@ -131,6 +131,15 @@ cp "$logs/out" high.json
 holds "$(json high.json faults bound) > 0 && $(json high.json faults border) > 0"
 try "$scarp" tile check torn --json
 [ "$code" = 3 ] || fail "a missing triangle is no fault"
+cp -r city lie
+python3 - << 'E'
+import json
+tileset = json.load(open("lie/tileset.json"))
+tileset["asset"]["extras"]["scarp"]["levels"][3]["node_error"] /= 2
+json.dump(tileset, open("lie/tileset.json", "w"))
+E
+try "$scarp" tile check lie --source utm.tif
+[ "$code" = 3 ] || fail "half of the error is promised, and that is no fault"
 succeeds gdal_translate -q -srcwin 0 0 100 100 utm.tif part.tif
 refuses 1 "of another raster" "$scarp" tile check city --source part.tif
 
