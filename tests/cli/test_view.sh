@@ -368,7 +368,7 @@ job(image, "image.html", [
     {"keys": ["n"], "read": QUARTERS, "shot": "image_smooth"}, {"read": NORMALS},
     {"keys": ["e"], "read": QUARTERS}, {"keys": ["i", "i"], "read": QUARTERS, "shot": "smooth"}, {"keys": ["i"], "read": QUARTERS},
     dropped("packed_image.glb"), dropped("plain.glb"), dropped("places.glb"), dropped("image_damaged.glb"), dropped("image_elsewhere.glb"),
-    {"until": "location.hash.includes('smooth=1')", "read": "location.hash"}], axe=True)
+    {"until": "location.hash.includes('smooth=1') && !location.hash.includes('image')", "read": "location.hash"}], axe=True)
 
 
 def image_kept(values):
