@@ -20,8 +20,14 @@ constexpr double kPi = 3.141592653589793;
 constexpr int kBlockDepth = 5;
 /// A quantum is at most this share of the max error.
 constexpr double kQuantaOfError = 32;
-/// Finer heights than this are noise, and 2²⁴ of them hold no mountain.
+/// And at most this one: heights are rounded to it, which the error has to hold besides.
+constexpr double kLeastQuantaOfError = 4;
+/// Of a globe, in metres: finer heights are noise, and 2²⁴ of them hold no mountain.
 constexpr double kLeastQuantum = 0x1p-10;
+/// Quanta that quantized-mesh holds in a tile.
+constexpr double kQuantaOfTile = 32767;
+/// Quanta that a float32 holds exactly: engine and GLB have heights in these.
+constexpr double kQuantaOfFloat = 0x1p24;
 /// Cubic interpolation between samples goes beyond them by no more than this share of their range, on either side.
 constexpr double kOvershoot = 0.3;
 /// The finest level's nodes may be this many cells of the source apart.
@@ -85,6 +91,47 @@ int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, co
   while (z < kMaxTileLevel && is_coarse(z)) ++z;
   return z;
 }
+
+/// What heights of a level are multiples of.
+class Quanta {
+ public:
+  Quanta(double low, double high, bool is_flat) : low_(low), high_(high), is_flat_(is_flat) {
+    // A tile has to hold its relief, here that of the whole source.
+    const double room = (high - low) / kQuantaOfTile;
+    if (room > 0) compact_ = 2 * power_of_two_below(room);
+    least_ = std::max(kLeastQuantum, compact_);
+    if (!is_flat) return;
+    const double reach = std::max({high - low, std::abs(low), std::abs(high)}) / kQuantaOfFloat;
+    least_ = reach > 0 ? power_of_two_above(reach) : kLeastQuantum;
+  }
+
+  double least_error() const { return kLeastQuantaOfError * least_; }
+  /// REQUIRES: a max error of least_error() or more.
+  double of(double max_error) const {
+    const double fine = std::max(power_of_two_below(max_error / kQuantaOfError), least_);
+    // GLB holds any relief, and takes fewer bytes for one of so few steps.
+    return std::max(fine, std::min(compact_, power_of_two_below(max_error / kLeastQuantaOfError)));
+  }
+  Result<void> check(double max_error, int level) const {
+    if (max_error >= least_error()) return {};
+    if (is_flat_)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("a max error of {} at level {}, the finest, is too fine for heights of {} to {}, the "
+                              "background included: float32 holds them in steps of {}; give {} or more",
+                              max_error, level, low_, high_, least_, least_error()));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("a max error of {} m at level {}, the finest, is less than quantized-mesh holds for heights "
+                    "of {} to {} m, the background and what cubics may add included: its steps are {} m; give "
+                    "{} m or more",
+                    max_error, level, low_, high_, least_, least_error()));
+  }
+
+ private:
+  double low_, high_;
+  bool is_flat_;
+  double compact_ = 0, least_ = 0;
+};
 
 /// Whether it goes all round the globe.
 bool is_round(const TileGrid& grid, const DegreeBox& box) { return !grid.is_flat() && box.east - box.west >= 360; }
@@ -210,26 +257,16 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
     plan.sources.push_back({stack[k].covered, asked[k] == most ? finest : std::min(asked[k], finest)});
   plan.block_level = std::max(0, finest - kBlockDepth);
   while (!are_rows_apart(plan.grid, plan.block_level, plan.cells << (finest - plan.block_level))) ++plan.block_level;
-  // A tile's 32767 steps must hold its relief, here that of the whole source.
-  const double room = (high - low) / 32767;
-  const double least_quantum = std::max(kLeastQuantum, room > 0 ? 2 * power_of_two_below(room) : 0);
-  const double least = settings.max_error > 0
-                           ? settings.max_error
-                           : std::max(settings.grid.geometric_error(finest, globe.semi_major()) / 4, 4 * least_quantum);
+  const Quanta quanta(low, high, settings.grid.is_flat());
+  const double least = settings.max_error > 0 ? settings.max_error
+                                              : std::max(settings.grid.geometric_error(finest, globe.semi_major()) / 4,
+                                                         quanta.least_error());
+  if (auto fits = quanta.check(least, finest); !fits) return tl::unexpected(fits.error());
   for (int z = 0; z <= finest; ++z) {
     PyramidLevel level;
     level.geometric_error = settings.grid.geometric_error(z, globe.semi_major());
-    level.max_error = std::max(least, level.geometric_error / settings.quality);
-    if (z == finest) level.max_error = least;
-    level.quantum = std::max(power_of_two_below(level.max_error / kQuantaOfError), least_quantum);
-    if (level.quantum > level.max_error / 4)
-      return fail(
-          ErrorKind::kUsage,
-          fmt::format(
-              "a max error of {} m is less than {} for heights of {} to {} m, the background included: steps are "
-              "{} m; give {} or more",
-              level.max_error, settings.grid.is_flat() ? "a tile of a local grid holds" : "quantized-mesh holds", low,
-              high, level.quantum, 4 * level.quantum));
+    level.max_error = z == finest ? least : std::max(least, level.geometric_error / settings.quality);
+    level.quantum = quanta.of(level.max_error);
     level.segments = segments_of(z, settings.grid);
     plan.levels.push_back(level);
   }

@@ -158,6 +158,24 @@ succeeds "$scarp" tile check tall --source tall.img --cell-size 25 -q
 python3 "$judge" tall tall.f32 385 700 "$(json tall/tileset.json asset extras scarp background)" 25 > judged
 [ "$(wc -l < judged)" = 7 ] || fail "other levels than 0 to 6"
 
+# The range of the heights makes no set coarser, and units are those that the grid has.
+python3 - << 'E'
+import array
+import math
+heights = [[int(32767.5 + 32767.5 * math.sin(x / 9) * math.cos(y / 11)) for x in range(130)] for y in range(90)]
+heights[4][7], heights[50][60] = 0, 65535
+samples = array.array("H", sum(heights, []))
+array.array("f", samples).tofile(open("steep.f32", "wb"))
+samples.byteswap()
+open("steep.pgm", "wb").write(b"P5 130 90 65535\n" + samples.tobytes())
+E
+succeeds "$scarp" tile steep.pgm steep --cells 64 --report steep.json
+! grep -q '[0-9] m\b' "$logs/out" || fail "cells of no unit are metres in the summary"
+holds "$(json steep.json levels 2 asked) * 4 == $(json steep.json levels 2 geometric_error)"
+python3 "$judge" steep steep.f32 130 90 0 1 > judged
+succeeds "$scarp" tile check steep --source steep.pgm -q
+refuses 1 "0.001 at level 2, the finest, is too fine for heights of 0 to 65535" "$scarp" tile steep.pgm no --cells 64 -e 0.001
+
 # What makes no sense is refused.
 local=("$scarp" tile utm.tif no --grid local)
 refuses 1 "quantized-mesh lies on the ellipsoid" "${local[@]}" --of qm

@@ -39,9 +39,9 @@ std::string make_summary(const TileJob& job, const std::string& plan, const Tile
     text += fmt::format("  survey         {} with heights, {} without\n",
                         format_plural(job.costs.size() - empty, "block"), empty);
   }
-  text += fmt::format("  max error      {} m, level {}; {} m, level {}\n",
-                      format_number(job.plan.levels.back().max_error), job.plan.max_zoom(),
-                      format_number(job.plan.levels[static_cast<std::size_t>(job.plan.block_level)].max_error),
+  text += fmt::format("  max error      {}, level {}; {}, level {}\n",
+                      format_length(job, job.plan.levels.back().max_error), job.plan.max_zoom(),
+                      format_length(job, job.plan.levels[static_cast<std::size_t>(job.plan.block_level)].max_error),
                       job.plan.block_level);
   text += "  of a few tiles made to see, about:\n";
   text += fmt::format("    tiles        {}, {} of them of level {}\n", format_count(estimate.tiles),

@@ -48,6 +48,11 @@ Json describe_waters(const TileJob& job) {
 
 }  // namespace
 
+std::string format_length(const TileJob& job, double length) {
+  const bool is_own = job.plan.grid.is_flat() && job.facts.units != "metre";
+  return is_own ? format_number(length) : format_metres(length);
+}
+
 std::string waters_line(const TileJob& job) {
   if (!job.plan.waters) return "";
   double low = INFINITY, high = -INFINITY;
@@ -68,8 +73,7 @@ std::string waters_line(const TileJob& job) {
 std::string grid_lines(const TileJob& job) {
   if (!job.plan.grid.is_flat()) return "";
   const LocalRaster& raster = job.plan.grid.local;
-  const std::string unit = job.facts.units == "metre" ? " m" : "";
-  const std::string width = format_number(raster.cell_x) + unit, height = format_number(raster.cell_y) + unit;
+  const std::string width = format_length(job, raster.cell_x), height = format_length(job, raster.cell_y);
   std::string text = fmt::format("  grid           local, 3D Tiles: {} x {} samples, cells of {}{}\n", raster.cols,
                                  raster.rows, width, width == height ? "" : " x " + height);
   if (!job.facts.plane) return text + "  on the globe   nowhere: the set has no transform\n";
@@ -119,9 +123,9 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
     const std::uint64_t tiles = std::max<std::uint64_t>(level.tiles, 1);
     text += fmt::format("  {:5} {:>10} {:>15} {:>11} {:>10} {:>10} {:>23} {:>11}\n", z, format_count(level.tiles),
                         format_count(level.triangles / tiles), format_count(level.bytes / tiles),
-                        format_metres(plan.levels[z].max_error), format_metres(level.node_error),
-                        format_metres(level.bound),
-                        std::isnan(level.source_error) ? "not known" : format_metres(level.source_error));
+                        format_length(job, plan.levels[z].max_error), format_length(job, level.node_error),
+                        format_length(job, level.bound),
+                        std::isnan(level.source_error) ? "not known" : format_length(job, level.source_error));
   }
   text += fmt::format("  time           {} s\n", format_seconds(seconds));
   return text;
