@@ -53,11 +53,15 @@ class TileSetWriter {
   virtual Result<void> finish() = 0;
 };
 
-/// A set under a temporary name in the folder of `path`, until finish(). One file takes the room of the set twice until
+/// Fails with kUsage for a name that says neither folder nor container: that of a mesh, an image, one tile. A folder that
+/// is there may have any name, and so may one that ends with a slash.
+Result<void> check_set_name(const std::string& path);
+/// A set under a temporary name in the folder of `path`, until finish(). A folder's is ".scarp-tiles-…"; the next set of
+/// the same name removes those that killed processes of this machine left. One file takes the room of the set twice until
 /// then; memory: 24 bytes a tile, with PMTiles twice that. The bytes of the finished set do not depend on
 /// the order of its tiles and files. Fails with kOutput where `path` exists, unless it is an empty folder and the set
 /// is to be one, or `overwrite` is true and it is a set of Scarp's tiles with nothing else in it: "layer.json" or
-/// "tileset.json" say whose it is. Fails with kOutput where nothing can be made, too.
+/// "tileset.json" say whose it is. Fails with kOutput where nothing can be made, too, and as check_set_name().
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite);
 
 /// Reads a finished set. Several threads may read at once.

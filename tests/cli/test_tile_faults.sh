@@ -92,6 +92,7 @@ try limited 400 "$scarp" tile run plan.json --parts limited -q
 succeeds "$scarp" tile run plan.json --parts limited
 grep -q " 0 there before" "$logs/out" && fail "blocks before the limit were lost"
 finishes plan.json limited "after a limit"
+refuses 4 "of set: " limited 4 "$scarp" tile finish plan.json set --parts limited
 for output in set set.pmtiles set.mbtiles set.3tz; do
   [ $output = set ] || refuses 4 "set" limited 40 "$scarp" tile finish plan.json $output --parts limited
 done

@@ -47,6 +47,31 @@ for output in killed killed.pmtiles killed.mbtiles killed.3tz kept.pmtiles; do
   fi
 done
 
+# What a killed run left goes with the next of the same name; what another has, or one that lives, stays.
+[ "$(ls -d .scarp-tiles-* | wc -l)" = 1 ] || fail "the killed run left no folder"
+left=$(ls -d .scarp-tiles-*)
+succeeds "$scarp" tile "$dem" another --vertical egm96 --zoom 8 -q
+[ -e "$left" ] || fail "a set of another name removes the folder"
+mkdir "$left.old"
+(
+  flock 9
+  "$scarp" tile "$dem" killed --vertical egm96 --zoom 8 -q
+) 9< "$left"
+[ -e "$left" ] || fail "a folder that a process holds is removed"
+[ -e "$left.old" ] || fail "a set that was to be replaced is lost while none has its name"
+succeeds "$scarp" tile "$dem" killed --vertical egm96 --zoom 8 --overwrite -q
+[ -z "$(find . -maxdepth 1 -name '.scarp-tiles-*')" ] || fail "the next run leaves what the killed one left"
+
+# Names of containers in capitals; those of other files are refused, but for folders that are there or end with a slash.
+succeeds "$scarp" tile "$dem" CAPITALS.PMTILES --vertical egm96 --zoom 8 -q
+cmp again.pmtiles CAPITALS.PMTILES || fail "capitals make another container"
+succeeds "$scarp" tile check CAPITALS.PMTILES -q
+for name in no.glb no.OBJ no.terrain no.json; do
+  refuses 1 "a set of tiles is a folder, or one .pmtiles, .mbtiles or .3tz file" "$scarp" tile "$dem" $name --vertical egm96
+done
+succeeds "$scarp" tile "$dem" v1.glb/ --vertical egm96 --zoom 8 -q
+succeeds "$scarp" tile "$dem" v1.glb --vertical egm96 --zoom 8 -q --overwrite
+
 # The reference reader of PMTiles.
 if npm_judges pmtiles; then
   succeeds node "$js/compare_pmtiles.mjs" world.pmtiles globe

@@ -21,6 +21,7 @@ Result<void> check_container(const TileJob& job, const std::string& output) {
 
 Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts) {
+  if (auto named = check_set_name(output); !named) return tl::unexpected(named.error());
   auto opened = tiles.open(run.progress);
   if (!opened) return tl::unexpected(opened.error());
   const TileJob& job = opened->job;

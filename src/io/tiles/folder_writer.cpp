@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include "io/file_reason.h"
 #include "io/tiles/byte_source.h"
 #include "io/tiles/folder_set.h"
+#include "io/tiles/staged_folder.h"
 #include "io/tiles/tile_names.h"
 
 namespace scarp {
@@ -49,40 +49,31 @@ Result<void> check_ours(const fs::path& folder) {
               fmt::format("{} is not Scarp's, and would be deleted with the tiles: give another name", foreign));
 }
 
-Result<void> write_whole(const std::string& path, std::span<const std::uint8_t> bytes) {
+/// 0, or why not.
+int write_whole(const std::string& path, std::span<const std::uint8_t> bytes) {
   std::FILE* file = std::fopen(path.c_str(), "wbx");
   int reason = file == nullptr ? errno : 0;
   if (file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) reason = errno;
   if (file != nullptr && std::fclose(file) != 0 && reason == 0) reason = errno;
-  if (reason == 0) return {};
-  return fail(ErrorKind::kOutput, fmt::format("cannot write {}: {}", path, reason_of(reason)));
+  return reason;
 }
 
-/// The set's folder under a temporary name.
 class FolderWriter final : public TileSetWriter {
  public:
-  FolderWriter(fs::path target, fs::path folder, TileFormat format, bool replaces)
+  FolderWriter(fs::path target, StagedFolder folder, TileFormat format, bool replaces)
       : target_(std::move(target)), folder_(std::move(folder)), format_(format), replaces_(replaces) {}
-  FolderWriter(const FolderWriter&) = delete;
-  FolderWriter& operator=(const FolderWriter&) = delete;
-  ~FolderWriter() override {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  }
 
   Result<void> put_tile(TileId id, std::span<const std::uint8_t> bytes) override {
     return put_file(tile_name(format_, id), bytes);
   }
   Result<void> put_file(const std::string& name, std::span<const std::uint8_t> bytes) override {
-    const fs::path path = folder_ / name;
-    if (folders_.insert(path.parent_path().string()).second) {
-      std::error_code error;
-      fs::create_directories(path.parent_path(), error);
-      if (error)
-        return fail(ErrorKind::kOutput,
-                    fmt::format("{} cannot be made: {}", path.parent_path().string(), reason_of(error.value())));
-    }
-    return write_whole(path.string(), bytes);
+    const fs::path path = folder_.path() / name;
+    std::error_code error;
+    if (folders_.insert(path.parent_path().string()).second) fs::create_directories(path.parent_path(), error);
+    const int reason = error ? error.value() : write_whole(path.string(), bytes);
+    if (reason == 0) return {};
+    return fail(ErrorKind::kOutput,
+                fmt::format("cannot write {} of {}: {}", name, target_.string(), reason_of(reason)));
   }
   Result<void> finish() override {
     std::error_code error;
@@ -90,23 +81,23 @@ class FolderWriter final : public TileSetWriter {
     if (replaces_) {
       // It may hold more by now.
       if (auto checked = check_ours(target_); !checked) return checked;
-      old = folder_;
-      old += ".old";
+      old = folder_.path_of_old();
       fs::rename(target_, old, error);
     }
-    if (!error) fs::rename(folder_, target_, error);
+    if (!error) fs::rename(folder_.path(), target_, error);
     if (error) {
       std::error_code ignored;
       if (!old.empty() && !fs::exists(target_, ignored)) fs::rename(old, target_, ignored);
       return fail(ErrorKind::kOutput, fmt::format("{} cannot take its name: {}", target_.string(), error.message()));
     }
-    folder_.clear();
+    folder_.release();
     if (!old.empty()) fs::remove_all(old, error);
     return {};
   }
 
  private:
-  fs::path target_, folder_;
+  fs::path target_;
+  StagedFolder folder_;
   TileFormat format_;
   bool replaces_;                  ///< a set of Scarp's
   std::set<std::string> folders_;  ///< that were made
@@ -132,12 +123,9 @@ Result<std::unique_ptr<TileSetWriter>> create_folder_set(const std::string& path
     }
     replaces = is_set;
   }
-  const fs::path beside = fs::absolute(target, error).parent_path();
-  std::string name = (beside / ".scarp-tiles-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    return fail(ErrorKind::kOutput, fmt::format("no folder can be made in {}: {}", beside.string(), reason_of(errno)));
-  fs::permissions(name, fs::perms(0755), error);
-  return std::make_unique<FolderWriter>(std::move(target), name, format, replaces);
+  auto folder = StagedFolder::create_beside(target);
+  if (!folder) return tl::unexpected(folder.error());
+  return std::make_unique<FolderWriter>(std::move(target), std::move(*folder), format, replaces);
 }
 
 }  // namespace scarp

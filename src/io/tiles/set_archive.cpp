@@ -56,8 +56,10 @@ class ArchiveWriter final : public TileSetWriter {
 }  // namespace
 
 const Archive* find_archive(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   for (const Archive& archive : kArchives) {
-    if (std::filesystem::path(path).extension() == archive.ending) return &archive;
+    if (ending == archive.ending) return &archive;
   }
   return nullptr;
 }

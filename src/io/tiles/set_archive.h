@@ -19,7 +19,7 @@ struct Archive {
   Result<std::unique_ptr<TileSetReader>> (*open)(const std::string& path);
 };
 
-/// By the ending of the path; null for folders.
+/// By the ending of the path, in small or capital letters; null for folders.
 const Archive* find_archive(const std::string& path);
 
 Result<std::unique_ptr<TileSetWriter>> create_archive_set(const Archive& archive, const std::string& path,
