@@ -49,7 +49,7 @@ npm:
 	@JOBS=$(JOBS) tools/build_npm.sh $(BUILD)-wasm dist
 
 dist:
-	@tools/install_packages.sh build run dist
+	@tools/install_packages.sh build run viewer wasm dist
 	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
 	@cmake --build $(BUILD) -j $(JOBS) --target scarp_program scarp_c_alone
 	@tools/dist.sh $(BUILD) dist
@@ -111,7 +111,7 @@ help:
 	@echo 'make qgis     build, pack the plugin for QGIS into dist/'
 	@echo 'make python   the wheel and the sdist of Scarp for Python, into dist/'
 	@echo 'make npm      the npm package, compiled with Emscripten, into dist/'
-	@echo 'make dist     sources, wheel, sdist, plugin for QGIS and Debian packages, into dist/ with SHA256SUMS'
+	@echo 'make dist     sources, npm package, wheel, sdist, plugin for QGIS and Debian packages, into dist/ with SHA256SUMS'
 	@echo 'make check    what to run before every commit: the fast tests'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'

@@ -1,8 +1,10 @@
 #!/bin/bash
-# Everything that is handed out, into FOLDER, with SHA256SUMS: the sources, the wheel and the sdist of Scarp for Python, the
-# plugin for QGIS, Debian's packages (left out, aloud, where dpkg-buildpackage is not).
+# Everything that is handed out, into FOLDER, with SHA256SUMS: the sources, the npm package, the wheel and the sdist of
+# Scarp for Python, the plugin for QGIS, Debian's packages. Wheel and packages carry the viewer's page. What cannot be
+# made on this machine is left out, aloud: the npm package without Emscripten, the page where npm cannot fetch, Debian's
+# packages without dpkg-buildpackage.
 #
-# usage: tools/dist.sh BUILD FOLDER      BUILD has the program and scarp_c_alone
+# usage: tools/dist.sh BUILD FOLDER      BUILD has the program and scarp_c_alone; Emscripten builds in BUILD-wasm
 set -euo pipefail
 here=$(dirname "$0")
 build=$(realpath "$1")
@@ -10,10 +12,24 @@ mkdir -p "$2"
 folder=$(realpath "$2")
 find "$folder" -maxdepth 1 -type f -delete
 sources=$("$here/source_tarball.sh" "$folder")
-"$here/build_python.sh" "$build" "$folder"
+
+# quietly LOG COMMAND...: into LOG, whose end is shown if it fails.
+quietly() {
+  local log=$1
+  shift
+  "$@" >"$log" 2>&1 || { tail -n 50 "$log" >&2; exit 1; }
+}
+
+if command -v em++ >/dev/null && command -v npm >/dev/null; then
+  quietly "$build/npm.log" "$here/build_npm.sh" "$build-wasm" "$folder"
+else
+  echo "the npm package: left out, it needs em++ and npm"
+fi
+"$here/build_viewer.sh" "$build" >/dev/null || echo "the viewer's page: left out of wheel and packages"
+"$here/build_python.sh" "$build" "$folder" >/dev/null
 python3 "$here/../bindings/qgis/make_plugin.py" "$build/bin/scarp" "$folder/scarp_processing.zip"
 if command -v dpkg-buildpackage >/dev/null; then
-  "$here/debian_packages.sh" "$sources" "$build/debian" >"$build/debian.log" 2>&1 || { tail -n 50 "$build/debian.log"; exit 1; }
+  SCARP_VIEWER_PAGE=$build/share/scarp/viewer.html quietly "$build/debian.log" "$here/debian_packages.sh" "$sources" "$build/debian"
   cp "$build/debian"/*.deb "$folder/"
   rm -rf "$build/debian"
 else
