@@ -108,7 +108,8 @@ run_callers() {
     # Leaks are looked for above: an interpreter frees little at its end.
     passes "the C library called by Python" env LD_PRELOAD="$runtime" ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 \
       PYTHONPATH="$PWD/bindings/python/src" SCARP_LIBRARY="$(realpath "$folder")/bindings/c/libscarp_c.so" \
-      SCARP_PROGRAM="$(realpath "$program")" SCARP_DEM="$PWD/data/jacksboro_fault.tif" /usr/bin/python3 tests/python/test_scarp.py
+      SCARP_PROGRAM="$(realpath "$program")" SCARP_DEM="$PWD/data/jacksboro_fault.tif" \
+      /usr/bin/python3 -m unittest discover -v -s tests/python
   else
     echo "the C library called by Python: skipped, it needs clang and its shared runtime"
     add 0 0 1

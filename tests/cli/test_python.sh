@@ -37,7 +37,8 @@ for python in $(pythons); do
   begin=$(date +%s%N)
   succeeds "$environment/bin/python" -c 'import scarp'
   echo "Python $version: started and imported scarp in $((($(date +%s%N) - begin) / 1000000)) ms"
-  (cd "$SCARP_SOURCE/tests/python" && SCARP_SHARE=$((tested == 0 ? 1 : 20)) SCARP_PROGRAM=$scarp SCARP_DEM=$dem try "$scratch/$environment/bin/python" test_scarp.py
+  (cd "$SCARP_SOURCE/tests/python" && SCARP_SHARE=$((tested == 0 ? 1 : 20)) SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
+    try "$scratch/$environment/bin/python" -m unittest discover -v
     [ "$code" = 0 ] || fail "Python $version: the tests fail"
     tail -n 1 "$logs/err" | sed "s/^/Python $version: /"
     grep -oE "skipped '.*'" "$logs/err" | sort | uniq -c || true)
@@ -49,7 +50,7 @@ done
 if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
   export PYTHONPATH=$package/src
   (cd "$SCARP_SOURCE/tests/python" && SCARP_LIBRARY=$with_gdal SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
-    try /usr/bin/python3 test_scarp.py Files Arrays
+    try /usr/bin/python3 -m unittest -v test_files test_arrays
     [ "$code" = 0 ] || fail "the tests fail with GDAL")
   if /usr/bin/python3 -c 'import matplotlib' 2> /dev/null; then
     SCARP_LIBRARY=$with_gdal succeeds /usr/bin/python3 "$SCARP_SOURCE/tools/python_guide.py"

@@ -1,0 +1,47 @@
+"""What the tests of Scarp for Python share. Parts that need a package that is not there are skipped.
+
+SCARP_PROGRAM: the program, whose bytes are compared; SCARP_DEM: a raster. SCARP_SHARE=N: leaks are looked for with an
+Nth of the calls.
+"""
+import array
+import os
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    np = None
+
+PROGRAM = os.environ.get("SCARP_PROGRAM")
+DEM = os.environ.get("SCARP_DEM")
+SHARE = int(os.environ.get("SCARP_SHARE", "1"))  # of what is done many times, one in so many
+
+
+def need(*modules):
+    """Skips the test, aloud, where one of the modules is missing."""
+    def can_import(name):
+        try:
+            __import__(name)
+            return True
+        except ImportError:
+            return False
+    missing = [name for name in modules if not can_import(name)]
+    return unittest.skipIf(missing, "needs " + " and ".join(missing))
+
+
+def hills(rows=120, cols=160, dtype="float32"):
+    y, x = np.mgrid[0:rows, 0:cols]
+    return (40 * np.sin(x / 15) * np.cos(y / 11) + (x * y) % 7).astype(dtype)
+
+
+def plain_hills(rows, cols):
+    """The same kind of thing without numpy: a memoryview of float32."""
+    values = array.array("f", [float((3 * row * row + col * col) % 41) for row in range(rows) for col in range(cols)])
+    return memoryview(values).cast("B").cast("f", (rows, cols))
+
+
+def is_same(a, b):
+    """Value by value: 0 and -0 are one."""
+    if np is None:
+        return a.offsets.tolist() == b.offsets.tolist() and bytes(a.triangles) == bytes(b.triangles)
+    return np.array_equal(a.offsets, b.offsets) and np.array_equal(a.triangles, b.triangles)
