@@ -23,7 +23,15 @@ std::string& last_sentence() {
 
 bool is_option(const std::string& name) { return cli::find_option(cli::kEveryCommand, name) != nullptr; }
 
-/// "--max-error" becomes "max_error".
+template <class T>
+void init(T* out, std::uint32_t size, T all) {
+  if (out == nullptr) return;
+  all.struct_size = size;
+  std::memcpy(out, &all, std::min<std::size_t>(size, sizeof all));
+}
+
+}  // namespace
+
 std::string in_words_of_door(const std::string& sentence) {
   std::string text;
   for (std::size_t at = 0; at < sentence.size();) {
@@ -41,15 +49,6 @@ std::string in_words_of_door(const std::string& sentence) {
   }
   return text;
 }
-
-template <class T>
-void init(T* out, std::uint32_t size, T all) {
-  if (out == nullptr) return;
-  all.struct_size = size;
-  std::memcpy(out, &all, std::min<std::size_t>(size, sizeof all));
-}
-
-}  // namespace
 
 scarp_status report(const Error& error) {
   try {

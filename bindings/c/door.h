@@ -18,6 +18,8 @@ namespace scarp::door {
 /// Keeps the sentence, in the words of the door: an option by its name there.
 scarp_status report(const Error& error);
 scarp_status report(ErrorKind kind, const std::string& sentence);
+/// "--max-error" becomes "max_error".
+std::string in_words_of_door(const std::string& sentence);
 /// Of the exception that is being handled.
 scarp_status report_exception();
 

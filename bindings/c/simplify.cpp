@@ -106,7 +106,7 @@ std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, const cli::
   mesh->doubles = plan.doubles;
   mesh->glb.compress = plan.compress;
   mesh->glb.threads = plan.simplify.run.threads;
-  mesh->warnings = join_lines(run.warnings);
+  mesh->warnings = in_words_of_door(join_lines(run.warnings));
   return mesh;
 }
 

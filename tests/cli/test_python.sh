@@ -37,7 +37,7 @@ for python in $(pythons); do
   begin=$(date +%s%N)
   succeeds "$environment/bin/python" -c 'import scarp'
   echo "Python $version: started and imported scarp in $((($(date +%s%N) - begin) / 1000000)) ms"
-  (cd "$SCARP_SOURCE/tests/python" && SCARP_SHARE=$((tested == 0 ? 1 : 20)) SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
+  (cd "$SCARP_SOURCE/tests/python" && SCARP_SHARE=$((tested == 0 ? 10 : 50)) SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
     try "$scratch/$environment/bin/python" -m unittest discover -v
     [ "$code" = 0 ] || fail "Python $version: the tests fail"
     tail -n 1 "$logs/err" | sed "s/^/Python $version: /"

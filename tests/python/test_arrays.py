@@ -116,6 +116,9 @@ class Arrays(unittest.TestCase):
         mesh = scarp.simplify(z, 5)
         rng = np.random.RandomState(1)
         points = rng.rand(20000, 3) * (1000, 1000, 20)
+        for no in (False, np.bool_(False)):
+            with self.assertRaises(scarp.Cancelled):
+                scarp.simplify(z, 0.5, effort="high", progress=lambda _, no=no: no)
         for call in (lambda: scarp.simplify(z, 0.5, effort="high", progress=bad), lambda: scarp.measure(z, mesh, progress=bad),
                      lambda: scarp.simplify_points(points, 0.5, progress=bad)):
             with self.assertRaises(Own):
@@ -221,6 +224,8 @@ class Arrays(unittest.TestCase):
         self.assertEqual([w.category for w in caught], [scarp.ScarpWarning])
         self.assertIn("infinite", str(caught[0].message))
         self.assertEqual(caught[0].filename, __file__)
+        with self.assertWarnsRegex(scarp.ScarpWarning, r"\(cell_size\).*\(z_scale\)"):
+            scarp.simplify(hills() * 100, 200)
 
     def test_points(self):
         rng = np.random.RandomState(1)
@@ -231,6 +236,10 @@ class Arrays(unittest.TestCase):
         self.assertLess(mesh.vertex_count, 500)
         self.assertTrue({tuple(v) for v in np.round(mesh.vertices, 2)} <= {tuple(p) for p in np.round(points, 2)})
         self.assertEqual(scarp.measure(points, mesh, points=True).samples, 2000)
+        masked = np.ma.MaskedArray(points)
+        masked[::2, 2] = np.ma.masked
+        masked.data[::2, 2] = 1e6
+        self.assertTrue(is_same(scarp.simplify_points(masked, 1.5), scarp.simplify_points(points[1::2], 1.5)))
         for kind, bad in ((scarp.InputError, points[:2]), (scarp.UsageError, points[:, :2]),
                           (scarp.UsageError, points.astype(object)), (scarp.InputError, points * np.nan), (scarp.InputError, points[:0]),
                           (scarp.UsageError, None), (scarp.UsageError, [[1, 2, 3], [4]])):

@@ -20,9 +20,13 @@ class Files(unittest.TestCase):
             mesh = scarp.simplify(dataset, 5)
             self.assertTrue(is_same(mesh, scarp.simplify(dataset.read(1), 5, transform=dataset.transform,
                                                          crs=dataset.crs, nodata=dataset.nodata)))
-            with self.assertRaises(scarp.InputError):
-                scarp.simplify(dataset, 5, band=2)
+            for kind, band in ((scarp.InputError, 2), (scarp.UsageError, "1"), (scarp.UsageError, 1.5)):
+                with self.assertRaises(kind):
+                    scarp.simplify(dataset, 5, band=band)
             with tempfile.TemporaryDirectory() as folder:
+                with rasterio.open(os.path.join(folder, "new.tif"), "w", **dataset.profile) as other:
+                    with self.assertRaises(scarp.InputError):
+                        scarp.simplify(other, 5)
                 # A raster whose name is usual for points.
                 points = os.path.join(folder, "dem.txt")
                 with rasterio.open(points, "w", **{**dataset.profile, "driver": "GTiff"}) as other:

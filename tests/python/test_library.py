@@ -162,7 +162,7 @@ class Library(unittest.TestCase):
             refiner.run(progress=3)
 
     def test_nothing_leaks(self):
-        z = plain_hills(33, 33)
+        z = plain_hills(65, 65)
 
         def resident():
             with open("/proc/self/statm") as file:
@@ -228,6 +228,20 @@ class Library(unittest.TestCase):
                     scarp.simplify(z, 0.25, effort="max", time_limit=60, progress=progress)
         finally:
             signal.signal(signal.SIGALRM, old)
+
+    def test_a_daemon_s_call_ends_with_the_process(self):
+        script = textwrap.dedent("""
+            import sys, threading
+            sys.path.insert(0, %r)
+            import scarp
+            from fixtures import plain_hills
+            z, begun = plain_hills(600, 600), threading.Event()
+            threading.Thread(daemon=True, target=lambda: scarp.simplify(
+                z, 0.25, effort="max", time_limit=60, progress=lambda _: begun.set())).start()
+            begun.wait()
+        """ % os.path.dirname(os.path.abspath(__file__)))
+        done = subprocess.run([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, b"", b""))
 
     def test_other_threads_run_meanwhile(self):
         z = plain_hills(300, 300)

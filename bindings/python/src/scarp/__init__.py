@@ -144,6 +144,7 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
                     max_points: Optional[int] = None, crs: Any = None, threads: int = 0,
                     progress: ProgressArgument = None, **options: Any) -> Mesh:
     """The same for scattered points: (N, 3) float64 of x, y, z, not copied by Python where they are that; or a path.
+    Rows with a masked number are left out.
 
     The mesh covers their convex hull, its vertices are points, and every point is within max_error of it. `duplicates`:
     which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean".
@@ -174,9 +175,13 @@ def _points_of(points: Any) -> tuple[Any, Any]:
         raise UsageError("points are rows of x, y, z") from None
     if given.dtype.kind not in "iuf":
         raise UsageError("points are numbers, and their dtype is %s" % given.dtype)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise UsageError("points are an array of (N, 3): x, y, z; not of %s" % (given.shape,))
+    if isinstance(points, np.ma.MaskedArray):
+        masked: Any = points.mask
+        if masked is not np.ma.nomask:
+            given = given[~masked.any(axis=1)]
     array = np.ascontiguousarray(given, dtype=np.float64)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise UsageError("points are an array of (N, 3): x, y, z; not of %s" % (array.shape,))
     struct = _abi.new_points()
     base = array.ctypes.data
     struct.x, struct.y, struct.z = base, base + 8, base + 16

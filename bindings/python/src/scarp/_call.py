@@ -1,9 +1,11 @@
 """Running the library: options, progress, Ctrl-C, warnings."""
 from __future__ import annotations
 
+import atexit
 import ctypes as C
 import os
 import sys
+import time
 import warnings
 from types import TracebackType
 from typing import Any, Callable, Generator, Iterable, Mapping, NamedTuple, Optional, Union
@@ -112,7 +114,31 @@ class Settings:
         self.close()
 
 
-def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseException]) -> Generator[int, int, None]:
+_beside: set[tuple[int, int]] = set()  #: calls on other threads that listen: process, which may be a fork, and listener
+_ends = False
+
+
+@atexit.register
+def _end_calls() -> None:
+    """Ends what daemon threads still run: a call back into a Python that is gone would abort the process."""
+    global _ends
+    _ends = True
+    while any(process == os.getpid() for process, _ in tuple(_beside)):
+        time.sleep(0.01)
+
+
+def _is_on_main_thread() -> bool:
+    threading = sys.modules.get("threading")
+    return threading is None or threading.current_thread() is threading.main_thread()
+
+
+def _is_false(told: object) -> bool:
+    """Of Python or of numpy; 0 and None are not."""
+    return told is False or (type(told).__name__ in ("bool_", "bool") and not told)
+
+
+def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseException],
+            is_beside: bool) -> Generator[int, int, None]:
     """Its send() is called with the address of what the library tells, and says whether to cancel.
 
     What is raised within it is kept: in ctypes it would be printed and swallowed. Ctrl-C, and what other handlers of
@@ -128,7 +154,9 @@ def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseExceptio
                     left = struct.seconds_left
                     told = tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error,
                                          left if left >= 0 else None, struct.tiles, struct.bytes))
-                    answer = 1 if told is False else 0
+                    answer = 1 if _is_false(told) else 0
+                if _ends and is_beside:
+                    raise SystemExit
         except GeneratorExit:
             return
         except BaseException as error:
@@ -144,13 +172,20 @@ def run(settings: Settings, progress: ProgressArgument, function: Callable[..., 
     if tell is not None and not callable(tell):
         raise UsageError("progress is True or a function of one argument, not %s" % type(tell).__name__)
     raised: list[BaseException] = []
+    beside = None
     if tell is not None or not settings.is_brief:
-        listener = _listen(tell, raised)
+        is_beside = not _is_on_main_thread()
+        listener = _listen(tell, raised, is_beside)
         next(listener)
         settings.struct.progress = _abi.ProgressFn(listener.send)
+        if is_beside:
+            beside = (os.getpid(), id(listener))
+            _beside.add(beside)
     try:
         status = function(*arguments)
     finally:
+        if beside is not None:
+            _beside.discard(beside)
         if bar is not None:
             bar.close()
     if raised:

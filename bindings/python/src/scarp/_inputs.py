@@ -64,13 +64,19 @@ def _read_dataset(dataset: Any, band: int, name: str) -> _Raster:
     """A rasterio dataset."""
     if getattr(dataset, "closed", False):
         raise InputError("the dataset %s is closed: open it again, or simplify within its `with`" % name)
+    band = _values.whole_of("band", band, -_LARGEST_SIDE, _LARGEST_SIDE)
     if not 1 <= band <= dataset.count:
         raise InputError("%s has %d band%s; there is no band %d"
                          % (name, dataset.count, "" if dataset.count == 1 else "s", band))
     transform = dataset.transform
     located = dataset.crs is not None or not getattr(transform, "is_identity", False)
-    return _Raster(dataset.read(band), transform if located else None, dataset.crs,
-                   dataset.nodatavals[band - 1], name)
+    try:
+        samples = dataset.read(band)
+    except Exception as error:  # opened for writing, or damaged
+        if not isinstance(error, OSError) and not type(error).__module__.startswith("rasterio"):
+            raise
+        raise InputError("the dataset %s cannot be read: %s" % (name, error)) from error
+    return _Raster(samples, transform if located else None, dataset.crs, dataset.nodatavals[band - 1], name)
 
 
 def _refuse(path: str, error: Exception) -> InputError:
