@@ -106,10 +106,11 @@ run_callers() {
   runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so" 2>/dev/null || true)
   if [ -e "$folder/bindings/c/libscarp_c.so" ] && [ -e "$runtime" ]; then
     # Leaks are looked for above: an interpreter frees little at its end.
-    passes "the C library called by Python" env LD_PRELOAD="$runtime" ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 \
+    basename -a tests/python/test_*.py >"$scratch/files"
+    passes "the C library called by Python" env ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 \
       PYTHONPATH="$PWD/bindings/python/src" SCARP_LIBRARY="$(realpath "$folder")/bindings/c/libscarp_c.so" \
-      SCARP_PROGRAM="$(realpath "$program")" SCARP_DEM="$PWD/data/jacksboro_fault.tif" \
-      /usr/bin/python3 -m unittest discover -v -s tests/python
+      SCARP_PROGRAM="$(realpath "$program")" SCARP_DEM="$PWD/data/jacksboro_fault.tif" xargs -a "$scratch/files" -P "$jobs" -I{} \
+      env LD_PRELOAD="$runtime" /usr/bin/python3 -m unittest discover -v -s tests/python -p {}
   else
     echo "the C library called by Python: skipped, it needs clang and its shared runtime"
     add 0 0 1
