@@ -76,15 +76,20 @@ struct RasterOnPlane {
   std::string units;                  ///< of cell_x and cell_y: "metre", "cell", or "unit of the raster's x and y"
   std::string vertical;               ///< what the heights are above, in words
   std::optional<PlaneOnGlobe> globe;  ///< nothing for a raster that has no place there
+  Geodetic ellipsoid;                 ///< that the plane touches, with `globe`
+  std::string body;                   ///< whose, as RasterOnGlobe::body
 };
+
+/// Fails with kInput where the file says that its heights are not in metres.
+Result<void> check_metres(const RasterInfo& info, const std::string& path);
 
 /// The grid of tiles that suits a raster: a local one where it has no position, no CRS, or a CRS of its own.
 GridKind grid_for(const RasterInfo& info);
 
 /// `cell_size`: metres, of a raster without a position. Heights stay as they are; `datum` tells how high the whole
 /// plane lies, and kAuto without a word in the CRS is kNone. Fails with kInput for rasters in degrees, and those that
-/// are turned or mirrored in their CRS; with kUsage for a datum that does not go with such a raster; and as
-/// place_on_globe().
+/// are turned or mirrored in their CRS, and for heights that are not in metres where cells are; with kUsage for a datum that
+/// does not go with such a raster; and as place_on_globe().
 Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows, const std::optional<double>& cell_size,
                                      const Datum& datum);
 /// REQUIRES: a raster with a position, in a projected CRS.

@@ -158,6 +158,25 @@ succeeds "$scarp" tile check tall --source tall.img --cell-size 25 -q
 python3 "$judge" tall tall.f32 385 700 "$(json tall/tileset.json asset extras scarp background)" 25 > judged
 [ "$(wc -l < judged)" = 7 ] || fail "other levels than 0 to 6"
 
+# Another planet: the plane touches its ellipsoid, which clients hear of as of globe sets; or the one that is given.
+succeeds gdal_translate -q -a_srs "+proj=stere +lat_0=-4.6 +lon_0=137.4 +R=3396190 +units=m" -a_ullr 0 30000 40000 0 "$dem" mars.tif
+succeeds "$scarp" tile mars.tif mars --grid local --effort fast -e 50 --report mars.json
+grep -q "a plane at its centre on " "$logs/out" || fail "the summary does not name the planet"
+succeeds "$scarp" tile utm.tif moon --grid local --effort fast -e 50 --ellipsoid 1737400,1737400 -q
+succeeds "$scarp" tile check mars --source mars.tif -q
+python3 - << 'E'
+import json
+for name, radius in (("mars", 3396190), ("moon", 1737400)):
+    tileset = json.load(open(f"{name}/tileset.json"))
+    place = tileset["root"]["transform"][12:15]
+    assert abs(sum(x * x for x in place) ** 0.5 - radius) < 1, (name, place)
+    told = tileset["extensions"]["3DTILES_ellipsoid"]
+    assert told["radii"] == [radius] * 3 and told["body"], told
+    assert tileset["asset"]["extras"]["scarp"]["ellipsoid"] == [radius] * 2
+assert "3DTILES_ellipsoid" not in json.load(open("city/tileset.json")).get("extensions", {})
+assert json.load(open("mars.json"))["ellipsoid"] == [3396190, 3396190]
+E
+
 # The range of the heights makes no set coarser, and units are those that the grid has.
 python3 - << 'E'
 import array
@@ -183,7 +202,7 @@ refuses 1 "--water and --rivers" "${local[@]}" --water lakes.shp
 refuses 1 "--breaklines" "${local[@]}" --breaklines lines.shp
 refuses 1 "--drape" "${local[@]}" --drape image.tif
 refuses 1 "--only" "${local[@]}" --only 1,2,3,4
-refuses 1 "--ellipsoid" "${local[@]}" --ellipsoid 1737400
+refuses 1 "leave --ellipsoid out" "$scarp" tile tall.img no --ellipsoid 1737400
 refuses 1 "--zoom" "${local[@]}" --zoom 9
 refuses 1 "keep a local grid in a folder" "$scarp" tile utm.tif no.pmtiles --grid local
 refuses 1 "one raster" "$scarp" tile utm.tif "$dem" no --grid local

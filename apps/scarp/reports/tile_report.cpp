@@ -79,9 +79,9 @@ std::string grid_lines(const TileJob& job) {
   if (!job.facts.plane) return text + "  on the globe   nowhere: the set has no transform\n";
   const PlaneOnGlobe& plane = *job.facts.plane;
   text += fmt::format(
-      "  on the globe   by a plane at its centre, turned by {:.4f} degrees, scale {:.6f}; off by up to {} along "
+      "  on the globe   by a plane at its centre{}, turned by {:.4f} degrees, scale {:.6f}; off by up to {} along "
       "the ground, {} in height\n",
-      plane.convergence, plane.scale_x, format_metres(plane.off_along), format_metres(plane.off_height));
+      job.facts.body.empty() ? "" : " on " + job.facts.body, plane.convergence, plane.scale_x, format_metres(plane.off_along), format_metres(plane.off_height));
   return text;
 }
 

@@ -80,10 +80,6 @@ bool is_same_point(const PointTransform& transform, double x, double y) {
          std::abs(mapped_y - y) < kSameDegrees;
 }
 
-bool is_metre(const std::string& unit) {
-  return unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters";
-}
-
 /// Whether places of the raster are found again from their degrees. Beyond 180° of a cylindrical projection they are
 /// not: the way back ends a turn away.
 bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
@@ -204,10 +200,7 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
                 fmt::format("{} does not say where on the globe it lies: give it a position and a CRS (gdal_translate "
                             "-a_ullr … -a_srs EPSG:4326), or take --grid local",
                             path));
-  if (!is_metre(info.unit))
-    return fail(ErrorKind::kInput, fmt::format("the heights of {} are in {}, tiles need metres: give --z-scale 0.3048 "
-                                               "for feet",
-                                               path, info.unit));
+  if (auto metres = check_metres(info, path); !metres) return tl::unexpected(metres.error());
   RasterOnGlobe globe;
   const Degrees degrees = choose_degrees(source, datum.ellipsoid);
   globe.ellipsoid = degrees.ellipsoid;

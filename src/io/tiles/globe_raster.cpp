@@ -56,6 +56,8 @@ Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_s
   if (!plane) return tl::unexpected(plane.error());
   source.plane = std::move(*plane);
   source.globe.vertical = source.plane->vertical;
+  source.globe.ellipsoid = source.plane->ellipsoid;
+  source.globe.body = source.plane->body;
   source.covered = {0, 0, raster.cols - 1.0, raster.rows - 1.0};
   source.samples = make_local_nodes(raster);
   return {};

@@ -9,7 +9,18 @@ namespace {
 /// Of a tile: the centre does not depend on them.
 constexpr int kAnyCells = 128;
 
+bool is_metre(const std::string& unit) {
+  return unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters";
+}
+
 }  // namespace
+
+Result<void> check_metres(const RasterInfo& info, const std::string& path) {
+  if (is_metre(info.unit)) return {};
+  return fail(
+      ErrorKind::kInput,
+      fmt::format("the heights of {} are in {}, tiles need metres: give --z-scale 0.3048 for feet", path, info.unit));
+}
 
 GridKind grid_for(const RasterInfo& info) {
   return !info.has_georeference || info.crs.empty() || is_local_crs(info) ? GridKind::kLocal : GridKind::kGeographic;
@@ -27,7 +38,6 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
     return fail(ErrorKind::kInput, fmt::format("{} is turned or mirrored in its CRS, and rows of a local grid go from "
                                                "west to east, the northern first: put it straight (gdalwarp)",
                                                info.path));
-  if (datum.ellipsoid) return fail(ErrorKind::kUsage, "--ellipsoid is for globes: a local grid lies on a plane");
   RasterOnPlane plane;
   if (info.has_georeference) {
     const bool are_metres = info.cell_x_m > 0;
@@ -38,7 +48,12 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
     plane.cell_x = plane.cell_y = cell_size.value_or(1);
     plane.units = cell_size ? "metre" : "cell";
   }
+  if (plane.units == "metre") {
+    if (auto metres = check_metres(info, info.path); !metres) return tl::unexpected(metres.error());
+  }
   if (grid_for(info) == GridKind::kLocal) {
+    if (datum.ellipsoid)
+      return fail(ErrorKind::kUsage, fmt::format("{} has no place on a globe: leave --ellipsoid out", info.path));
     if (datum.vertical != Vertical::kAuto && datum.vertical != Vertical::kNone)
       return fail(ErrorKind::kUsage, fmt::format("{} has no place on the globe: leave --vertical and --geoid out, its "
                                                  "heights are taken as they are",
@@ -52,6 +67,8 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
   const auto globe = place_on_globe(info, cols, rows, known, info.path);
   if (!globe) return tl::unexpected(globe.error());
   plane.vertical = globe->vertical;
+  plane.ellipsoid = globe->ellipsoid;
+  plane.body = globe->body;
   auto on_globe =
       find_plane_on_globe(info, TileGrid::of_raster(cols, rows, plane.cell_x, plane.cell_y, kAnyCells).local, *globe);
   if (!on_globe) return tl::unexpected(on_globe.error());

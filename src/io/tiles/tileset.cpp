@@ -180,7 +180,7 @@ Json describe_square(const PyramidPlan& plan, double low, double high) {
 
 /// What is told of a local grid besides.
 void describe_plane(const PyramidPlan& plan, const LayerFacts& facts, Json& scarp) {
-  scarp.erase("ellipsoid");
+  if (!facts.plane) scarp.erase("ellipsoid");
   scarp["grid"] = describe_grid(plan.grid);
   scarp["units"] = {{"horizontal", facts.units}, {"vertical", facts.plane ? "metre" : "unit of the raster's heights"}};
   if (!facts.plane) return;
