@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scarp/degrees.h"
 #include "scarp/frame.h"
@@ -78,6 +79,7 @@ struct RasterOnPlane {
   std::optional<PlaneOnGlobe> globe;  ///< nothing for a raster that has no place there
   Geodetic ellipsoid;                 ///< that the plane touches, with `globe`
   std::string body;                   ///< whose, as RasterOnGlobe::body
+  std::vector<std::string> warnings;  ///< that it lies far from its place on the globe
 };
 
 /// Fails with kInput where the file says that its heights are not in metres.

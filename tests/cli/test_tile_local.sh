@@ -177,6 +177,34 @@ assert "3DTILES_ellipsoid" not in json.load(open("city/tileset.json")).get("exte
 assert json.load(open("mars.json"))["ellipsoid"] == [3396190, 3396190]
 E
 
+# Feet. Where nobody tells the unit of the heights, that is said once; where the file tells feet, they are refused.
+quick=(--grid local --effort fast -e 200)
+for crs in 2225 2225+6360; do
+  succeeds gdal_translate -q -a_srs EPSG:$crs -a_ullr 6000000 2100000 6040000 2070000 "$dem" feet.tif
+  if [ $crs = 2225 ]; then
+    succeeds "$scarp" tile feet.tif feet "${quick[@]}" --report feet.json
+    [ "$(grep -c "taken for metres, though its x and y are in US survey foot.*--z-scale 0.3048006096" "$logs/err")" = 1 ] || fail "no word of feet"
+    [ "$(json feet.json warnings 0 | grep -c "taken for metres")" = 1 ] || fail "the report has no word of feet"
+    succeeds "$scarp" tile feet.tif metres "${quick[@]}" --z-scale 0.3048006096
+    [ ! -s "$logs/err" ] || fail "scaled heights are warned of"
+    succeeds "$scarp" tile feet.tif globe --vertical ellipsoid --effort fast -e 200
+    grep -q "taken for metres" "$logs/err" || fail "globe sets have no word of feet"
+  else
+    refuses 2 "are in US survey foot, tiles need metres: give --z-scale" "$scarp" tile feet.tif no "${quick[@]}"
+  fi
+done
+succeeds gdal_translate -q -a_srs 'LOCAL_CS["site",UNIT["metre",1]]' feet.tif site.tif
+succeeds gdal_translate -q -of VRT site.tif site.vrt
+sed -i 's|<VRTRasterBand[^>]*>|&<UnitType>ft</UnitType>|' site.vrt
+refuses 2 "are in ft, tiles need metres" "$scarp" tile site.vrt no
+
+# A plane is no picture of a continent: at 1 % of the way to a corner there is a word, and for the city there was none.
+succeeds gdal_translate -q -a_srs EPSG:3035 -a_ullr 3000000 4000000 5000000 2500000 "$dem" continent.tif
+succeeds "$scarp" tile continent.tif continent "${quick[@]}"
+grep -q "lie up to [0-9]* km from their place on the globe, .* take --grid geographic" "$logs/err" || fail "no word of the distance"
+succeeds "$scarp" tile utm.tif near "${quick[@]}"
+! grep -q "from their place" "$logs/err" || fail "a city is warned of"
+
 # The range of the heights makes no set coarser, and units are those that the grid has.
 python3 - << 'E'
 import array

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "io/raster/raster_finish.h"
 #include "scarp/io.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_waters.h"
@@ -112,12 +113,22 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
                   info.path, says, source.globe.vertical));
 }
 
+/// Tiles are in metres. Where x and y are in feet, heights mostly are, too, whose unit such files often do not tell.
+std::vector<std::string> warn_of_feet(const RasterInfo& info) {
+  if (!info.unit.empty() || info.z_scale != 1 || !is_foot(info.crs_unit)) return {};
+  const bool is_survey = info.crs_unit.find("survey") != std::string::npos;
+  return {
+      fmt::format("the heights of {} are taken for metres, though its x and y are in {}: where they are in it, too, "
+                  "give --z-scale {}",
+                  info.path, info.crs_unit, is_survey ? "0.3048006096" : "0.3048")};
+}
+
 }  // namespace
 
 struct GlobeRaster::Impl {
   GridKind grid = GridKind::kGeographic;
   std::vector<std::unique_ptr<GlobeSource>> sources;
-  std::unique_ptr<NodeSource> stack;  ///< of more than one
+  std::unique_ptr<NodeSource> stack;    ///< of more than one
   std::unique_ptr<NodeSource> watered;  ///< with water
   std::vector<std::string> warnings;    ///< of water
 
@@ -212,6 +223,8 @@ std::vector<std::string> GlobeRaster::warnings() const {
     const RasterInfo& raster = source->field.info;
     for (const std::string& one : raster.warnings)
       warnings.push_back(impl_->stack ? fmt::format("{}: {}", raster.path, one) : one);
+    for (std::string& one : warn_of_feet(raster)) warnings.push_back(std::move(one));
+    if (source->plane) warnings.insert(warnings.end(), source->plane->warnings.begin(), source->plane->warnings.end());
   }
   warnings.insert(warnings.end(), impl_->warnings.begin(), impl_->warnings.end());
   return warnings;

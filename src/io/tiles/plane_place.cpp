@@ -1,6 +1,8 @@
 // Where a raster lies on the plane of a local grid.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "scarp/globe_place.h"
 
 namespace scarp {
@@ -8,6 +10,22 @@ namespace {
 
 /// Of a tile: the centre does not depend on them.
 constexpr int kAnyCells = 128;
+
+/// Of the way from the centre to a corner, what a plane may be off the globe without a word: on the earth corners 127
+/// km from the centre are as far below it.
+constexpr double kWorthSaying = 0.01;
+
+/// Where a plane is no picture of so large a part of a globe.
+std::vector<std::string> warn_of_distance(const PlaneOnGlobe& on_globe, const RasterOnPlane& plane, int cols, int rows,
+                                          const std::string& path) {
+  const double way = std::hypot(plane.cell_x * (cols - 1), plane.cell_y * (rows - 1)) / 2;
+  const double off = std::hypot(on_globe.off_along, on_globe.off_height);
+  if (!(off > kWorthSaying * way)) return {};
+  return {
+      fmt::format("parts of {} lie up to {:.3g} km from their place on the globe, {:.2g} % of the way from its centre "
+                  "to a corner: a plane is too flat for it, take --grid geographic",
+                  path, off / 1000, 100 * off / way)};
+}
 
 bool is_metre(const std::string& unit) {
   return unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters";
@@ -72,6 +90,7 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
   auto on_globe =
       find_plane_on_globe(info, TileGrid::of_raster(cols, rows, plane.cell_x, plane.cell_y, kAnyCells).local, *globe);
   if (!on_globe) return tl::unexpected(on_globe.error());
+  plane.warnings = warn_of_distance(*on_globe, plane, cols, rows, info.path);
   plane.globe = std::move(*on_globe);
   return plane;
 }
