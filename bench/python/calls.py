@@ -2,12 +2,12 @@
 """What a call of scarp.simplify() costs beyond the library's own time, and what `import scarp` costs.
 
     PYTHONPATH=bindings/python/src SCARP_LIBRARY=build/bindings/python/libscarp_c.so python3 bench/python/calls.py
-        [--side N] [--rounds N] [--imports N] [--csv FILE]
+        [--side N] [--rounds N] [--in-a-row N] [--imports N] [--csv FILE]
 
 or, without the two variables, of the scarp that is installed.
 
-Calls: of N x N samples (33: 54 triangles), on one thread. All kinds take turns, call by call, so that a busy machine is
-as unkind to each. Of each: the median over the rounds (3000) of the call's time, until its mesh is freed, less the time
+Calls: of N x N samples (33: 54 triangles), on one thread. All kinds take turns, some calls of each in a row (20), so
+that a busy machine is as unkind to each, and caches are as warm as in a loop. Of each: the median over the rounds (3000) of the call's time, until its mesh is freed, less the time
 that its report says simplify() took; in microseconds. "C" is scarp_simplify() and scarp_mesh_free() by ctypes, with all
 structs prepared: what it costs is the C door (options, plan, reading, metadata). "python" is what a row has beyond "C".
 
@@ -64,13 +64,13 @@ def find_calls(side):
     return calls
 
 
-def time_calls(side, rounds):
+def time_calls(side, rounds, in_a_row):
     """Microseconds beyond the library's, by name."""
     calls = find_calls(side)
     beyond = {name: [] for name in calls}
     clock = time.perf_counter
-    for _ in range(rounds):
-        for name, (call, seconds_of, free) in calls.items():
+    for _ in range(rounds // in_a_row):
+        for name, (call, seconds_of, free) in ((name, kind) for name, kind in calls.items() for _ in range(in_a_row)):
             begin = clock()
             made = call()
             end = clock()
@@ -106,10 +106,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--side", type=int, default=33)
     parser.add_argument("--rounds", type=int, default=3000)
+    parser.add_argument("--in-a-row", type=int, default=20)
     parser.add_argument("--imports", type=int, default=20)
     parser.add_argument("--csv")
     asked = parser.parse_args()
-    calls = time_calls(asked.side, asked.rounds)
+    calls = time_calls(asked.side, asked.rounds, asked.in_a_row)
     rows = [("call", name, "us", "%.1f" % value, "%.1f" % (value - calls["C"])) for name, value in calls.items()]
     rows += [("import", name, "ms", "%.1f" % value, "") for name, value in time_imports(asked.imports).items()]
     for row in rows:

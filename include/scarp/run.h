@@ -26,7 +26,7 @@ struct Memory {
 
 /// The same for all calls; each function tells which members it reads, where it does not read all.
 struct Run {
-  int threads = 0;  ///< 0: all cores. Never changes the result. DEFAULT: 0.
+  int threads = 0;  ///< 0: all cores, or one where others would come too late. Never changes the result. DEFAULT: 0.
   Memory memory = {};
   ProgressCallback progress = {};
   /// Read by simplify() with more than fast effort: asked often, on any thread; once true, true for good. Then vertices

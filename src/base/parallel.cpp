@@ -70,7 +70,8 @@ int thread_count(int requested) {
 }
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
-  const std::size_t workers = std::min<std::size_t>(count, static_cast<std::size_t>(thread_count(threads)));
+  const std::size_t workers =
+      count <= 1 ? count : std::min<std::size_t>(count, static_cast<std::size_t>(thread_count(threads)));
   if (workers <= 1) {
     for (std::size_t i = 0; i < count; ++i) task(i);
     return;

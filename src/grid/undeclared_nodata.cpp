@@ -52,8 +52,10 @@ std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range) {
   std::size_t low = 0, high = 0;
   // What is far at one end may hide behind what is far at the other.
   for (std::size_t look = 0; look < kEnds; ++look) {
+    const std::size_t before = low + high;
     low = count_far(range.lowest, low, range.highest[high].height, range.valid);
     high = count_far(range.highest, high, range.lowest[low].height, range.valid);
+    if (low + high == before) break;
   }
   std::vector<UndeclaredNodata> found;
   const double min = range.lowest[low].height, max = range.highest[high].height;

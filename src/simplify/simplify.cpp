@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <new>
@@ -69,6 +70,14 @@ Result<Simplified> simplify_by_default(const HeightField& field, SimplifyOptions
   return made;
 }
 
+/// Where nobody asks for a number: few samples are done before another thread has started.
+int choose_threads(const HeightField& field, const SimplifyOptions& options) {
+  constexpr std::int64_t kFewSamples = 1 << 14;
+  const bool is_short = options.quality.effort == Effort::kFast || options.quality.effort == Effort::kNormal;
+  const bool is_small = std::int64_t{field.cols} * field.rows <= kFewSamples;
+  return options.run.threads == 0 && is_short && is_small ? 1 : options.run.threads;
+}
+
 Result<void> check(const HeightField& field, const SimplifyOptions& options) {
   for (const auto check : {check_values, check_conflicts, check_needs}) {
     if (auto sound = check(field, options); !sound) return sound;
@@ -94,6 +103,7 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
     if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
     SimplifyOptions options = asked;
     options.quality.effort = choose_effort(field, asked);
+    options.run.threads = choose_threads(field, options);
     Border& border = options.domain.border;
     if (!border.max_error) border.max_error = asked.goals.max_error;
     return asked.quality.effort == Effort::kAuto ? simplify_by_default(field, options) : make_mesh(field, options);

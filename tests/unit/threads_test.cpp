@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <future>
 #include <limits>
+#include <mutex>
 #include <new>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -375,6 +377,25 @@ TEST(Threads, FilesWrittenAtOnceAreEachWhole) {
   }
   EXPECT_EQ(files, 3);
   std::filesystem::remove_all(folder);
+}
+
+TEST(Threads, FewSamplesAreWorkedOnByTheCaller) {
+  const OwnedHeightField field = make_waves(120, 100);
+  std::mutex mutex;
+  std::set<std::thread::id> workers;
+  SimplifyOptions options{.goals = {.max_error = 1.0}};
+  options.run.is_time_up = [&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    workers.insert(std::this_thread::get_id());
+    return false;
+  };
+  const Result<Simplified> alone = simplify(field, options);
+  EXPECT_EQ(workers, std::set{std::this_thread::get_id()});
+  options.run.threads = 3;
+  const Result<Simplified> together = simplify(field, options);
+  ASSERT_TRUE(alone && together);
+  EXPECT_EQ(alone->mesh.positions, together->mesh.positions);
+  EXPECT_EQ(alone->mesh.triangles, together->mesh.triangles);
 }
 
 TEST(Threads, ReadersMayRunAtOnce) {

@@ -28,12 +28,10 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   const Frame& frame = outcome.field.frame;
   add_origin(plan.canonical_command, frame.description, frame.crs, crs_option(plan, frame), outcome.simplified.mesh);
   std::map<std::string, std::string>& metadata = outcome.simplified.mesh.metadata;
-  Json place;
-  add_place(place, place_in_source(frame, outcome.as_read, outcome.field.rows));
-  if (!place["to_source"].is_null()) {
-    metadata["origin"] = place["origin"].dump();
-    if (!place["origin_crs"].is_null()) metadata["origin_crs"] = place["origin_crs"];
-    metadata["to_source"] = place["to_source"].dump();
+  if (const auto place = place_in_source(frame, outcome.as_read, outcome.field.rows)) {
+    metadata["origin"] = Json(place->origin()).dump();
+    if (!place->crs.empty()) metadata["origin_crs"] = place->crs;
+    metadata["to_source"] = Json(place->to_source).dump();
   }
   if (frame.space) metadata["to_earth"] = Json(frame.space->to_earth()).dump();
   if (plan.read.z_scale != 1) metadata["z_scale"] = Json(plan.read.z_scale).dump();

@@ -145,7 +145,6 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   if (!cut) return tl::unexpected(std::move(cut.error()));
   outcome.cut = std::move(*cut);
   complete_info(outcome.field.info, outcome.as_read);
-  outcome.heights = height_range(outcome.field, plan.simplify.run.threads);
   outcome.seconds_read = seconds_since(start);
   return {};
 }
@@ -212,7 +211,7 @@ Result<void> check_promise(const Outcome& outcome) {
     // With weights the engine took the rounding of the samples off each bound before it weighed the errors.
     const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
     const double allowance =
-        judging_allowance(*asked, outcome.heights) + 1e-12 * outcome.channels.magnitude +
+        judging_allowance(*asked, measured.heights) + 1e-12 * outcome.channels.magnitude +
         (goal.is_rounded ? std::ldexp(*asked, -24) * static_cast<double>(4 + outcome.channels.count()) : 0);
     if (!(goal.value + rounding <= *asked + allowance)) {
       return fail(ErrorKind::kPromise,
@@ -323,8 +322,7 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
   const FittedFeatures& fitted = outcome.simplified.features;
   warn_of_dry_lines(outcome.features, fitted.rivers, outcome.companions.warnings);
   apply_edits(outcome.simplified.edits, outcome.field);
-  if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
-  complete_info(outcome.heights, outcome.as_read);
+  complete_info(outcome.simplified.measurement.heights, outcome.as_read);
   const OwnedHeightField& field = outcome.field;
   const bool by_construction = options.output.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows)
                                                                 : field.frame.is_affine();

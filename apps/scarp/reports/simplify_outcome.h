@@ -26,8 +26,7 @@ struct Level {
 /// Everything that the files, the report and the summary tell.
 struct Outcome : SimplifyRun {
   OwnedHeightField field;
-  RasterInfo as_read;   ///< before nodata was filled
-  HeightRange heights;  ///< of the samples that were judged
+  RasterInfo as_read;  ///< before nodata was filled
   Channels channels;
   Companions companions;
   Features features;
