@@ -8,7 +8,7 @@ import { build } from 'esbuild';
 const [page, engine] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url)), source = join(here, 'src');
 const has_engine = engine !== undefined && existsSync(join(engine, 'inline.js')) && existsSync(join(engine, 'inline-data.js'));
-const shared = { bundle: true, write: false, minify: true, format: 'iife', target: 'es2022', define: { 'import.meta.url': '"about:blank"', HAS_ENGINE: String(has_engine) }, logLevel: 'warning', legalComments: 'none' };
+const shared = { bundle: true, write: false, minify: true, format: 'iife', target: 'es2022', define: { 'import.meta.url': '"about:blank"', HAS_ENGINE: String(has_engine) }, logLevel: 'warning', legalComments: 'eof' };
 
 async function bundle(entry, options) {
   return (await build({ ...shared, ...options, entryPoints: [join(source, entry)] })).outputFiles[0].text;
