@@ -29,7 +29,9 @@ fi
 "$here/build_python.sh" "$build" "$folder" >/dev/null
 python3 "$here/../bindings/qgis/make_plugin.py" "$build/bin/scarp" "$folder/scarp_processing.zip"
 if command -v dpkg-buildpackage >/dev/null; then
-  SCARP_VIEWER_PAGE=$build/share/scarp/viewer.html quietly "$build/debian.log" "$here/debian_packages.sh" "$sources" "$build/debian"
+  # Without symbols for debuggers, which are larger than the packages and take longer to compile.
+  export DEB_BUILD_OPTIONS="nocheck noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$build/share/scarp/viewer.html
+  quietly "$build/debian.log" "$here/debian_packages.sh" "$sources" "$build/debian"
   cp "$build/debian"/*.deb "$folder/"
   rm -rf "$build/debian"
 else
