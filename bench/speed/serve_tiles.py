@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Times tiles that scarp serve makes when they are asked for: python3 serve_tiles.py SCARP RASTER [OPTION...]
 
-Asks for up to 40 tiles of each level, spread over it, twice: first nobody has made them, then they are kept. One client
-on loopback, one answer at a time. Prints milliseconds a tile, median and 95th percentile.
+Asks for up to 40 tiles of each level, spread over it: as soon as the server answers, when nobody has made them, and
+again, when they are kept; then of another server, once it has prepared its coarse levels. One client on loopback, one
+answer at a time. Prints milliseconds a tile, median and 95th percentile.
 """
 
 import http.client
@@ -19,35 +20,58 @@ def tiles_of(layer, z):
             for x in range(one["startX"], one["endX"] + 1)]
 
 
-def main():
-    start = time.monotonic()
-    server = subprocess.Popen([sys.argv[1], "serve", *sys.argv[2:], "--port", "0"], stdout=subprocess.PIPE, text=True)
-    try:
-        for line in server.stdout:
+class Server:
+    def __init__(self):
+        start = time.monotonic()
+        self.process = subprocess.Popen([sys.argv[1], "serve", *sys.argv[2:], "--port", "0"], stdout=subprocess.PIPE,
+                                        text=True)
+        for line in self.process.stdout:
             if at := re.search(r"http://127\.0\.0\.1:(\d+)/$", line):
                 break
-        print(f"ready after {time.monotonic() - start:.2f} s")
-        client = http.client.HTTPConnection("127.0.0.1", int(at[1]))
+        print(f"answers after {time.monotonic() - start:.2f} s")
+        self.client = http.client.HTTPConnection("127.0.0.1", int(at[1]))
+        self.start = start
 
-        def ask(path):
-            begun = time.monotonic()
-            client.request("GET", path, headers={"Accept-Encoding": "gzip"})
-            answer = client.getresponse()
-            data = answer.read()
-            assert answer.status == 200, path
-            return 1000 * (time.monotonic() - begun), data
+    def __enter__(self):
+        return self
 
-        layer = json.loads(ask("/layer.json")[1])
-        print("level  tiles  cold median, 95 %   kept median, 95 %  [ms]")
-        for z in range(layer["maxzoom"] + 1):
-            tiles = tiles_of(layer, z)
-            asked = tiles[::max(1, len(tiles) // 40)]
-            times = [sorted(ask(f"/{z}/{x}/{y}.terrain")[0] for x, y in asked) for _ in range(2)]
-            row = "  ".join(f"{statistics.median(one):8.1f} {one[int(0.95 * (len(one) - 1))]:8.1f}" for one in times)
-            print(f"{z:5}  {len(tiles):5}  {row}")
-    finally:
-        server.terminate()
-        server.wait()
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+    def ask(self, path):
+        """Milliseconds, the bytes, and what is said of the bound."""
+        begun = time.monotonic()
+        self.client.request("GET", path, headers={"Accept-Encoding": "gzip"})
+        answer = self.client.getresponse()
+        data = answer.read()
+        assert answer.status == 200, path
+        return 1000 * (time.monotonic() - begun), data, answer.getheader("X-Scarp-Bound")
+
+    def times(self, z, tiles):
+        return sorted(self.ask(f"/{z}/{x}/{y}.terrain")[0] for x, y in tiles)
+
+    def wait_until_prepared(self):
+        while self.ask("/0/0/0.terrain")[2] == "estimated":
+            time.sleep(0.2)
+        peak = re.search(r"VmHWM:\s+(\d+)", open(f"/proc/{self.process.pid}/status").read())
+        print(f"prepared after {time.monotonic() - self.start:.1f} s, {int(peak[1]) // 1000} MB at most")
+
+
+def main():
+    with Server() as server:
+        layer = json.loads(server.ask("/layer.json")[1])
+        tiles = [tiles_of(layer, z) for z in range(layer["maxzoom"] + 1)]
+        asked = [level[::max(1, len(level) // 40)] for level in tiles]
+        times = [[server.times(z, level) for _ in range(2)] for z, level in enumerate(asked)]
+    with Server() as server:
+        server.wait_until_prepared()
+        for z, level in enumerate(asked):
+            times[z].append(server.times(z, level))
+    print("level  tiles  cold median, 95 %   kept median, 95 %  prepared med., 95 %  [ms]")
+    for z, row in enumerate(times):
+        columns = "  ".join(f"{statistics.median(one):8.1f} {one[int(0.95 * (len(one) - 1))]:8.1f}" for one in row)
+        print(f"{z:5}  {len(tiles[z]):5}  {columns}")
 
 
 main()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ namespace scarp {
 /// A tile as it is kept.
 struct LiveTile {
   std::vector<std::uint8_t> bytes;
-  /// TerrainTile::bound(); nothing above the blocks, where nobody has looked at all nodes.
+  /// TerrainTile::bound(); nothing above the blocks before prepare() has come to it: nobody has looked at all nodes.
   std::optional<double> bound;
 };
 
@@ -49,6 +50,12 @@ class LiveTileSet final : public TileSetReader {
   /// The same as read_tile(), with its bound. Fails with kInput where the set has no such tile, and as make_tile().
   /// Memory: up to 300 MB a call while a tile of the block level is made, less below.
   Result<std::shared_ptr<const LiveTile>> make(TileId id) const;
+
+  /// Makes the tiles that take longest, all but the finest three levels, as make_pyramid() does, and keeps them with
+  /// their bounds: make() then finds them. Others may call make() meanwhile. They take up to half of the cache: once
+  /// that is full, the call ends. Returns whether all are kept. REQUIRES: called once. `is_over`: asked often, on any
+  /// thread; once true, the call ends with kCancelled. Memory beside the cache: 400 MB. Fails as make_pyramid() does.
+  Result<bool> prepare(int threads, const std::function<bool()>& is_over);
 
  private:
   struct Impl;

@@ -318,12 +318,13 @@ struct BlockReport {
 
 /// Makes the tiles of one block that have heights, their siblings if the plan wants them, and the block's own in any
 /// case. A tile's bytes are those of
-/// make_kept_tile(). REQUIRES: find_blocks() names the block.
+/// make_kept_tile(). Tiles of levels below `deepest` are left out, and their errors of the report; all else is that of
+/// the whole block. REQUIRES: find_blocks() names the block.
 ///
 /// Cost: each node is read once; memory: that of its nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
 /// make_kept_tile() and the sink do, and with kCancelled.
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
-                               const Run& run = {});
+                               const Run& run = {}, int deepest = std::numeric_limits<int>::max());
 
 /// A hash of all that make_block() takes from the source, nodes and samples, and of the shapes of water masks: blocks
 /// of one hash and one plan have the same tiles and errors. 0 for a block without heights and masks. Cost: the nodes

@@ -62,9 +62,9 @@ std::uint64_t with_masks(const PyramidPlan& plan, TileId block, std::uint64_t no
 }
 
 /// The block's tile, then level by level those below it, by rows.
-std::vector<TileId> tiles_of(const PyramidPlan& plan, TileId block) {
+std::vector<TileId> tiles_of(TileId block, int deepest) {
   std::vector<TileId> tiles;
-  for (int deeper = 0; deeper <= plan.max_zoom() - block.z; ++deeper) {
+  for (int deeper = 0; deeper <= deepest - block.z; ++deeper) {
     const std::uint32_t side = std::uint32_t{1} << deeper;
     for (std::uint32_t y = 0; y < side; ++y) {
       for (std::uint32_t x = 0; x < side; ++x)
@@ -106,7 +106,7 @@ Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const No
 }
 
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
-                               const Run& run) {
+                               const Run& run, int deepest) {
   TileOutput output(plan, sink, run);
   BlockReport made;
   made.block = block;
@@ -129,7 +129,8 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
     return made;
   }
   const auto make = [&](TileId id, const TileEncoder& encode) { return make_if_any(plan, id, *nodes, encode); };
-  if (auto put = output.make(tiles_of(plan, block), make); !put) return tl::unexpected(put.error());
+  if (auto put = output.make(tiles_of(block, std::min(deepest, plan.max_zoom())), make); !put)
+    return tl::unexpected(put.error());
   made.report = output.take_report();
   made.report.has_heights = true;
   const auto hash = hash_of(plan, block, *nodes);

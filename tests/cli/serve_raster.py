@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Asks a server that makes tiles when they are asked for.
 
-  serve_raster.py PORT FOLDER [PID]: the folder holds the finished set of the same options. With the server's PID many
-  clients ask at once, too.
+  serve_raster.py PORT FOLDER [PID]: the folder holds the finished set of the same options. With the server's PID it has
+  room to prepare its coarse levels; then all tiles are asked for again, and many clients ask at once.
 """
 
 import http.client
@@ -13,6 +13,7 @@ import re
 import socket
 import sys
 import threading
+import time
 
 port, folder = int(sys.argv[1]), pathlib.Path(sys.argv[2])
 server = int(sys.argv[3]) if len(sys.argv) > 3 else None
@@ -43,17 +44,32 @@ layer = json.loads(ask(connection, "/layer.json").data)
 assert layer["available"] == finished["available"] and layer["bounds"] == finished["bounds"]
 assert layer["description"] == finished["description"]
 blocks = max(layer["maxzoom"] - 5, 0)
-bounds = {}
-for name in names:
-    answer = ask(connection, f"/{name}?v={layer['version']}")
-    assert answer.status == 200 and answer.data == kept[name], name
-    z, bound = int(name.split("/")[0]), answer.getheader("X-Scarp-Bound")
-    if z < blocks:
-        assert bound == "estimated", name
-    else:
-        bounds[z] = max(bounds.get(z, 0), float(bound))
-for z, bound in bounds.items():
-    assert abs(bound / finished["scarp"]["levels"][z]["bound"] - 1) < 1e-3, z
+
+
+def compare_all():
+    """Returns the levels where some bound is not known."""
+    estimated, bounds = set(), {}
+    for name in names:
+        answer = ask(connection, f"/{name}?v={layer['version']}")
+        assert answer.status == 200 and answer.data == kept[name], name
+        z, bound = int(name.split("/")[0]), answer.getheader("X-Scarp-Bound")
+        if bound == "estimated":
+            estimated.add(z)
+        else:
+            bounds[z] = max(bounds.get(z, 0), float(bound))
+    for z in bounds.keys() - estimated:
+        assert abs(bounds[z] / finished["scarp"]["levels"][z]["bound"] - 1) < 1e-3, z
+    return estimated
+
+
+# Whether or not the coarse levels are prepared by now; and surely afterwards.
+assert compare_all() <= set(range(blocks))
+if server is not None:
+    deadline = time.monotonic() + 600
+    while ask(connection, "/0/0/0.terrain").getheader("X-Scarp-Bound") == "estimated" or of_server("Threads") > 3:
+        assert time.monotonic() < deadline, "the coarse levels are never prepared"
+        time.sleep(0.05)
+    assert not compare_all()
 assert ask(connection, f"/{layer['maxzoom']}/0/0.terrain").status == 404
 assert ask(connection, f"/{layer['maxzoom'] + 1}/0/0.terrain").status == 404
 answer = ask(connection, "/" + names[0])

@@ -38,6 +38,10 @@ grep -q "heights   above EGM96" served || fail "the server does not tell what he
 succeeds python3 "$client" "$port" globe "$server"
 [ "$(cat "$logs/out")" = "$(find globe -name '*.terrain' | wc -l)" ] || fail "not all tiles were asked for"
 stop
+[ ! -s complaints ] || fail "the server complains: $(cat complaints)"
+# The end comes whatever is being prepared.
+start holes.tif --vertical egm96 --effort high -j 2
+stop
 
 # A plan, and a raster that stays in its file and lies in another CRS.
 succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear -co TILED=YES -co COMPRESS=DEFLATE "$dem" utm.tif
@@ -45,7 +49,12 @@ succeeds "$scarp" tile plan utm.tif plan.json --vertical egm96 --effort fast --z
 succeeds "$scarp" tile utm.tif mapped --vertical egm96 --effort fast --zoom 10 -q
 start plan.json --memory 1M -j 2
 succeeds python3 "$client" "$port" mapped
+for _ in $(seq 1200); do
+  ! grep -q "no room for all coarse tiles" complaints || break
+  sleep 0.05
+done
 stop
+grep -q "no room for all coarse tiles" complaints || fail "the server does not tell that coarse tiles have no room"
 
 refuses 1 "--effort" "$scarp" serve plan.json --effort high
 refuses 1 "--zoom" "$scarp" serve globe --zoom 3

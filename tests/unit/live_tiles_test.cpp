@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -96,6 +97,52 @@ TEST(live_tiles, are_those_of_the_finished_set_for_any_cache_and_several_readers
     EXPECT_FALSE((*live)->make({8, 0, 0}));
     EXPECT_FALSE((*live)->read_file("tileset.json"));
   }
+}
+
+TEST(live_tiles, that_are_prepared_are_those_of_the_finished_set_with_its_bounds) {
+  const Land land;
+  const TileJob job = make_job();
+  Kept kept(make_tile_encoder(job.format, job.plan));
+  const auto report = make_pyramid(job.plan, land, kept);
+  ASSERT_TRUE(report);
+  const auto live = LiveTileSet::open(job, land, 100'000'000);
+  ASSERT_TRUE(live);
+  // While others ask.
+  std::vector<std::size_t> wrong(2);
+  parallel_for(2, 2, [&](std::size_t k) {
+    if (k == 0) {
+      const Result<bool> all = (*live)->prepare(2, [] { return false; });
+      wrong[k] = !all || !*all;
+      return;
+    }
+    for (const auto& [key, bytes] : kept.files)
+      wrong[k] += (*live)->read_tile({std::get<0>(key), std::get<1>(key), std::get<2>(key)}) != bytes;
+  });
+  EXPECT_EQ(wrong, std::vector<std::size_t>(2));
+  std::vector<double> bounds(job.plan.levels.size());
+  for (const auto& [key, bytes] : kept.files) {
+    const auto tile = (*live)->make({std::get<0>(key), std::get<1>(key), std::get<2>(key)});
+    ASSERT_TRUE(tile && (*tile)->bound);
+    EXPECT_EQ((*tile)->bytes, bytes);
+    double& largest = bounds[static_cast<std::size_t>(std::get<0>(key))];
+    largest = std::max(largest, *(*tile)->bound);
+  }
+  for (std::size_t z = 0; z < bounds.size(); ++z) EXPECT_EQ(bounds[z], report->levels[z].bound) << z;
+}
+
+TEST(live_tiles, are_prepared_as_far_as_there_is_room_and_until_nobody_waits) {
+  const Land land;
+  const TileJob job = make_job();
+  const auto full = LiveTileSet::open(job, land, 300'000), over = LiveTileSet::open(job, land, 100'000'000);
+  ASSERT_TRUE(full && over);
+  const Result<bool> all = (*full)->prepare(1, [] { return false; });
+  ASSERT_TRUE(all) << all.error().message;
+  EXPECT_FALSE(*all);
+  int asked = 0;
+  const Result<bool> ended = (*over)->prepare(1, [&] { return ++asked > 3; });
+  ASSERT_FALSE(ended);
+  EXPECT_EQ(ended.error().kind, ErrorKind::kCancelled);
+  for (const auto& set : {std::cref(*full), std::cref(*over)}) EXPECT_FALSE((*set.get()->make({0, 0, 0}))->bound);
 }
 
 TEST(live_tiles, layer_json_says_what_there_is_and_nothing_of_errors_that_nobody_knows) {

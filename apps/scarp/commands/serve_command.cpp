@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "reports/tile_report.h"
 #include "scarp/live_tiles.h"
 #include "serve/http_server.h"
+#include "serve/preparation.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
 #include "terminal/text.h"
@@ -128,6 +130,8 @@ Result<void> ServeCommand::run() const {
                                           served->job.job.facts.heights_above, server->url()));
     if (!printed) return printed;
   }
+  std::optional<Preparation> preparation;
+  if (served->live != nullptr) preparation.emplace(*served->live, *threads);
   return server->run([&](const Request& request) { return answers.answer(request); }, *threads, interrupted);
 }
 

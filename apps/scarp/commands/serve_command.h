@@ -24,7 +24,7 @@ class ServeCommand {
  private:
   struct Served {
     OpenedJob job;  ///< of a raster or a plan
-    const LiveTileSet* live = nullptr;
+    LiveTileSet* live = nullptr;
     std::unique_ptr<TileAnswers> answers;
   };
   /// Fails where options are given that a finished set or a plan has decided.
