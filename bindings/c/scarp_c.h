@@ -102,7 +102,7 @@ typedef struct scarp_points {
 /* What is asked for most; all else by name. */
 typedef struct scarp_options {
   uint32_t struct_size;
-  int32_t threads;        /* 0: all cores. Never changes the result. */
+  int32_t threads;        /* 0: all cores, for few samples one. Never changes the result. */
   double max_error;       /* in z units. DEFAULT: NaN, none. */
   uint64_t max_triangles; /* 0: none */
   uint64_t max_points;    /* vertices; 0: none */

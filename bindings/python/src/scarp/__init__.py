@@ -113,7 +113,7 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
     mask           (rows, columns) weights: weight * |error| is bounded; 0 and NaN: no bound. Or a file.
     tolerance      (rows, columns) bounds of their own for the samples; NaN: none. Or a file.
     normals        Mesh.normals from all samples
-    threads        0: all cores; never changes the mesh
+    threads        0: all cores, for few samples one; never changes the mesh
     progress       True: a bar; or a function of a Progress: where it returns False, Cancelled is raised
     options        every other option of `scarp simplify` that is not about its terminal, with _ for -: `vertices="free"`,
                    `breaklines="dikes.gpkg"`, `min_angle=25`, `nodata_policy="fill"`, `of="obj"` (the format that the
