@@ -30,6 +30,7 @@ use_library() {
 use_packages() {
   local root=$scratch/root libraries package
   for package in "$work"/*.deb; do succeeds dpkg-deb -x "$package" "$root"; done
+  cmp "$SCARP_VIEWER_PAGE" "$root/usr/share/scarp/viewer.html" || fail "the package lacks the viewer's page"
   libraries=$(dirname "$(echo "$root"/usr/lib/*/libscarp.so.0)")
   export LD_LIBRARY_PATH=$libraries
   # Optimized or not: the same bytes.
@@ -92,7 +93,8 @@ if has_debian; then
   done
   succeeds "$source_tree/tools/source_tarball.sh" .
   # What is not optimized compiles in half the time.
-  export DEB_BUILD_OPTIONS="nocheck noopt noautodbgsym" DEB_CXXFLAGS_STRIP=-g
+  export DEB_BUILD_OPTIONS="nocheck noopt noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$scratch/page.html
+  echo "<!DOCTYPE html>" > "$SCARP_VIEWER_PAGE"
   JOBS=$jobs try "$source_tree/tools/debian_packages.sh" "scarp-$version-source.tar.gz" "$work"
   [ "$code" = 0 ] || { tail -n 50 "$logs/out" >&2; fail "the packages are not built"; }
   succeeds lintian --fail-on error,warning "$work"/*.changes
