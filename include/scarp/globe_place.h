@@ -80,6 +80,8 @@ struct RasterOnPlane {
   Geodetic ellipsoid;                 ///< that the plane touches, with `globe`
   std::string body;                   ///< whose, as RasterOnGlobe::body
   std::vector<std::string> warnings;  ///< that it lies far from its place on the globe
+  /// Likewise: where each sample lies.
+  std::optional<RasterOnGlobe> samples = std::nullopt;
 };
 
 /// Fails with kInput where the file says that its heights are not in metres.

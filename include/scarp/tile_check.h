@@ -13,6 +13,8 @@
 //   bound         no node under a tile is farther from its triangles than the set promises of the level; no sample of
 //   the
 //                 source either
+//   tileset       what tileset.json says of its roots: volumes, transform, refinement, errors, levels; with nodes, too,
+//   that a local grid lies where its source does
 //
 // Nothing here knows how tiles are made: the room src/check may not include src/tiles.
 #pragma once
@@ -20,6 +22,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +37,29 @@
 
 namespace scarp {
 
-enum class TileFaultKind { kContainer, kAvailability, kFile, kCoverage, kEdgeList, kBorder, kHeader, kHorizon, kBound };
-inline constexpr std::size_t kTileFaultKinds = 9;
+enum class TileFaultKind {
+  kContainer,
+  kAvailability,
+  kFile,
+  kCoverage,
+  kEdgeList,
+  kBorder,
+  kHeader,
+  kHorizon,
+  kBound,
+  kTileset
+};
+inline constexpr std::size_t kTileFaultKinds = 10;
 /// "container", "edge list", …
 const char* name_of(TileFaultKind kind);
+
+/// Where the raster of a local grid lies on the globe.
+struct CheckedPlace {
+  /// Longitude and latitude in degrees, and the metres above the ellipsoid that its heights count from, of a place in
+  /// cells east and north of the south-western sample; not finite where it has none.
+  std::function<std::array<double, 3>(double east, double north)> find;
+  Geodetic ellipsoid = {};
+};
 
 /// The nodes that a set was made of.
 struct CheckedNodes {
@@ -47,6 +69,8 @@ struct CheckedNodes {
   int cells = 0;
   /// Height of nodes without a height. DEFAULT: what the set says, else 0.
   std::optional<float> background = std::nullopt;
+  /// DEFAULT: none, the raster has no place on the globe.
+  std::optional<CheckedPlace> place = std::nullopt;
 };
 
 struct TileCheckOptions {

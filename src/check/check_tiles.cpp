@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "check/client_tile.h"
 #include "check/nodes_check.h"
 #include "check/tile_faults.h"
+#include "check/tileset_check.h"
 #include "scarp/gzip.h"
 #include "scarp/tile_check.h"
 
@@ -29,6 +31,7 @@ struct TileFindings {
   std::optional<TileEdges> edges;
   std::uint64_t triangles = 0;
   double sag = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   std::optional<bool> is_gzip;
 };
 
@@ -57,6 +60,11 @@ class TilesCheck {
     add(faults);
     for (std::size_t z = 0; z < check_.levels.size(); ++z) {
       if (auto checked = check_level(z); !checked) return tl::unexpected(checked.error());
+    }
+    if (set_.format() == TileFormat::kGlb) {
+      faults.clear();
+      check_tileset(claims_, grid_, set_.tiles().size(), low_, high_, options_.nodes, faults);
+      add(faults);
     }
     if (options_.nodes.source != nullptr) {
       faults.clear();
@@ -117,6 +125,8 @@ class TilesCheck {
           ++level.tiles;
           level.triangles += one.triangles;
           level.sag = std::max(level.sag, one.sag);
+          low_ = std::min(low_, one.low);
+          high_ = std::max(high_, one.high);
           compare_gzip(tiles[k], z, one);
           if (one.edges) borders.add(std::move(*one.edges));
           add(one.faults);
@@ -163,6 +173,9 @@ class TilesCheck {
     check_header(*tile, findings.faults);
     // Then all heights are numbers.
     if (!std::isfinite(tile->low) || !std::isfinite(tile->high)) return findings;
+    const auto [lowest, highest] = std::minmax_element(tile->heights.begin(), tile->heights.end());
+    findings.low = *lowest;
+    findings.high = *highest;
     check_coverage(*tile, findings.faults);
     check_edge_lists(*tile, findings.faults);
     if (tile->is_flat)
@@ -188,6 +201,7 @@ class TilesCheck {
   Reporter reporter_;
   TileCheck check_;
   std::uint64_t tiles_ = 0, done_ = 0;
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;  ///< of all vertices
   std::optional<bool> is_gzip_;
 };
 
@@ -195,7 +209,7 @@ class TilesCheck {
 
 const char* name_of(TileFaultKind kind) {
   constexpr const char* kNames[] = {"container", "availability", "file",    "coverage", "edge list",
-                                    "border",    "header",       "horizon", "bound"};
+                                    "border",    "header",       "horizon", "bound",    "tileset"};
   static_assert(std::size(kNames) == kTileFaultKinds);
   return kNames[static_cast<std::size_t>(kind)];
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # scarp tile check: good sets pass, and each fault that is planted in a copy is found, with the name of its tile.
 source "$(dirname "$0")/lib.sh"
-need python3
+need python3 gdalwarp gdal_translate
 breaker=$SCARP_SOURCE/tests/cli/break_tiles.py
 
 # finds KIND WORDS SET [OPTIONS]: exit code 3, a fault of the kind in the table, the words in its sentence.
@@ -51,6 +51,53 @@ finds availability "8/3/5.terrain is there" broken
 rm -r broken && cp -r globe broken && rm broken/layer.json && finds availability "layer.json is missing" broken
 # Another source than the set's.
 finds bound ".terrain is" globe --source "$dem" --vertical ellipsoid
+
+# Faults of tileset.json, of a globe and of a plane that lies on it.
+succeeds "$scarp" tile "$dem" ball --of 3dtiles --vertical egm96 --zoom 9 --effort fast -q
+succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear "$dem" utm.tif
+succeeds "$scarp" tile utm.tif city --grid local --vertical egm96 --effort fast -q
+succeeds "$scarp" tile check ball --source "$dem" --vertical egm96 -q
+succeeds "$scarp" tile check city --source utm.tif --vertical egm96 -q
+# told SET CHANGE WORDS [OPTION...]: `root` is the first tile, `first` the first of implicit tiles, `own` what Scarp adds.
+told() {
+  local set=$1 change=$2 words=$3
+  shift 3
+  rm -rf broken && cp -r "$set" broken
+  python3 - "$change" << 'E'
+import json
+import sys
+tileset = json.load(open("broken/tileset.json"))
+root, own = tileset["root"], tileset["asset"]["extras"]["scarp"]
+first = root["children"][0] if "children" in root else root
+volume = first["boundingVolume"]
+exec(sys.argv[1])
+json.dump(tileset, open("broken/tileset.json", "w"))
+E
+  finds tileset "$words" broken "$@"
+}
+told ball 'volume["region"][2] += 0.1' "the boundingVolume of root 0 goes from"
+told ball 'volume["region"][5] = 10' "to 10 m high, and tiles are"
+told ball 'del first["boundingVolume"]' "no boundingVolume"
+told ball 'root["refine"] = "ADD"' 'refined by "ADD"'
+told ball 'first["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]' "a root has a transform"
+told ball 'root["children"][1]["geometricError"] /= 100' "of root 1 clients take"
+told ball 'root["geometricError"] = 1' "more than the 1 m of what is above it"
+told ball 'del tileset["geometricError"]' "no geometricError"
+told ball 'first["implicitTiling"]["availableLevels"] -= 1' "root 0 has 9 availableLevels, and the set has 10 levels"
+told ball 'del root["children"][1]' "it has 1 roots of implicit tiles, and its grid has 2"
+told city 'volume["box"][0] += 30' "the boundingVolume of root 0 goes from"
+told city 'volume["box"][4] = 1' "the box of the root is turned"
+told city 'root["transform"][10] *= 2' "its transform is no turn and move"
+told city 'root["transform"][12] += 1' "its transform puts the raster's centre 0." --source utm.tif --vertical egm96
+told city 'own["off_globe"]["height"] /= 2' "are told (off_globe)" --source utm.tif --vertical egm96
+told city 'del root["transform"]' "has no transform, and its source has a place" --source utm.tif --vertical egm96
+rm -rf broken && cp -r ball broken
+sed -i 's/"subtreeLevels": 5/"subtreeLevels": 4/' broken/tileset.json
+finds availability "is not of 4 levels (subtreeLevels)" broken
+# The same samples elsewhere, and heights above something else.
+succeeds gdal_translate -q -a_srs EPSG:32617 utm.tif elsewhere.tif
+finds tileset "from where the source has it" city --source elsewhere.tif --vertical egm96
+finds tileset "m in height from where the source has it" city --source utm.tif --vertical ellipsoid
 
 # Faults of containers.
 for ending in pmtiles mbtiles; do

@@ -384,7 +384,7 @@ TEST(tile_check, finds_what_is_planted_in_3d_tiles) {
   Bytes& subtree = made.shelf.texts.at("subtrees/1/0/0/0.subtree");
   const std::size_t binary = 24 + number_at<std::uint64_t>(subtree, 8);
   subtree[binary] ^= 2;
-  expect(made, TileFaultKind::kAvailability, "subtrees/1/0/0/0.subtree is missing, damaged, or makes no sense");
+  expect(made, TileFaultKind::kAvailability, "subtrees/1/0/0/0.subtree is missing, damaged, or is not of 5 levels");
   made = good;
   made.options.nodes.source = nullptr;
   const std::string text(made.shelf.texts.at("tileset.json").begin(), made.shelf.texts.at("tileset.json").end());
@@ -392,7 +392,7 @@ TEST(tile_check, finds_what_is_planted_in_3d_tiles) {
   const std::size_t at = less.find("\"children\""), error = less.find("\"geometricError\": ", at) + 18;
   less.insert(error, "1e-9, \"before\": ");
   made.shelf.texts.at("tileset.json").assign(less.begin(), less.end());
-  expect(made, TileFaultKind::kAvailability, "clients take");
+  expect(made, TileFaultKind::kTileset, "clients take");
   // A tile of another place.
   made = good;
   const std::uint64_t first = made.shelf.tiles().back().front();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "options/option_table.h"
 #include "reports/report.h"
@@ -17,6 +18,21 @@ namespace {
 
 /// Of the source: one that is larger stays in its file.
 constexpr std::uint64_t kSourceBytes = std::uint64_t{1} << 30;
+
+/// Nothing for a raster without a place on the globe. Borrows the plane.
+std::optional<CheckedPlace> place_of(const RasterOnPlane& plane, const LocalRaster& raster) {
+  if (!plane.samples) return {};
+  const RasterOnGlobe& globe = *plane.samples;
+  return CheckedPlace{[&globe, rows = raster.rows](double east, double north) {
+                        const std::array<double, 6>& a = globe.place.affine;
+                        const double row = rows - 1 - north;
+                        std::array<double, 3> at{a[0] + a[1] * east + a[2] * row, a[3] + a[4] * east + a[5] * row, 0};
+                        globe.to_degrees->apply({&at[0], 1}, {&at[1], 1});
+                        if (globe.zero != nullptr) globe.zero->find({&at[0], 1}, {&at[1], 1}, {&at[2], 1});
+                        return at;
+                      },
+                      globe.ellipsoid};
+}
 
 }  // namespace
 
@@ -90,6 +106,7 @@ Result<void> TileCheckCommand::run(const std::string& command_line) const {
     options.nodes.source = &opened.raster->nodes();
     options.nodes.covered = plan.covered;
     options.ellipsoid = plan.ellipsoid;
+    if (opened.raster->plane()) options.nodes.place = place_of(*opened.raster->plane(), theirs);
     const bool is_plan = lower_extension(*source_) == ".json";
     if (is_plan || tiles_.cells) options.nodes.cells = plan.cells;
     if (is_plan || tiles_.background) options.nodes.background = plan.background;

@@ -82,7 +82,7 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
   Datum known = datum;
   if (datum.vertical == Vertical::kAuto && !info.is_ellipsoidal && info.vertical.empty())
     known.vertical = Vertical::kNone;
-  const auto globe = place_on_globe(info, cols, rows, known, info.path);
+  auto globe = place_on_globe(info, cols, rows, known, info.path);
   if (!globe) return tl::unexpected(globe.error());
   plane.vertical = globe->vertical;
   plane.ellipsoid = globe->ellipsoid;
@@ -92,6 +92,7 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
   if (!on_globe) return tl::unexpected(on_globe.error());
   plane.warnings = warn_of_distance(*on_globe, plane, cols, rows, info.path);
   plane.globe = std::move(*on_globe);
+  plane.samples = std::move(*globe);
   return plane;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "io/tiles/grid_json.h"
 #include "io/tiles/json_members.h"
@@ -124,6 +125,49 @@ void read_layer(const TileSetReader& set, SetClaims& claims) {
   read_own(find_member(&*layer, "scarp"), claims);
 }
 
+/// Empty unless there are so many numbers.
+std::vector<double> find_numbers(const Json* object, const char* key, std::size_t count) {
+  const Json* const found = find_member(object, key);
+  if (found == nullptr || !found->is_array() || found->size() != count) return {};
+  std::vector<double> numbers;
+  for (const Json& one : *found) {
+    if (!one.is_number()) return {};
+    numbers.push_back(one.get<double>());
+  }
+  return numbers;
+}
+
+ClaimedRoot read_root(const Json& tile) {
+  ClaimedRoot root;
+  const Json* const volume = find_member(&tile, "boundingVolume");
+  for (const auto& [name, count] : {std::pair{"region", 6}, std::pair{"box", 12}}) {
+    std::vector<double> numbers = find_numbers(volume, name, static_cast<std::size_t>(count));
+    if (numbers.empty()) continue;
+    root.volume = name;
+    root.numbers = std::move(numbers);
+  }
+  root.refine = find_text(&tile, "refine");
+  root.geometric_error = find_number(&tile, "geometricError");
+  root.has_transform = find_member(&tile, "transform") != nullptr;
+  root.transform = find_numbers(&tile, "transform", 16);
+  if (const Json* const tiling = find_member(&tile, "implicitTiling")) {
+    root.is_implicit = true;
+    root.levels = find_count(tiling, "availableLevels");
+  }
+  return root;
+}
+
+void read_roots(const Json& tileset, SetClaims& claims) {
+  std::vector<const Json*> tiles;
+  if (const Json* const root = find_member(&tileset, "root")) tiles.push_back(root);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    claims.roots.push_back(read_root(*tiles[k]));
+    const Json* const children = find_member(tiles[k], "children");
+    if (children == nullptr || !children->is_array()) continue;
+    for (const Json& child : *children) tiles.push_back(&child);
+  }
+}
+
 void read_tileset(const TileSetReader& set, SetClaims& claims) {
   const auto tileset = read_json(set, "tileset.json", claims);
   if (!tileset) {
@@ -132,20 +176,11 @@ void read_tileset(const TileSetReader& set, SetClaims& claims) {
   }
   read_own(find_own(*tileset), claims);
   read_subtrees(set, *tileset, claims);
-  // A level's geometric error is what clients take for its error.
-  double error = 0;
-  if (const auto* const root = find_member(&*tileset, "root")) {
-    error = find_number(root, "geometricError").value_or(0);
-    const Json* const children = find_member(root, "children");
-    if (children != nullptr && children->is_array() && !children->empty())
-      error = find_number(&children->front(), "geometricError").value_or(0);
-  }
-  for (std::size_t z = 0; z < claims.bounds.size(); ++z, error /= 2) {
-    if (claims.bounds[z] && *claims.bounds[z] > error)
-      claims.faults.push_back(
-          fmt::format("tileset.json: clients take {} m for the error of level {}, whose bound is {} m", error, z,
-                      *claims.bounds[z]));
-  }
+  claims.geometric_error = find_number(&*tileset, "geometricError");
+  read_roots(*tileset, claims);
+  const Json* const off = find_member(find_own(*tileset), "off_globe");
+  const auto along = find_number(off, "along"), height = find_number(off, "height");
+  if (along && height) claims.off_globe = {*along, *height};
 }
 
 }  // namespace

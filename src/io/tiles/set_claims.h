@@ -1,6 +1,7 @@
 // What a set says of itself: layer.json of quantized-mesh; tileset.json and subtrees of 3D Tiles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,6 +17,18 @@ struct ClaimedTiles {
   std::uint32_t x = 0, y = 0, end_x = 0, end_y = 0;
 };
 
+/// A tile that tileset.json itself holds: implicit tiles follow from it, or it has none.
+struct ClaimedRoot {
+  std::string volume;           ///< "region" or "box"; empty without one that makes sense
+  std::vector<double> numbers;  ///< of the volume: 6 or 12
+  std::string refine;           ///< its own; empty where it is its parent's
+  std::optional<double> geometric_error;
+  bool has_transform = false;
+  std::vector<double> transform;  ///< 16; empty where it makes no sense
+  bool is_implicit = false;
+  std::optional<std::uint64_t> levels;  ///< implicit: that are available
+};
+
 struct SetClaims {
   std::vector<std::string> faults;                ///< sentences: what is missing, cannot be read, or makes no sense
   std::vector<std::vector<ClaimedTiles>> levels;  ///< tiles that are announced
@@ -25,8 +38,11 @@ struct SetClaims {
   std::optional<int> cells;
   std::optional<double> background;
   std::optional<Geodetic> ellipsoid;
-  TileGrid grid = {};  ///< of the projection that layer.json names, or the one in tileset.json
-  FactsByTile facts;   ///< of 3D Tiles
+  TileGrid grid = {};                     ///< of the projection that layer.json names, or the one in tileset.json
+  FactsByTile facts;                      ///< of 3D Tiles
+  std::optional<double> geometric_error;  ///< of tileset.json as a whole
+  std::vector<ClaimedRoot> roots;         ///< of tileset.json, parents first
+  std::optional<std::array<double, 2>> off_globe;  ///< of a local grid: metres along the ground, and in height
 };
 
 /// Believes nothing: claims that make no sense are among the faults.

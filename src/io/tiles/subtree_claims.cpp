@@ -60,7 +60,7 @@ class Subtree {
     }
     const auto view = find_count(availability, "bitstream");
     std::span<const std::uint8_t> bytes;
-    if (!view || !find_view(*view, bytes) || bytes.size() < (count + 7) / 8) return false;
+    if (!view || !find_view(*view, bytes) || bytes.size() != (count + 7) / 8) return false;
     for (std::size_t k = 0; k < count; ++k) bits[k] = ((bytes[k / 8] >> (k % 8)) & 1) != 0;
     const auto claimed = find_count(availability, "availableCount");
     return !claimed || *claimed == static_cast<std::uint64_t>(std::count(bits.begin(), bits.end(), true));
@@ -138,7 +138,8 @@ class SubtreeWalk {
       seen_.insert(std::lower_bound(seen_.begin(), seen_.end(), name), name);
       std::vector<bool> below;
       if (!read(name, at.z, at.x, at.y, below)) {
-        claims_.faults.push_back(fmt::format("{} is missing, damaged, or makes no sense", name));
+        claims_.faults.push_back(
+            fmt::format("{} is missing, damaged, or is not of {} levels (subtreeLevels)", name, levels_));
         continue;
       }
       for (std::size_t k = 0; k < below.size(); ++k) {

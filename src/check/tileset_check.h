@@ -1,0 +1,16 @@
+// What tileset.json says of its roots, from which clients find where implicit tiles are and when to load them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "io/tiles/set_claims.h"
+#include "scarp/tile_check.h"
+
+namespace scarp {
+
+/// `levels`: that the set has; `low`, `high`: of all its vertices.
+void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
+                   const CheckedNodes& nodes, std::vector<TileFault>& faults);
+
+}  // namespace scarp
