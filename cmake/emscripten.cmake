@@ -1,8 +1,8 @@
 # scarp_core under Emscripten: its libraries are headers, taken from the machine's own packages through a folder of links,
 # so that nothing else of /usr/include is seen.
-set(headers ${PROJECT_BINARY_DIR}/headers)
+set(headers ${PROJECT_BINARY_DIR}/libraries)
 file(MAKE_DIRECTORY ${headers})
-foreach(library fmt tl hwy)
+foreach(library tl hwy)
   if(NOT EXISTS /usr/include/${library})
     message(FATAL_ERROR "/usr/include/${library} is missing: tools/install_packages.sh build")
   endif()
@@ -16,8 +16,13 @@ foreach(name tl::expected hwy::hwy Threads::Threads)
   target_link_libraries(${name} INTERFACE scarp_headers)
 endforeach()
 add_library(fmt::fmt INTERFACE IMPORTED)
-target_link_libraries(fmt::fmt INTERFACE scarp_headers)
-target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY FMT_STATIC_THOUSANDS_SEPARATOR=',')
+target_include_directories(fmt::fmt INTERFACE ${PROJECT_SOURCE_DIR}/bindings/wasm/headers)
 
 target_compile_options(scarp_flags INTERFACE -fwasm-exceptions -msimd128)
 target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=1048576)
+
+# Where meshes, their proof and a Refiner spend their time (node --cpu-prof of a module linked with --profiling-funcs).
+string(JOIN "|" SCARP_HOT_SOURCES
+  /fit/ /geom/scan_kernels /grid/height_range /metric/[a-z]*_metric
+  "/measure/(band|edges|error_summary|facet_error|facet_task|frame_scanner|grid_places|grid_scanner|judge_kernels|measure|point_judge)"
+  "/measure/(shape|single_layer)" "/pieces/(freeze|normals|tile_worker)" /refine/ /simplify/simplify_points "/tin/(assembly|tile_mesh|triangulation)")

@@ -11,7 +11,7 @@ const staged = path.join(build, 'npm');
 
 /// The worker and what it imports in one script: each file a function, after those that it needs.
 function join_worker() {
-  const files = ['module.js', 'heights.js', 'mesh.js', 'simplify.js', 'worker.js'];
+  const files = ['number.js', 'module.js', 'heights.js', 'mesh.js', 'simplify.js', 'worker.js'];
   const parts = files.map(file => {
     const text = fs.readFileSync(`${here}/package/${file}`, 'utf8').replace(/^\s*\/\/.*\n/gm, '');
     const names = [...text.matchAll(/^export (?:async )?(?:const|function|class) (\w+)/gm)].map(([, name]) => name);
@@ -25,7 +25,7 @@ fs.rmSync(staged, { recursive: true, force: true });
 fs.cpSync(`${here}/package`, staged, { recursive: true });
 fs.writeFileSync(`${staged}/package.json`, fs.readFileSync(`${staged}/package.json`, 'utf8').replace('VERSION', version));
 for (const [from, to] of [[`${here}/README.md`, 'README.md'], [`${root}/LICENSE`, 'LICENSE']]) fs.copyFileSync(from, path.join(staged, to));
-const imports = ['progress', 'clock_time_get', 'emscripten_notify_memory_growth', 'environ_get', 'environ_sizes_get', 'proc_exit'];
+const imports = ['progress', 'number', 'clock_time_get', 'emscripten_notify_memory_growth', 'environ_get', 'environ_sizes_get', 'proc_exit'];
 for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
   const bytes = fs.readFileSync(`${build}/bin/${name}`);
   // The linker takes what it does not find for an import.

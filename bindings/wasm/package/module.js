@@ -1,5 +1,7 @@
 // The WebAssembly module: how it starts, what it imports, its memory and its errors.
 
+import { printNumber } from './number.js';
+
 const KINDS = ['usage', 'memory', 'input', 'promise', 'output', 'cancelled', 'internal'];
 
 export class ScarpError extends Error {
@@ -36,6 +38,11 @@ const IMPORTS = {
       thrown = { error };
       return 1;
     }
+  },
+  number(value, isFloat, style, precision, address) {
+    const printed = new TextEncoder().encode(printNumber(value, isFloat !== 0, String.fromCharCode(style), precision));
+    view(Uint8Array, address, printed.length).set(printed);
+    return printed.length;
   },
   clock_time_get(clock, precision, time) {
     new DataView(functions.memory.buffer).setBigUint64(time, BigInt(Math.round(performance.now() * 1e6)), true);

@@ -1,0 +1,7 @@
+// In place of JavaScript, which prints the numbers of the npm package's sentences.
+#include <cstdint>
+#include <cstdio>
+
+extern "C" std::int32_t scarp_number(double value, std::int32_t, std::int32_t, std::int32_t, char* out) {
+  return std::snprintf(out, 400, "%.9g", value);
+}
