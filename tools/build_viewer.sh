@@ -16,6 +16,7 @@ exec 9>"$work/lock"
 flock 9
 rm -rf "$work/src"
 cp -r web/viewer/src web/viewer/build.mjs web/viewer/package.json web/viewer/package-lock.json "$work/"
+cp bindings/wasm/package/alive.js "$work/src/"
 if ! cmp -s "$work/package-lock.json" "$work/node_modules/installed"; then
   (cd "$work" && npm ci --ignore-scripts --no-audit --no-fund >npm.log 2>&1) || {
     echo "The viewer's page needs packages that npm cannot fetch now ($work/npm.log tells why); it is not built." >&2

@@ -423,6 +423,12 @@ def killed(values):
     kept(mesh[0], mesh[1], "greedy")
 
 
+def ended(values):
+    words, mesh = (value for value in values if value)
+    assert "No mesh" in words and "lack of memory" in words, words
+    kept(mesh[0], mesh[1], "greedy")
+
+
 def refused(values):
     words = values[-1]
     assert "No mesh" in words and "WebAssembly" in words, words
@@ -459,6 +465,12 @@ if os.path.exists("live.html"):
         {"until": READY}, {"do": DRAG % 40 + "; scarp_page.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
                            "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
         {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}])
+    # One that ends without an event, as browsers end what wants too much memory: its lock tells.
+    job(ended, "live.html", [
+        {"until": READY}, {"do": DRAG % 40, "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
+        {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}], before="const { Blob: Whole } = window; window.Blob = class extends Whole"
+        " { constructor(parts, options) { super(options?.type === 'text/javascript' ? [`addEventListener('message', event => { if (event.data.error < 30)"
+        " { event.stopImmediatePropagation(); close(); } });`, ...parts] : parts, options); } };")
     job(refused, "no_wasm.html", [{"until": READY}, {"do": DRAG % 20, "until": "!document.getElementById('progress').hidden",
                                                     "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
 

@@ -1,4 +1,5 @@
 // Workers that simplify: one raster a worker, which is faster than many threads in one raster.
+import { watchLock } from './alive.js';
 import { ScarpError, compiledModule } from './module.js';
 import { defaults, ready } from './ready.js';
 import { Mesh } from './mesh.js';
@@ -61,11 +62,17 @@ class Hand {
   async #open() {
     await ready();
     if (this.#isOver) return;
-    const worker = await openWorker(this.#make, answer => this.#hear(answer), cause => {
-      if (worker !== this.#worker) return;
-      this.end(new ScarpError('internal', `a worker failed: ${cause.message}; its script is scarp/worker, which a bundler may not ` +
-        "have found: give createPool({ worker }), or import 'scarp/inline'", { cause }));
-    });
+    const fail = error => {
+      if (worker === this.#worker) this.end(error);
+    };
+    const worker = await openWorker(this.#make, answer => {
+      if (answer.lock === undefined) this.#hear(answer);
+      else if (answer.lock) {
+        watchLock(answer.lock, () => fail(new ScarpError('memory', 'the browser ended a worker, most likely for lack of memory: take a ' +
+          'smaller raster or a larger error, or fewer workers by createPool({ size })')));
+      }
+    }, cause => fail(new ScarpError('internal', `a worker failed: ${cause.message}; its script is scarp/worker, which a bundler may not ` +
+      "have found: give createPool({ worker }), or import 'scarp/inline'", { cause })));
     if (this.#isOver) return void worker.terminate();
     this.#worker = worker;
     await this.#exchange({ module: compiledModule() }, []);

@@ -1,4 +1,5 @@
 // A worker of the pool: simplifies one raster after the other, and tells of progress.
+import { holdLock } from './alive.js';
 import { start } from './module.js';
 import { simplifyPointsSync, simplifySync } from './simplify.js';
 
@@ -17,6 +18,7 @@ function warmUp() {
 async function answer({ id, work, module, args, flag, tells }, post) {
   try {
     if (module) {
+      post({ lock: await holdLock() });
       await start(module);
       warmUp();
       post({ id });

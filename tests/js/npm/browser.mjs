@@ -21,6 +21,8 @@ try {
     const answer = await visit(`${server.address}${where}/page.html`);
     console.log(where || '/', JSON.stringify(answer));
     if (answer.failed || answer.wrong.length > 0 || answer.cancelled !== 'cancelled' || !(answer.after > 0)) fail(JSON.stringify(answer));
+    const [first, lost, next] = answer.made;
+    if (!(first > 0) || next !== first || !/^memory: the browser ended a worker/.test(lost)) fail(`a worker that ended: ${answer.made}`);
     if (answer.isolated !== (where === '/isolated')) fail('the headers were not obeyed');
   }
   if (errors.length > 0) fail(errors.join('\n'));

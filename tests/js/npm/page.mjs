@@ -22,7 +22,14 @@ async function run() {
   const cancelled = await work.then(() => 'not cancelled', error => error.code);
   const after = (await pool.simplify(hills(50, 50), 50, 50, { maxError: 1 })).triangleCount;
   pool.terminate();
-  return { cases: cases.length, wrong, cancelled, after, isolated: crossOriginIsolated };
+  const script = ['mortal.mjs', 'node_modules/scarp/worker.js'].map(name => `import '${new URL(name, location.href)}';`).join('');
+  const worker = () => new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })), { type: 'module' });
+  const mortal = createPool({ size: 1, worker }), made = [];
+  for (let k = 0; k < 3; ++k) {
+    made.push(await mortal.simplify(hills(50, 50), 50, 50, { maxError: 1 }).then(mesh => mesh.triangleCount, error => `${error.code}: ${error.message}`));
+  }
+  mortal.terminate();
+  return { cases: cases.length, wrong, cancelled, after, made, isolated: crossOriginIsolated };
 }
 
 window.told = run().catch(error => ({ failed: `${error.code}: ${error.message}` }));

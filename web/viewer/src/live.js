@@ -1,5 +1,6 @@
 // The engine beside the page: meshes for the slider's max error, and side by side. Without it the controls stay away.
 import SOURCE from 'worker-source';
+import { watchLock } from './alive.js';
 import { place_on_grid } from './document.js';
 import { Sentence } from './sentence.js';
 import { with_unit } from './words.js';
@@ -14,14 +15,22 @@ class Helper {
   }
 
   start() {
-    this.worker = new Worker(this.address ??= URL.createObjectURL(new Blob([SOURCE], { type: 'text/javascript' })));
-    this.worker.onmessage = ({ data }) => this.settle(data);
-    this.worker.onerror = event => {
-      event.preventDefault();
-      this.worker.terminate();
+    const worker = new Worker(this.address ??= URL.createObjectURL(new Blob([SOURCE], { type: 'text/javascript' })));
+    const lose = why => {
+      if (worker !== this.worker) return;
+      worker.terminate();
       this.worker = null;
-      this.settle({ error: `the engine's worker ended (${event.message || 'it was stopped'})` });
+      this.settle({ error: `the engine's worker ended (${why})` });
     };
+    worker.onmessage = ({ data }) => {
+      if (data.lock === undefined) this.settle(data);
+      else if (data.lock) watchLock(data.lock, () => lose('the browser stopped it, most likely for lack of memory'));
+    };
+    worker.onerror = event => {
+      event.preventDefault();
+      lose(event.message || 'it was stopped');
+    };
+    this.worker = worker;
     const { samples, cols, rows } = this.field;
     this.worker.postMessage({ field: { samples, cols, rows } });
   }

@@ -1,4 +1,5 @@
 // The engine, beside the page: greedy meshes from one kept refinement, others by an effort. Answers are judged here.
+import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
 
@@ -32,12 +33,14 @@ function answer({ kind, error, goal, effort }) {
   return { mesh: { positions, indices, origin }, judged: judge(field, { grid, heights, indices }) };
 }
 
+const lock = holdLock();
+
 onmessage = async ({ data }) => {
-  await loaded;
   if (data.field) {
     field = data.field;
-    return;
+    return postMessage({ lock: await lock });
   }
+  await loaded;
   if (failed) return postMessage({ error: failed });
   try {
     const made = answer(data);
