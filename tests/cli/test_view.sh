@@ -469,8 +469,8 @@ if os.path.exists("live.html"):
     job(ended, "live.html", [
         {"until": READY}, {"do": DRAG % 40, "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
         {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}], before="const { Blob: Whole } = window; window.Blob = class extends Whole"
-        " { constructor(parts, options) { super(options?.type === 'text/javascript' ? [`addEventListener('message', event => { if (event.data.error < 30)"
-        " { event.stopImmediatePropagation(); close(); } });`, ...parts] : parts, options); } };")
+        " { constructor(parts, options) { super(options?.type === 'text/javascript' ? [`const post = postMessage;"
+        " self.postMessage = (data, moved) => { if (data.judged?.max_error < 20) close(); else post(data, moved); };`, ...parts] : parts, options); } };")
     job(refused, "no_wasm.html", [{"until": READY}, {"do": DRAG % 20, "until": "!document.getElementById('progress').hidden",
                                                     "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
 

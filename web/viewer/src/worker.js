@@ -40,7 +40,7 @@ onmessage = async ({ data }) => {
     field = data.field;
     return postMessage({ lock: await lock });
   }
-  await loaded;
+  await Promise.all([loaded, lock]);
   if (failed) return postMessage({ error: failed });
   try {
     const made = answer(data);
