@@ -265,6 +265,13 @@ class Arrays(unittest.TestCase):
         with self.assertRaises(scarp.UsageError):
             scarp.Refiner(z[0])
 
+    def test_an_option_may_be_an_array(self):
+        points = np.random.default_rng(1).random((50, 3))
+        for words, call in (("mask is for rasters", lambda: scarp.simplify_points(points, 1, mask=np.ones(50))),
+                            ("min_angle takes a number", lambda: scarp.simplify(hills(), 1, min_angle=np.ones((2, 2))))):
+            with self.assertRaisesRegex(scarp.UsageError, words):
+                call()
+
     def test_files_of_a_mesh(self):
         mesh = scarp.simplify(hills(), 2)
         with tempfile.TemporaryDirectory() as folder:
@@ -276,6 +283,7 @@ class Arrays(unittest.TestCase):
                     self.assertEqual(file.read(), mesh.encode(ending))
             with self.assertRaises(scarp.OutputError):
                 mesh.write(path, overwrite=False)
+            mesh.write(path, overwrite=np.bool_(True))
             with self.assertRaises(TypeError):
                 import pickle
                 pickle.dumps(mesh)

@@ -1,6 +1,8 @@
 """Scarp for Python without numpy: the library, its errors, progress, signals, threads and memory."""
+import copy
 import gc
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -48,6 +50,8 @@ class Library(unittest.TestCase):
             (scarp.UsageError, "at least 1", lambda: scarp.simplify(z, max_triangles=0)),
             (scarp.UsageError, "the program's alone", lambda: scarp.simplify(z, 1, report="r.json")),
             (scarp.UsageError, "fill_distance needs nodata_policy fill", lambda: scarp.simplify(z, 1, fill_distance=3)),
+            (scarp.UsageError, "max_error is NaN", lambda: scarp.simplify(z, float("nan"), max_triangles=50)),
+            (scarp.UsageError, "max_error is NaN", lambda: scarp.Refiner(z).run(float("nan"))),
             (scarp.UsageError, "progress", lambda: scarp.simplify(z, 1, progress=3)),
             (scarp.UsageError, "array", lambda: scarp.simplify(None, 1)),
             (scarp.UsageError, "array", lambda: scarp.simplify(object(), 1)),
@@ -260,6 +264,25 @@ class Library(unittest.TestCase):
         stop.set()
         thread.join()
         self.assertGreater(after, before + 3)
+
+    def test_threads_may_share_a_refiner(self):
+        refiner = scarp.Refiner(plain_hills(200, 200))
+        inserted = []
+        threads = [threading.Thread(target=lambda: inserted.append(refiner.run(max_vertices=20000))) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual((sum(inserted), refiner.vertex_count), (19996, 20000))
+
+    def test_what_was_not_made_or_cannot_be_copied_does_not_crash(self):
+        for kind, use in ((scarp.Refiner, lambda one: one.insert_worst()), (scarp.Refiner, lambda one: one.max_error),
+                          (scarp.Tiles, lambda one: one.max_level), (scarp.Mesh, lambda one: one.vertex_count)):
+            with self.assertRaises(AttributeError):
+                use(kind.__new__(kind))
+        for copier in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaises(TypeError):
+                copier(scarp.Tiles.__new__(scarp.Tiles))
 
     def test_several_threads_make_the_same_mesh(self):
         z = plain_hills(200, 200)

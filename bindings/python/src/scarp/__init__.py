@@ -53,7 +53,7 @@ def _goals(settings: _call.Settings, max_error: float | str | None, max_triangle
            max_points: Optional[int], threads: int) -> None:
     struct = settings.struct
     if max_error is not None and not isinstance(max_error, str):
-        struct.max_error = _values.number_of("max_error", max_error)
+        struct.max_error = _values.bound_of("max_error", max_error)
     if max_triangles is not None:
         struct.max_triangles = _values.whole_of("max_triangles", max_triangles, 1, _MOST)
     if max_points is not None:

@@ -72,10 +72,10 @@ def text_of(name: str, value: object) -> str:
         return "true" if value else "false"
     if isinstance(value, (str, bytes, os.PathLike)):
         return os.fsdecode(value)
-    if isinstance(value, (int, float)) or hasattr(value, "__float__"):
+    if isinstance(value, (int, float)) or (hasattr(value, "__float__") and not getattr(value, "ndim", 0)):
         number: Any = value
         return str(int(number)) if hasattr(number, "__index__") else repr(float(number))
-    if isinstance(value, Iterable) and not isinstance(value, Mapping):
+    if isinstance(value, Iterable) and not isinstance(value, Mapping) and getattr(value, "ndim", 1) == 1:
         return " ".join(text_of(name, part) for part in value)
     raise UsageError("option %s takes a number, a text or True, not %s" % (name, type(value).__name__))
 

@@ -14,6 +14,14 @@ def number_of(name: str, value: Any) -> float:
         raise UsageError("%s is a number, not %s" % (name, _shown(value))) from None
 
 
+def bound_of(name: str, value: Any) -> float:
+    """A number that is no NaN, which the library takes for none."""
+    number = number_of(name, value)
+    if number != number:
+        raise UsageError("%s is NaN: give a number" % name)
+    return number
+
+
 def whole_of(name: str, value: Any, least: int, most: int) -> int:
     """Whole numbers of any type; what is above `most` is as good as that."""
     try:

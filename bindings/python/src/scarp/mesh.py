@@ -213,7 +213,7 @@ class Mesh:
 
     def write(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> None:
         """Writes a file in the format of its ending: to a temporary name first, then renamed."""
-        _abi.check(_abi.lib.scarp_mesh_write(self._handle, _values.path_of(path), int(overwrite)))
+        _abi.check(_abi.lib.scarp_mesh_write(self._handle, _values.path_of(path), bool(overwrite)))
 
     def measure(self, source: Any, **options: Any) -> Report:
         """scarp.measure(source, self, ...)."""

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes as C
+import threading
 from typing import Any, Iterator, Optional
 
 from . import _abi, _call, _inputs, _values
@@ -12,6 +13,7 @@ class Refiner:
     """A mesh that grows by the sample with the largest error, one at a time, towards ever smaller errors.
 
     `source` as in simplify(), but no path. It borrows the samples of a float32 array: do not change them meanwhile.
+    Of several threads that use it one waits for the other.
 
     >>> refiner = Refiner(z)
     >>> refiner.run(max_error=10)       # inserted vertices
@@ -20,22 +22,24 @@ class Refiner:
     >>> mesh = refiner.mesh()
     """
 
-    _handle: Optional[int] = None
+    _handle: Optional[int]
 
     def __init__(self, source: Any, *, band: int = 1, transform: Any = None, crs: Any = None,
                  nodata: Optional[float] = None) -> None:
         self._input = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata, wants_array=True)
+        self._lock = threading.RLock()
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_refiner_create(C.byref(self._input.field), C.byref(out)))
         self._handle = out.value
 
     def __del__(self, free: Any = _abi.lib.scarp_refiner_free) -> None:
-        if self._handle:
+        if getattr(self, "_handle", None):
             free(self._handle)
 
     def insert_worst(self) -> bool:
         """Inserts the sample with the largest error; False once every sample is exact."""
-        inserted: int = _abi.lib.scarp_refiner_insert_worst(self._handle)
+        with self._lock:
+            inserted: int = _abi.lib.scarp_refiner_insert_worst(self._handle)
         if inserted < 0:
             raise MemoryError(_abi.last_error())
         return inserted == 1
@@ -47,8 +51,8 @@ class Refiner:
         `progress` as in simplify(). What was inserted before it was cancelled, or Ctrl-C was pressed, stays: run() goes on
         from there."""
         inserted = C.c_uint64()
-        with _call.Settings({}) as settings:
-            settings.struct.max_error = _values.number_of("max_error", max_error)
+        with self._lock, _call.Settings({}) as settings:
+            settings.struct.max_error = _values.bound_of("max_error", max_error)
             if max_vertices is not None:
                 settings.struct.max_points = _values.whole_of("max_vertices", max_vertices, 0, 2**63)
             _call.run(settings, progress, _abi.lib.scarp_refiner_go_on, self._handle, settings.pointer,
@@ -63,23 +67,27 @@ class Refiner:
     @property
     def max_error(self) -> float:
         """The largest error over all samples, in the units of the heights."""
-        error: float = _abi.lib.scarp_refiner_max_error(self._handle)
+        with self._lock:
+            error: float = _abi.lib.scarp_refiner_max_error(self._handle)
         return error
 
     @property
     def vertex_count(self) -> int:
-        count: int = _abi.lib.scarp_refiner_vertex_count(self._handle)
+        with self._lock:
+            count: int = _abi.lib.scarp_refiner_vertex_count(self._handle)
         return count
 
     @property
     def triangle_count(self) -> int:
-        count: int = _abi.lib.scarp_refiner_triangle_count(self._handle)
+        with self._lock:
+            count: int = _abi.lib.scarp_refiner_triangle_count(self._handle)
         return count
 
     def mesh(self) -> Mesh:
         """The mesh as it is now. It has no report: measure() tells of it."""
         out = C.c_void_p()
-        _abi.check(_abi.lib.scarp_refiner_mesh(self._handle, C.byref(out)))
+        with self._lock:
+            _abi.check(_abi.lib.scarp_refiner_mesh(self._handle, C.byref(out)))
         assert out.value is not None
         return Mesh(out.value)
 

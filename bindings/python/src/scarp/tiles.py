@@ -51,10 +51,10 @@ def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: 
         settings.use_threads(threads)
         if paths:
             names = (C.c_char_p * len(paths))(*paths)
-            _call.run(settings, progress, lib.scarp_tile_files, names, len(paths), settings.pointer, target, overwrite,
+            _call.run(settings, progress, lib.scarp_tile_files, names, len(paths), settings.pointer, target, bool(overwrite),
                       C.byref(out_bytes))
         else:
-            _call.run(settings, progress, lib.scarp_tile, C.byref(read.field), settings.pointer, target, overwrite,
+            _call.run(settings, progress, lib.scarp_tile, C.byref(read.field), settings.pointer, target, bool(overwrite),
                       C.byref(out_bytes))
     report: dict[str, Any] = json.loads(_abi.take_bytes(out_bytes.value))
     for sentence in report.pop("warnings"):
@@ -70,7 +70,7 @@ class Tiles:
     ... Several threads may read tiles at once.
     """
 
-    _handle: Optional[int] = None
+    _handle: Optional[int]
 
     def __init__(self, source: Any, *, band: int = 1, transform: Any = None, crs: Any = None,
                  nodata: Optional[float] = None, threads: int = 0, progress: _call.ProgressArgument = None,
@@ -89,7 +89,7 @@ class Tiles:
         self._handle = out.value
 
     def __del__(self, free: Any = _abi.lib.scarp_tiles_free) -> None:
-        if self._handle:
+        if getattr(self, "_handle", None):
             free(self._handle)
 
     @property
@@ -125,3 +125,6 @@ class Tiles:
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_tiles_read_file(self._handle, b"layer.json", C.byref(out)))
         return _abi.take_bytes(out.value)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("scarp.Tiles are neither pickled nor copied: open them anew")
