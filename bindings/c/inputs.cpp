@@ -72,6 +72,8 @@ LentInputs::LentInputs(const scarp_points* given) {
 
 Result<void> LentInputs::check() const {
   if (missing_ != nullptr) return fail(ErrorKind::kUsage, std::string(missing_) + " is null");
+  if (!(raster_.sample_rounding >= 0) || std::isinf(raster_.sample_rounding))
+    return fail(ErrorKind::kUsage, "the field's sample_rounding must be a finite number of at least 0");
   return {};
 }
 

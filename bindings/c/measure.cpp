@@ -30,9 +30,9 @@ scarp_status judge(const std::string& input, std::optional<bool> are_points, con
   const Lent lent(kMeshName, mesh);
   CLI::App program;
   cli::MeasureCommand command(program);
-  std::vector<std::string> words{"measure", input, kMeshName};
-  if (are_points.value_or(false)) words.emplace_back("--points");
-  if (auto parsed = parse_options(program, cli::kMeasure, std::move(words), asked); !parsed)
+  std::vector<std::string> beside;
+  if (are_points.value_or(false)) beside.emplace_back("--points");
+  if (auto parsed = parse_options(program, cli::kMeasure, {"measure", input, kMeshName}, asked, beside); !parsed)
     return report(parsed.error());
   const cli::Runner runner{progress_of(asked)};
   if (are_points.value_or(command.are_points())) {

@@ -56,6 +56,8 @@ scarp_status go_on(scarp_refiner& refiner, double max_error, std::uint64_t max_v
   return SCARP_OK;
 }
 
+scarp_status refuse_null_refiner() { return report(ErrorKind::kUsage, "the refiner is a null pointer"); }
+
 }  // namespace
 }  // namespace scarp::door
 
@@ -81,6 +83,7 @@ scarp_status scarp_refiner_create(const scarp_field* given, scarp_refiner** out)
 int32_t scarp_refiner_insert_worst(scarp_refiner* refiner) {
   int32_t inserted = 0;
   const scarp_status status = guarded([&]() -> scarp_status {
+    if (refiner == nullptr) return refuse_null_refiner();
     inserted = refiner->refiner.insert_worst() ? 1 : 0;
     return SCARP_OK;
   });
@@ -89,14 +92,17 @@ int32_t scarp_refiner_insert_worst(scarp_refiner* refiner) {
 
 int64_t scarp_refiner_run(scarp_refiner* refiner, double max_error, uint64_t max_vertices) {
   uint64_t inserted = 0;
-  const scarp_status status = guarded([&] { return go_on(*refiner, max_error, max_vertices, {}, inserted); });
+  const scarp_status status = guarded([&]() -> scarp_status {
+    if (refiner == nullptr) return refuse_null_refiner();
+    return go_on(*refiner, max_error, max_vertices, {}, inserted);
+  });
   return status == SCARP_OK ? static_cast<int64_t>(inserted) : -1;
 }
 
 scarp_status scarp_refiner_go_on(scarp_refiner* refiner, const scarp_options* options, uint64_t* inserted) {
   uint64_t count = 0;
   const scarp_status status = guarded([&]() -> scarp_status {
-    if (refiner == nullptr) return report(scarp::ErrorKind::kUsage, "the refiner is a null pointer");
+    if (refiner == nullptr) return refuse_null_refiner();
     const scarp_options asked = known(options, scarp_options_init);
     if (asked.named != nullptr || asked.max_triangles != 0 || asked.mask != nullptr || asked.tolerance != nullptr)
       return report(scarp::ErrorKind::kUsage, "a refiner takes max_error, max_points and progress only");

@@ -17,7 +17,8 @@
  *   - Structs begin with their own size, which scarp_..._init() sets. A later library reads what an earlier caller
  *     knows of a struct; the rest has its default. Structs only grow at their end. Handles are opaque.
  *   - What a pointer in a struct points to is borrowed for the call; a Refiner's samples for its life.
- *   - A pointer that a handle hands out is valid until the handle is freed. Freeing NULL does nothing.
+ *   - A pointer that a handle hands out is valid until the handle is freed. Freeing NULL does nothing; functions that
+ *     return a number or a pointer take no NULL for a handle.
  *   - Several threads may call at once; a handle may be read by several, and changed by one. Text is UTF-8.
  *   - The same input and options give the same bytes, on every machine, for any number of threads. */
 #ifndef SCARP_C_H

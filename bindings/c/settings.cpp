@@ -23,9 +23,10 @@ constexpr Commands kDoorCommands = cli::kSimplify | cli::kMeasure | cli::kTile;
 
 /// What only a program has a use for: its terminal, its files, more than one mesh.
 bool is_of_program(const OptionRow& row) {
-  constexpr OptionId kOfProgram[] = {OptionId::kOverwrite, OptionId::kQuiet,    OptionId::kTiming,
-                                     OptionId::kJson,      OptionId::kPoints,   OptionId::kJsonProgress,
-                                     OptionId::kLods,      OptionId::kLodsInOne};
+  constexpr OptionId kOfProgram[] = {OptionId::kOverwrite, OptionId::kQuiet,     OptionId::kTiming,
+                                     OptionId::kJson,      OptionId::kPoints,    OptionId::kJsonProgress,
+                                     OptionId::kLods,      OptionId::kLodsInOne, OptionId::kHelp,
+                                     OptionId::kHelpAll,   OptionId::kVersion};
   return row.is_argument() || row.type == OptionType::kOutputFile || row.type == OptionType::kFolder ||
          std::find(std::begin(kOfProgram), std::end(kOfProgram), row.id) != std::end(kOfProgram);
 }
@@ -117,9 +118,10 @@ bool has_setting(const scarp_options& asked, const char* name) {
   return std::any_of(values.begin(), values.end(), [&](const auto& setting) { return setting.first == name; });
 }
 
-Result<std::vector<std::string>> words_of(Commands command, std::vector<std::string> arguments,
-                                          const scarp_options& asked) {
-  std::vector<std::string> words = std::move(arguments);
+Result<std::vector<std::string>> words_of(Commands command, const std::vector<std::string>& arguments,
+                                          const scarp_options& asked, const std::vector<std::string>& beside) {
+  std::vector<std::string> words{arguments.front()};
+  words.insert(words.end(), beside.begin(), beside.end());
   const auto add = [&](const std::string& name, const std::string& value) -> Result<void> {
     const OptionRow* const row = cli::find_option(command, name);
     if (row == nullptr)
@@ -136,6 +138,8 @@ Result<std::vector<std::string>> words_of(Commands command, std::vector<std::str
       if (auto added = add(name, value); !added) return tl::unexpected(added.error());
     }
   }
+  words.emplace_back("--");  // what follows are names, which may begin with a dash
+  words.insert(words.end(), arguments.begin() + 1, arguments.end());
   return words;
 }
 
@@ -149,9 +153,9 @@ Result<void> parse_words(CLI::App& program, std::vector<std::string> words) {
   return {};
 }
 
-Result<void> parse_options(CLI::App& program, Commands command, std::vector<std::string> arguments,
-                           const scarp_options& asked) {
-  auto words = words_of(command, std::move(arguments), asked);
+Result<void> parse_options(CLI::App& program, Commands command, const std::vector<std::string>& arguments,
+                           const scarp_options& asked, const std::vector<std::string>& beside) {
+  auto words = words_of(command, arguments, asked, beside);
   if (!words) return tl::unexpected(words.error());
   return parse_words(program, std::move(*words));
 }

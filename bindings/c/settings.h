@@ -21,15 +21,16 @@ namespace scarp::door {
 bool has_setting(const scarp_options& asked, const char* name);
 
 /// The words of a command line: `arguments`, which are the command's name, its inputs and its outputs, and the options:
-/// the struct's members where no option by name goes before them, then those by name. kUsage, in one sentence.
-Result<std::vector<std::string>> words_of(cli::Commands command, std::vector<std::string> arguments,
-                                          const scarp_options& asked);
+/// those `beside` the caller's, the struct's members where no option by name goes before them, then those by name.
+/// kUsage, in one sentence.
+Result<std::vector<std::string>> words_of(cli::Commands command, const std::vector<std::string>& arguments,
+                                          const scarp_options& asked, const std::vector<std::string>& beside = {});
 
 /// Has `program`, to which the command was added, parse them. kUsage, in one sentence.
 Result<void> parse_words(CLI::App& program, std::vector<std::string> words);
 
 /// Both.
-Result<void> parse_options(CLI::App& program, cli::Commands command, std::vector<std::string> arguments,
-                           const scarp_options& asked);
+Result<void> parse_options(CLI::App& program, cli::Commands command, const std::vector<std::string>& arguments,
+                           const scarp_options& asked, const std::vector<std::string>& beside = {});
 
 }  // namespace scarp::door

@@ -50,10 +50,10 @@ class SimplifyWords {
   const CLI::App& command() const { return *command_; }
 
   Result<std::shared_ptr<const Request>> parse(const std::string& input, InputKind kind, const scarp_options& asked) {
-    std::vector<std::string> arguments{"simplify", input, "-"};
-    if (kind == InputKind::kPoints) arguments.emplace_back("--points");
-    if (!has_setting(asked, "--of")) arguments.emplace_back("--of=glb");
-    auto words = words_of(cli::kSimplify, std::move(arguments), asked);
+    std::vector<std::string> beside;
+    if (kind == InputKind::kPoints) beside.emplace_back("--points");
+    if (!has_setting(asked, "--of")) beside.emplace_back("--of=glb");
+    auto words = words_of(cli::kSimplify, {"simplify", input, "-"}, asked, beside);
     if (!words) return tl::unexpected(words.error());
     for (const auto& request : last_) {
       if (kind == InputKind::kField && request && request->words == *words) return request;

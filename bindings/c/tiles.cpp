@@ -58,7 +58,7 @@ struct TileWords {
     std::vector<std::string> words{"tile"};
     words.insert(words.end(), inputs.begin(), inputs.end());
     words.push_back(to);
-    if (auto parsed = parse_options(program, cli::kTile, std::move(words), asked); !parsed) return parsed;
+    if (auto parsed = parse_options(program, cli::kTile, words, asked); !parsed) return parsed;
     const Result<int> count = cli::parse_threads(threads);
     if (!count) return tl::unexpected(count.error());
     run.threads = *count;

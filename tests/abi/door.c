@@ -166,6 +166,10 @@ static void try_errors(void) {
   EXPECT_SAYS("did you mean max_error?");
   EXPECT(scarp_options_set(&options, "report", "x.json") == SCARP_USAGE);
   EXPECT_SAYS("the program's alone");
+  EXPECT(scarp_options_set(&options, "help", "true") == SCARP_USAGE);
+  EXPECT_SAYS("option help is the program's alone");
+  EXPECT(scarp_simplify_file("-e.pgm", &options, &mesh) == SCARP_INPUT);
+  EXPECT_SAYS("-e.pgm: no such file");
   EXPECT(scarp_options_set(&options, "fill_distance", "3") == SCARP_OK);
   EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
   EXPECT_SAYS("fill_distance needs nodata_policy fill");
@@ -174,6 +178,10 @@ static void try_errors(void) {
   EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
   EXPECT_SAYS("fail_above has no meaning here");
   scarp_options_clear(&options);
+  field.sample_rounding = NAN;
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("sample_rounding");
+  field.sample_rounding = 0;
   field.cols = 1;
   EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_INPUT);
   EXPECT_SAYS("at least 2 x 2");
@@ -228,6 +236,8 @@ static void try_errors(void) {
 static void try_refiner(void) {
   scarp_field field = make_field();
   scarp_refiner* refiner = NULL;
+  EXPECT(scarp_refiner_insert_worst(NULL) == -1 && scarp_refiner_run(NULL, 0, 0) == -1);
+  EXPECT_SAYS("null pointer");
   EXPECT(scarp_refiner_create(&field, &refiner) == SCARP_OK);
   EXPECT(scarp_refiner_insert_worst(refiner) == 1);
   const int64_t inserted = scarp_refiner_run(refiner, 4, 0);
