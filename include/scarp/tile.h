@@ -105,7 +105,7 @@ struct StackedSource {
 std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
 
 /// Degrees that the raster covers, half a cell around the outer samples included. Fails with kInput where its outline
-/// has no longitude or latitude. `to_degrees`: from x and y to degrees, null as in RasterPlace.
+/// has no longitude or latitude, or lies beyond a pole or 720 degrees from Greenwich. `to_degrees`: from x and y to degrees, null as in RasterPlace.
 Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
                                   const PointTransform* to_degrees);
 

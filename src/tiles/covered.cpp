@@ -1,4 +1,6 @@
 // The part of the globe that a raster covers.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,6 +12,8 @@ namespace {
 
 /// Places of the raster that are looked at, each way.
 constexpr int kPlaces = 257;
+/// Degrees from Greenwich. Grids look for land two turns away, and no farther.
+constexpr double kFarthest = 720;
 
 struct Span {
   double low = INFINITY, high = -INFINITY, step = 0;
@@ -47,7 +51,13 @@ Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<dou
     longitudes.add(xs[k]);
     latitudes.add(ys[k]);
   }
-  if (!(longitudes.low <= longitudes.high)) return fail(ErrorKind::kInput, "no part of the raster lies on the globe");
+  if (!(longitudes.low <= longitudes.high) || latitudes.low >= 90 || latitudes.high <= -90)
+    return fail(ErrorKind::kInput, "no part of the raster lies on the globe");
+  if (longitudes.low < -kFarthest || longitudes.high > kFarthest)
+    return fail(ErrorKind::kInput,
+                fmt::format("longitudes of {} to {} are no place on the globe: give them within {} degrees (gdal_edit "
+                            "-a_ullr, or gdal_edit -a_srs if they are not degrees)",
+                            longitudes.low, longitudes.high, kFarthest));
   if (to_degrees != nullptr) {
     // Between the places looked at the raster may reach a step farther, and around a pole all round.
     longitudes.low -= longitudes.step;

@@ -93,6 +93,12 @@ for place in "179.9 10.2 180.24 9.9" "-180.1 -70.1 -179.77 -70.4" "359.8 50.2 36
   python3 "$reader" placed > /dev/null || fail "at $place"
 done
 
+# A place that is none.
+succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 1000 45.2 1000.3 44.9 "$dem" placed.tif
+refuses 2 "placed.tif: longitudes of 1000 to 1000.3 are no place" "$scarp" tile placed.tif no
+succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 10 95.2 10.3 94.9 "$dem" placed.tif
+refuses 2 "placed.tif: no part of the raster lies on the globe" "$scarp" tile placed.tif no
+
 # A user's mistakes.
 refuses 1 "--zoom" "$scarp" tile "$dem" no --vertical egm96 --zoom x
 refuses 1 "at most 23" "$scarp" tile "$dem" no --vertical egm96 --zoom 24

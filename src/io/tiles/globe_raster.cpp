@@ -41,7 +41,7 @@ Result<void> place_source(GlobeSource& source, const Datum& datum) {
   if (!globe) return tl::unexpected(globe.error());
   source.globe = std::move(*globe);
   const auto covered = degrees_covered(raster, source.globe.place.affine, source.globe.to_degrees.get());
-  if (!covered) return tl::unexpected(covered.error());
+  if (!covered) return fail(covered.error().kind, fmt::format("{}: {}", raster.info.path, covered.error().message));
   source.covered = *covered;
   auto nodes = make_node_source(raster, source.globe.place);
   if (!nodes) return tl::unexpected(nodes.error());
