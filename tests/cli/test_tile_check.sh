@@ -49,6 +49,11 @@ rm "broken/$tile" && finds availability "$tile is announced, but missing" broken
 rm -r broken && cp -r globe broken && mkdir -p broken/8/3 && cp "globe/$tile" broken/8/3/5.terrain
 finds availability "8/3/5.terrain is there" broken
 rm -r broken && cp -r globe broken && rm broken/layer.json && finds availability "layer.json is missing" broken
+# Clients find no tile by a layer.json that does not say where they are, or counts them otherwise.
+layer() { rm -r broken && cp -r globe broken && sed -i "$1" broken/layer.json; }
+layer 's/"tiles"/"tales"/' && finds availability "layer.json does not name its files" broken
+layer 's/{x}.{y}/{y}\/{x}/' && finds availability "layer.json does not name its files" broken
+layer 's/"schema"/"scheme"/; s/"tms"/"xyz"/' && finds availability "layer.json names another scheme" broken
 # Another source than the set's.
 finds bound ".terrain is" globe --source "$dem" --vertical ellipsoid
 

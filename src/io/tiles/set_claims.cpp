@@ -97,6 +97,20 @@ void read_projection(const Json& layer, SetClaims& claims) {
   claims.grid = grid.value_or(TileGrid{});
 }
 
+/// Where clients find a tile's file: they stop where nothing says so.
+void read_addresses(const Json& layer, SetClaims& claims) {
+  const Json* const tiles = find_member(&layer, "tiles");
+  const bool has_some = tiles != nullptr && tiles->is_array() && !tiles->empty();
+  const auto names_files = [](const Json& one) {
+    return one.is_string() && one.get<std::string>().find("{z}/{x}/{y}.terrain") != std::string::npos;
+  };
+  if (!has_some || !std::all_of(tiles->begin(), tiles->end(), names_files))
+    claims.faults.push_back("layer.json does not name its files: its \"tiles\" need \"{z}/{x}/{y}.terrain\"");
+  const Json* const scheme = find_member(&layer, "scheme");
+  if (scheme != nullptr && *scheme != "tms")
+    claims.faults.push_back("layer.json names another scheme than \"tms\", which counts y from the south");
+}
+
 const Json* find_own(const Json& tileset) {
   return find_member(find_member(find_member(&tileset, "asset"), "extras"), "scarp");
 }
@@ -110,6 +124,7 @@ void read_layer(const TileSetReader& set, SetClaims& claims) {
   const Json* const format = find_member(&*layer, "format");
   if (format == nullptr || *format != "quantized-mesh-1.0")
     claims.faults.push_back("layer.json does not name the format \"quantized-mesh-1.0\"");
+  read_addresses(*layer, claims);
   read_projection(*layer, claims);
   const Json* const extensions = find_member(&*layer, "extensions");
   claims.has_water_mask = extensions != nullptr && extensions->is_array() &&
