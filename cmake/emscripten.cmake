@@ -23,6 +23,7 @@ target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWT
 
 # Where meshes, their proof and a Refiner spend their time (node --cpu-prof of a module linked with --profiling-funcs).
 string(JOIN "|" SCARP_HOT_SOURCES
-  /fit/ /geom/scan_kernels /grid/height_range /metric/[a-z]*_metric
-  "/measure/(band|edges|error_summary|facet_error|facet_task|frame_scanner|grid_places|grid_scanner|judge_kernels|measure|point_judge)"
-  "/measure/(shape|single_layer)" "/pieces/(freeze|normals|tile_worker)" /refine/ /simplify/simplify_points "/tin/(assembly|tile_mesh|triangulation)")
+  /fit/ /geom/scan_kernels "/grid/(height_range|samples|snapped_points|window)" "/mesh/(half_edges|order|thin_triangles)" /metric/[a-z]*_metric
+  "/measure/(band|check_mesh|edges|error_summary|facet_error|facet_task|frame_scanner|grid_places|grid_scanner|hull_gaps|judge_kernels|measure|point_judge)"
+  "/measure/(shape|single_layer)" "/pieces/(freeze|goals|normals|tile_worker)"
+  "/refine/(coarse|data|domain|dominant|lazy|refinement|scattered|settle|tile)" /simplify/simplify_points "/tin/(assembly|tile_mesh|triangulation)")

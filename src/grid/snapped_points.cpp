@@ -16,7 +16,7 @@ namespace scarp {
 
 namespace {
 
-struct Extent {
+struct AxisExtent {
   double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
   void include(double value) {
     least = std::min(least, value);
@@ -40,7 +40,7 @@ struct Decimals {
 };
 
 /// The finest decimals whose multiples are exact in a double and span no more than the lattice.
-std::optional<Decimals> finest_decimals(const Extent& x, const Extent& y) {
+std::optional<Decimals> finest_decimals(const AxisExtent& x, const AxisExtent& y) {
   constexpr int kMostDigits = 22;
   const double reach = std::max(x.reach(), y.reach()), size = std::max(x.size(), y.size());
   for (int digits = kMostDigits; digits >= -kMostDigits; --digits) {
@@ -58,7 +58,7 @@ struct Snapped {
 };
 
 /// Nothing if the points do not lie on a lattice of decimals.
-std::optional<Snapped> snap_to_decimals(const PointSet& points, const Extent& x, const Extent& y) {
+std::optional<Snapped> snap_to_decimals(const PointSet& points, const AxisExtent& x, const AxisExtent& y) {
   const auto decimals = finest_decimals(x, y);
   if (!decimals) return std::nullopt;
   std::int64_t west = 0, east = 0, south = 0, north = 0;
@@ -85,7 +85,7 @@ std::optional<Snapped> snap_to_decimals(const PointSet& points, const Extent& x,
   return snapped;
 }
 
-Snapped snap_to_power_of_two(const PointSet& points, const Extent& x, const Extent& y, PointSteps steps) {
+Snapped snap_to_power_of_two(const PointSet& points, const AxisExtent& x, const AxisExtent& y, PointSteps steps) {
   const double size = std::max(x.size(), y.size());
   int exponent = size > 0 ? std::ilogb(size) - (steps == PointSteps::kFloat32 ? 23 : 30) : 0;
   while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
@@ -175,7 +175,7 @@ Result<void> check(const PointSet& points) {
 
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy, PointSteps steps) {
   if (auto checked = check(points); !checked) return tl::unexpected(checked.error());
-  Extent x, y, z;
+  AxisExtent x, y, z;
   for (std::size_t i = 0; i < points.size(); ++i) {
     x.include(points.x[i]);
     y.include(points.y[i]);
