@@ -13,6 +13,10 @@ diff -r -x layer.json whole halves || fail "two halves make other tiles than the
 mkdir folder && cp left.tif right.tif folder
 succeeds "$scarp" tile folder from_folder --vertical egm96 --zoom 8 -q
 diff -r -x layer.json whole from_folder || fail "a folder makes other tiles"
+# A set that is made inside the folder is no raster of the next run, though GDAL opens an .mbtiles as one.
+succeeds "$scarp" tile folder folder/set.mbtiles --vertical egm96 --zoom 8 -q
+succeeds "$scarp" tile folder folder/set --vertical egm96 --zoom 8 -q
+diff -r from_folder folder/set || fail "a set inside the folder is read"
 
 # The first that has a height wins, and what has none lets the next one show.
 succeeds gdal_create -of GTiff -ot Float32 -a_srs EPSG:4979 -a_ullr 10.2 45.8 10.6 45.4 -outsize 60 60 -burn 100 low.tif

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "io/gdal/crs.h"
 #include "io/gdal/earth_frame.h"
@@ -152,6 +153,8 @@ struct FreeOptions {
 };
 
 constexpr const char *kMadeKey = "SCARP_ROLE", *kMade = "derived";
+/// Of sets of tiles in MBTiles, which GDAL takes for rasters.
+constexpr const char *kGeneratorKey = "generator", *kScarp = "scarp ";
 
 /// Leaves out what Scarp made of the others, in the order of names; their names, without folders.
 std::vector<std::string> take_derived(const std::vector<bool>& is_derived, std::vector<std::string>& rasters) {
@@ -169,7 +172,9 @@ bool mark_derived(GDALDatasetH raster) { return GDALSetMetadataItem(raster, kMad
 
 bool is_derived(GDALDatasetH raster) {
   const char* made = GDALGetMetadataItem(raster, kMadeKey, nullptr);
-  return made != nullptr && EQUAL(made, kMade);
+  const char* generator = GDALGetMetadataItem(raster, kGeneratorKey, nullptr);
+  return (made != nullptr && EQUAL(made, kMade)) ||
+         (generator != nullptr && std::string_view(generator).starts_with(kScarp));
 }
 
 Result<std::vector<std::string>> expand_folders(Session& session, const std::vector<std::string>& paths,
