@@ -15,8 +15,10 @@
 
 namespace scarp {
 
+struct PyramidSettings;
+
 /// A setting: a field of SimplifyOptions that differs from its default, one of its values where these differ in what
-/// they go with, or what a HeightField holds.
+/// they go with, or what a HeightField holds; or a setting of a pyramid of tiles.
 enum class Field : std::uint8_t {
   kMaxError,
   kMaxTriangles,
@@ -59,8 +61,23 @@ enum class Field : std::uint8_t {
   kCurvedFrame,  ///< of the field: not affine
   kSpaceFrame,   ///< of the field: in space, where z is not the height; a curved one, too
   kSource,       ///< of the field: samples that are not in memory as a whole
+
+  // Of tiles; never set in options of simplify().
+  kTileMercator,  ///< the grid
+  kTileLocal,     ///< the grid
+  kTileQuantizedMesh,
+  kTileGlb,
+  kTileLakes,
+  kTileRivers,
+  kTileWaterMask,
+  kTileLines,
+  kTileDrape,
+  kTileOnly,
+  kTileGeoid,     ///< what the heights are above
+  kTileVertical,  ///< likewise, as anything but a file
 };
-inline constexpr int kFieldCount = static_cast<int>(Field::kSource) + 1;
+inline constexpr int kSimplifyFieldCount = static_cast<int>(Field::kSource) + 1;
+inline constexpr int kFieldCount = static_cast<int>(Field::kTileVertical) + 1;
 
 /// The library's word for it, such as "max_error" or "order = dominant".
 std::string_view name_of(Field field);
@@ -98,6 +115,7 @@ static_assert(kFieldCount <= 64);
 
 /// Those that are set.
 Fields fields_of(const HeightField& field, const SimplifyOptions& options);
+Fields fields_of(const PyramidSettings& settings);
 
 /// Where a conflict holds.
 enum class Where { kAlways, kInMemory, kStreamed };
@@ -124,6 +142,8 @@ struct Conflict {
 std::vector<Conflict> find_conflicts(Fields set);
 /// The same of a call of simplify(), which fails with kUsage and describe() of the first.
 std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOptions& options);
+/// And of plan_pyramid(), which fails likewise.
+std::vector<Conflict> find_conflicts(const PyramidSettings& settings);
 
 /// "X cannot be combined with Y: reason", or "X cannot be combined with Y beside Z: reason". `word`: what a setting is
 /// called.

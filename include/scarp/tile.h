@@ -165,6 +165,7 @@ struct PyramidPlan {
   int block_level =
       0;  ///< tiles of this level and below count all nodes; those above, nodes reduced to 256 cells a side
   std::vector<PyramidLevel> levels;  ///< 0 … the finest
+  double least_quantum = 0;          ///< the finest that holds the source's heights; 0 in a plan that was read
   Effort effort = Effort::kNormal;
   float background = 0;
   bool has_siblings = false;  ///< as in PyramidSettings

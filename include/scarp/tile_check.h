@@ -104,6 +104,7 @@ struct CheckedLevel {
 
 struct TileCheck {
   TileFormat format = TileFormat::kQuantizedMesh;
+  std::string units;  ///< of a local grid's cells, as LayerFacts::units: lengths here are in these
   std::vector<CheckedLevel> levels;                     ///< 0 … the finest
   std::array<std::uint64_t, kTileFaultKinds> faults{};  ///< by kind
   std::vector<TileFault> described;                     ///< in the order of the kinds

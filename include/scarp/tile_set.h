@@ -103,6 +103,9 @@ struct LayerFacts {
   std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies; sinks find it
 };
 
+/// What stands behind a length of a set whose LayerFacts::units these are: " m", or nothing where they are no metres.
+inline const char* unit_behind(std::string_view units) { return units.empty() || units == "metre" ? " m" : ""; }
+
 /// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first. Without report.levels it
 /// says nothing of errors that tiles have: those of tiles that are not made yet.
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,

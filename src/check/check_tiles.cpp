@@ -47,6 +47,7 @@ class TilesCheck {
 
   Result<TileCheck> run() {
     check_.format = set_.format();
+    check_.units = claims_.units;
     check_.levels.resize(set_.tiles().size());
     for (std::size_t z = 0; z < check_.levels.size(); ++z) {
       if (z < claims_.node_errors.size()) check_.levels[z].promised_node_error = claims_.node_errors[z];

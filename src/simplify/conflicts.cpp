@@ -7,6 +7,7 @@
 #include "pieces/effort.h"
 #include "scarp/cliffs.h"
 #include "scarp/ridges.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 
@@ -163,6 +164,57 @@ constexpr ConflictRule kRules[] = {
      "a mesh in space is proven and mended with all samples in memory"},
     {Fields(Field::kSource), Fields(Field::kBorder), {}, Where::kStreamed, "strips would put vertices on the border"},
     {Fields(Field::kSource), Fields(Field::kChannels), {}, Where::kStreamed, "channels are held in memory"},
+
+    {Fields(Field::kTileLakes, Field::kTileRivers),
+     Fields(Field::kTileLocal),
+     {},
+     Where::kAlways,
+     "lakes and rivers are laid in degrees; flatten them first (scarp simplify --water)"},
+    {Fields(Field::kTileLines),
+     Fields(Field::kTileLocal),
+     {},
+     Where::kAlways,
+     "lines are laid in degrees"},
+    {Fields(Field::kTileDrape),
+     Fields(Field::kTileLocal),
+     {},
+     Where::kAlways,
+     "images are laid in degrees; load them in the client"},
+    {Fields(Field::kTileOnly),
+     Fields(Field::kTileLocal),
+     {},
+     Where::kAlways,
+     "it is a box in degrees; read a part of the raster instead (--te)"},
+    {Fields(Field::kTileQuantizedMesh),
+     Fields(Field::kTileLocal),
+     {},
+     Where::kAlways,
+     "quantized-mesh lies on the ellipsoid; --of 3dtiles holds a plane"},
+    {Fields(Field::kTileGlb),
+     Fields(Field::kTileMercator),
+     {},
+     Where::kAlways,
+     "clients of 3D Tiles halve tiles in degrees of latitude"},
+    {Fields(Field::kTileLines),
+     Fields(Field::kTileMercator),
+     {},
+     Where::kAlways,
+     "lines cross its tiles at places that nodes do not divide evenly; take the geographic grid"},
+    {Fields(Field::kTileGlb),
+     Fields(Field::kTileWaterMask),
+     {},
+     Where::kAlways,
+     "masks are an extension of quantized-mesh; lakes of --water are flat without"},
+    {Fields(Field::kTileDrape),
+     Fields(Field::kTileQuantizedMesh),
+     {},
+     Where::kAlways,
+     "clients of quantized-mesh lay images over the terrain themselves; tiles of --of 3dtiles hold theirs"},
+    {Fields(Field::kTileGeoid),
+     Fields(Field::kTileVertical),
+     {},
+     Where::kAlways,
+     "it says what the heights are above; give it without --vertical"},
 };
 
 constexpr std::string_view kNames[] = {
@@ -207,6 +259,18 @@ constexpr std::string_view kNames[] = {
     "a curved frame of the field",
     "a frame of the field in space",
     "a field with a source",
+    "the mercator grid",
+    "a local grid",
+    "format = quantized-mesh",
+    "format = glb",
+    "lakes",
+    "rivers",
+    "has_water_mask",
+    "lines",
+    "drape",
+    "only",
+    "a geoid",
+    "a vertical datum",
 };
 static_assert(std::size(kNames) == kFieldCount);
 
@@ -274,11 +338,20 @@ Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
       {Field::kSpaceFrame, field.frame.space != nullptr},
       {Field::kSource, field.samples == nullptr && field.source != nullptr},
   };
-  static_assert(std::size(all) == kFieldCount);
+  static_assert(std::size(all) == kSimplifyFieldCount);
   Fields fields;
   for (const auto& [of, is_set] : all) {
     if (is_set) fields.add(of);
   }
+  return fields;
+}
+
+Fields fields_of(const PyramidSettings& settings) {
+  Fields fields;
+  if (settings.grid.kind == GridKind::kMercator) fields.add(Field::kTileMercator);
+  if (settings.grid.is_flat()) fields.add(Field::kTileLocal);
+  if (!settings.lines.empty()) fields.add(Field::kTileLines);
+  if (settings.only) fields.add(Field::kTileOnly);
   return fields;
 }
 
@@ -300,6 +373,8 @@ std::vector<Conflict> find_conflicts(Fields set) {
 std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOptions& options) {
   return find_conflicts(fields_of(field, options));
 }
+
+std::vector<Conflict> find_conflicts(const PyramidSettings& settings) { return find_conflicts(fields_of(settings)); }
 
 std::string describe(const Conflict& conflict) { return describe(conflict, name_of); }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "scarp/conflicts.h"
 #include "scarp/tile.h"
 #include "tiles/globe.h"
 #include "tiles/powers.h"
@@ -105,6 +106,7 @@ class Quanta {
     least_ = reach > 0 ? power_of_two_above(reach) : kLeastQuantum;
   }
 
+  double least() const { return least_; }
   double least_error() const { return kLeastQuantaOfError * least_; }
   /// REQUIRES: a max error of least_error() or more.
   double of(double max_error) const {
@@ -207,10 +209,8 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
   if (!std::isfinite(settings.background) || is_high)
     return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within {}",
                                                settings.background, kHighestOnEarth));
-  if (!settings.lines.empty() && !settings.grid.has_even_rows())
-    return fail(ErrorKind::kUsage, fmt::format("breaklines do not go with the {} grid: lines cross its tiles at places "
-                                               "that nodes do not divide evenly; take the geographic one",
-                                               settings.grid.name()));
+  if (const auto conflicts = find_conflicts(settings); !conflicts.empty())
+    return fail(ErrorKind::kUsage, describe(conflicts.front()));
   // The nodes of a local grid are samples.
   const double overshoot = settings.grid.is_flat() ? 0 : kOvershoot * (source.max - source.min);
   const double low = std::min<double>(source.min - overshoot, settings.background);
@@ -262,6 +262,7 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
                                               : std::max(settings.grid.geometric_error(finest, globe.semi_major()) / 4,
                                                          quanta.least_error());
   if (auto fits = quanta.check(least, finest); !fits) return tl::unexpected(fits.error());
+  plan.least_quantum = quanta.least();
   for (int z = 0; z <= finest; ++z) {
     PyramidLevel level;
     level.geometric_error = settings.grid.geometric_error(z, globe.semi_major());

@@ -88,6 +88,6 @@ succeeds "$scarp" tile check broken --grid mercator -q
 
 # A user's mistakes.
 refuses 1 "--grid" "$scarp" tile "$dem" no --vertical egm96 --grid utm
-refuses 1 "--of 3dtiles does not go with --grid mercator" "$scarp" tile "$dem" no --of 3dtiles --vertical egm96 --grid mercator
+refuses 1 "--of 3dtiles cannot be combined with --grid mercator" "$scarp" tile "$dem" no --of 3dtiles --vertical egm96 --grid mercator
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 12 88.3 12.4 87.9 "$dem" pole.tif
 refuses 1 "ends at 85.0511" "$scarp" tile pole.tif no --grid mercator

@@ -78,5 +78,6 @@ python3 "$reader" utm > /dev/null || fail "neighbours differ with lines in UTM"
 succeeds tiles small --breaklines lines.geojson --max-tile-bytes 3k --zoom 10 -q
 python3 "$reader" small > /dev/null || fail "neighbours differ within a limit"
 
+refuses 1 "--breaklines cannot be combined with --grid mercator" "$scarp" tile "$dem" no --grid mercator --vertical egm96 --breaklines missing.geojson
 refuses 2 "no such file" tiles no --breaklines missing.geojson
 refuses 2 "has no layer 'rivers'" tiles no --breaklines utm.gpkg:rivers

@@ -220,16 +220,29 @@ succeeds "$scarp" tile steep.pgm steep --cells 64 --report steep.json
 ! grep -q '[0-9] m\b' "$logs/out" || fail "cells of no unit are metres in the summary"
 holds "$(json steep.json levels 2 asked) * 4 == $(json steep.json levels 2 geometric_error)"
 python3 "$judge" steep steep.f32 130 90 0 1 > judged
-succeeds "$scarp" tile check steep --source steep.pgm -q
+succeeds "$scarp" tile check steep --source steep.pgm
+! grep -q '[0-9] m\b' "$logs/out" || fail "cells of no unit are metres in the summary of the check"
+# A relief that grows past 16 bits of the earlier steps stays in float32; past that, too, the set is to be made anew.
+python3 -c 'open("land.pgm", "wb").write(b"P5 130 90 65535\n" + bytes(b for k in range(11700) for b in (0, k % 11)))'
+for error in 0.25 0.0625; do succeeds "$scarp" tile plan land.pgm low$error.json --cells 64 -e $error -q; done
+succeeds "$scarp" tile run low0.25.json -q
+cp steep.pgm land.pgm
+succeeds "$scarp" tile plan land.pgm grown.json --changed-since low0.25.json -q
+succeeds "$scarp" tile run grown.json -q
+succeeds "$scarp" tile finish grown.json grown -q
+succeeds "$scarp" tile check grown --source land.pgm -q
+python3 "$judge" grown steep.f32 130 90 0 1 > judged
+refuses 1 "needs steps of 0.00390625 where the earlier plan has 0.00195" "$scarp" tile plan land.pgm no.json --changed-since low0.0625.json
 refuses 1 "0.001 at level 2, the finest, is too fine for heights of 0 to 65535" "$scarp" tile steep.pgm no --cells 64 -e 0.001
 
 # What makes no sense is refused.
 local=("$scarp" tile utm.tif no --grid local)
 refuses 1 "quantized-mesh lies on the ellipsoid" "${local[@]}" --of qm
-refuses 1 "--water and --rivers" "${local[@]}" --water lakes.shp
-refuses 1 "--breaklines" "${local[@]}" --breaklines lines.shp
-refuses 1 "--drape" "${local[@]}" --drape image.tif
-refuses 1 "--only" "${local[@]}" --only 1,2,3,4
+refuses 1 "--water cannot be combined with --grid local: lakes and rivers are laid in degrees" "${local[@]}" --water lakes.shp
+refuses 1 "--breaklines cannot be combined with --grid local" "${local[@]}" --breaklines lines.shp
+refuses 1 "--drape cannot be combined with --grid local" "${local[@]}" --drape image.tif
+refuses 1 "--only cannot be combined with --grid local" "${local[@]}" --only 1,2,3,4
+refuses 1 "--drape cannot be combined with a local grid" "$scarp" tile tall.img no --of 3dtiles --drape utm.tif
 refuses 1 "leave --ellipsoid out" "$scarp" tile tall.img no --ellipsoid 1737400
 refuses 1 "--zoom" "${local[@]}" --zoom 9
 refuses 1 "keep a local grid in a folder" "$scarp" tile utm.tif no.pmtiles --grid local

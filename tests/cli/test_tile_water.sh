@@ -146,7 +146,7 @@ refuses 2 "nothing.gpkg" "$scarp" tile land.tif no --water nothing.gpkg
 refuses 1 "--water-percentile" "$scarp" tile land.tif no --water lake.geojson --water-percentile 101
 refuses 1 "needs --water" "$scarp" tile land.tif no --water-percentile 5
 refuses 1 "--watermask needs --water" "$scarp" tile land.tif no --watermask
-refuses 1 "--of 3dtiles does not go with --watermask" "$scarp" tile land.tif no --of 3dtiles "${masked[@]}"
+refuses 1 "--of 3dtiles cannot be combined with --watermask" "$scarp" tile land.tif no --of 3dtiles "${masked[@]}"
 refuses 1 "goes around a pole" "$scarp" tile land.tif no --water ring.geojson
 succeeds "$scarp" tile land.tif away --water beyond.geojson --zoom 8
 grep -q "names no lake in the raster" "$logs/err" || fail "a lake elsewhere is not told"

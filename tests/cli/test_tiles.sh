@@ -43,6 +43,13 @@ for z in 11 10 9 8 7 6; do
 done
 [ $broken -gt 0 ] || fail "samples are bound without asking for it: the test shows nothing"
 
+# Where bounds are not kept, the warning tells nodes from samples, and the way out of each.
+succeeds "$scarp" tile "$dem" rough --vertical egm96 --bound samples --zoom 7 -e 20 --effort fast --report rough.json
+grep -q "tiles\? of the levels .*: level 7 has .* m at nodes and .* m at samples where 20 m were asked. Nodes .* give a larger --zoom" "$logs/err" ||
+  fail "no word of samples"
+holds "$(json rough.json levels 7 node_error) <= 20 && $(json rough.json levels 7 source_error) > 20"
+holds "$(json rough.json levels 7 tiles_over) > 0"
+
 # A limit of bytes makes interiors coarser; edges stay, bounds are true, and what does not fit is counted.
 limit=2500
 succeeds "$scarp" tile "$dem" small --vertical egm96 --max-tile-bytes $limit --report small.json -j 1

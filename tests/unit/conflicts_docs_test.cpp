@@ -61,9 +61,28 @@ std::string words_of(Fields fields) {
   return words;
 }
 
-std::string make_table() {
-  std::string table = "| setting | does not go with | if there is also | because |\n|---|---|---|---|\n";
+bool is_of_tiles(const ConflictRule& rule) {
+  for (int k = kSimplifyFieldCount; k < kFieldCount; ++k) {
+    if (rule.one.has(static_cast<Field>(k))) return true;
+  }
+  return false;
+}
+
+const std::string kHead = "| setting | ", kTileHead = "| setting of tiles | ";
+
+std::string make_tile_table() {
+  std::string table = kTileHead + "does not go with | because |\n|---|---|---|\n";
   for (const ConflictRule& rule : conflict_rules()) {
+    if (!is_of_tiles(rule)) continue;
+    table += "| " + words_of(rule.one) + " | " + words_of(rule.other) + " | " + rule.reason + " |\n";
+  }
+  return table;
+}
+
+std::string make_table() {
+  std::string table = kHead + "does not go with | if there is also | because |\n|---|---|---|---|\n";
+  for (const ConflictRule& rule : conflict_rules()) {
+    if (is_of_tiles(rule)) continue;
     // The program reads the weights and tolerances of streamed samples as these.
     const bool is_of_source = rule.one.has(Field::kSource);
     const Fields other = is_of_source ? rule.other.without(Field::kTolerance).without(Field::kMask) : rule.other;
@@ -76,14 +95,20 @@ std::string make_table() {
   return table;
 }
 
+/// The text with the table that begins so replaced; empty where it holds none.
+std::string replace_table(const std::string& text, const std::string& head, const std::string& table) {
+  const std::size_t begin = text.find(head), end = text.find("\n\n", begin);
+  return begin == std::string::npos || end == std::string::npos
+             ? ""
+             : text.substr(0, begin) + table + text.substr(end + 1);
+}
+
 TEST(conflicts_docs, hold_the_table_of_the_library) {
   std::stringstream read;
   read << std::ifstream(kPath).rdbuf();
   const std::string text = read.str();
-  const std::size_t begin = text.find("| setting |"), end = text.find("\n\n", begin);
-  ASSERT_NE(begin, std::string::npos);
-  ASSERT_NE(end, std::string::npos);
-  const std::string made = text.substr(0, begin) + make_table() + text.substr(end + 1);
+  const std::string made = replace_table(replace_table(text, kHead, make_table()), kTileHead, make_tile_table());
+  ASSERT_NE(made, "");
   const char* update = std::getenv("SCARP_UPDATE_DOCS");
   if (update != nullptr && std::string(update) == "1") std::ofstream(kPath) << made;
   EXPECT_TRUE(made == text || update != nullptr)

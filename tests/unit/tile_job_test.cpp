@@ -139,7 +139,10 @@ TEST(tile_job, one_that_follows_another_keeps_its_levels_or_says_why_not) {
   EXPECT_EQ(settings_key_of(*job), settings_key_of(earlier));
   EXPECT_EQ(job->plan.covered.west, 5);
   EXPECT_EQ(job->rasters, now.rasters);
+  // Steps that are finer than those that the heights would get by themselves, and then than those that hold them.
   now.plan.levels.back().quantum *= 2;
+  EXPECT_TRUE(follow_job(earlier, now));
+  now.plan.least_quantum = now.plan.levels.back().quantum;
   const auto refused = follow_job(earlier, now);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("make the set anew"), std::string::npos);

@@ -57,6 +57,33 @@ Result<void> refuse_first(const SimplifyArguments& given, const std::vector<Conf
                                      (is_cut ? "; --mask-outside cuts at cells of the grid instead" : ""));
 }
 
+Fields fields_given(const TileArguments& given, std::optional<GridKind> grid, std::optional<TileFormat> format) {
+  Fields fields;
+  const std::pair<Field, bool> all[] = {{Field::kTileMercator, grid == GridKind::kMercator},
+                                        {Field::kTileLocal, grid == GridKind::kLocal},
+                                        {Field::kTileQuantizedMesh, format == TileFormat::kQuantizedMesh},
+                                        {Field::kTileGlb, format == TileFormat::kGlb},
+                                        {Field::kTileLakes, !given.water.empty()},
+                                        {Field::kTileRivers, !given.rivers.empty()},
+                                        {Field::kTileWaterMask, given.has_water_mask},
+                                        {Field::kTileLines, !given.breaklines.empty()},
+                                        {Field::kTileDrape, given.drape.has_value()},
+                                        {Field::kTileOnly, given.only.has_value()},
+                                        {Field::kTileGeoid, given.geoid.has_value()},
+                                        {Field::kTileVertical, given.vertical.has_value()}};
+  for (const auto& [field, is_given] : all) {
+    if (is_given) fields.add(field);
+  }
+  return fields;
+}
+
+/// The option that gave the setting, or what the raster and the defaults made of it.
+std::string option_of(Field field, const TileArguments& given) {
+  if (field == Field::kTileLocal && !given.grid) return "a local grid";
+  if (field == Field::kTileQuantizedMesh && !given.format) return "--of qm, the default";
+  return cli::option_of(field);
+}
+
 }  // namespace
 
 Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan& plan) {
@@ -65,6 +92,13 @@ Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan&
 
 Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options) {
   return refuse_first(given, find_conflicts(field, options));
+}
+
+Result<void> check_conflicts(const TileArguments& given, std::optional<GridKind> grid,
+                             std::optional<TileFormat> format) {
+  const std::vector<Conflict> conflicts = find_conflicts(fields_given(given, grid, format));
+  if (conflicts.empty()) return {};
+  return fail(ErrorKind::kUsage, describe(conflicts.front(), [&](Field field) { return option_of(field, given); }));
 }
 
 std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "options/simplify_plan.h"
+#include "options/tile_options.h"
 #include "scarp/conflicts.h"
 
 namespace scarp::cli {
@@ -14,6 +15,10 @@ Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan&
 
 /// The same of all that simplify() would refuse, once the files are read.
 Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options);
+
+/// The same of tiles. Without a grid or a format, which the raster then tells, what is known without.
+Result<void> check_conflicts(const TileArguments& given, std::optional<GridKind> grid,
+                             std::optional<TileFormat> format);
 
 /// The first of the library's settings that does not go with streamed samples, as the options that gave it; nothing if
 /// there is none.

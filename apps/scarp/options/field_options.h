@@ -50,6 +50,18 @@ inline constexpr const char* kFieldOptions[] = {
     "--crs",
     "--crs enu",
     "--memory",
+    "--grid mercator",
+    "--grid local",
+    "--of qm",
+    "--of 3dtiles",
+    "--water",
+    "--rivers",
+    "--watermask",
+    "--breaklines",
+    "--drape",
+    "--only",
+    "--geoid",
+    "--vertical",
 };
 static_assert(std::size(kFieldOptions) == kFieldCount);
 

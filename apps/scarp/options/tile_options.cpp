@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "options/conflicts.h"
 #include "options/image_options.h"
 #include "options/memory.h"
 #include "options/option_table.h"
@@ -217,8 +218,6 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
 Result<Datum> TileArguments::parse_datum() const {
   Result<Datum> datum = parse_vertical(vertical.value_or("auto"));
   if (!datum) return datum;
-  if (geoid && vertical)
-    return fail(ErrorKind::kUsage, "--geoid says what the heights are above: give it without --vertical");
   if (geoid) {
     datum->vertical = Vertical::kGeoid;
     datum->geoid = *geoid;
@@ -256,47 +255,14 @@ Result<WaterFiles> TileArguments::parse_waters() const {
   return files;
 }
 
-Result<TileFormat> TileArguments::choose_format(const TileGrid& of_tiles) const {
-  const Result<TileFormat> kept = choose("--of", format.value_or(of_tiles.is_flat() ? "3dtiles" : "qm"), kTileFormats);
+Result<TileFormat> TileArguments::choose_format(std::optional<GridKind> grid_of_tiles) const {
+  const char* const by_default = grid_of_tiles == GridKind::kLocal ? "3dtiles" : "qm";
+  const Result<TileFormat> kept = choose("--of", format.value_or(by_default), kTileFormats);
   if (!kept) return kept;
-  if (auto fits = of_tiles.is_flat() ? check_flat() : Result<void>(); !fits) return tl::unexpected(fits.error());
-  if (auto fits = check_format(*kept, of_tiles); !fits) return tl::unexpected(fits.error());
+  const bool is_known = format || grid_of_tiles;
+  if (auto fits = check_conflicts(*this, grid_of_tiles, is_known ? std::optional(*kept) : std::nullopt); !fits)
+    return tl::unexpected(fits.error());
   return kept;
-}
-
-Result<void> TileArguments::check_flat() const {
-  const std::pair<bool, const char*> refused[] = {
-      {!water.empty() || !rivers.empty(),
-       "--water and --rivers do not go with a local grid: lakes and rivers are laid "
-       "in degrees; flatten them first (scarp simplify --water)"},
-      {!breaklines.empty(), "--breaklines does not go with a local grid: lines are laid in degrees"},
-      {drape.has_value(), "--drape does not go with a local grid: images are laid in degrees; load them in the client"},
-      {only.has_value(),
-       "--only does not go with a local grid: it is a box in degrees; give a part of the raster with "
-       "--te"}};
-  for (const auto& [is_given, sentence] : refused) {
-    if (is_given) return fail(ErrorKind::kUsage, sentence);
-  }
-  return {};
-}
-
-Result<void> TileArguments::check_format(TileFormat kept, const TileGrid& of_tiles) const {
-  if (of_tiles.is_flat() && kept != TileFormat::kGlb)
-    return fail(ErrorKind::kUsage, "a local grid goes with --of 3dtiles alone: quantized-mesh lies on the ellipsoid");
-  if (kept == TileFormat::kGlb && !of_tiles.has_even_rows())
-    return fail(ErrorKind::kUsage,
-                fmt::format("--of 3dtiles does not go with --grid {}: clients of 3D Tiles halve tiles in degrees of "
-                            "latitude",
-                            of_tiles.name()));
-  if (kept == TileFormat::kGlb && has_water_mask)
-    return fail(ErrorKind::kUsage,
-                "--of 3dtiles does not go with --watermask: masks are an extension of quantized-mesh; lakes of --water "
-                "are flat without");
-  if (kept != TileFormat::kGlb && drape)
-    return fail(
-        ErrorKind::kUsage,
-        "--drape is for 3D Tiles, --of 3dtiles: clients of quantized-mesh lay images over the terrain themselves");
-  return {};
 }
 
 Result<std::optional<TileDrape>> TileArguments::parse_drape() const {
@@ -316,15 +282,14 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!options) return tl::unexpected(options.error());
   const Result<WaterFiles> waters = parse_waters();
   if (!waters) return tl::unexpected(waters.error());
-  // What the options alone can tell; without --grid the raster tells the rest.
-  if (auto known = choose("--of", format.value_or("qm"), kTileFormats); !known) return tl::unexpected(known.error());
   std::optional<GridKind> kind;
   if (grid) {
     const Result<GridKind> given = parse_grid(*grid, takes_local);
     if (!given) return tl::unexpected(given.error());
     kind = *given;
-    if (auto fits = choose_format({.kind = *kind}); !fits) return tl::unexpected(fits.error());
   }
+  // What the options alone can tell; without --grid the raster tells the rest.
+  if (auto fits = choose_format(kind); !fits) return tl::unexpected(fits.error());
   auto image = parse_drape();
   if (!image) return tl::unexpected(image.error());
   OpenedJob opened;
@@ -345,7 +310,7 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
     if (!cells) settings->cells = PyramidSettings{}.cells;
   }
   settings->grid = opened.raster->grid(settings->cells);
-  const Result<TileFormat> kept = choose_format(settings->grid);
+  const Result<TileFormat> kept = choose_format(settings->grid.kind);
   if (!kept) return tl::unexpected(kept.error());
   job.format = *kept;
   settings->has_siblings = *kept == TileFormat::kGlb;

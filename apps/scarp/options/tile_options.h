@@ -56,10 +56,8 @@ struct TileArguments {
   Result<ReadOptions> parse_reading() const;
   Result<WaterFiles> parse_waters() const;
   Result<std::optional<TileDrape>> parse_drape() const;
-  /// The format of tiles of a grid. Fails with kUsage where these cannot have what is asked for.
-  Result<TileFormat> choose_format(const TileGrid& of_tiles) const;
-  Result<void> check_flat() const;
-  Result<void> check_format(TileFormat kept, const TileGrid& of_tiles) const;
+  /// The format of tiles of a grid, or of one that is not known yet. Fails with kUsage where options do not go together.
+  Result<TileFormat> choose_format(std::optional<GridKind> grid_of_tiles) const;
 };
 
 }  // namespace scarp::cli

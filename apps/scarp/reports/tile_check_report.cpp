@@ -10,8 +10,8 @@
 namespace scarp::cli {
 namespace {
 
-std::string metres_of(const std::optional<double>& metres) {
-  return metres ? format_number(*metres) + " m" : std::string("-");
+std::string format_length(const TileCheck& check, const std::optional<double>& length) {
+  return length ? format_number(*length) + unit_behind(check.units) : std::string("-");
 }
 
 CheckedLevel sum_of(const TileCheck& check) {
@@ -90,9 +90,9 @@ std::string make_check_summary(const std::string& set, const TileCheck& check, d
     const CheckedLevel& level = check.levels[z];
     text += fmt::format("  {:5} {:>10} {:>10} {:>6} {:>12} {:>16} {:>10} {:>16} {:>10} {:>10}\n", z,
                         format_count(level.tiles), format_count(level.edges), format_count(level.edges_apart),
-                        format_number(level.gap) + " m", metres_of(level.promised_node_error),
-                        metres_of(level.promised_bound), metres_of(level.node_error), metres_of(level.distance),
-                        metres_of(level.source_error));
+                        format_length(check, level.gap), format_length(check, level.promised_node_error),
+                        format_length(check, level.promised_bound), format_length(check, level.node_error),
+                        format_length(check, level.distance), format_length(check, level.source_error));
   }
   for (const TileFault& fault : check.described) {
     const std::uint64_t count = check.faults[static_cast<std::size_t>(fault.kind)];

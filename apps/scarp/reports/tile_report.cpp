@@ -49,8 +49,7 @@ Json describe_waters(const TileJob& job) {
 }  // namespace
 
 std::string format_length(const TileJob& job, double length) {
-  const bool is_own = job.plan.grid.is_flat() && job.facts.units != "metre";
-  return is_own ? format_number(length) : format_metres(length);
+  return format_number(length) + unit_behind(job.facts.units);
 }
 
 std::string waters_line(const TileJob& job) {
@@ -200,17 +199,33 @@ std::optional<std::pair<std::string, std::string>> count_tiles(const PyramidRepo
   return std::pair{format_plural(tiles, what), levels};
 }
 
+constexpr std::string_view kCliffs =
+    "next to a cliff, the raster's own edge above the background included, positions in 32767ths of a tile are too "
+    "coarse";
+
+/// Of a plan that binds samples: what the finest level with such tiles keeps at nodes and at samples, and the way out.
+std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
+  std::size_t z = report.levels.size() - 1;
+  while (report.levels[z].over == 0) --z;
+  const LevelSummary& level = report.levels[z];
+  const double asked = plan.levels[z].max_error;
+  const std::string kept = fmt::format("level {} has {} at nodes and {} at samples where {} were asked", z,
+                                       format_metres(level.node_error), format_metres(level.source_error),
+                                       format_metres(asked));
+  // Nodes that lie closer help samples between them; a cliff is as steep for its positions as before.
+  if (level.node_error <= asked)
+    return kept + ". Nodes are too far apart for such samples: give a larger --zoom or --max-error";
+  return fmt::format("{}. At nodes that is {}: give a larger --max-error", kept, kCliffs);
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report) {
   std::vector<std::string> warnings;
   if (const auto over = count_tiles(report, &LevelSummary::over))
     warnings.push_back(
-        fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: next to a "
-                    "cliff, the raster's own edge above the background included, positions in 32767ths "
-                    "of a tile are too coarse{}",
-                    over->first, over->second,
-                    plan.binds_samples ? ", and so are nodes for samples next to rough ones" : ""));
+        fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: {}", over->first,
+                    over->second, plan.binds_samples ? explain_over(plan, report) : std::string(kCliffs)));
   if (const auto coarser = count_tiles(report, &LevelSummary::coarser))
     warnings.push_back(fmt::format("{} of the levels {} have a larger max error inside, as the table shows, so as to "
                                    "keep within --max-tile-bytes {}",

@@ -50,6 +50,8 @@ void read_own(const Json* scarp, SetClaims& claims) {
     if (!read) claims.faults.emplace_back("the set names a grid that makes no sense");
     claims.grid = read.value_or(claims.grid);
   }
+  const Json* const units = find_member(find_member(scarp, "units"), "horizontal");
+  if (units != nullptr && units->is_string()) claims.units = units->get<std::string>();
   const Json* const levels = find_member(scarp, "levels");
   if (levels == nullptr || !levels->is_array()) return;
   for (const Json& level : *levels) {

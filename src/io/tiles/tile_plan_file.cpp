@@ -497,11 +497,13 @@ bool has_same_drape(const TileJob& earlier, const TileJob& now) {
 
 Result<TileJob> follow_job(const TileJob& earlier, TileJob now) {
   // Coarser levels have steps as coarse or coarser.
-  const double needed = now.plan.levels.back().quantum, has = earlier.plan.levels.back().quantum;
-  if (needed > has)
+  const double needed = now.plan.least_quantum, has = earlier.plan.levels.back().quantum;
+  if (needed > has) {
+    const char* const unit = unit_behind(now.facts.units);
     return fail(ErrorKind::kUsage,
-                fmt::format("the relief of {} needs steps of {} m where the earlier plan has {} m: make the set anew",
-                            now.rasters.front().path, needed, has));
+                fmt::format("the relief of {} needs steps of {}{} where the earlier plan has {}{}: make the set anew",
+                            now.rasters.front().path, needed, unit, has, unit));
+  }
   if (earlier.drape && !has_same_drape(earlier, now))
     return fail(ErrorKind::kUsage, fmt::format("{} has changed since the earlier plan, and all tiles show it: make the "
                                                "set anew",
