@@ -40,7 +40,7 @@ struct Datum {
 struct RasterOnGlobe {
   RasterPlace place;
   std::shared_ptr<const PointTransform> to_degrees;  ///< null where place.from_degrees is
-  std::string degrees;  ///< the CRS of longitude and latitude, as RasterInfo::crs
+  std::string degrees;                               ///< the CRS of longitude and latitude, as RasterInfo::crs
   Geodetic ellipsoid;
   std::string body;                        ///< whose ellipsoid, in the CRS's words; empty for WGS 84
   std::shared_ptr<const HeightZero> zero;  ///< of the heights; null where they are above the ellipsoid
@@ -92,8 +92,8 @@ GridKind grid_for(const RasterInfo& info);
 
 /// `cell_size`: metres, of a raster without a position. Heights stay as they are; `datum` tells how high the whole
 /// plane lies, and kAuto without a word in the CRS is kNone. Fails with kInput for rasters in degrees, and those that
-/// are turned or mirrored in their CRS, and for heights that are not in metres where cells are; with kUsage for a datum that
-/// does not go with such a raster; and as place_on_globe().
+/// are turned or mirrored in their CRS, and for heights that are not in metres where cells are; with kUsage for a datum
+/// that does not go with such a raster; and as place_on_globe().
 Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows, const std::optional<double>& cell_size,
                                      const Datum& datum);
 /// REQUIRES: a raster with a position, in a projected CRS.

@@ -105,7 +105,8 @@ struct StackedSource {
 std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
 
 /// Degrees that the raster covers, half a cell around the outer samples included. Fails with kInput where its outline
-/// has no longitude or latitude, or lies beyond a pole or 720 degrees from Greenwich. `to_degrees`: from x and y to degrees, null as in RasterPlace.
+/// has no longitude or latitude, or lies beyond a pole or 720 degrees from Greenwich. `to_degrees`: from x and y to
+/// degrees, null as in RasterPlace.
 Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
                                   const PointTransform* to_degrees);
 
@@ -170,7 +171,7 @@ struct PyramidPlan {
   float background = 0;
   bool has_siblings = false;  ///< as in PyramidSettings
   std::uint64_t max_tile_bytes = 0;
-  bool binds_samples = false;  ///< as in PyramidSettings
+  bool binds_samples = false;                        ///< as in PyramidSettings
   std::shared_ptr<const TileLines> lines = nullptr;  ///< null: none
   Geodetic ellipsoid = {};
   TileGrid grid = {};
@@ -235,8 +236,8 @@ struct TerrainTile {
 
 /// The tile, of as many bytes as it takes. Its node_error is at most the level's max error, but where positions in
 /// 32767ths of the tile cannot follow the land, next to a cliff; its source_error too, if the plan binds samples, but
-/// where these are too far from the land between the nodes around them. REQUIRES: plan.block_level <= id.z <= plan.max_zoom().
-/// Fails as the source does.
+/// where these are too far from the land between the nodes around them. REQUIRES: plan.block_level <= id.z <=
+/// plan.max_zoom(). Fails as the source does.
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
 /// A tile above the plan's block level, of the nodes that its mesh needs and no others: the mesh of finish_pyramid(),
@@ -279,12 +280,12 @@ struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest of its tiles
   double source_error = 0;           ///< the same; NaN where one of them is
-  /// Tiles whose node_error, or source_error if the plan binds samples, is above their max error: those with cliffs that
-  /// rounded positions cannot follow, with samples that nodes cannot, and above the block level those whose reduced
-  /// nodes let no less be proven.
+  /// Tiles whose node_error, or source_error if the plan binds samples, is above their max error: those with cliffs
+  /// that rounded positions cannot follow, with samples that nodes cannot, and above the block level those whose
+  /// reduced nodes let no less be proven.
   std::uint64_t over = 0;
-  std::uint64_t coarser = 0;    ///< tiles whose max error is above the level's because of plan.max_tile_bytes
-  std::uint64_t oversized = 0;  ///< of these, those that have more bytes all the same: their borders alone do
+  std::uint64_t coarser = 0;         ///< tiles whose max error is above the level's because of plan.max_tile_bytes
+  std::uint64_t oversized = 0;       ///< of these, those that have more bytes all the same: their borders alone do
   std::uint64_t lines_left_out = 0;  ///< as TerrainTile::lines_left_out
 };
 

@@ -104,8 +104,8 @@ struct CheckedLevel {
 
 struct TileCheck {
   TileFormat format = TileFormat::kQuantizedMesh;
-  std::string units;  ///< of a local grid's cells, as LayerFacts::units: lengths here are in these
-  std::vector<CheckedLevel> levels;                     ///< 0 … the finest
+  std::string units;                 ///< of a local grid's cells, as LayerFacts::units: lengths here are in these
+  std::vector<CheckedLevel> levels;  ///< 0 … the finest
   std::array<std::uint64_t, kTileFaultKinds> faults{};  ///< by kind
   std::vector<TileFault> described;                     ///< in the order of the kinds
   std::uint64_t nodes = 0;                              ///< places where a tile was compared with a node

@@ -53,14 +53,14 @@ class TileSetWriter {
   virtual Result<void> finish() = 0;
 };
 
-/// Fails with kUsage for a name that says neither folder nor container: that of a mesh, an image, one tile. A folder that
-/// is there may have any name, and so may one that ends with a slash.
+/// Fails with kUsage for a name that says neither folder nor container: that of a mesh, an image, one tile. A folder
+/// that is there may have any name, and so may one that ends with a slash.
 Result<void> check_set_name(const std::string& path);
-/// A set under a temporary name in the folder of `path`, until finish(). A folder's is ".scarp-tiles-…"; the next set of
-/// the same name removes those that killed processes of this machine left. One file takes the room of the set twice until
-/// then; memory: 24 bytes a tile, with PMTiles twice that. The bytes of the finished set do not depend on
-/// the order of its tiles and files. Fails with kOutput where `path` exists, unless it is an empty folder and the set
-/// is to be one, or `overwrite` is true and it is a set of Scarp's tiles with nothing else in it: "layer.json" or
+/// A set under a temporary name in the folder of `path`, until finish(). A folder's is ".scarp-tiles-…"; the next set
+/// of the same name removes those that killed processes of this machine left. One file takes the room of the set twice
+/// until then; memory: 24 bytes a tile, with PMTiles twice that. The bytes of the finished set do not depend on the
+/// order of its tiles and files. Fails with kOutput where `path` exists, unless it is an empty folder and the set is to
+/// be one, or `overwrite` is true and it is a set of Scarp's tiles with nothing else in it: "layer.json" or
 /// "tileset.json" say whose it is. Fails with kOutput where nothing can be made, too, and as check_set_name().
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite);
 
@@ -96,9 +96,9 @@ struct LayerFacts {
   std::string name = "terrain";
   std::string description;
   std::string attribution;
-  std::string heights_above;  ///< what the source's heights are above, in words; those of tiles: the ellipsoid
-  std::string body;           ///< whose ellipsoid, as RasterOnGlobe::body
-  std::string units;          ///< of a local grid's cells, as RasterOnPlane::units; empty with others
+  std::string heights_above;          ///< what the source's heights are above, in words; those of tiles: the ellipsoid
+  std::string body;                   ///< whose ellipsoid, as RasterOnGlobe::body
+  std::string units;                  ///< of a local grid's cells, as RasterOnPlane::units; empty with others
   std::optional<PlaneOnGlobe> plane;  ///< of a local grid that has a place on the globe
   std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies; sinks find it
 };
@@ -111,7 +111,8 @@ inline const char* unit_behind(std::string_view units) { return units.empty() ||
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
 
-/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles. Borrows the plan.
+/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles. Borrows the
+/// plan.
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
 /// Of kGlb, with a texture of the image on each tile.
 TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format);

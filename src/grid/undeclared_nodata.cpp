@@ -40,7 +40,7 @@ std::size_t count_far(const Ends& ends, std::size_t first, double other, std::ui
     };
     const bool may_tell = range > 0 || !is_usual_sign(ends[next].height);  // all others may be one height
     if (may_tell && std::all_of(ends.begin() + static_cast<std::ptrdiff_t>(first),
-                                 ends.begin() + static_cast<std::ptrdiff_t>(next), far))
+                                ends.begin() + static_cast<std::ptrdiff_t>(next), far))
       return next;
   }
   return first;

@@ -73,8 +73,11 @@ class LocalTiles : public ::testing::TestWithParam<Shape> {
     settings.background = 90;
     settings.max_error = 1;
     settings.grid = TileGrid::of_raster(shape.cols, shape.rows, shape.cell_x, shape.cell_y, settings.cells);
-    const SourceFacts facts{
-        {0, 0, shape.cols - 1.0, shape.rows - 1.0}, std::sqrt(shape.cell_x * shape.cell_y), 0, 400 * double{shape.steepness}, 0};
+    const SourceFacts facts{{0, 0, shape.cols - 1.0, shape.rows - 1.0},
+                            std::sqrt(shape.cell_x * shape.cell_y),
+                            0,
+                            400 * double{shape.steepness},
+                            0};
     auto plan = plan_pyramid(facts, settings);
     ASSERT_TRUE(plan) << plan.error().message;
     plan_ = std::move(*plan);

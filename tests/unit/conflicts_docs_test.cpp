@@ -98,9 +98,8 @@ std::string make_table() {
 /// The text with the table that begins so replaced; empty where it holds none.
 std::string replace_table(const std::string& text, const std::string& head, const std::string& table) {
   const std::size_t begin = text.find(head), end = text.find("\n\n", begin);
-  return begin == std::string::npos || end == std::string::npos
-             ? ""
-             : text.substr(0, begin) + table + text.substr(end + 1);
+  return begin == std::string::npos || end == std::string::npos ? ""
+                                                                : text.substr(0, begin) + table + text.substr(end + 1);
 }
 
 TEST(conflicts_docs, hold_the_table_of_the_library) {

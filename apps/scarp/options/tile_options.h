@@ -33,10 +33,11 @@ Result<GridKind> parse_grid(const std::string& text, bool takes_local);
 
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
-  Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, nodata_policy, fill_distance, format, only;
+  Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, nodata_policy,
+      fill_distance, format, only;
   Given bound, max_tile_bytes, drape, drape_format, percentile;
   bool has_water_mask = false;
-  bool takes_local = true;  ///< a local grid
+  bool takes_local = true;                             ///< a local grid
   std::vector<std::string> water, rivers, breaklines;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 
@@ -56,7 +57,8 @@ struct TileArguments {
   Result<ReadOptions> parse_reading() const;
   Result<WaterFiles> parse_waters() const;
   Result<std::optional<TileDrape>> parse_drape() const;
-  /// The format of tiles of a grid, or of one that is not known yet. Fails with kUsage where options do not go together.
+  /// The format of tiles of a grid, or of one that is not known yet. Fails with kUsage where options do not go
+  /// together.
   Result<TileFormat> choose_format(std::optional<GridKind> grid_of_tiles) const;
 };
 

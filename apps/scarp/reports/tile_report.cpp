@@ -80,7 +80,8 @@ std::string grid_lines(const TileJob& job) {
   text += fmt::format(
       "  on the globe   by a plane at its centre{}, turned by {:.4f} degrees, scale {:.6f}; off by up to {} along "
       "the ground, {} in height\n",
-      job.facts.body.empty() ? "" : " on " + job.facts.body, plane.convergence, plane.scale_x, format_metres(plane.off_along), format_metres(plane.off_height));
+      job.facts.body.empty() ? "" : " on " + job.facts.body, plane.convergence, plane.scale_x,
+      format_metres(plane.off_along), format_metres(plane.off_height));
   return text;
 }
 
@@ -209,9 +210,9 @@ std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
   while (report.levels[z].over == 0) --z;
   const LevelSummary& level = report.levels[z];
   const double asked = plan.levels[z].max_error;
-  const std::string kept = fmt::format("level {} has {} at nodes and {} at samples where {} were asked", z,
-                                       format_metres(level.node_error), format_metres(level.source_error),
-                                       format_metres(asked));
+  const std::string kept =
+      fmt::format("level {} has {} at nodes and {} at samples where {} were asked", z, format_metres(level.node_error),
+                  format_metres(level.source_error), format_metres(asked));
   // Nodes that lie closer help samples between them; a cliff is as steep for its positions as before.
   if (level.node_error <= asked)
     return kept + ". Nodes are too far apart for such samples: give a larger --zoom or --max-error";
@@ -223,21 +224,24 @@ std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
 std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report) {
   std::vector<std::string> warnings;
   if (const auto over = count_tiles(report, &LevelSummary::over))
-    warnings.push_back(
-        fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: {}", over->first,
-                    over->second, plan.binds_samples ? explain_over(plan, report) : std::string(kCliffs)));
+    warnings.push_back(fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: {}",
+                                   over->first, over->second,
+                                   plan.binds_samples ? explain_over(plan, report) : std::string(kCliffs)));
   if (const auto coarser = count_tiles(report, &LevelSummary::coarser))
-    warnings.push_back(fmt::format("{} of the levels {} have a larger max error inside, as the table shows, so as to "
-                                   "keep within --max-tile-bytes {}",
-                                   coarser->first, coarser->second, plan.max_tile_bytes));
+    warnings.push_back(
+        fmt::format("{} of the levels {} have a larger max error inside, as the table shows, so as to "
+                    "keep within --max-tile-bytes {}",
+                    coarser->first, coarser->second, plan.max_tile_bytes));
   if (const auto oversized = count_tiles(report, &LevelSummary::oversized))
-    warnings.push_back(fmt::format("{} of the levels {} are larger than --max-tile-bytes {}: what neighbours share "
-                                   "alone takes more",
-                                   oversized->first, oversized->second, plan.max_tile_bytes));
+    warnings.push_back(
+        fmt::format("{} of the levels {} are larger than --max-tile-bytes {}: what neighbours share "
+                    "alone takes more",
+                    oversized->first, oversized->second, plan.max_tile_bytes));
   if (const auto left_out = count_tiles(report, &LevelSummary::lines_left_out, "piece"))
-    warnings.push_back(fmt::format("{} of the lines, of the levels {}, are no edges of the mesh: in 32767ths of a tile "
-                                   "they would turn triangles over",
-                                   left_out->first, left_out->second));
+    warnings.push_back(
+        fmt::format("{} of the lines, of the levels {}, are no edges of the mesh: in 32767ths of a tile "
+                    "they would turn triangles over",
+                    left_out->first, left_out->second));
   return warnings;
 }
 

@@ -302,9 +302,8 @@ Json describe_job(const TileJob& job) {
   if (!job.facts.units.empty()) json["units"] = job.facts.units;
   if (job.facts.plane) json["plane"] = describe_plane(*job.facts.plane);
   if (!job.waters.is_empty())
-    json["waters"] = {{"lakes", job.waters.lakes},
-                      {"rivers", job.waters.rivers},
-                      {"percentile", job.waters.percentile}};
+    json["waters"] = {
+        {"lakes", job.waters.lakes}, {"rivers", job.waters.rivers}, {"percentile", job.waters.percentile}};
   if (job.drape) json["drape"] = describe_drape(*job.drape);
   if (!job.parts.empty()) json["parts"] = job.parts;
   if (!job.costs.empty()) json["costs"] = job.costs;

@@ -203,12 +203,10 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
   for (std::size_t z = 0; z < report.levels.size(); ++z) {
     const double bound = report.levels[z].bound + lattice_error(plan, static_cast<int>(z));
     root_error = std::max(root_error, std::ldexp(bound, static_cast<int>(z)));
-    Json level{{"max_error", plan.levels[z].max_error},
-               {"lattice_step", lattice_steps(plan, static_cast<int>(z))[2]},
-               {"node_error", report.levels[z].node_error},
-               {"bound", bound},
-               {"source_error", report.levels[z].source_error},
-               {"tiles", report.levels[z].tiles}};
+    Json level{
+        {"max_error", plan.levels[z].max_error},         {"lattice_step", lattice_steps(plan, static_cast<int>(z))[2]},
+        {"node_error", report.levels[z].node_error},     {"bound", bound},
+        {"source_error", report.levels[z].source_error}, {"tiles", report.levels[z].tiles}};
     if (plan.max_tile_bytes > 0) {
       level["tiles_coarser"] = report.levels[z].coarser;
       level["tiles_oversized"] = report.levels[z].oversized;
