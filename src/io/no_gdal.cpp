@@ -1,6 +1,9 @@
 // The doors that GDAL stands behind, in a build without it.
 #ifndef SCARP_WITH_GDAL
 
+#include <filesystem>
+#include <system_error>
+
 #include "grid/local_frame.h"
 #include "io/lent.h"
 #include "io/mesh/mesh_file.h"
@@ -20,6 +23,8 @@ namespace scarp {
 namespace {
 
 tl::unexpected<Error> refuse(const std::string& path) {
+  std::error_code error;
+  if (path != "-" && !std::filesystem::exists(path, error)) return fail(ErrorKind::kInput, path + ": no such file");
   return fail(ErrorKind::kInput,
               path + ": neither PGM nor STM, and this build of Scarp reads nothing else: it was built without GDAL");
 }
