@@ -1,5 +1,6 @@
 // A client of Scarp's C library, in Rust without a crate.
-use std::ffi::{c_char, c_void, CStr, CString};
+use std::ffi::{c_void, CStr, CString};
+use std::os::raw::c_char;
 use std::ptr;
 
 const COLS: i32 = 120;
