@@ -9,7 +9,8 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdint>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,9 +29,7 @@ constexpr std::string_view kRandomEnd = "XXXXXX", kOldEnd = ".old";
 std::string beginning_for(const fs::path& target) {
   std::array<char, 256> machine{};
   ::gethostname(machine.data(), machine.size() - 1);
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-  for (const char c : target.filename().string() + '/' + machine.data())
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  const std::size_t hash = std::hash<std::string>{}(target.filename().string() + '/' + machine.data());
   return fmt::format(".scarp-tiles-{:016x}-", hash);
 }
 
