@@ -25,16 +25,16 @@ namespace scarp {
 
 /// The farthest sample of a triangle.
 struct ScanHit {
-  float error = 0;  ///< 0: no sample's computed error is above scan_floor(threshold, guard); so none exceeds the
-                    ///< threshold, provided that guard <= threshold (else nothing is known without exact arithmetic)
+  float error = 0;   ///< 0: no sample's computed error is above scan_floor(threshold, guard); so none exceeds the
+                     ///< threshold, provided that guard <= threshold (else nothing is known without exact arithmetic)
   TilePoint at = 0;  ///< the first in raster order among the samples of that error
-  float guard = 0;  ///< ScanPlane::guard, hit or not: the sample is above the threshold for certain where
-                    ///< error > threshold + guard
+  float guard = 0;   ///< ScanPlane::guard, hit or not: the sample is above the threshold for certain where
+                     ///< error > threshold + guard
 };
 
 /// What a computed error must exceed to count: threshold − guard, never below 0.
 inline float scan_floor(double threshold, float guard) {
-  return static_cast<float>(std::max(threshold - double{guard}, 0.0));
+  return static_cast<float>(greater(threshold - double{guard}, 0));
 }
 
 /// Rows of fewer samples are faster without vectors.

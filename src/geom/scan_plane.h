@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/branchless.h"
 #include "base/point.h"
 #include "geom/tile_view.h"
 
@@ -60,8 +61,8 @@ struct ScanPlane {
   }
   const double per_area = 1 / (qx * ry - qy * rx);
   const double slope_x = (qz * ry - rz * qy) * per_area, slope_y = (rz * qx - qz * rx) * per_area;
-  const double width = std::max({0.0, qx, rx}) - std::min({0.0, qx, rx});
-  const double depth = std::max({0.0, qy, ry}) - std::min({0.0, qy, ry});
+  const double width = greater(0, qx, rx) - lesser(0, qx, rx);
+  const double depth = greater(0, qy, ry) - lesser(0, qy, ry);
   const double reach = 2 * (std::abs(qz) + std::abs(rz)) * per_area * (width * depth);
   const double relief = std::abs(slope_x) * width + std::abs(slope_y) * depth;
   plane.slope_x = static_cast<float>(slope_x);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/array.h"
+#include "base/branchless.h"
 #include "measure/cut_region.h"
 #include "measure/error_summary.h"
 #include "measure/judge_kernels.h"
@@ -90,7 +91,7 @@ class Band {
   }
   /// What an error must reach to be critical or an offender, at least.
   double watch() const {
-    const double limit = std::min(largest_, least_limit_);
+    const double limit = lesser(largest_, least_limit_);
     return limit - (2 * guard_ + 4 * kRounding * std::abs(limit));
   }
   /// True if an error of about this size may become the band's largest or break a bound, so that its last bit counts.

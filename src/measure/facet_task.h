@@ -1,10 +1,10 @@
 // What a kernel must know of a triangle in a band.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/branchless.h"
 #include "measure/judge_kernels.h"
 #include "measure/plan_triangle.h"
 
@@ -12,8 +12,8 @@ namespace scarp::judge {
 
 /// Whole numbers in [lo, hi] that are in [least, most]; first > second if there are none.
 inline std::pair<int, int> whole_between(double lo, double hi, int least, int most) {
-  return {static_cast<int>(std::clamp(std::ceil(lo), double(least), most + 1.0)),
-          static_cast<int>(std::clamp(std::floor(hi), least - 1.0, double(most)))};
+  return {static_cast<int>(lesser(greater(std::ceil(lo), least), most + 1.0)),
+          static_cast<int>(lesser(greater(std::floor(hi), least - 1.0), most))};
 }
 
 /// The rows first … last of a raster.

@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/branchless.h"
 #include "base/parallel.h"
 #include "measure/facet_error.h"
 #include "measure/facet_task.h"
@@ -77,8 +78,7 @@ class GridScanner : public Scanner {
     const double a = facets_.corners.row(vertices[0]), b = facets_.corners.row(vertices[1]),
                  c = facets_.corners.row(vertices[2]);
     const double reach = tolerance_ + (space_ != nullptr ? space_->bend(id) : 0);
-    const double lo = std::max(std::min({a, b, c}) - reach, 0.0),
-                 hi = std::min(std::max({a, b, c}) + reach, rows_ - 1.0);
+    const double lo = greater(lesser(a, b, c) - reach, 0), hi = lesser(greater(a, b, c) + reach, rows_ - 1.0);
     if (!(lo < rows_ && hi >= 0)) return {0, -1};
     return {static_cast<std::int32_t>(lo) / rows_per_band_, static_cast<std::int32_t>(hi) / rows_per_band_};
   }

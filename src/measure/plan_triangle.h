@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/branchless.h"
+
 namespace scarp::judge {
 
 struct Interval {
@@ -26,8 +28,8 @@ struct PlanTriangle {
     const int a = k == 2 ? 0 : k + 1, b = a == 2 ? 0 : a + 1;
     return std::sqrt((x[b] - x[a]) * (x[b] - x[a]) + (y[b] - y[a]) * (y[b] - y[a]));
   }
-  Interval x_extent() const { return {std::min({x[0], x[1], x[2]}), std::max({x[0], x[1], x[2]})}; }
-  Interval y_extent() const { return {std::min({y[0], y[1], y[2]}), std::max({y[0], y[1], y[2]})}; }
+  Interval x_extent() const { return {lesser(x[0], x[1], x[2]), greater(x[0], x[1], x[2])}; }
+  Interval y_extent() const { return {lesser(y[0], y[1], y[2]), greater(y[0], y[1], y[2])}; }
   /// A weight above −slack() is zero or positive up to rounding.
   double slack() const {
     const Interval across = x_extent(), along = y_extent();
