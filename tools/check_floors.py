@@ -68,9 +68,9 @@ RESERVED = [
      "atomics belong to src/base/parallel, src/io/gdal and what a signal handler reads (src/io/temporary_file.cpp, apps)"),
     (r"hwy/.*|[a-z]*mmintrin\.h$|immintrin\.h$|x86intrin\.h$|arm_neon\.h$|wasm_simd128\.h$",
      [r"src/geom/scan_kernels[a-z_-]*\.(h|cpp)$", r"src/measure/judge_kernels_vector\.cpp$",
-      r"src/fit/triangle_kernels_vector\.cpp$"],
-     "instruction sets are known to src/geom/scan_kernels*, src/measure/judge_kernels_vector.cpp and "
-     "src/fit/triangle_kernels_vector.cpp only"),
+      r"src/fit/triangle_kernels_vector\.cpp$", r"src/base/(branchless|wasm_vectors-inl)\.h$"],
+     "instruction sets are known to src/geom/scan_kernels*, src/measure/judge_kernels_vector.cpp, "
+     "src/fit/triangle_kernels_vector.cpp, src/base/branchless.h and src/base/wasm_vectors-inl.h only"),
     (r"CLI/.*", [r"apps/"], "command lines are known to apps only"),
     (r"terminal/(signals|progress_display)\.h$", [r"apps/scarp/(main|(terminal|serve|paper)/.*|commands/[a-z_]*_command)\.(h|cpp)$"],
      "the terminal is known to the program's own files only: all else in apps is in the C library, too"),

@@ -1,6 +1,7 @@
 // Which of several compilations of the same vector code is used: of every table that is compiled once for each
 // instruction set, the best that the machine has, or the one that the environment variable SCARP_KERNEL names (any name
-// of the tables, in any case; others are ignored).
+// of the tables, in any case; others are ignored). WebAssembly is one instruction set without an environment: there the
+// twin in plain loops, which tests compare the others with, is left out.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace scarp {
 
@@ -19,12 +21,25 @@ inline bool is_same_kernel_name(std::string_view a, std::string_view b) {
 /// REQUIRES: `available` is not empty; the best is first. A table has a `name`.
 template <class Kernels>
 const Kernels& choose_kernels(std::span<const Kernels> available) {
+#ifdef __EMSCRIPTEN__
+  return available.front();
+#endif
   if (const char* wanted = std::getenv("SCARP_KERNEL")) {
     for (const Kernels& kernels : available) {
       if (is_same_kernel_name(kernels.name, wanted)) return kernels;
     }
   }
   return available.front();
+}
+
+/// `vectors`, the best first, then the twin.
+template <auto twin, class Kernels>
+std::vector<Kernels> list_kernels(std::span<const Kernels> vectors) {
+  std::vector<Kernels> kernels(vectors.begin(), vectors.end());
+#ifndef __EMSCRIPTEN__
+  kernels.push_back(twin());
+#endif
+  return kernels;
 }
 
 }  // namespace scarp

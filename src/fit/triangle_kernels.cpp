@@ -98,12 +98,8 @@ const TriangleKernels& triangle_kernels() {
 }
 
 std::span<const TriangleKernels> available_triangle_kernels() {
-  static const std::vector<TriangleKernels> all = [] {
-    const std::span<const TriangleKernels> vectors = trial::vector_triangle_kernels();
-    std::vector<TriangleKernels> kernels(vectors.begin(), vectors.end());
-    kernels.push_back(trial::plain_triangle_kernels());
-    return kernels;
-  }();
+  static const std::vector<TriangleKernels> all =
+      list_kernels<&trial::plain_triangle_kernels>(trial::vector_triangle_kernels());
   return all;
 }
 

@@ -1,7 +1,8 @@
 // The scan of trial triangles in vectors: this file is compiled once for every instruction set, through Highway.
 //
-// Eight samples at a time: one vector, or two of four. No lambdas and no functions of the standard library between
-// HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for one instruction set and linked for all.
+// Eight samples at a time: one vector, or two of four, the second only where it has samples. No lambdas and no
+// functions of the standard library between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for
+// one instruction set and linked for all.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,10 +19,12 @@
 //
 #include <hwy/highway.h>
 
+#include "base/wasm_vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace scarp::trial::HWY_NAMESPACE {
 
-#if HWY_HAVE_FLOAT64 && !HWY_HAVE_SCALABLE
+#if SCARP_HAVE_FLOAT64 && !HWY_HAVE_SCALABLE
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -30,47 +33,37 @@ using WideInt = hn::RebindToSigned<Wide>;
 using Four = hn::CappedTag<float, 4>;
 using WideVec = hn::Vec<Wide>;
 using FourVec = hn::Vec<Four>;
+using scarp::HWY_NAMESPACE::larger_of;
+using scarp::HWY_NAMESPACE::magnitudes;
+using scarp::HWY_NAMESPACE::none_of;
+using scarp::HWY_NAMESPACE::whole_parts;
 constexpr std::size_t kWidth = hn::MaxLanes(Wide()), kParts = 8 / kWidth;
 static_assert(kWidth * kParts == 8 && hn::MaxLanes(Four()) == 4);
 
-/// Eight floats.
-struct Eight {
-  WideVec part[kParts];
-};
-
-HWY_INLINE Eight eight_of(float value) {
-  Eight eight;
-  for (std::size_t p = 0; p < kParts; ++p) eight.part[p] = hn::Set(Wide(), value);
-  return eight;
-}
-HWY_INLINE Eight operator+(const Eight& a, const Eight& b) {
-  Eight eight;
-  for (std::size_t p = 0; p < kParts; ++p) eight.part[p] = hn::Add(a.part[p], b.part[p]);
-  return eight;
-}
-HWY_INLINE Eight operator-(const Eight& a, const Eight& b) {
-  Eight eight;
-  for (std::size_t p = 0; p < kParts; ++p) eight.part[p] = hn::Sub(a.part[p], b.part[p]);
-  return eight;
-}
-HWY_INLINE Eight operator*(const Eight& a, const Eight& b) {
-  Eight eight;
-  for (std::size_t p = 0; p < kParts; ++p) eight.part[p] = hn::Mul(a.part[p], b.part[p]);
-  return eight;
-}
-
-/// The first four and the others.
+/// Four of a vector's lanes.
 #if HWY_MAX_BYTES > 16
-HWY_INLINE FourVec low_of(const Eight& eight) { return hn::LowerHalf(Four(), eight.part[0]); }
-HWY_INLINE FourVec high_of(const Eight& eight) { return hn::UpperHalf(Four(), eight.part[0]); }
-#else
-HWY_INLINE FourVec low_of(const Eight& eight) { return eight.part[0]; }
-HWY_INLINE FourVec high_of(const Eight& eight) { return eight.part[1]; }
+HWY_INLINE FourVec low_of(WideVec v) { return hn::LowerHalf(Four(), v); }
+HWY_INLINE FourVec high_of(WideVec v) { return hn::UpperHalf(Four(), v); }
 #endif
 
+HWY_INLINE WideVec all(float value) { return hn::Set(Wide(), value); }
+
+/// Eight sums, in as many vectors as it takes.
+struct EightSums {
+  WideVec part[kParts];
+
+  HWY_INLINE EightSums() {
+    for (std::size_t p = 0; p < kParts; ++p) part[p] = hn::Zero(Wide());
+  }
+};
+
 /// Adds up eight sums, in an order that is part of the result.
-HWY_INLINE float sum_of(const Eight& sums) {
-  const auto s = hn::Add(low_of(sums), high_of(sums));
+HWY_INLINE float sum_of(const EightSums& sums) {
+#if HWY_MAX_BYTES > 16
+  const auto s = hn::Add(low_of(sums.part[0]), high_of(sums.part[0]));
+#else
+  const auto s = hn::Add(sums.part[0], sums.part[1]);
+#endif
   const auto pairs = hn::Add(s, hn::Shuffle1032(s));
   const float sum = hn::GetLane(hn::Add(pairs, hn::Shuffle2301(pairs)));
   return sum > std::numeric_limits<float>::max() ? std::numeric_limits<float>::max() : sum;
@@ -81,7 +74,13 @@ struct FourSums {
   FourVec sums;
 
   HWY_INLINE FourSums() : sums(hn::Zero(Four())) {}
-  HWY_INLINE void add(const Eight& terms) { sums = hn::Add(hn::Add(sums, low_of(terms)), high_of(terms)); }
+  HWY_INLINE void add(WideVec terms) {
+#if HWY_MAX_BYTES > 16
+    sums = hn::Add(hn::Add(sums, low_of(terms)), high_of(terms));
+#else
+    sums = hn::Add(sums, terms);
+#endif
+  }
   HWY_INLINE double total() const {
     float s[4];
     hn::StoreU(sums, Four(), s);
@@ -104,7 +103,7 @@ HWY_INLINE bool each_span(const TriangleTask& task, Take& take) {
   const auto top_x = hn::Set(d, top.x), top_y = hn::Set(d, top.y), middle_x = hn::Set(d, middle.x),
              middle_y = hn::Set(d, middle.y);
   const auto before_sample = hn::Set(d, 1 - kOnSample), on_sample = hn::Set(d, kOnSample);
-  const auto begin = static_cast<std::int32_t>(__builtin_ceil(top.y)), end = static_cast<std::int32_t>(bottom.y);
+  const std::int32_t begin = whole_part(__builtin_ceil(top.y)), end = whole_part(bottom.y);
   for (std::int32_t y = begin; y <= end; y += kAtOnce) {
     std::int32_t first[kAtOnce], last[kAtOnce];
     for (std::int32_t i = 0; i < kAtOnce; i += kLanesOfRows) {
@@ -114,8 +113,8 @@ HWY_INLINE bool each_span(const TriangleTask& task, Take& take) {
       const auto above = hn::Add(top_x, hn::Mul(down, upper));
       const auto below = hn::Add(middle_x, hn::Mul(hn::Sub(ys, middle_y), lower));
       const auto to = hn::IfThenElse(hn::Lt(ys, middle_y), above, below);
-      hn::StoreU(hn::DemoteTo(di, hn::Add(hn::Min(from, to), before_sample)), di, first + i);
-      hn::StoreU(hn::DemoteTo(di, hn::Add(hn::Max(from, to), on_sample)), di, last + i);
+      hn::StoreU(whole_parts(di, hn::Add(hn::Min(from, to), before_sample)), di, first + i);
+      hn::StoreU(whole_parts(di, hn::Add(hn::Max(from, to), on_sample)), di, last + i);
     }
     const std::int32_t count = end - y + 1 < kAtOnce ? end - y + 1 : kAtOnce;
     for (std::int32_t i = 0; i < count; ++i) {
@@ -126,32 +125,32 @@ HWY_INLINE bool each_span(const TriangleTask& task, Take& take) {
 }
 
 /// What is the same for all samples of a triangle.
-struct EightScan {
+struct RowScan {
   const SampleRows rows;
   const float base_x, base_y, slope_y;
-  Eight slope, height, columns;
+  WideVec slope, height, columns[kParts];
   hn::Vec<WideInt> numbers[kParts];
 
-  HWY_INLINE EightScan(const TriangleTask& task, const SampleRows& of)
+  HWY_INLINE RowScan(const TriangleTask& task, const SampleRows& of)
       : rows(of),
         base_x(task.base_x),
         base_y(task.base_y),
         slope_y(task.plane.slope_y),
-        slope(eight_of(task.plane.slope_x)),
-        height(eight_of(task.plane.height)) {
+        slope(all(task.plane.slope_x)),
+        height(all(task.plane.height)) {
     for (std::size_t p = 0; p < kParts; ++p) {
-      columns.part[p] = hn::Iota(Wide(), static_cast<float>(p * kWidth));
+      columns[p] = hn::Iota(Wide(), static_cast<float>(p * kWidth));
       numbers[p] = hn::Iota(WideInt(), static_cast<std::int32_t>(p * kWidth));
     }
   }
 
-  HWY_INLINE const float* row(std::int32_t y) const { return rows.first + y * rows.stride; }
-  /// Calls take.eight(row, offsets, errors, meant) for each eight samples: which samples are meant and no nodata.
+  /// Calls take.samples<part>(down, offsets, errors, meant) for each vector of samples: the part of eight that it is,
+  /// and which of its samples are meant; errors of nodata are NaN.
   template <class Take>
-  HWY_INLINE void each_eight(std::int32_t y, std::int32_t first, std::int32_t last, Take& take) const {
+  HWY_INLINE void each_vector(std::int32_t y, std::int32_t first, std::int32_t last, Take& take) const {
     const float down = static_cast<float>(y) - base_y;
-    const Eight row_height = eight_of(slope_y * down);
-    const float* const samples = row(y);
+    const auto row_height = all(slope_y * down);
+    const float* const samples = rows.first + y * rows.stride;
     for (std::int32_t x = first; x <= last; x += 8) {
       const float* from = samples + x;
       float copy[8] = {};
@@ -159,41 +158,50 @@ struct EightScan {
         for (std::ptrdiff_t i = 0; i < rows.end - from; ++i) copy[i] = from[i];
         from = copy;
       }
-      const Eight offsets = eight_of(static_cast<float>(x) - base_x) + columns;
-      Eight sample;
-      for (std::size_t p = 0; p < kParts; ++p) sample.part[p] = hn::LoadU(Wide(), from + p * kWidth);
-      const Eight errors = (slope * offsets + row_height) - (sample - height);
+      const auto offset = all(static_cast<float>(x) - base_x);
       const auto count = hn::Set(WideInt(), last - x + 1);
-      hn::Mask<Wide> meant[kParts];
-      for (std::size_t p = 0; p < kParts; ++p)
-        meant[p] = hn::And(hn::RebindMask(Wide(), hn::Lt(numbers[p], count)), hn::Eq(errors.part[p], errors.part[p]));
-      take.eight(down, offsets, errors, meant);
+      take_part<0>(down, row_height, offset, from, count, take);
+      // Adding zeros changes no sum.
+      if constexpr (kParts == 2) {
+        if (last - x >= static_cast<std::int32_t>(kWidth)) take_part<1>(down, row_height, offset, from, count, take);
+      }
     }
   }
-};
 
-struct SquareSums {
-  Eight sums;
-
-  HWY_INLINE SquareSums() : sums(eight_of(0)) {}
-  HWY_INLINE void add(const Eight& error, float) { sums = sums + error * error; }
-  HWY_INLINE float energy(float per_square) const { return sum_of(sums) * per_square; }
-};
-
-struct EighthSums {
-  Eight sums;
-
-  HWY_INLINE EighthSums() : sums(eight_of(0)) {}
-  HWY_INLINE void add(const Eight& error, float per_square) {
-    const Eight square = error * error * eight_of(per_square), fourth = square * square;
-    sums = sums + fourth * fourth;
+ private:
+  template <std::size_t kPart, class Take>
+  HWY_INLINE void take_part(float down, WideVec row_height, WideVec offset, const float* from, hn::Vec<WideInt> count,
+                            Take& take) const {
+    const auto offsets = hn::Add(offset, columns[kPart]);
+    const auto sample = hn::LoadU(Wide(), from + kPart * kWidth);
+    const auto errors = hn::Sub(hn::Add(hn::Mul(slope, offsets), row_height), hn::Sub(sample, height));
+    const auto meant = hn::Lt(numbers[kPart], count);
+    take.template samples<kPart>(down, offsets, errors, hn::RebindMask(Wide(), meant));
   }
-  HWY_INLINE float energy(float) const { return sum_of(sums); }
+};
+
+struct SquareSums : EightSums {
+  HWY_INLINE SquareSums() {}
+  template <std::size_t kPart>
+  HWY_INLINE void add(WideVec error, float) {
+    part[kPart] = hn::Add(part[kPart], hn::Mul(error, error));
+  }
+  HWY_INLINE float energy(float per_square) const { return sum_of(*this) * per_square; }
+};
+
+struct EighthSums : EightSums {
+  HWY_INLINE EighthSums() {}
+  template <std::size_t kPart>
+  HWY_INLINE void add(WideVec error, float per_square) {
+    const auto square = hn::Mul(hn::Mul(error, error), all(per_square)), fourth = hn::Mul(square, square);
+    part[kPart] = hn::Add(part[kPart], hn::Mul(fourth, fourth));
+  }
+  HWY_INLINE float energy(float) const { return sum_of(*this); }
 };
 
 template <class Sums>
 struct Assessment {
-  EightScan scan;
+  RowScan scan;
   ErrorLimits limits;
   Sums sums;
   WideVec worst;
@@ -203,17 +211,15 @@ struct Assessment {
   HWY_INLINE Assessment(const TriangleTask& task, const SampleRows& samples, const ErrorLimits& wanted)
       : scan(task, samples), limits(wanted), worst(hn::Zero(Wide())) {}
 
-  HWY_INLINE void eight(float, const Eight&, const Eight& errors, const hn::Mask<Wide>* meant) {
-    Eight size;
-    for (std::size_t p = 0; p < kParts; ++p) {
-      size.part[p] = hn::IfThenElseZero(meant[p], hn::Abs(errors.part[p]));
-      worst = hn::Max(worst, size.part[p]);
-    }
-    sums.add(size, limits.per_square);
+  template <std::size_t kPart>
+  HWY_INLINE void samples(float, WideVec, WideVec errors, hn::Mask<Wide> meant) {
+    const auto size = magnitudes(errors, meant);
+    worst = larger_of(worst, size);
+    sums.template add<kPart>(size, limits.per_square);
   }
   HWY_INLINE bool row(std::int32_t y, std::int32_t first, std::int32_t last) {
-    scan.each_eight(y, first, last, *this);
-    if (!hn::AllFalse(Wide(), hn::Gt(worst, hn::Set(Wide(), limits.cut)))) {
+    scan.each_vector(y, first, last, *this);
+    if (!none_of(Wide(), hn::Gt(worst, all(limits.cut)))) {
       result.kind = TriangleError::Verdict::Kind::kBreaks;
       result.y = y;
       result.first = first;
@@ -239,27 +245,25 @@ TriangleSums assess(const TriangleTask& task, const SampleRows& rows, const Erro
   return result;
 }
 
-/// Calls asks.add(t, λ) for each eight samples: errors in thresholds, and what a unit's rise of the first corner adds
-/// to them; both 0 where none is meant.
+/// Calls asks.add(t, λ) for each vector of samples: errors in thresholds, and what a unit's rise of the first corner
+/// adds to them; both 0 where none is meant.
 template <class Asks>
 struct Residuals {
-  EightScan scan;
+  RowScan scan;
   CornerWeight weight;
   Asks asks;
 
   HWY_INLINE Residuals(const TriangleTask& task, const SampleRows& samples, const CornerWeight& of, const Asks& begin)
       : scan(task, samples), weight(of), asks(begin) {}
 
-  HWY_INLINE void eight(float down, const Eight& offsets, const Eight& errors, const hn::Mask<Wide>* meant) {
-    Eight share = eight_of(1 + weight.slope_y * down) + eight_of(weight.slope_x) * offsets, t;
-    for (std::size_t p = 0; p < kParts; ++p) {
-      t.part[p] = hn::IfThenElseZero(meant[p], errors.part[p]);
-      share.part[p] = hn::IfThenElseZero(meant[p], share.part[p]);
-    }
-    asks.add(t * eight_of(weight.per_threshold), share);
+  template <std::size_t>
+  HWY_INLINE void samples(float down, WideVec offsets, WideVec errors, hn::Mask<Wide> meant) {
+    const auto share = hn::Add(all(1 + weight.slope_y * down), hn::Mul(all(weight.slope_x), offsets));
+    const auto counts = hn::And(meant, hn::Eq(errors, errors));
+    asks.add(hn::Mul(hn::IfThenElseZero(counts, errors), all(weight.per_threshold)), hn::IfThenElseZero(counts, share));
   }
   HWY_INLINE bool row(std::int32_t y, std::int32_t first, std::int32_t last) {
-    scan.each_eight(y, first, last, *this);
+    scan.each_vector(y, first, last, *this);
     return true;
   }
 };
@@ -275,9 +279,9 @@ struct SquarePull {
   FourSums stiffness, push;
 
   HWY_INLINE SquarePull() {}
-  HWY_INLINE void add(const Eight& t, const Eight& share) {
-    stiffness.add(share * share);
-    push.add(share * t);
+  HWY_INLINE void add(WideVec t, WideVec share) {
+    stiffness.add(hn::Mul(share, share));
+    push.add(hn::Mul(share, t));
   }
 };
 
@@ -285,10 +289,10 @@ struct EighthPull {
   FourSums stiffness, push;
 
   HWY_INLINE EighthPull() {}
-  HWY_INLINE void add(const Eight& t, const Eight& share) {
-    const Eight t2 = t * t, weighed = t2 * t2 * t2 * share;
-    stiffness.add(weighed * share);
-    push.add(weighed * t);
+  HWY_INLINE void add(WideVec t, WideVec share) {
+    const auto t2 = hn::Mul(t, t), weighed = hn::Mul(hn::Mul(hn::Mul(t2, t2), t2), share);
+    stiffness.add(hn::Mul(weighed, share));
+    push.add(hn::Mul(weighed, t));
   }
 };
 
@@ -302,10 +306,10 @@ struct SquareMoments {
   FourSums sums[3];
 
   HWY_INLINE SquareMoments() {}
-  HWY_INLINE void add(const Eight& t, const Eight& share) {
-    sums[0].add(t * t);
-    sums[1].add(t * share);
-    sums[2].add(share * share);
+  HWY_INLINE void add(WideVec t, WideVec share) {
+    sums[0].add(hn::Mul(t, t));
+    sums[1].add(hn::Mul(t, share));
+    sums[2].add(hn::Mul(share, share));
   }
 };
 
@@ -313,17 +317,18 @@ struct EighthMoments {
   FourSums sums[9];
 
   HWY_INLINE EighthMoments() {}
-  HWY_INLINE void add(const Eight& t, const Eight& share) {
-    const Eight t2 = t * t, t4 = t2 * t2, share2 = share * share, share4 = share2 * share2, both = t * share;
-    sums[0].add(t4 * t4);
-    sums[1].add(t4 * t2 * both);
-    sums[2].add(t4 * t2 * share2);
-    sums[3].add(t4 * both * share2);
-    sums[4].add(t4 * share4);
-    sums[5].add(t2 * both * share4);
-    sums[6].add(t2 * share4 * share2);
-    sums[7].add(both * share4 * share2);
-    sums[8].add(share4 * share4);
+  HWY_INLINE void add(WideVec t, WideVec share) {
+    const auto t2 = hn::Mul(t, t), t4 = hn::Mul(t2, t2), share2 = hn::Mul(share, share),
+               share4 = hn::Mul(share2, share2), both = hn::Mul(t, share);
+    sums[0].add(hn::Mul(t4, t4));
+    sums[1].add(hn::Mul(hn::Mul(t4, t2), both));
+    sums[2].add(hn::Mul(hn::Mul(t4, t2), share2));
+    sums[3].add(hn::Mul(hn::Mul(t4, both), share2));
+    sums[4].add(hn::Mul(t4, share4));
+    sums[5].add(hn::Mul(hn::Mul(t2, both), share4));
+    sums[6].add(hn::Mul(hn::Mul(t2, share4), share2));
+    sums[7].add(hn::Mul(hn::Mul(both, share4), share2));
+    sums[8].add(hn::Mul(share4, share4));
   }
 };
 
@@ -337,21 +342,17 @@ void add_moments(const TriangleTask& task, const SampleRows& rows, const CornerW
 struct RoomLeft {
   WideVec lowest, highest;
 
-  HWY_INLINE void add(const Eight& t, const Eight& share) {
-    const Wide d;
-    const auto one = hn::Set(d, 1.0f), least = hn::Set(d, kLeastShare);
-    for (std::size_t p = 0; p < kParts; ++p) {
-      const auto weighs = hn::Gt(share.part[p], least);
-      const auto down = hn::Div(hn::Sub(hn::Neg(one), t.part[p]), share.part[p]),
-                 up = hn::Div(hn::Sub(one, t.part[p]), share.part[p]);
-      lowest = hn::IfThenElse(hn::And(weighs, hn::Gt(down, lowest)), down, lowest);
-      highest = hn::IfThenElse(hn::And(weighs, hn::Lt(up, highest)), up, highest);
-    }
+  HWY_INLINE void add(WideVec t, WideVec share) {
+    const auto one = all(1);
+    const auto weighs = hn::Gt(share, all(kLeastShare));
+    const auto down = hn::Div(hn::Sub(hn::Neg(one), t), share), up = hn::Div(hn::Sub(one, t), share);
+    lowest = hn::IfThenElse(hn::And(weighs, hn::Gt(down, lowest)), down, lowest);
+    highest = hn::IfThenElse(hn::And(weighs, hn::Lt(up, highest)), up, highest);
   }
 };
 
 void narrow(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight, TriangleError::Room& room) {
-  const RoomLeft left = ask(task, rows, weight, RoomLeft{hn::Set(Wide(), room.lowest), hn::Set(Wide(), room.highest)});
+  const RoomLeft left = ask(task, rows, weight, RoomLeft{all(room.lowest), all(room.highest)});
   room.lowest = hn::GetLane(hn::MaxOfLanes(Wide(), left.lowest));
   room.highest = hn::GetLane(hn::MinOfLanes(Wide(), left.highest));
 }

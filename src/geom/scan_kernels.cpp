@@ -13,12 +13,7 @@ const ScanKernels& scan_kernels() {
 }
 
 std::span<const ScanKernels> available_kernels() {
-  static const std::vector<ScanKernels> all = [] {
-    const std::span<const ScanKernels> vectors = detail::vector_scan_kernels();
-    std::vector<ScanKernels> kernels(vectors.begin(), vectors.end());
-    kernels.push_back(detail::scalar_scan_kernels());
-    return kernels;
-  }();
+  static const std::vector<ScanKernels> all = list_kernels<&detail::scalar_scan_kernels>(detail::vector_scan_kernels());
   return all;
 }
 

@@ -49,7 +49,7 @@ HWY_INLINE hn::Vec<D> bounds_at(D d, const BlockBounds& blocks, std::int32_t row
   const std::ptrdiff_t at = row * blocks.tile.block_stride + first;
   const auto above = hn::Sub(hn::Sub(hn::LoadU(d, blocks.tile.block_high + at), base), surface);
   const auto below = hn::Sub(surface, hn::Sub(hn::LoadU(d, blocks.tile.block_low + at), base));
-  return hn::Add(hn::Max(above, below), hn::Set(d, blocks.extent));
+  return hn::Add(larger_of(above, below), hn::Set(d, blocks.extent));
 }
 
 HWY_INLINE float across_of(const ScanTask& task, std::int32_t row) {

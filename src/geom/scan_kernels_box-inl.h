@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "base/bits.h"
+#include "base/wasm_vectors-inl.h"
 #include "geom/scan_kernels_task.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -46,7 +47,7 @@ struct Farthest {
     at = hn::IfThenElse(hn::RebindMask(di, is_more), place, at);
   }
   HWY_INLINE void offer_to(D d, float start, ScanBest& best) const {
-    if (hn::AllFalse(d, hn::Gt(error, hn::Set(d, start)))) return;
+    if (none_of(d, hn::Gt(error, hn::Set(d, start)))) return;
     const hn::RebindToSigned<D> di;
     const auto largest = hn::MaxOfLanes(d, error);
     const auto none = hn::Set(di, std::numeric_limits<std::int32_t>::max());
@@ -72,15 +73,15 @@ HWY_INLINE void scan_strip(D d, const TileView& tile, const ScanTask& task, std:
   auto w_1 = hn::Add(hn::Mul(iota, hn::Set(di, task.along_x[1])), hn::Set(di, task.edge(1, x, y)));
   auto w_2 = hn::Add(hn::Mul(iota, hn::Set(di, task.along_x[2])), hn::Set(di, task.edge(2, x, y)));
   auto dy = hn::Set(d, static_cast<float>(y - task.base.y));
+  const auto sign = hn::SignBit(d);
   auto most = hn::Set(d, start), most_dy = dy;
   for (std::int32_t row = 0; row < rows; row += 4) {
     for (int unrolled = 0; unrolled < 4; ++unrolled) {
       const auto surface = hn::Add(along, hn::Mul(slope_y, dy));
-      const auto error = hn::Abs(hn::Sub(surface, hn::Sub(hn::LoadU(d, samples), base)));
-      const auto outside = hn::BroadcastSignBit(hn::Or(hn::Or(w_0, w_1), w_2));
-      const auto is_worse = hn::AndNot(hn::MaskFromVec(hn::BitCast(d, outside)), hn::Gt(error, most));
-      most = hn::IfThenElse(is_worse, error, most);
-      most_dy = hn::IfThenElse(is_worse, dy, most_dy);
+      const auto error = hn::Sub(surface, hn::Sub(hn::LoadU(d, samples), base));
+      // Outside of the triangle a weight is negative, and so is the error then: it is no candidate.
+      const auto weights = hn::BitCast(d, hn::Or(hn::Or(w_0, w_1), w_2));
+      take_larger(hn::Or(hn::AndNot(sign, error), hn::And(sign, weights)), dy, most, most_dy);
       samples += tile.stride;
       w_0 = hn::Add(w_0, down_0);
       w_1 = hn::Add(w_1, down_1);
@@ -129,13 +130,14 @@ struct StripRows {
     const auto strip_right = hn::Add(strip_left, hn::Set(d, static_cast<float>(lanes - 1)));
     auto top = hn::Set(d, static_cast<float>(task.bottom)), bottom = hn::Set(d, static_cast<float>(task.top));
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto from = hn::Max(strip_left, hn::Set(d, x_low[i])), to = hn::Min(strip_right, hn::Set(d, x_high[i]));
+      const auto from = larger_of(strip_left, hn::Set(d, x_low[i])),
+                 to = smaller_of(strip_right, hn::Set(d, x_high[i]));
       const auto meets = hn::Le(from, to);
       const auto corner_x = hn::Set(d, x[i]), corner_y = hn::Set(d, y[i]), by = hn::Set(d, slant[i]);
       const auto y_from = hn::Add(corner_y, hn::Mul(by, hn::Sub(from, corner_x)));
       const auto y_to = hn::Add(corner_y, hn::Mul(by, hn::Sub(to, corner_x)));
-      top = hn::IfThenElse(meets, hn::Min(top, hn::Min(y_from, y_to)), top);
-      bottom = hn::IfThenElse(meets, hn::Max(bottom, hn::Max(y_from, y_to)), bottom);
+      top = hn::IfThenElse(meets, smaller_of(top, smaller_of(y_from, y_to)), top);
+      bottom = hn::IfThenElse(meets, larger_of(bottom, larger_of(y_from, y_to)), bottom);
     }
     // Slant, product and sum lose at most 2⁻¹² each, since no edge goes farther than 2¹² rows; the margin is more than
     // four times their sum, and so leaves room for its own roundings and those of the conversion.

@@ -100,7 +100,7 @@ bool scan_row(const float* samples, std::int32_t count, double base, double slop
               std::int32_t& at) {
   std::int32_t x = 0;
   bool found = false;
-#if HWY_HAVE_FLOAT64
+#if SCARP_HAVE_FLOAT64
   const hn::ScalableTag<double> d;
   const hn::Rebind<float, decltype(d)> df;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));

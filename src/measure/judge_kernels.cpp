@@ -12,12 +12,8 @@ const JudgeKernels& judge_kernels() {
 }
 
 std::span<const JudgeKernels> available_judge_kernels() {
-  static const std::vector<JudgeKernels> all = [] {
-    const std::span<const JudgeKernels> vectors = detail::vector_judge_kernels();
-    std::vector<JudgeKernels> kernels(vectors.begin(), vectors.end());
-    kernels.push_back(detail::scalar_judge_kernels());
-    return kernels;
-  }();
+  static const std::vector<JudgeKernels> all =
+      list_kernels<&detail::scalar_judge_kernels>(detail::vector_judge_kernels());
   return all;
 }
 

@@ -18,10 +18,12 @@
 //
 #include <hwy/highway.h>
 
+#include "base/wasm_vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace scarp::judge::HWY_NAMESPACE {
 
-#if HWY_HAVE_FLOAT64 && !HWY_HAVE_SCALABLE
+#if SCARP_HAVE_FLOAT64 && !HWY_HAVE_SCALABLE
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -60,7 +62,7 @@ HWY_INLINE void judge_samples(FacetHeights& facet, WideVec w0, WideVec w1, WideV
   if (!kIsWhole) judged = hn::And(judged, hn::Eq(sample, sample));
   auto taken = hn::And(judged, hn::Or(hn::Not(hn::Le(size, held_size)), hn::Eq(error, held_size)));
   auto risky = hn::And(judged, hn::Ge(size, facet.watch));
-  if (HWY_UNLIKELY(!hn::AllFalse(d, risky))) {
+  if (HWY_UNLIKELY(!scarp::HWY_NAMESPACE::none_of(d, risky))) {
     const auto zero = hn::Zero(d);
     risky = hn::And(risky, hn::Or(hn::Or(hn::Ne(t0, zero), hn::Ne(t1, zero)), hn::Ne(t2, zero)));
     if (!hn::AllFalse(d, risky)) {
@@ -183,8 +185,8 @@ HWY_INLINE void find_spans(const FacetTask& facet, std::int32_t* left, std::int3
     }
     const auto first = hn::Min(hn::Ceil(lo), hn::Add(most_right, one)),
                last = hn::Max(hn::Floor(hi), hn::Sub(most_left, one));
-    hn::StoreU(hn::DemoteTo(di, first), di, left + (row - facet.first));
-    hn::StoreU(hn::DemoteTo(di, last), di, right + (row - facet.first));
+    hn::StoreU(scarp::HWY_NAMESPACE::whole_parts(di, first), di, left + (row - facet.first));
+    hn::StoreU(scarp::HWY_NAMESPACE::whole_parts(di, last), di, right + (row - facet.first));
   }
 }
 
