@@ -98,12 +98,12 @@ void RingSearch::look_from(Point sample) {
   for (std::size_t i = 0; i < size_; ++i) {
     const double x = x_[i], y = y_[i];
     Set right = 0;
-    for (std::size_t j = i + 1; j < size_; ++j) {
+    for (std::size_t j = size_; --j > i;) {
       const double cross = x * y_[j] - x_[j] * y;
       cross_[i][j] = cross;
-      right |= static_cast<Set>(cross <= 0) << j;
+      right = right << 1 | Set{cross <= 0};
     }
-    right_of_[i] = right;
+    right_of_[i] = right << (i + 1);
   }
 }
 
@@ -111,10 +111,8 @@ void RingSearch::keep_positive() {
   for (std::size_t i = 0; i + 2 < size_; ++i) {
     for (std::size_t j = i + 2; j < size_; ++j) {
       Set set = 0;
-      for (std::size_t q = i + 1; q < j; ++q) {
-        set |= static_cast<Set>(cross_[i][q] + cross_[q][j] > cross_[i][j]) << q;
-      }
-      allowed_[i][j] = set;
+      for (std::size_t q = j; --q > i;) set = set << 1 | Set{cross_[i][q] + cross_[q][j] > cross_[i][j]};
+      allowed_[i][j] = set << (i + 1);
     }
   }
 }
@@ -152,12 +150,12 @@ bool RingSearch::cross_out_by(const AddMore& add_more) {
       const std::size_t j = lowest(lasts);
       const double wq = -cross_[i][j];
       Set broken = 0;
-      for (std::size_t q = i + 1; q < j; ++q) {
+      for (std::size_t q = j; --q > i;) {
         const double wi = cross_[q][j], wj = cross_[i][q];
         const double error = add_more(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]), i, q, j);
-        broken |= (Set{wi >= 0} & Set{wj >= 0} & Set{error > limit_ * (wi + wq + wj)}) << q;
+        broken = broken << 1 | (Set{wi >= 0} & Set{wj >= 0} & Set{error > limit_ * (wi + wq + wj)});
       }
-      broken &= allowed_[i][j];
+      broken = broken << (i + 1) & allowed_[i][j];
       allowed_[i][j] ^= broken;
       any |= broken;
     }

@@ -78,12 +78,12 @@ struct TriangleTask {
     // By comparisons alone, as nobody could predict the branches of swaps. Two of the eight outcomes cannot be.
     constexpr std::array<std::array<std::uint8_t, 3>, 8> kOrders{
         {{0, 1, 2}, {1, 0, 2}, {0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {0, 1, 2}, {2, 0, 1}, {2, 1, 0}}};
-    const std::array<Place, 3> places{pa, pb, pc};
+    const std::array<double, 3> xs{pa.x, pb.x, pc.x}, ys{pa.y, pb.y, pc.y};
     const auto& [first, second, third] =
         kOrders[unsigned{b.y < a.y} | unsigned{c.y < a.y} << 1 | unsigned{c.y < b.y} << 2];
-    top = places[first];
-    middle = places[second];
-    bottom = places[third];
+    top = {xs[first], ys[first]};
+    middle = {xs[second], ys[second]};
+    bottom = {xs[third], ys[third]};
     base_x = static_cast<float>(pa.x);
     base_y = static_cast<float>(pa.y);
     plane = ScanPlane::spanned(
