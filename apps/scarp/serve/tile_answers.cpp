@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <string_view>
 #include <utility>
 
 #include "scarp/gzip.h"
@@ -18,10 +20,8 @@ namespace {
 /// More than any tile has.
 constexpr std::size_t kMostUnpacked = std::size_t{1} << 28;
 
-std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {  // FNV-1a
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3;
-  return hash;
+std::size_t hash_of(std::span<const std::uint8_t> bytes) {
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::string media_type_of(const std::string& name) {

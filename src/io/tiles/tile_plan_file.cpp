@@ -8,9 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "base/fnv.h"
 #include "io/tiles/byte_source.h"
 #include "io/tiles/grid_json.h"
 #include "io/tiles/plan_waters.h"
@@ -20,8 +23,6 @@
 namespace scarp {
 namespace {
 
-/// FNV-1a.
-constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325, kFnvPrime = 0x100000001b3;
 constexpr int kPlanVersion = 1;
 /// Longitudes of lines.
 constexpr double kMostDegrees = 720;
@@ -330,10 +331,10 @@ Json describe_contents(const std::vector<FileStamp>& files) {
 }
 
 std::uint64_t hash_of(const Json& json) {
-  std::uint64_t key = kFnvStart;
-  for (const char byte : json.dump(1, ' ', false, Json::error_handler_t::replace))
-    key = (key ^ static_cast<std::uint8_t>(byte)) * kFnvPrime;
-  return key;
+  const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace);
+  Fnv name;
+  name.add(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  return name.hash();
 }
 
 }  // namespace
@@ -444,13 +445,13 @@ Result<void> add_contents(TileJob& job) {
     const auto source = ByteSource::open(file.path);
     if (!source) return tl::unexpected(source.error());
     constexpr std::uint64_t kAtOnce = 1 << 22;
-    std::uint64_t hash = kFnvStart;
+    Fnv name;
     for (std::uint64_t at = 0; at < (*source)->size(); at += kAtOnce) {
       const auto bytes = (*source)->read(at, std::min(kAtOnce, (*source)->size() - at));
       if (!bytes) return tl::unexpected(bytes.error());
-      for (const std::uint8_t byte : *bytes) hash = (hash ^ byte) * kFnvPrime;
+      name.add(*bytes);
     }
-    file.content = std::max<std::uint64_t>(hash, 1);
+    file.content = std::max<std::uint64_t>(name.hash(), 1);
     return {};
   };
   std::vector<std::vector<FileStamp>*> lists{&job.rasters, &job.files};

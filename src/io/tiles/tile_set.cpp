@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <utility>
 
+#include "base/fnv.h"
 #include "io/tiles/folder_set.h"
 #include "io/tiles/set_archive.h"
 #include "scarp/gzip.h"
@@ -100,12 +102,10 @@ TileSetSink::TileSetSink(TileSetWriter& writer, TileFormat format, const Pyramid
 Result<std::vector<std::uint8_t>> TileSetSink::encode(const TerrainTile& tile) const { return encoder_(tile); }
 
 Result<void> TileSetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
-  // FNV-1a of the id and the bytes. Sums do not depend on the order.
-  std::uint64_t hash = 0xcbf29ce484222325;
-  constexpr std::uint64_t kPrime = 0x100000001b3;
-  for (const std::uint32_t part : {static_cast<std::uint32_t>(id.z), id.x, id.y}) hash = (hash ^ part) * kPrime;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * kPrime;
-  hash_ += hash;
+  Fnv name;
+  name.add(std::array{static_cast<std::uint32_t>(id.z), id.x, id.y});
+  name.add(bytes);
+  hash_ += name.hash();  // sums do not depend on the order
   return writer_->put_tile(id, bytes);
 }
 
