@@ -19,6 +19,7 @@ add_library(fmt::fmt INTERFACE IMPORTED)
 target_include_directories(fmt::fmt INTERFACE ${PROJECT_SOURCE_DIR}/bindings/wasm/headers)
 
 target_compile_options(scarp_flags INTERFACE -fwasm-exceptions -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext)
+target_compile_definitions(scarp_flags INTERFACE SCARP_WITHOUT_THREADS)
 target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=1048576)
 
 # Where meshes, their proof and a Refiner spend their time (node --cpu-prof of a module linked with --profiling-funcs).

@@ -69,7 +69,7 @@ int thread_count(int requested) {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
+void parallel_for(std::size_t count, int threads, FunctionRef<void(std::size_t)> task) {
   const std::size_t workers =
       count <= 1 ? count : std::min<std::size_t>(count, static_cast<std::size_t>(thread_count(threads)));
   if (workers <= 1) {
@@ -98,14 +98,14 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 }
 
 void parallel_for_parts(std::size_t count, std::size_t size, int threads,
-                        const std::function<void(std::size_t first, std::size_t end)>& task) {
+                        FunctionRef<void(std::size_t first, std::size_t end)> task) {
   parallel_for((count + size - 1) / size, threads,
                [&](std::size_t part) { task(part * size, std::min(count, (part + 1) * size)); });
 }
 
-void run_beside(int threads, const std::function<void()>& beside, const std::function<void()>& rest) {
+void run_beside(int threads, FunctionRef<void()> beside, FunctionRef<void()> rest) {
   FirstFailure failure(2);
-  const auto run = [&](std::size_t i, const std::function<void()>& task) {
+  const auto run = [&](std::size_t i, FunctionRef<void()> task) {
     if (failure.is_needless(i)) return;
     try {
       task();
@@ -188,8 +188,8 @@ class TaskOrder {
 
 }  // namespace
 
-void parallel_in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& task,
-                       const std::function<bool(std::size_t)>& commit) {
+void parallel_in_order(std::size_t count, int threads, FunctionRef<void(std::size_t, std::size_t)> task,
+                       FunctionRef<bool(std::size_t)> commit) {
   const std::size_t workers = std::min<std::size_t>(count, static_cast<std::size_t>(thread_count(threads)));
   TaskOrder order(count, 4 * workers);
   const auto run = [&](std::size_t i, std::size_t worker) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/point.h"
+#include "base/sort.h"
 
 namespace scarp {
 
@@ -18,7 +19,7 @@ template <class T, class Key>
 void radix_sort(std::vector<T>& items, const Key& key) {
   constexpr std::size_t kFew = 128;
   if (items.size() < kFew) {
-    std::stable_sort(items.begin(), items.end(), [&](const T& a, const T& b) { return key(a) < key(b); });
+    sort_rarely(items, [&](const T& a, const T& b) { return key(a) < key(b); });
     return;
   }
   constexpr std::size_t kDigits = 8, kValues = 256;

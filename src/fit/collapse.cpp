@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/function_ref.h"
+#include "base/sort.h"
 #include "fit/fan.h"
 
 namespace scarp {
@@ -95,7 +97,7 @@ bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
 }
 
 /// Each edge once, from the end that comes first.
-void Collapse::offer_edges_of(Patch::Id v, const std::function<bool(Patch::Id)>& is_wanted) {
+void Collapse::offer_edges_of(Patch::Id v, FunctionRef<bool(Patch::Id)> is_wanted) {
   if (patch_.is_removed(v) || patch_.is_locked(v)) return;
   patch_.find_star(v, around_);
   for (const Patch::Id u : around_.ring) {
@@ -125,12 +127,11 @@ bool Collapse::take(const Offer& offer) {
   return repair_.merge(offer.v, star_, fan_, offer.u, offer.place);
 }
 
-Collapse::Counts Collapse::run(const std::function<bool(Patch::Id)>& is_wanted,
-                               const std::function<bool()>& is_time_up) {
+Collapse::Counts Collapse::run(FunctionRef<bool(Patch::Id)> is_wanted, const std::function<bool()>& is_time_up) {
   const auto is_over = [&] { return is_time_up && is_time_up(); };
   offers_.clear();
   for (Patch::Id v = 0; v < patch_.node_count() && !is_over(); ++v) offer_edges_of(v, is_wanted);
-  std::sort(offers_.begin(), offers_.end(), [](const Offer& a, const Offer& b) {
+  sort_rarely(offers_, [](const Offer& a, const Offer& b) {
     return a.rise != b.rise ? a.rise < b.rise : a.v != b.v ? a.v < b.v : a.u < b.u;
   });
   Counts counts;

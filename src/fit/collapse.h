@@ -20,6 +20,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "fit/patch.h"
 #include "fit/repair.h"
 #include "fit/rules.h"
@@ -38,7 +39,7 @@ class Collapse {
   };
   /// One pass over the edges between vertices of which `is_wanted` holds for one at least; neither may be locked nor
   /// lie on a side. REQUIRES: vertices are free; every triangle of the patch keeps the threshold, energies are known.
-  Counts run(const std::function<bool(Patch::Id)>& is_wanted, const std::function<bool()>& is_time_up);
+  Counts run(FunctionRef<bool(Patch::Id)> is_wanted, const std::function<bool()>& is_time_up);
 
  private:
   struct Offer {
@@ -49,7 +50,7 @@ class Collapse {
   bool find_polygon(Patch::Id v, Patch::Id u);
   const FitCorner& corner(std::size_t i) const { return patch_.at(polygon_[i % polygon_.size()]); }
   bool search(Patch::Id v, Patch::Id u, Offer& offer) const;
-  void offer_edges_of(Patch::Id v, const std::function<bool(Patch::Id)>& is_wanted);
+  void offer_edges_of(Patch::Id v, FunctionRef<bool(Patch::Id)> is_wanted);
   bool take(const Offer& offer);
   void add_fan(std::size_t first, std::size_t last);
 

@@ -93,8 +93,7 @@ bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& opti
                  });
 }
 
-bool Rounds::work_twice(const PatchGrid& grid, double end, const Prepare& prepare, const Between& between,
-                        const Job& job) {
+bool Rounds::work_twice(const PatchGrid& grid, double end, Prepare prepare, Between between, Job job) {
   const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
   std::vector<Patch> patches(cutter.count());
   std::vector<std::vector<Vertex>> vertices(cutter.count());
@@ -127,7 +126,7 @@ Fitted Rounds::finish() {
 }
 
 /// Cuts, lets work(patch, vertices, error) count what it does to each patch, and joins, to a lattice of so many steps.
-bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, const Work& work) {
+bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work) {
   const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
   std::vector<Patch> patches(cutter.count());
   std::vector<std::vector<Vertex>> vertices(cutter.count());
@@ -146,7 +145,7 @@ bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, cons
 
 /// In parallel, and tells of the progress; counts_ of a patch are added when it is done.
 bool Rounds::each_patch(std::size_t count, double begin, double end,
-                        const std::function<void(std::size_t i, std::size_t worker)>& one) {
+                        FunctionRef<void(std::size_t i, std::size_t worker)> one) {
   bool goes_on = true;
   parallel_in_order(count, options_.threads, one, [&](std::size_t i) {
     if (i < counts_.size()) add(std::exchange(counts_[i], {}));

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "fit/cut.h"
 #include "fit/fit.h"
 #include "fit/schedule.h"
@@ -30,10 +30,10 @@ class Rounds {
   }
 
   /// Of squared errors: prepares each patch, hands all of them to `between`, then lets `job` work on each.
-  using Prepare = std::function<void(Patch& patch, const TriangleError& error)>;
-  using Between = std::function<void(std::span<const Patch> patches)>;
-  using Job = std::function<void(std::size_t i, Patch& patch, const TriangleError& error)>;
-  bool work_twice(const PatchGrid& grid, double end, const Prepare& prepare, const Between& between, const Job& job);
+  using Prepare = FunctionRef<void(Patch& patch, const TriangleError& error)>;
+  using Between = FunctionRef<void(std::span<const Patch> patches)>;
+  using Job = FunctionRef<void(std::size_t i, Patch& patch, const TriangleError& error)>;
+  bool work_twice(const PatchGrid& grid, double end, Prepare prepare, Between between, Job job);
 
   /// What removal has had on borders it takes up itself.
   void forget_held() { held_.assign(held_.size(), 0); }
@@ -48,13 +48,13 @@ class Rounds {
   Fitted finish();
 
  private:
-  using Work = std::function<FitCounts(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error)>;
-  bool work_on(const PatchGrid& grid, double end, std::int32_t steps, const Work& work);
+  using Work = FunctionRef<FitCounts(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error)>;
+  bool work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work);
   bool is_worked_on(const Patch& patch) const;
   TriangleError errors_of(const Patch& patch, SampleWindow& window) const;
   std::int32_t steps_of_moves() const;
   bool each_patch(std::size_t count, double begin, double end,
-                  const std::function<void(std::size_t i, std::size_t worker)>& one);
+                  FunctionRef<void(std::size_t i, std::size_t worker)> one);
   void join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
             std::int32_t steps);
   void add(const FitCounts& counts);

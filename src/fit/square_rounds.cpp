@@ -110,10 +110,10 @@ class SquareRounds {
     return triangles_ > options_.squares->most_triangles || rounds_.tin().vertex_count() > options_.squares->most_vertices;
   }
 
-  using Work = std::function<void(Patch& patch, const TriangleError& error, Share share)>;
+  using Work = FunctionRef<void(Patch& patch, const TriangleError& error, Share share)>;
 
   /// `over`: triangles that are to be left, over those of the budget.
-  bool round(double over, double end, const Work& work) {
+  bool round(double over, double end, Work work) {
     const std::int32_t now = side();
     const PatchGrid grid{now, now < longest() && count_++ % 2 == 1 ? now / 2 : 0};
     std::vector<Share> shares;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/radix_sort.h"
+#include "base/sort.h"
 
 namespace scarp {
 namespace {
@@ -61,7 +62,7 @@ class Merger {
  private:
   /// Those of one line follow each other along it.
   void unite(std::vector<std::uint32_t>& alike) {
-    std::sort(alike.begin(), alike.end(), [this](std::uint32_t i, std::uint32_t j) {
+    sort_rarely(alike, [this](std::uint32_t i, std::uint32_t j) {
       const OnLine &a = lines_[i], &b = lines_[j];
       if (a.direction != b.direction) return before(a.direction, b.direction);
       if (a.offset != b.offset) return a.offset < b.offset;

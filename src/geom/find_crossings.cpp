@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/function_ref.h"
 #include "base/int128.h"
 #include "base/radix_sort.h"
 #include "geom/box_tree.h"
@@ -129,8 +130,7 @@ void visit_overlaps(const BoxTree& tree, const Visit& visit) {
 
 }  // namespace
 
-void visit_neighbours(std::span<const Segment> segments,
-                      const std::function<void(std::uint32_t, std::uint32_t)>& visit) {
+void visit_neighbours(std::span<const Segment> segments, FunctionRef<void(std::uint32_t, std::uint32_t)> visit) {
   const BoxedPieces pieces = cut(segments);
   const BoxTree tree(pieces.boxes);
   visit_overlaps(tree, [&](std::size_t a, std::size_t b) {

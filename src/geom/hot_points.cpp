@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "base/sort.h"
+
 namespace scarp {
 namespace {
 
@@ -53,7 +55,7 @@ HotPoints::HotPoints(std::vector<Point> points, std::span<const Segment> rigid, 
     if (is_antidiagonal(s))
       falling_.push_back({s.from.x + s.from.y, std::min(s.from.x, s.to.x), std::max(s.from.x, s.to.x)});
   }
-  std::sort(falling_.begin(), falling_.end(), [](const Falling& a, const Falling& b) {
+  sort_rarely(falling_, [](const Falling& a, const Falling& b) {
     return std::tie(a.sum, a.first, a.last) < std::tie(b.sum, b.first, b.last);
   });
   std::size_t kept = 0;

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace scarp {
 
 namespace {
@@ -21,7 +23,7 @@ class Sweep {
   std::vector<std::int32_t> run(const Cross& cross) {
     std::vector<std::uint32_t> ends(edges_.size());
     std::iota(ends.begin(), ends.end(), 0u);
-    std::sort(ends.begin(), ends.end(), [this](auto i, auto j) { return edges_[i][1] < edges_[j][1]; });
+    sort_rarely(ends, [this](auto i, auto j) { return edges_[i][1] < edges_[j][1]; });
     std::vector<std::int32_t> before(edges_.size(), 0);
     std::size_t ended = 0;
     for (std::uint32_t i = 0; i < edges_.size();) {
@@ -63,7 +65,7 @@ class Sweep {
 
 /// Those that a polygon passes an odd number of times, by polygon.
 void drop_pairs(std::vector<PolygonEdge>& passes) {
-  std::sort(passes.begin(), passes.end(), [](const PolygonEdge& a, const PolygonEdge& b) {
+  sort_rarely(passes, [](const PolygonEdge& a, const PolygonEdge& b) {
     return a.polygon != b.polygon ? a.polygon < b.polygon : a.edge < b.edge;
   });
   std::size_t kept = 0;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "base/point.h"
 
 namespace scarp {
@@ -30,8 +30,7 @@ inline bool is_antidiagonal(const Segment& s) { return s.to.x - s.from.x == s.fr
 
 /// Calls visit(a, b) for each two segments that may have a point in common, more than once for some. REQUIRES: no
 /// segment is a point; coordinates in [0, kMaxCoordinate]. Cost: as find_crossings().
-void visit_neighbours(std::span<const Segment> segments,
-                      const std::function<void(std::uint32_t, std::uint32_t)>& visit);
+void visit_neighbours(std::span<const Segment> segments, FunctionRef<void(std::uint32_t, std::uint32_t)> visit);
 
 struct Crossings {
   std::vector<Point> points;  ///< in raster order, each once

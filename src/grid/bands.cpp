@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/function_ref.h"
 #include "grid/samples.h"
 #include "grid/source_failure.h"
 #include "grid/window.h"
@@ -71,7 +72,7 @@ const float* Band::samples(std::int32_t x, std::int32_t y, std::int32_t count) c
 }
 
 Result<void> sweep_rows(const HeightField& field, std::int32_t reach,
-                        const std::function<Result<void>(const RowRange& range)>& visit) {
+                        FunctionRef<Result<void>(const RowRange& range)> visit) {
   if (field.samples != nullptr) {
     const auto samples = Samples::of(field);
     if (!samples) return tl::unexpected(samples.error());

@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "base/point.h"
 #include "grid/raster.h"
 #include "scarp/height_field.h"
@@ -103,7 +104,7 @@ struct RowRange {
 /// below those, where the raster has them. A raster in memory is one range. Streamed samples are read once; memory: 4
 /// bytes a sample of 64 + 2 · reach rows. Fails as the field does, and as visit() does.
 Result<void> sweep_rows(const HeightField& field, std::int32_t reach,
-                        const std::function<Result<void>(const RowRange& range)>& visit);
+                        FunctionRef<Result<void>(const RowRange& range)> visit);
 
 /// Bytes of such a range; 0 where the samples are in memory.
 std::uint64_t sweep_bytes(const HeightField& field, std::int32_t reach);

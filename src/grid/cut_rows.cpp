@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/sort.h"
 #include "grid/mask_samples.h"
 #include "grid/outline.h"
 #include "grid/vertex_lattice.h"
@@ -63,7 +64,7 @@ CutRows::CutRows(std::span<const std::array<Point, 2>> outline, std::int32_t col
       if (left + 1 < cols) turns.push_back({left + 1, row});
     }
   }
-  std::sort(turns.begin(), turns.end(), before);
+  sort_rarely(turns, before);
   for (std::size_t i = 0; i < turns.size(); ++i) {
     const Point from = turns[i];
     const bool has_end = i + 1 < turns.size() && turns[i + 1].y == from.y;

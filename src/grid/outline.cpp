@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace scarp {
 
 namespace {
@@ -35,7 +37,7 @@ void add_cell(std::int32_t x, std::int32_t y, unsigned corners, const unsigned (
 }
 
 void sort_edges(std::vector<DirectedEdge>& edges) {
-  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+  sort_rarely(edges, [](const DirectedEdge& a, const DirectedEdge& b) {
     return a.from == b.from ? before(a.to, b.to) : before(a.from, b.from);
   });
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/point.h"
+#include "base/sort.h"
 #include "scarp/height_field.h"
 
 namespace scarp {
@@ -17,7 +18,7 @@ class PointRows {
   PointRows() = default;
   explicit PointRows(std::span<const SampleAt> samples) {
     for (const SampleAt& at : samples) points_.push_back({at.col, at.row});
-    std::sort(points_.begin(), points_.end(), before);
+    sort_rarely(points_, before);
   }
 
   bool empty() const { return points_.empty(); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace scarp {
 
 void SampleRuns::add(const SampleRun& run) {
@@ -18,7 +20,7 @@ void SampleRuns::add(const SampleRun& run) {
 }
 
 void SampleRuns::merge() {
-  std::sort(runs_.begin(), runs_.end());
+  sort_rarely(runs_);
   std::size_t kept = 0;
   for (const SampleRun& run : runs_) {
     if (kept > 0 && runs_[kept - 1].row == run.row && run.begin <= runs_[kept - 1].end)

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/sort.h"
 #include "grid/outline.h"
 
 namespace scarp {
@@ -76,7 +77,7 @@ bool area_is_nodata(const Raster& raster, std::span<const Point> chain) {
 std::vector<Point> touching_vertices(const Outline& outline) {
   std::vector<Point> all;
   for (const auto& polygon : outline) all.insert(all.end(), polygon.begin(), polygon.end());
-  std::sort(all.begin(), all.end(), before);
+  sort_rarely(all, before);
   std::vector<Point> touching;
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i] == all[i - 1]) touching.push_back(all[i]);

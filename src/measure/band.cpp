@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/sort.h"
 #include "grid/height_range.h"
 
 namespace scarp::judge {
@@ -299,7 +300,7 @@ BandReport Band::finish(Keep keep) {
   find_largest();
   // A triangle's worst sample only: the lowest row, then column, among equals.
   auto& offenders = report_.offenders;
-  std::sort(offenders.begin(), offenders.end(), is_worse_of_triangle);
+  sort_rarely(offenders, is_worse_of_triangle);
   const auto same = [](const TriangleOffender& a, const TriangleOffender& b) { return a.triangle == b.triangle; };
   offenders.erase(std::unique(offenders.begin(), offenders.end(), same), offenders.end());
   if (keep != Keep::kNothing) {

@@ -11,6 +11,7 @@
 
 #include "base/array.h"
 #include "base/bits.h"
+#include "base/sort.h"
 #include "measure/topology.h"
 
 namespace scarp::judge {
@@ -77,7 +78,8 @@ class EdgeList {
  private:
   static void sort(HalfEdge* first, HalfEdge* last) {
     constexpr std::ptrdiff_t kFew = 24;
-    if (last - first > kFew) return std::sort(first, last);
+    std::span edges(first, last);
+    if (last - first > kFew) return sort_rarely(edges);
     for (HalfEdge* next = first + 1; next < last; ++next) {
       const HalfEdge edge = *next;
       HalfEdge* hole = next;

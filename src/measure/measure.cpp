@@ -17,6 +17,7 @@
 #include "base/array.h"
 #include "base/caught.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "grid/line_positions.h"
 #include "measure/band.h"
 #include "measure/check_mesh.h"
@@ -127,13 +128,13 @@ class Verdict {
  private:
   /// A triangle in several bands has one offender, and so have two triangles that share a sample.
   void merge_offenders() {
-    std::sort(offenders_.begin(), offenders_.end(), judge::is_worse_of_triangle);
+    sort_rarely(offenders_, judge::is_worse_of_triangle);
     for (std::size_t i = 0; i < offenders_.size(); ++i) {
       if (i == 0 || offenders_[i].triangle != offenders_[i - 1].triangle)
         result_.offenders.push_back(offenders_[i].offender);
     }
     auto& all = result_.offenders;
-    std::sort(all.begin(), all.end(), [](const Offender& a, const Offender& b) {
+    sort_rarely(all, [](const Offender& a, const Offender& b) {
       if (a.row != b.row) return a.row < b.row;
       if (a.col != b.col) return a.col < b.col;
       return std::abs(a.error) != std::abs(b.error) ? std::abs(a.error) > std::abs(b.error) : a.error > b.error;

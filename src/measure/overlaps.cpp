@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "measure/bucket_grid.h"
 #include "measure/topology.h"
 
@@ -130,7 +131,7 @@ class OverlapFinder {
 }  // namespace
 
 std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> ids, int threads,
-                             const std::function<bool(double fraction)>& go_on) {
+                             FunctionRef<bool(double fraction)> go_on) {
   const OverlapFinder finder(mesh);
   Box box;
   for (const std::uint32_t id : ids) {
@@ -154,13 +155,13 @@ std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> id
       for (int c = 0; c < grid.cols(); ++c) {
         finder.search(grid.bucket_box(c, row), grid.bucket(c, row), 0, 4 * kMostOverlaps, found[i]);
       }
-      std::sort(found[i].begin(), found[i].end());
+      sort_rarely(found[i]);
       found[i].erase(std::unique(found[i].begin(), found[i].end()), found[i].end());
     });
     const std::size_t before = pairs.size();
     for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
     if (pairs.size() == before) continue;
-    std::sort(pairs.begin(), pairs.end());
+    sort_rarely(pairs);
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     if (pairs.size() >= kMostOverlaps) return kMostOverlaps;
   }

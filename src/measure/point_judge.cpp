@@ -14,6 +14,7 @@
 
 #include "base/caught.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "measure/bucket_grid.h"
 #include "measure/check_mesh.h"
 #include "measure/error_summary.h"
@@ -124,7 +125,7 @@ class Offenders {
   void add(std::uint32_t triangle, std::uint32_t point, double error) { found_.push_back({triangle, point, error}); }
   void add_uncovered(std::uint32_t point) { all_.push_back({static_cast<std::int32_t>(point), 0, HUGE_VAL}); }
   std::vector<Offender> finish() {
-    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+    sort_rarely(found_, [](const Found& a, const Found& b) {
       if (a.triangle != b.triangle) return a.triangle < b.triangle;
       return std::abs(a.error) != std::abs(b.error) ? std::abs(a.error) > std::abs(b.error) : a.point < b.point;
     });
@@ -132,7 +133,7 @@ class Offenders {
       if (i > 0 && found_[i].triangle == found_[i - 1].triangle) continue;
       all_.push_back({static_cast<std::int32_t>(found_[i].point), 0, found_[i].error});
     }
-    std::sort(all_.begin(), all_.end(), [](const Offender& a, const Offender& b) { return a.col < b.col; });
+    sort_rarely(all_, [](const Offender& a, const Offender& b) { return a.col < b.col; });
     return std::move(all_);
   }
 

@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <numbers>
 
 #include "base/array.h"
+#include "base/function_ref.h"
 #include "base/parallel.h"
 #include "measure/bucket_grid.h"
 #include "measure/topology.h"
@@ -48,7 +48,7 @@ constexpr std::size_t kTogether = 1 << 15;
 std::size_t part_count(std::size_t count) { return (count + kTogether - 1) / kTogether; }
 
 /// Calls task(part, first, end) for the parts of 0 … count − 1.
-void in_parts(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t, std::size_t)>& task) {
+void in_parts(std::size_t count, int threads, FunctionRef<void(std::size_t, std::size_t, std::size_t)> task) {
   parallel_for(part_count(count), threads,
                [&](std::size_t part) { task(part, part * kTogether, std::min(count, (part + 1) * kTogether)); });
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/sort.h"
 #include "measure/topology.h"
 
 namespace scarp::judge {
@@ -34,7 +35,7 @@ std::vector<Side> sides_of(const Mesh& mesh, std::span<const OpenEdge> open) {
     if (a[1] < b[1]) sides.push_back({a[1], b[1], a[0], b[0], true});
     if (b[1] < a[1]) sides.push_back({b[1], a[1], b[0], a[0], false});
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.y0 < b.y0; });
+  sort_rarely(sides, [](const Side& a, const Side& b) { return a.y0 < b.y0; });
   return sides;
 }
 
@@ -48,8 +49,7 @@ bool share_places(const Mesh& mesh, std::span<const OpenEdge> open) {
     const double* p = &mesh.positions[3 * std::size_t{v}];
     return std::array{p[0], p[1], p[2]};
   };
-  std::sort(vertices.begin(), vertices.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return position(a) < position(b); });
+  sort_rarely(vertices, [&](std::uint32_t a, std::uint32_t b) { return position(a) < position(b); });
   return std::adjacent_find(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
            return position(a) == position(b);
          }) != vertices.end();
@@ -75,8 +75,7 @@ bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open) {
     for (; next < sides.size() && sides[next].y0 <= low; ++next) active.push_back(&sides[next]);
     if (active.size() > left_to_do || active.size() % 2 != 0) return false;
     left_to_do -= active.size();
-    std::sort(active.begin(), active.end(),
-              [&](const Side* a, const Side* b) { return a->at(middle) < b->at(middle); });
+    sort_rarely(active, [&](const Side* a, const Side* b) { return a->at(middle) < b->at(middle); });
     for (std::size_t k = 0; k < active.size(); ++k) {
       if (active[k]->leads_up != (k % 2 == 1)) return false;
       if (k == 0) continue;

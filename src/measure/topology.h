@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "measure/cut_region.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
@@ -64,7 +64,7 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, con
 /// for meshes without overlaps and without vertices of huge degree.
 constexpr std::uint64_t kMostOverlaps = 1000000;
 std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> ids, int threads,
-                             const std::function<bool(double fraction)>& go_on);
+                             FunctionRef<bool(double fraction)> go_on);
 
 /// Rounding of a position seen from above: half a unit in the last place of the largest coordinate, times four; float32
 /// if all positions are float32 values.

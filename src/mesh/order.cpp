@@ -50,8 +50,7 @@ constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64;
 constexpr unsigned kCacheSize = 16;
 
 /// Where each vertex lies on a curve through `side` × `side` cells of the rectangle of all.
-std::vector<std::uint32_t> curve_places(std::size_t vertices, const FindPlaces& find_places, std::size_t side,
-                                        int threads) {
+std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_places, std::size_t side, int threads) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr std::size_t kAtOnce = 4096;
   struct Box {
@@ -105,7 +104,7 @@ std::vector<std::uint32_t> curve_places(std::size_t vertices, const FindPlaces& 
 
 // Each triangle at its corner that comes first; those of one cell stay in their order.
 std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
-                                         const FindPlaces& find_places, int threads) {
+                                         FindPlaces find_places, int threads) {
   constexpr std::size_t kMostParts = 8, kLeastTogether = 1 << 16;
   const std::size_t count = corners.size() / 3;
   std::size_t side = 1;
@@ -224,7 +223,7 @@ VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t ve
 
 #else
 
-std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t, const FindPlaces&, int) {
+std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t, FindPlaces, int) {
   return {corners.begin(), corners.end()};
 }
 

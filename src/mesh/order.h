@@ -4,17 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
+
+#include "base/function_ref.h"
 
 namespace scarp {
 
 /// Fills in where the vertices [first, end) lie, seen from above: relative to what is up to the caller, NaN for
 /// vertices that no triangle has. Called for parts of the vertices, for each more than once, by several threads at
 /// once.
-using FindPlaces = std::function<void(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places)>;
+using FindPlaces = FunctionRef<void(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places)>;
 
 /// New numbers of vertices.
 struct VertexNumbers {
@@ -29,7 +30,7 @@ VertexNumbers number_used(std::span<const std::uint32_t> corners, std::size_t ve
 
 /// The corners of triangles, sorted by place as optimize_order() does. Without meshoptimizer as they are.
 std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
-                                         const FindPlaces& find_places, int threads);
+                                         FindPlaces find_places, int threads);
 
 /// Sorts the triangles for the vertex cache, near where they are, and numbers vertices by first use, as
 /// optimize_order() does: after sort_by_place() that is its order. The corners are the new numbers then. Without

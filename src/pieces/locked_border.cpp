@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "base/sort.h"
 #include "metric/criterion.h"
 
 namespace scarp {
@@ -112,7 +113,7 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
 
 Result<void> LockedBorder::check(std::span<const Point> points, std::int32_t steps) const {
   std::vector<Point> sorted = vertices_;
-  std::sort(sorted.begin(), sorted.end(), before);
+  sort_rarely(sorted, before);
   const std::int32_t right = (cols_ - 1) * steps, bottom = (rows_ - 1) * steps;
   for (const Point p : points) {
     if (p.x != 0 && p.y != 0 && p.x != right && p.y != bottom) continue;
@@ -135,7 +136,7 @@ std::vector<Point> find_side_vertices(const Triangulation& tin, const Raster& ra
     const bool is_on_row = p.y == 0 || p.y == bottom, is_on_column = p.x == 0 || p.x == right;
     if (is_on_row != is_on_column) points.push_back(p);
   }
-  std::sort(points.begin(), points.end(), before);
+  sort_rarely(points, before);
   return points;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "base/sort.h"
 #include "grid/source_failure.h"
 #include "pieces/offset_map.h"
 
@@ -125,8 +126,7 @@ std::vector<std::uint32_t> order_by_row(const LatticePoints& at) {
   std::vector<std::uint32_t> order(at.points.size());
   std::iota(order.begin(), order.end(), 0);
   const auto row = [&](std::uint32_t k) { return at.points[k].y / at.steps; };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return std::pair(row(a), a) < std::pair(row(b), b); });
+  sort_rarely(order, [&](std::uint32_t a, std::uint32_t b) { return std::pair(row(a), a) < std::pair(row(b), b); });
   return order;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/sort.h"
 #include "geom/exact_error.h"
 #include "grid/vertex_lattice.h"
 #include "pieces/border_chain.h"
@@ -46,7 +47,7 @@ struct BorderVertex {
 
 /// A vertex of a line before that of the mesh at the same point, which goes.
 void sort_along(std::vector<BorderVertex>& vertices) {
-  std::sort(vertices.begin(), vertices.end(), [](const BorderVertex& a, const BorderVertex& b) {
+  sort_rarely(vertices, [](const BorderVertex& a, const BorderVertex& b) {
     return std::pair(a.x, !a.is_of_line) < std::pair(b.x, !b.is_of_line);
   });
   vertices.erase(std::unique(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.x == b.x; }),

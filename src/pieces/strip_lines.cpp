@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/function_ref.h"
+#include "base/sort.h"
 #include "grid/vertex_lattice.h"
 
 namespace scarp {
@@ -15,8 +17,7 @@ std::int32_t upper_of(const Ends& ends) { return std::min(ends[0].y, ends[1].y);
 
 template <class Edge, class EndsOf>
 void sort_by_upper_ends(std::vector<Edge>& edges, const EndsOf& ends_of) {
-  std::stable_sort(edges.begin(), edges.end(),
-                   [&](const Edge& a, const Edge& b) { return upper_of(ends_of(a)) < upper_of(ends_of(b)); });
+  sort_rarely(edges, [&](const Edge& a, const Edge& b) { return upper_of(ends_of(a)) < upper_of(ends_of(b)); });
 }
 
 /// Calls visit(edge) for those that lie in the rows [top, bottom].
@@ -38,14 +39,12 @@ const Ends& as_ends(const Ends& edge) { return edge; }
 StripLines::StripLines(const ConstraintGraph& graph)
     : graph_(graph), points_(graph.points.size()), edges_(graph.edges.size()) {
   std::iota(points_.begin(), points_.end(), 0u);
-  std::sort(points_.begin(), points_.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return before(graph_.points[a], graph_.points[b]); });
+  sort_rarely(points_, [&](std::uint32_t a, std::uint32_t b) { return before(graph_.points[a], graph_.points[b]); });
   const auto upper_end = [&](std::uint32_t edge) {
     return std::min(graph_.points[graph_.edges[edge][0]].y, graph_.points[graph_.edges[edge][1]].y);
   };
   std::iota(edges_.begin(), edges_.end(), 0u);
-  std::stable_sort(edges_.begin(), edges_.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return upper_end(a) < upper_end(b); });
+  sort_rarely(edges_, [&](std::uint32_t a, std::uint32_t b) { return upper_end(a) < upper_end(b); });
   if (!graph.cut) return;
   walls_ = graph.cut->walls;
   outline_ = graph.cut->outline;
@@ -98,7 +97,7 @@ ConstraintGraph StripLines::part_of(const Piece& strip) const {
 }
 
 std::optional<SurfaceCut> StripLines::part_of_cut(std::int32_t first, std::int32_t rows,
-                                                  const std::function<std::uint32_t(std::uint32_t)>& number_of) const {
+                                                  FunctionRef<std::uint32_t(std::uint32_t)> number_of) const {
   if (!graph_.cut) return std::nullopt;
   const std::int32_t top = first * kLatticeSteps, bottom = top + (rows - 1) * kLatticeSteps;
   SurfaceCut part;

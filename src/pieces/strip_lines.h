@@ -13,10 +13,10 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "lines/constraints.h"
 #include "pieces/piece.h"
 
@@ -35,7 +35,7 @@ class StripLines {
  private:
   bool has_points(std::int32_t top, std::int32_t bottom) const;
   std::optional<SurfaceCut> part_of_cut(std::int32_t first, std::int32_t rows,
-                                        const std::function<std::uint32_t(std::uint32_t)>& number_of) const;
+                                        FunctionRef<std::uint32_t(std::uint32_t)> number_of) const;
 
   const ConstraintGraph& graph_;
   std::vector<std::uint32_t> points_;                // of the graph, from the top down

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 
 namespace scarp {
 
@@ -128,7 +129,7 @@ std::vector<Refinement::BatchCandidate> Refinement::collect(const Batch& batch) 
   std::vector<std::uint32_t> ids;
   candidates_->collect(batch.rule == Batch::Rule::kFraction ? batch.fraction * worst_error() : 0, ids);
   for (const Triangle t : ids) found.push_back({candidates_->candidate(t), t});
-  std::sort(found.begin(), found.end(), [](const BatchCandidate& a, const BatchCandidate& b) {
+  sort_rarely(found, [](const BatchCandidate& a, const BatchCandidate& b) {
     if (!(a.candidate.at == b.candidate.at) || a.candidate.error != b.candidate.error)
       return is_worse(a.candidate, b.candidate);
     return a.triangle < b.triangle;

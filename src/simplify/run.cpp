@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "fit/fit.h"
 #include "grid/samples.h"
 #include "lines/constraints.h"
@@ -179,8 +180,7 @@ class EngineRun {
     for (const auto& [col, row] : options_.features.points)
       asked.push_back({col * piece_->lattice.steps, row * piece_->lattice.steps});
     if (asked.empty()) return;
-    const auto before = [](Point a, Point b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); };
-    std::sort(asked.begin(), asked.end(), before);
+    sort_rarely(asked, before);
     piece_->lattice.fixed.resize(tin.vertex_count(), 0);
     for (Vertex v = 0; v < tin.vertex_count(); ++v) {
       if (std::binary_search(asked.begin(), asked.end(), tin.point(v), before)) piece_->lattice.fixed[v] = 1;

@@ -6,10 +6,10 @@
 
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <new>
 #include <utility>
 
+#include "base/function_ref.h"
 #include "base/memory_budget.h"
 #include "grid/samples.h"
 #include "grid/source_failure.h"
@@ -86,7 +86,7 @@ Result<void> check(const HeightField& field, const SimplifyOptions& options) {
 }
 
 /// What failed in `work`, be it by an exception.
-Result<Simplified> without_exceptions(const std::function<Result<Simplified>()>& work) try {
+Result<Simplified> without_exceptions(FunctionRef<Result<Simplified>()> work) try {
   return work();
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace scarp {
 
 namespace {
@@ -37,7 +39,7 @@ class SpotsByRow {
  public:
   explicit SpotsByRow(std::vector<Spot> spots) : spots_(std::move(spots)), order_(spots_.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    sort_rarely(order_, [this](std::uint32_t a, std::uint32_t b) {
       return spots_[a].y != spots_[b].y ? spots_[a].y < spots_[b].y : a < b;
     });
   }
@@ -93,7 +95,7 @@ std::vector<Passed> find_passed(const SpotsByRow& spots, const Line& line, doubl
       if (off <= reach) passed.push_back({static_cast<double>(k) + share, v});
     });
   }
-  std::sort(passed.begin(), passed.end(), [](const Passed& a, const Passed& b) {
+  sort_rarely(passed, [](const Passed& a, const Passed& b) {
     return a.along != b.along ? a.along < b.along : a.vertex < b.vertex;
   });
   const auto is_same = [](const Passed& a, const Passed& b) { return a.vertex == b.vertex; };

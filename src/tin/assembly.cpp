@@ -4,6 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "base/sort.h"
+
 namespace scarp {
 
 namespace {
@@ -90,8 +92,8 @@ Vertex Assembly::Border::find(std::int32_t at) const {
 }
 
 void Assembly::Border::sort() {
-  std::sort(vertices.begin(), vertices.end());
-  std::sort(edges.begin(), edges.end(), [](const BorderEdge& a, const BorderEdge& b) { return a.at < b.at; });
+  sort_rarely(vertices);
+  sort_rarely(edges, [](const BorderEdge& a, const BorderEdge& b) { return a.at < b.at; });
 }
 
 template <class Part>

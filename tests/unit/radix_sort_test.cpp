@@ -4,6 +4,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <random>
+#include <span>
+
+#include "base/sort.h"
 
 namespace scarp {
 namespace {
@@ -16,6 +19,20 @@ RC_GTEST_PROP(radix_sort, is_a_stable_sort_of_any_keys, ()) {
   auto sorted = items;
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   radix_sort(items, [](const auto& item) { return item.first; });
+  RC_ASSERT(items == sorted);
+}
+
+RC_GTEST_PROP(sort_rarely, is_a_stable_sort_of_a_part, ()) {
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint32_t>());
+  const std::uint64_t mask = *rc::gen::element<std::uint64_t>(0, 7, ~std::uint64_t{0});
+  std::vector<std::pair<std::uint64_t, std::uint16_t>> items(*rc::gen::inRange<std::size_t>(0, 300));
+  for (std::size_t k = 0; k < items.size(); ++k) items[k] = {random() & mask, static_cast<std::uint16_t>(k)};
+  auto sorted = items;
+  const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  const auto middle = static_cast<std::ptrdiff_t>(items.size() / 2);
+  std::stable_sort(sorted.begin() + middle, sorted.end(), before);
+  std::span part(items.begin() + middle, items.end());
+  sort_rarely(part, before);
   RC_ASSERT(items == sorted);
 }
 
