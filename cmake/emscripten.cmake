@@ -18,13 +18,15 @@ endforeach()
 add_library(fmt::fmt INTERFACE IMPORTED)
 target_include_directories(fmt::fmt INTERFACE ${PROJECT_SOURCE_DIR}/bindings/wasm/headers)
 
-target_compile_options(scarp_flags INTERFACE -fwasm-exceptions -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext)
+# -fno-rtti: the names of types are 20 kB, and nothing asks for them.
+target_compile_options(scarp_flags INTERFACE -fwasm-exceptions -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -fno-rtti)
 target_compile_definitions(scarp_flags INTERFACE SCARP_WITHOUT_THREADS)
 target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=1048576)
 
 # Where meshes, their proof and a Refiner spend their time (node --cpu-prof of a module linked with --profiling-funcs).
 string(JOIN "|" SCARP_HOT_SOURCES
-  /fit/ /geom/scan_kernels "/grid/(height_range|samples|snapped_points|window)" "/mesh/(half_edges|order|thin_triangles)" /metric/[a-z]*_metric
-  "/measure/(band|check_mesh|edges|error_summary|facet_error|facet_task|frame_scanner|grid_places|grid_scanner|hull_gaps|judge_kernels|measure|point_judge)"
-  "/measure/(shape|single_layer)" "/pieces/(freeze|goals|normals|tile_worker)"
-  "/refine/(coarse|data|domain|dominant|lazy|refinement|scattered|settle|tile)" /simplify/simplify_points "/tin/(assembly|tile_mesh|triangulation)")
+  "/fit/(collapse|cut|flips|height_step|insertion|norm|patch|relocation|removal|repair|ring|sample|schedule|triangle|vertex)"
+  /geom/scan_kernels "/grid/(height_range|samples|snapped_points|window)" "/mesh/(half_edges|order|thin_triangles)" /metric/[a-z]*_metric
+  "/measure/(band|edges|error_summary|facet_error|facet_task|frame_scanner|grid_places|grid_scanner|judge_kernels|point_judge|shape)"
+  "/pieces/(freeze|normals|tile_worker)" "/refine/(coarse|data|dominant|lazy|refinement|scattered|settle|tile(_order|_scanner)?[.])"
+  /simplify/simplify_points "/tin/(assembly|tile_mesh|triangulation)")

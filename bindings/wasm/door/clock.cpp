@@ -1,0 +1,9 @@
+// The C++ library's own clock can throw, and what it throws has sentences that printf makes: 10 kB.
+#include <chrono>
+#include <ctime>
+
+std::chrono::steady_clock::time_point std::chrono::steady_clock::now() noexcept {
+  std::timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return time_point(seconds(now.tv_sec) + nanoseconds(now.tv_nsec));
+}
