@@ -235,6 +235,9 @@ Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
 /// of the screen that it had to cover for the level before; for the finest that is 1. REQUIRES: encode_mesh() made the
 /// files; `ratio` above 1. Fails with kOutput above 4 GiB.
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
+/// One GLB file of several that are beside each other: all nodes are the scene's, what the file tells is what the first
+/// does. REQUIRES: encode_mesh() or encode_glb() made the files. Fails with kOutput above 4 GiB.
+Result<std::vector<std::uint8_t>> join_glbs(std::span<const std::vector<std::uint8_t>> files);
 /// How the numbers of a mesh file are to be read: what the mesh, which is z up and absolute, no longer shows.
 struct MeshFileAxes {
   char up = 0;               ///< 'y' or 'z'; 0 where neither the format nor the file says, and z is taken

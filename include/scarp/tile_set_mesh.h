@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scarp/glb.h"
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 #include "scarp/tile_set.h"
@@ -12,18 +13,24 @@
 
 namespace scarp {
 
+/// Tiles under one image, or without one.
+struct LevelSheet {
+  /// On a flat map: metres east and north of the middle, true to scale there, and heights of the tiles. Where tiles
+  /// meet each has its own vertex, at the very same place. Its metadata tell `tile_level`.
+  Mesh mesh;
+  GlbImage image;  ///< laid over the mesh by its uvs; empty without one
+};
+
 /// The tiles of a level beside each other, as clients decode them.
 struct LevelMesh {
   int z = 0;
-  /// On a flat map: metres east and north of the middle, true to scale there, and heights of the tiles. Vertices
-  /// where tiles meet are not joined. Its metadata tell `tile_level`.
-  Mesh mesh;
-  std::uint64_t tile_bytes = 0;  ///< as they are kept
+  std::vector<LevelSheet> sheets;  ///< that of all tiles without an image, and one for each tile with one
+  std::uint64_t tile_bytes = 0;    ///< as they are kept
 };
 
-/// The finest level, then coarser ones of the same place, until their tiles are more than four times as wide or as high
-/// as all of the finest level. Fails with kInput for tiles that are damaged, and with kUsage once the tiles take more
-/// than `most_bytes`. Cost: O(tiles that are read).
+/// The finest level whose tiles take at most `most_bytes`, then coarser ones of the same place as long as all together
+/// do, until their tiles are more than four times as wide or as high as all of the set's finest level. Fails with
+/// kInput for tiles that are damaged, and with kUsage where no level is so small. Cost: O(tiles that are read).
 Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::uint64_t most_bytes);
 
 }  // namespace scarp

@@ -16,6 +16,7 @@
 #include <tuple>
 #include <vector>
 
+#include "scarp/glb.h"
 #include "scarp/globe_image.h"
 #include "scarp/result.h"
 #include "scarp/tile.h"
@@ -25,8 +26,8 @@
 
 namespace scarp {
 
-/// Metres between the points of a level's lattice, each way: where 16 bits hold a tile of the level, as fine as they do,
-/// but no finer than 1/256 of its max error. On a local grid's plane vertices lie on it, east, north and up.
+/// Metres between the points of a level's lattice, each way: where 16 bits hold a tile of the level, as fine as they
+/// do, but no finer than 1/256 of its max error. On a local grid's plane vertices lie on it, east, north and up.
 std::array<double, 3> lattice_steps(const PyramidPlan& plan, int z);
 
 /// What the lattice moves a vertex by at most, in metres: √3/2 of the step, 0 on a plane. Adds to TerrainTile::bound().
@@ -70,7 +71,8 @@ struct TileGlbOptions {
 };
 
 /// The bytes of a GLB file: one node with a matrix, one mesh of one primitive, and CESIUM_tile_edges. Its y is up, as
-/// glTF demands: clients of 3D Tiles turn it back. A texture's coordinates are whole 65535ths. asset.extras hold the facts. Fails as encode_glb().
+/// glTF demands: clients of 3D Tiles turn it back. A texture's coordinates are whole 65535ths. asset.extras hold the
+/// facts. Fails as encode_glb().
 Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options = {});
 
 /// The facts of a tile that encode_tile_glb() wrote. Fails with kInput for other files.
@@ -80,6 +82,8 @@ Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb);
 struct TileGlb {
   std::vector<std::array<double, 3>> positions;  ///< metres; shared vertices are the same doubles in Scarp's tiles
   std::vector<std::array<double, 3>> normals;    ///< empty, or one a vertex
+  std::vector<float> uvs;                        ///< empty, or two a vertex: its place in `image`, from the top left
+  GlbImage image;                                ///< empty without one in the file
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> west, south, east, north;  ///< of CESIUM_tile_edges
   double step = 0;  ///< metres between the positions that the file can tell apart, the most; 0 for single precision

@@ -70,6 +70,8 @@ Result<ClientTile> take_glb(TileGlb glb, const DegreeBox& box, const World& worl
   for (const auto& normal : glb.normals)
     tile.normals.push_back(
         {static_cast<float>(normal[0]), static_cast<float>(normal[1]), static_cast<float>(normal[2])});
+  tile.uvs = std::move(glb.uvs);
+  tile.image = std::move(glb.image);
   tile.triangles = std::move(glb.triangles);
   tile.edges = {std::move(glb.west), std::move(glb.south), std::move(glb.east), std::move(glb.north)};
   if (std::find(is_pole.begin(), is_pole.end(), true) != is_pole.end()) place_at_poles(tile, is_pole);

@@ -30,6 +30,8 @@ struct ClientTile {
   std::vector<double> heights;  ///< metres above the world
   std::vector<Place> places;
   std::vector<std::array<float, 3>> normals;  ///< empty, or of each vertex what the file holds, as numbers
+  std::vector<float> uvs;                     ///< empty, or two of each vertex: its place in `image`
+  GlbImage image;                             ///< empty without one
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint8_t> water_mask;             ///< empty without one
   std::array<std::vector<std::uint32_t>, 4> edges;  ///< by TileSide: vertices as the file lists them

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include "check/client_tile.h"
 #include "io/tiles/set_claims.h"
@@ -54,14 +56,70 @@ struct FlatMap {
   double longitude, latitude, metres_east = 0, metres_north = 0;
 };
 
-void add(const ClientTile& tile, const FlatMap& map, Mesh& mesh) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
-  for (std::size_t v = 0; v < tile.u.size(); ++v) {
-    const Geographic at = geographic_at(tile.box, tile.u[v], tile.v[v], tile.heights[v]);
-    mesh.positions.insert(mesh.positions.end(), {(at.longitude - map.longitude) * map.metres_east,
-                                                 (at.latitude - map.latitude) * map.metres_north, at.height});
+/// Lays the tiles of a level on a map.
+class Laying {
+ public:
+  Laying(const FlatMap& map, int z) : map_(map), z_(z) {}
+
+  void add(ClientTile tile) {
+    Mesh& mesh = choose_sheet(tile);
+    const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
+    std::vector<Place> places;
+    for (std::size_t v = 0; v < tile.u.size(); ++v) places.push_back(place_of(tile, v));
+    // A step of a tile, which is more than what rounding moves a vertex by, and less than from one side of the map to
+    // the other.
+    const double near = (tile.box.east - tile.box.west) * map_.metres_east / kWholeTile;
+    for (const auto& edge : tile.edges) {
+      for (const std::uint32_t v : edge) {
+        // What neighbours decode alike: places in space, or degrees.
+        const Place key = tile.format == TileFormat::kGlb ? tile.places[v] : Place{places[v][0], places[v][1], 0};
+        const Place& known = shared_.try_emplace(key, places[v]).first->second;
+        if (length(known - places[v]) < near) places[v] = known;
+      }
+    }
+    for (const Place& place : places) mesh.positions.insert(mesh.positions.end(), place.begin(), place.end());
+    for (const std::uint32_t v : tile.triangles) mesh.triangles.push_back(first + v);
+    mesh.uvs.insert(mesh.uvs.end(), tile.uvs.begin(), tile.uvs.end());
   }
-  for (const std::uint32_t v : tile.triangles) mesh.triangles.push_back(first + v);
+
+  std::vector<LevelSheet> take() { return std::move(sheets_); }
+
+ private:
+  Mesh& choose_sheet(ClientTile& tile) {
+    const bool is_plain = tile.image.bytes.empty();
+    if (!is_plain || sheets_.empty() || !sheets_.front().image.bytes.empty()) {
+      LevelSheet sheet{{}, std::move(tile.image)};
+      sheet.mesh.metadata = {{"crs_option", "local"}, {"unit", "m"}, {"tile_level", fmt::format("{}", z_)}};
+      sheets_.insert(is_plain ? sheets_.begin() : sheets_.end(), std::move(sheet));
+    }
+    return is_plain ? sheets_.front().mesh : sheets_.back().mesh;
+  }
+
+  Place place_of(const ClientTile& tile, std::size_t v) const {
+    const Geographic at = geographic_at(tile.box, tile.u[v], tile.v[v], tile.heights[v]);
+    return {(at.longitude - map_.longitude) * map_.metres_east, (at.latitude - map_.latitude) * map_.metres_north,
+            at.height};
+  }
+
+  const FlatMap& map_;
+  int z_;
+  std::vector<LevelSheet> sheets_;
+  std::map<Place, Place> shared_;  ///< of vertices on edges
+};
+
+/// As they are kept; nothing where they take more than `most_bytes`.
+Result<std::optional<std::vector<std::vector<std::uint8_t>>>> read_tiles(const TileSetReader& set,
+                                                                         const std::vector<TileId>& ids,
+                                                                         std::uint64_t most_bytes) {
+  std::vector<std::vector<std::uint8_t>> tiles;
+  for (const TileId id : ids) {
+    auto tile = set.read_tile(id);
+    if (!tile) return tl::unexpected(tile.error());
+    if (tile->size() > most_bytes) return std::nullopt;
+    most_bytes -= tile->size();
+    tiles.push_back(std::move(*tile));
+  }
+  return tiles;
 }
 
 }  // namespace
@@ -79,21 +137,24 @@ Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::
   for (std::size_t z = finest; z-- > 0;) {
     const LevelTiles tiles = find_tiles(set, claims.grid, z, &all.box);
     if (tiles.ids.empty() || tiles.width() > kWidest * all.width() || tiles.height() > kWidest * all.height()) break;
+    const auto kept = read_tiles(set, tiles.ids, most_bytes - bytes);
+    if (!kept) return tl::unexpected(kept.error());
+    if (!*kept && levels.empty()) continue;
+    if (!*kept) break;
     LevelMesh level{static_cast<int>(z), {}, 0};
-    level.mesh.metadata = {{"crs_option", "local"}, {"unit", "m"}, {"tile_level", fmt::format("{}", z)}};
-    for (const TileId id : tiles.ids) {
-      const auto kept = set.read_tile(id);
-      if (!kept) return tl::unexpected(kept.error());
-      level.tile_bytes += kept->size();
-      bytes += kept->size();
-      if (bytes > most_bytes)
-        return fail(ErrorKind::kUsage, fmt::format("its tiles take more than {} bytes", most_bytes));
-      const auto tile = decode_client_tile(set.format(), *kept, id, claims.grid, world, nullptr);
+    Laying laying(map, level.z);
+    for (std::size_t k = 0; k < tiles.ids.size(); ++k) {
+      level.tile_bytes += (**kept)[k].size();
+      auto tile = decode_client_tile(set.format(), (**kept)[k], tiles.ids[k], claims.grid, world, nullptr);
       if (!tile) return tl::unexpected(tile.error());
-      add(*tile, map, level.mesh);
+      laying.add(std::move(*tile));
     }
+    bytes += level.tile_bytes;
+    level.sheets = laying.take();
     levels.push_back(std::move(level));
   }
+  if (levels.empty())
+    return fail(ErrorKind::kUsage, fmt::format("the tiles of each level take more than {} bytes", most_bytes));
   return levels;
 }
 

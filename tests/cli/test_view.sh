@@ -62,6 +62,10 @@ succeeds "$scarp" view set.3tz -o archive.html
 succeeds "$scarp" generate fractal 150 150 no_place.tif -q
 succeeds "$scarp" tile no_place.tif plane --grid local --cell-size 90 -e 20 -q
 succeeds "$scarp" view plane
+# Under the same four colours, which leave tiles at the border bare.
+make_image quarters.tif '220 if (col < 202) == (row < 172) else 40' '200 if col >= 202 else 40' '230 if col < 202 and row >= 172 else 40'
+succeeds "$scarp" tile "$dem" draped --of 3dtiles --vertical egm96 --zoom 10 --drape quarters.tif --drape-format jpeg -q
+succeeds "$scarp" view draped
 refuses 1 "tile check set --source $dem" "$scarp" view set "$dem" -o x.html
 mkdir folder
 refuses 2 'it is a folder' "$scarp" view folder -o x.html
@@ -71,7 +75,8 @@ head -c 200 "$tile" > cut
 cp cut "$tile"
 refuses 2 'damaged: ' "$scarp" view damaged -o x.html
 head -c 9000000 /dev/zero > "$tile"
-refuses 1 "'scarp serve damaged'" "$scarp" view damaged -o x.html
+succeeds "$scarp" view damaged -o large.html
+grep -q "the finest level of the page is 10 of 11.* 'scarp serve damaged'" "$logs/err" || fail "a level that is left out is not told: $(cat "$logs/err")"
 # Elsewhere, without its page: a sentence that tells how to build it.
 mkdir -p other/bin
 cp "$scarp" other/bin/
@@ -248,10 +253,22 @@ def tile_levels(values):
     # The raster is 30 km wide: its heights are above the ellipsoid, 30 m lower here.
     assert 15000 < reaches[0] < 60000 and reaches == sorted(reaches), reaches
     assert 980 < values[1] < 1070, values[1]
+    assert all(outer > 0 and cracks == 0 for outer, cracks in values[2]), values[2]
 
 
 TILES = ("[scarp_page.document.levels.map(l => [l.name, l.triangles]), document.getElementById('notes').textContent,"
          " scarp_page.document.levels.map(l => l.reach)]")
+# Edges of one triangle, but for those around all tiles of a level.
+CRACKS = """scarp_page.document.levels.map(({positions, indices, firsts}) => {
+  const used = new Map(), corner = k => firsts[indices[k]], ends = [0, 1].map(c => positions.reduce(([low, high], value, k) => k % 3 === c ? [Math.min(low, value), Math.max(high, value)] : [low, high], [Infinity, -Infinity]));
+  const is_outer = (a, b) => [0, 1].some(c => ends[c].some(end => [a, b].every(v => Math.abs(positions[3 * v + c] - end) < 1e-3 * (ends[c][1] - ends[c][0]))));
+  indices.forEach((_, k) => {
+    const pair = [corner(k), corner(k % 3 === 2 ? k - 2 : k + 1)].sort((a, b) => a - b);
+    used.set(String(pair), [...(used.get(String(pair)) ?? []), pair]);
+  });
+  const open = [...used.values()].filter(found => found.length === 1);
+  return [open.length, open.filter(([[a, b]]) => !is_outer(a, b)).length];
+})"""
 TOP = "scarp_page.document.place.high[2]"
 COARSE = "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))"
 
@@ -264,8 +281,40 @@ def plane(values):
 job(plane, "plane.html", [{"until": READY, "read": "[0, 1].map(k => scarp_page.document.place.high[k] - scarp_page.document.place.low[k])", "shot": "tiles_plane"}])
 for name in ("set", "archive"):
     job(tile_levels, f"{name}.html", [
-        {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP},
+        {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP}, {"read": CRACKS},
         {"do": COARSE, "until": "scarp_page.level === 2 && !scarp_page.scene.asked", "shot": f"tiles_{name}_coarse"}])
+# Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and beside it; which parts of the page
+# tell of the image.
+QUARTERS = """(() => {
+  const {scene, shown: [terrain], document: {place}} = scarp_page, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.heights[(k - c) / 3] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
+  scene.draw();
+  [picture.width, picture.height] = [scene.canvas.width, scene.canvas.height];
+  picture.getContext('2d').drawImage(scene.canvas, 0, 0);
+  const between = (k, share) => land[k][0] + share * (land[k].at(-1) - land[k][0]);
+  const colors = [[.25, .75], [.75, .75], [.25, .25], [.75, .25], [-.1, -.1]].map(([u, v]) => {
+    const [x, y] = [between(0, u), between(1, v)], z = terrain.height_at(x, y), at = scene.project(place.to_scene(x, y, z));
+    if (!(z === z)) return 'sky';
+    const [red, green, blue] = picture.getContext('2d').getImageData(...at.map(c => c * ratio), 1, 1).data;
+    return [red > 1.5 * blue && 'r', green > 1.5 * blue && 'g', blue > 1.5 * green && 'b'].filter(Boolean).join('');
+  });
+  return [colors.join(' '), !document.getElementById('image-choice').hidden, document.getElementById('image').checked,
+    document.getElementById('notes').textContent, picture.toDataURL()];
+})()"""
+
+def draped(values):
+    finest, relief, again, coarse, sheets = [value for value in values if value]
+    assert all(found[:3] == ["r g b rg ", True, True] and "image" not in found[3] for found in (finest, again, coarse)), [found[:4] for found in (finest, again, coarse)]
+    assert relief[:3] != finest[:3] and relief[1:3] == [True, False], relief[:4]
+    for level in sheets:
+        assert sum(with_image for with_image, _ in level) > 1 and len({ground for _, ground in level if ground}) <= 1, sheets
+    earth = ",".join(str(round(255 * (1.055 * c ** (1 / 2.4) - 0.055))) for c in (0.47, 0.42, 0.33))  # of tiles without an image
+    assert sheets[0][0] == [False, earth], sheets[0]
+
+
+job(draped, "draped.html", [
+    {"until": READY, "read": QUARTERS, "shot": "tiles_draped"}, {"keys": ["i"], "read": QUARTERS}, {"keys": ["i"], "read": QUARTERS},
+    {"do": COARSE.replace("'2'", "'1'"), "until": "scarp_page.level === 1", "read": QUARTERS, "shot": "tiles_draped_coarse"},
+    {"read": "scarp_page.document.levels.map(l => l.sheets.map(s => [Boolean(s.image), s.ground && String(s.ground.map(c => Math.round(255 * c)))]))"}], axe=True)
 job(lambda values: same("plain.json", values[0][0]), "obj.html", [{"until": READY, "read": READ}])
 
 
@@ -320,21 +369,6 @@ open("empty.html", "w").write(empty)
 job(lambda values: values[0].index("here"), "empty.html", [{"until": NOTICE, "read": NOTICE}])
 
 
-# Colours as drawn in the middle of each quarter, north-west, north-east, south-west, south-east; which parts of the page tell of the image.
-QUARTERS = """(() => {
-  const {scene, shown: [terrain], document: {place}} = scarp_page, picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
-  scene.draw();
-  [picture.width, picture.height] = [scene.canvas.width, scene.canvas.height];
-  picture.getContext('2d').drawImage(scene.canvas, 0, 0);
-  const between = (k, share) => place.low[k] + share * (place.high[k] - place.low[k]);
-  const colors = [[.25, .75], [.75, .75], [.25, .25], [.75, .25]].map(([u, v]) => {
-    const [x, y] = [between(0, u), between(1, v)], at = scene.project(place.to_scene(x, y, terrain.height_at(x, y)));
-    const [red, green, blue] = picture.getContext('2d').getImageData(...at.map(c => c * ratio), 1, 1).data;
-    return [red > 1.5 * blue && 'r', green > 1.5 * blue && 'g', blue > 1.5 * green && 'b'].filter(Boolean).join('');
-  });
-  return [colors.join(' '), !document.getElementById('image-choice').hidden, document.getElementById('image').checked,
-    document.getElementById('notes').textContent, picture.toDataURL()];
-})()"""
 # The file's normals, beside those of the triangles: the mean cosine.
 NORMALS = """(() => {
   const {terrain, surface: {geometry}} = scarp_page.scene.views[0], given = geometry.attributes.normal.array.slice();
@@ -344,7 +378,7 @@ NORMALS = """(() => {
   for (let k = 0; k < own.length; ++k) sum += given[k] * own[k] / Math.hypot(...given.subarray(k - k % 3, k - k % 3 + 3));
   return [terrain.normals !== null, sum / count];
 })()"""
-UNDER = "r g b rg"
+UNDER = "r g b rg sky"
 
 
 def image(values):

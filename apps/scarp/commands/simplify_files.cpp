@@ -234,7 +234,7 @@ Result<void> add_page(const SimplifyPlan& plan, Outcome& outcome, std::vector<Re
     if (!glb) return tl::unexpected(std::move(glb.error()));
     meshes.push_back({plan.output, files.front().size(), std::move(*glb)});
   }
-  auto page = make_view_page(plan.page_template, meshes, &outcome.field);
+  auto page = make_view_page(plan.page_template, meshes.front().path, meshes, &outcome.field);
   if (!page) return tl::unexpected(std::move(page.error()));
   if (page->left_out) outcome.warnings.push_back(*page->left_out);
   files.push_back({*plan.html, "html", std::move(page->html)});

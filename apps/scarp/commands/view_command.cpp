@@ -12,6 +12,7 @@
 #include "inputs/mesh_place.h"
 #include "options/option_table.h"
 #include "options/output_kind.h"
+#include "scarp/glb.h"
 #include "scarp/io.h"
 #include "scarp/solid.h"
 #include "scarp/tile_set_mesh.h"
@@ -49,8 +50,18 @@ bool is_tile_set(const std::string& path) {
           std::filesystem::exists(folder / "tileset.json", error));
 }
 
-/// A mesh for each level, the finest first.
-Result<std::vector<PageMesh>> read_levels(const std::string& path) {
+Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
+  std::vector<std::vector<std::uint8_t>> files;
+  for (const LevelSheet& sheet : level.sheets) {
+    auto glb = encode_glb(sheet.mesh, {.base_color = sheet.image});
+    if (!glb) return glb;
+    files.push_back(std::move(*glb));
+  }
+  return join_glbs(files);
+}
+
+/// A mesh for each level that the page holds, the finest first.
+Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<std::string>& warnings) {
   const auto set = open_tile_set(path);
   if (!set) return tl::unexpected(set.error());
   const auto levels = read_level_meshes(**set, kMostTileBytes);
@@ -61,9 +72,18 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path) {
                             path, levels.error().message, shell_word(path)));
   }
   if (!levels) return fail(levels.error().kind, path + ": " + levels.error().message);
+  const auto& tiles = (*set)->tiles();
+  std::size_t finest = tiles.size() - 1;
+  while (tiles[finest].empty()) --finest;
+  if (static_cast<int>(finest) > levels->front().z) {
+    warnings.push_back(fmt::format(
+        "the finest level of the page is {} of {}: those below it take more than {}; 'scarp serve {}' serves "
+        "all of them to globes, with a page of docs/guide/globe.md",
+        levels->front().z, finest, format_bytes(kMostTileBytes), shell_word(path)));
+  }
   std::vector<PageMesh> meshes;
   for (const LevelMesh& level : *levels) {
-    auto glb = encode_mesh(level.mesh, MeshFormat::kGlb);
+    auto glb = encode_level(level);
     if (!glb) return tl::unexpected(glb.error());
     meshes.push_back({fmt::format("{}, level {}", without_slash(path), level.z), level.tile_bytes, std::move(*glb)});
   }
@@ -149,16 +169,16 @@ Result<void> ViewCommand::run() const {
       page_.value_or(std::filesystem::path(without_slash(mesh_)).replace_extension(".html").string());
   if (auto checked = check_outputs({{"--output", path}}, files_read(*command_), overwrite_); !checked) return checked;
   Mesh mesh;
-  const auto meshes = is_set ? read_levels(mesh_) : read_meshes(*is_y_up, mesh);
+  std::vector<std::string> warnings;
+  const auto meshes = is_set ? read_levels(mesh_, warnings) : read_meshes(*is_y_up, mesh);
   if (!meshes) return tl::unexpected(meshes.error());
   std::optional<OwnedHeightField> field;
-  std::vector<std::string> warnings;
   if (!raster_.paths.empty()) {
     auto read = read_raster(mesh, warnings);
     if (!read) return tl::unexpected(std::move(read.error()));
     field = std::move(*read);
   }
-  const auto page = make_view_page(*page_template, *meshes, field ? &*field : nullptr);
+  const auto page = make_view_page(*page_template, without_slash(mesh_), *meshes, field ? &*field : nullptr);
   if (!page) return tl::unexpected(page.error());
   if (page->left_out) warnings.push_back(*page->left_out);
   if (auto written = write_file(path, page->html, overwrite_); !written) return written;

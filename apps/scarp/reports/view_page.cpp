@@ -110,11 +110,12 @@ Result<std::string> read_page_template() {
   return page;
 }
 
-Result<ViewPage> make_view_page(const std::string& page_template, const std::vector<PageMesh>& meshes,
-                                const OwnedHeightField* field) {
+Result<ViewPage> make_view_page(const std::string& page_template, const std::string& path,
+                                const std::vector<PageMesh>& meshes, const OwnedHeightField* field) {
   ViewPage page;
   Json data;
   data["scarp"] = version();
+  data["name"] = base_name(path);
   for (const PageMesh& mesh : meshes)
     data["meshes"].push_back(
         Json{{"name", base_name(mesh.path)}, {"bytes", mesh.file_bytes}, {"glb", encode_base64(mesh.glb)}});

@@ -46,16 +46,17 @@ class GlbArrays {
   /// The items of an accessor of the type, such as "VEC3".
   bool find_items(std::uint64_t accessor, std::string_view type, GlbItems& items);
 
-  std::span<const std::uint8_t> binary_;
-  Json json_;
-
- private:
   /// Bytes, and the stride that the view gives; 0 where it gives none.
   struct View {
     std::span<const std::uint8_t> bytes;
     std::uint64_t stride = 0;
   };
   bool find_view(std::uint64_t index, View& view);
+
+  std::span<const std::uint8_t> binary_;
+  Json json_;
+
+ private:
   bool find_bytes(const Json& object, const std::string& name, std::span<const std::uint8_t>& bytes);
   bool decode_view(std::uint64_t index, const Json& packed, View& view);
 

@@ -36,7 +36,7 @@ class TileGlbReader : public GlbArrays {
     if (!read_count(primitive, "indices", UINT64_MAX, accessor) || !read_indices(accessor, tile.triangles))
       return false;
     if (tile.triangles.size() % 3 != 0) return refuse("it has triangles of less than three corners");
-    return read_edges(primitive);
+    return read_image(primitive, *attributes) && read_edges(primitive);
   }
 
  private:
@@ -128,6 +128,45 @@ class TileGlbReader : public GlbArrays {
       if (vertex >= tile.positions.size()) return refuse("it has a triangle or an edge of a vertex that is not there");
       indices.push_back(static_cast<std::uint32_t>(vertex));
     }
+    return true;
+  }
+
+  /// The texture that a primitive's material names; null, without a complaint, where it has none.
+  const Json* find_texture(const Json& primitive) {
+    std::uint64_t index = 0;
+    if (member(primitive, "material") == nullptr || !read_count(primitive, "material", 0, index)) return nullptr;
+    const Json* found = item("materials", index);
+    for (const char* key : {"pbrMetallicRoughness", "baseColorTexture"}) {
+      if (found != nullptr) found = member(*found, key);
+    }
+    if (found == nullptr || !read_count(*found, "index", UINT64_MAX, index)) return nullptr;
+    return item("textures", index);
+  }
+
+  bool read_image(const Json& primitive, const Json& attributes) {
+    const Json* texture = find_texture(primitive);
+    if (texture == nullptr || member(attributes, "TEXCOORD_0") == nullptr) return complaint.empty();
+    if (const Json* const extensions = member(*texture, "extensions")) {
+      if (const Json* const webp = member(*extensions, "EXT_texture_webp")) texture = webp;
+    }
+    std::uint64_t index = 0, view_index = 0, accessor = 0;
+    if (!read_count(*texture, "source", UINT64_MAX, index)) return false;
+    const Json* const image = item("images", index);
+    if (image == nullptr) return false;
+    const Json* const type = member(*image, "mimeType");
+    if (member(*image, "bufferView") == nullptr || type == nullptr || !type->is_string())
+      return refuse("it has an image that lies elsewhere");
+    View view;
+    GlbItems items;
+    if (!read_count(*image, "bufferView", 0, view_index) || !find_view(view_index, view) ||
+        !read_count(attributes, "TEXCOORD_0", 0, accessor) || !find_items(accessor, "VEC2", items))
+      return false;
+    if (items.count != tile.positions.size())
+      return refuse("it has another number of places in its image than of positions");
+    for (std::uint64_t v = 0; v < items.count; ++v) {
+      for (std::uint64_t k = 0; k < 2; ++k) tile.uvs.push_back(static_cast<float>(items.number(v, k)));
+    }
+    tile.image = {{view.bytes.begin(), view.bytes.end()}, type->get<std::string>()};
     return true;
   }
 

@@ -17,10 +17,10 @@ function read_field({ samples, type, nodata = null, ...rest }) {
   return new Field({ ...rest, samples: values });
 }
 
-/** `data`: {meshes: [{name, bytes, glb}], field, metres, unit}, as `scarp view` writes it. */
+/** `data`: {name, meshes: [{name, bytes, glb}], field, metres, unit}, as `scarp view` writes it. */
 export async function read_inline(data) {
   const files = data.meshes.map(({ name, bytes, glb }) => ({ name, bytes, buffer: decode_base64(glb) }));
-  return make_document(files, data.field ? read_field(data.field) : null, data.metres, data.unit);
+  return { ...await make_document(files, data.field ? read_field(data.field) : null, data.metres, data.unit), name: data.name };
 }
 
 /** `metres` a unit of x, y, z; null: as the first file says of itself. */
@@ -53,7 +53,7 @@ export function place_on_grid(name, { positions, indices, origin }, judged, fiel
   }
   const in_image = shown?.placing, uvs = in_image ? new Float32Array(placed.length / 3 * 2) : null;
   for (let v = 0; uvs && v < uvs.length; v += 2) uvs.set(in_image(placed[1.5 * v], placed[1.5 * v + 1]), v);
-  return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), judged, uvs, image: uvs && shown.image }, place, field);
+  return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), judged, uvs, ...(uvs && { sheets: [{ ...shown.sheets[0], start: 0, count: indices.length }] }) }, place, field);
 }
 
 /** Whether a mesh lies where the raster does, so that one can judge the other. */

@@ -1,5 +1,5 @@
 // Reads the meshes of a GLB file: x east, y north, z up, in double precision. Trusts no number in the file.
-import { NOWHERE, read_image, surface_of } from './images.js';
+import { read_image, surface_of } from './images.js';
 import { Sentence } from './sentence.js';
 
 const COMPONENTS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
@@ -135,23 +135,21 @@ class Reader {
 
   /** Normals and places in an image, where the primitive has them. A normal map's own normals all point up. */
   surface(primitive, vertices, matrix) {
-    const { texture, places, has_normal_map, is_moved } = surface_of(this.json, primitive), { attributes } = primitive;
+    const { texture, places, ground, has_normal_map, is_moved } = surface_of(this.json, primitive), { attributes } = primitive;
     const of_vertices = (name, size) => {
       const numbers = this.numbers(attributes[name], size);
       if (numbers.length !== size * vertices) throw this.damaged(`${name} is not there for each vertex`);
       return numbers;
     };
-    return { texture, is_moved, uvs: texture === null ? null : of_vertices(places, 2),
+    return { texture, ground, is_moved, uvs: texture === null ? null : of_vertices(places, 2),
       normals: attributes.NORMAL === undefined || has_normal_map ? null : turn_normals(matrix, of_vertices('NORMAL', 3)) };
   }
 
-  /** The one image of some parts, if they have one that can be shown. */
-  async image(parts) {
-    const used = parts.filter(part => part.texture !== null), [first] = used;
-    if (!first) return null;
-    const { image = null, why } = used.some(part => part.texture !== first.texture) ? { why: 'there are several' }
-      : used.some(part => part.is_moved) ? { why: 'KHR_texture_transform moves it' }
-      : await (this.images[first.texture] ??= read_image(this.json, first.texture, index => this.view(index).bytes));
+  /** The image of a part, if it has one that can be shown. */
+  async image({ texture, is_moved }) {
+    if (texture === null) return null;
+    const { image = null, why } = is_moved ? { why: 'KHR_texture_transform moves it' }
+      : await (this.images[texture] ??= read_image(this.json, texture, index => this.view(index).bytes));
     if (why) this.notes.add(`The image of ${this.name} is not shown: ${why}.`);
     return image;
   }
@@ -159,10 +157,14 @@ class Reader {
   async join(parts) {
     const count = key => parts.reduce((sum, part) => sum + part[key].length, 0);
     const positions = new Float64Array(count('positions')), indices = new Uint32Array(count('indices') - count('indices') % 3);
-    const image = await this.image(parts), uvs = image && new Float32Array(positions.length / 3 * 2).fill(NOWHERE);
+    const images = await Promise.all(parts.map(part => this.image(part))), sheets = [];
+    const uvs = images.some(image => image) ? new Float32Array(positions.length / 3 * 2) : null;
     const normals = parts.every(part => part.normals) ? new Float64Array(positions.length) : null;
     let p = 0, i = 0;
-    for (const part of parts) {
+    for (const [k, part] of parts.entries()) {
+      const image = images[k], ground = uvs && part.ground, last = sheets.at(-1);
+      if (last?.image === image && String(last.ground) === String(ground)) last.count += part.indices.length;
+      else sheets.push({ image, ground, start: i, count: part.indices.length });
       indices.set(part.indices.map(v => v + p / 3), i);
       positions.set(part.positions, p);
       normals?.set(part.normals, p);
@@ -171,7 +173,7 @@ class Reader {
       i += part.indices.length;
     }
     if (indices.length === 0) throw new Sentence(`${this.name} holds no triangles.`);
-    return { positions, indices, normals, uvs, image };
+    return { positions, indices, normals, uvs, sheets };
   }
 
   /** Level 0 is the scene; level k what MSFT_lod puts in its place. */
@@ -186,7 +188,7 @@ class Reader {
   }
 }
 
-/** {levels: [{positions, indices, normals, uvs, image}], extras, notes}: the last three of a level may be null; what the file says of itself is in `extras`. Throws a Sentence. */
+/** {levels: [{positions, indices, normals, uvs, sheets}], extras, notes}: normals and uvs may be null, sheets are runs of indices with their image, or the colour of the ground beside images; what the file says of itself is in `extras`. Throws a Sentence. */
 export async function read_glb(bytes, name) {
   const { json, binary } = split(bytes, name), reader = new Reader(json, binary, name);
   await reader.open();

@@ -1,14 +1,14 @@
 // Images that lie over a mesh: what a material of a GLB says of them, and their pixels.
 
-/** Of a vertex that has no place in the image. */
-export const NOWHERE = -1e9;
 const SLACK = 1e-3;  // of the image's side
 
-/** {texture, places, has_normal_map} of a primitive: an index or null, the name of an attribute. */
+const to_srgb = linear => linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055;
+
+/** {texture, places, ground, has_normal_map, is_moved} of a primitive: the texture's index or null, the name of an attribute, the colour where there is no texture. */
 export function surface_of(json, primitive) {
-  const material = json.materials?.[primitive.material] ?? {}, base = material.pbrMetallicRoughness?.baseColorTexture;
+  const material = json.materials?.[primitive.material] ?? {}, { baseColorTexture: base, baseColorFactor = [] } = material.pbrMetallicRoughness ?? {};
   const places = `TEXCOORD_${base?.texCoord ?? 0}`, has_places = base && primitive.attributes?.[places] !== undefined;
-  return { texture: has_places ? base.index : null, places, has_normal_map: Boolean(material.normalTexture), is_moved: Boolean(base?.extensions?.KHR_texture_transform) };
+  return { texture: has_places ? base.index : null, places, ground: has_places ? null : [0, 1, 2].map(k => to_srgb(baseColorFactor[k] ?? 1)), has_normal_map: Boolean(material.normalTexture), is_moved: Boolean(base?.extensions?.KHR_texture_transform) };
 }
 
 /** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for the single pixel that stands in for an image; or {why} there is none. */

@@ -41,7 +41,7 @@ class Page {
     $('level-row').hidden = document_.levels.length < 2;
     $('errors').disabled = !document_.field;
     this.look.errors = Boolean(state.errors) && Boolean(document_.field);
-    this.has_image = document_.levels.some(terrain => terrain.image);
+    this.has_image = document_.levels.some(terrain => terrain.has_image);
     $('image-choice').hidden = !this.has_image;
     this.look.image = Boolean(state.image ?? true) && this.has_image;
     for (const name of ['edges', 'smooth']) this.look[name] = Boolean(state[name] ?? this.look[name]);
@@ -95,7 +95,7 @@ class Page {
       if (shown.length > 1) line.textContent = summarize(shown[k], unit);
     });
     $('divider').hidden = shown.length < 2;
-    draw_legend({ errors: look.errors, image: look.image && terrain.image !== null, scale: look.scale, low: place.low[2], high: place.high[2], unit });
+    draw_legend({ errors: look.errors, image: look.image && terrain.has_image, scale: look.scale, low: place.low[2], high: place.high[2], unit });
     $('map').hidden = !look.errors;
     if (look.errors && (this.mapped !== terrain || this.mapped_scale !== look.scale)) draw_map(terrain.judged, field, look.scale);
     [this.mapped, this.mapped_scale] = look.errors ? [terrain, look.scale] : [];

@@ -37,11 +37,9 @@ class View {
     this.scene = new THREE.Scene();
     this.group = new THREE.Group();
     this.scene.add(this.group);
-    this.uniforms = { ...shared, errors: { value: null }, image: { value: null }, shows_image: { value: false } };
-    this.surface = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
-      uniforms: this.uniforms, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT, side: THREE.DoubleSide,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-    }));
+    this.uniforms = { ...shared, errors: { value: null } };
+    this.materials = [];  // kept for the next terrain: a new one would be compiled
+    this.surface = new THREE.Mesh(new THREE.BufferGeometry());
     this.edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
       uniforms: { pixels: shared.pixels, ink: shared.ink, weight: shared.weight }, vertexShader: EDGE_VERTEX, fragmentShader: EDGE_FRAGMENT,
       transparent: true, depthWrite: false,
@@ -49,12 +47,20 @@ class View {
     this.group.add(this.surface, this.edges);
   }
 
+  /** Of the k-th image. */
+  material(k) {
+    return this.materials[k] ??= new THREE.ShaderMaterial({
+      uniforms: { ...this.uniforms, image: { value: null }, shows_image: { value: false }, ground: { value: [1, 1, 1] }, shows_ground: { value: false } }, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT,
+      side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+    });
+  }
+
   show(terrain) {
     if (terrain === this.terrain) return;
     this.terrain = terrain;
     this.surface.geometry.dispose();
     this.edges.geometry.dispose();
-    for (const texture of [this.uniforms.errors, this.uniforms.image]) {
+    for (const texture of [this.uniforms.errors, ...this.materials.map(({ uniforms }) => uniforms.image)]) {
       texture.value?.dispose();
       texture.value = null;
     }
@@ -64,9 +70,10 @@ class View {
     const sampled = new Float32Array(terrain.heights.length * 2);
     if (field) for (let k = 0; k < sampled.length; ++k) sampled[k] = (grid[k] + 0.5) / (k % 2 ? field.rows : field.cols);
     geometry.setAttribute('sampled', new THREE.BufferAttribute(sampled, 2));
-    if (terrain.normals) geometry.setAttribute('normal', new THREE.BufferAttribute(terrain.normals, 3));
     if (terrain.uvs) geometry.setAttribute('uv', new THREE.BufferAttribute(terrain.uvs, 2));
     geometry.setIndex(new THREE.BufferAttribute(terrain.indices, 1));
+    terrain.sheets.forEach(({ start, count }, k) => geometry.addGroup(start, count, k));
+    this.surface.material = terrain.sheets.map((_, k) => this.material(k));
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), terrain.reach * 2);
     this.surface.geometry = geometry;
   }
@@ -75,9 +82,14 @@ class View {
   prepare(look) {
     const { terrain, uniforms } = this, { geometry } = this.surface;
     if (look.errors && !uniforms.errors.value && terrain.judged) uniforms.errors.value = error_texture(terrain.judged, terrain.field);
-    uniforms.shows_image.value = look.image && terrain.image !== null;
-    if (uniforms.shows_image.value) uniforms.image.value ??= image_texture(terrain.image);
-    if (look.smooth && !geometry.attributes.normal) geometry.computeVertexNormals();
+    terrain.sheets.forEach((sheet, k) => {
+      const { image, shows_image, ground, shows_ground } = this.materials[k].uniforms;
+      shows_image.value = look.image && sheet.image !== null;
+      shows_ground.value = look.image && sheet.ground !== null;
+      if (shows_ground.value) ground.value = sheet.ground;
+      if (shows_image.value) image.value ??= image_texture(sheet.image);
+    });
+    if (look.smooth && !geometry.attributes.normal) geometry.setAttribute('normal', new THREE.BufferAttribute(terrain.normals, 3));
     this.edges.visible = look.edges;
     if (!look.edges || this.has_edges) return;
     this.has_edges = true;

@@ -16,12 +16,14 @@ void main() {
   gl_Position = projectionMatrix * view;
 }`;
 
-// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent, or has no place, the relief shows.
+// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent the relief shows.
 export const SURFACE_FRAGMENT = `
 uniform sampler2D errors;
 uniform bool shows_errors;
 uniform sampler2D image;
 uniform bool shows_image;
+uniform bool shows_ground;
+uniform vec3 ground;
 uniform bool is_smooth;
 uniform float scale;
 uniform vec2 range;
@@ -50,8 +52,8 @@ void main() {
     color *= .72 + .28 * lit;
   } else {
     color = ramp(clamp((height - range.x) / max(range.y - range.x, 1e-9), 0., 1.)) * (.34 + .90 * lit);
-    vec4 texel = texture2D(image, in_image);
-    if (shows_image && in_image.x > -1e8) color = mix(color, texel.rgb * (.5 + .6 * lit), texel.a);
+    vec4 texel = shows_ground ? vec4(ground, 1.) : texture2D(image, in_image);
+    if (shows_image || shows_ground) color = mix(color, texel.rgb * (.5 + .6 * lit), texel.a);
   }
   gl_FragColor = vec4(color, 1.);
 }`;

@@ -1,6 +1,7 @@
 // A mesh in place: in metres around the page's centre for drawing, in columns and rows for judging.
 import { judge } from './errors.js';
 import { find_placing } from './images.js';
+import { join_places, list_edges, sum_normals } from './joins.js';
 
 /** Where the page's scene lies: `metres` a unit of x, y and z. */
 export class Place {
@@ -28,9 +29,12 @@ export class Place {
 }
 
 export class Terrain {
-  /** `positions`: x, y, z of the mesh's own frame, as are `normals`; these, `uvs`, `image` and `field` may be null. `judged`: what judge() found, if it is known. */
-  constructor({ name, positions, indices, bytes = null, told = null, judged = null, normals = null, uvs = null, image = null }, place, field) {
-    Object.assign(this, { name, positions, indices, bytes, told, place, field, known: judged, uvs, image });
+  /**
+   * `positions`: x, y, z of the mesh's own frame, as are `normals`; these, `uvs` and `field` may be null. `sheets`: runs of indices under one image, or of one ground.
+   * `judged`: what judge() found, if it is known.
+   */
+  constructor({ name, positions, indices, bytes = null, told = null, judged = null, normals = null, uvs = null, sheets = [{ image: null, ground: null, start: 0, count: indices.length }] }, place, field) {
+    Object.assign(this, { name, positions, indices, bytes, told, place, field, known: judged, uvs, sheets });
     const vertices = positions.length / 3;
     this.scene = new Float32Array(positions.length);
     this.grid = field ? new Float64Array(2 * vertices) : null;
@@ -44,7 +48,7 @@ export class Terrain {
       this.heights[v] = z;
       if (field) this.grid.set(field.to_grid(x, y), 2 * v);
     }
-    this.normals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
+    this.given_normals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
 
   get triangles() {
@@ -58,24 +62,27 @@ export class Terrain {
     return this.known;
   }
 
-  /** Where x and y lie in the image; null where that is no affine map, or without an image. */
+  get has_image() {
+    return this.sheets.some(({ image }) => image);
+  }
+
+  /** Where x and y lie in the image; null where that is no affine map, or not of one image. */
   get placing() {
-    if (this.known_placing === undefined) this.known_placing = this.image && find_placing(this);
+    if (this.known_placing === undefined) this.known_placing = this.sheets.length === 1 && this.has_image ? find_placing(this) : null;
     return this.known_placing;
   }
 
-  /** Each edge once, as pairs of vertices. */
+  /** Those of the file, or else of the triangles around each place. */
+  get normals() {
+    return this.given_normals ??= sum_normals(this.scene, this.indices, this.firsts);
+  }
+
+  get firsts() {
+    return this.known_firsts ??= join_places(this.scene);
+  }
+
   edges() {
-    const vertices = this.heights.length, seen = new Set(), pairs = [];
-    for (let t = 0; t < this.indices.length; t += 3) {
-      for (let k = 0; k < 3; ++k) {
-        const a = this.indices[t + k], b = this.indices[t + (k + 1) % 3], key = Math.min(a, b) * vertices + Math.max(a, b);
-        if (seen.has(key)) continue;
-        seen.add(key);
-        pairs.push(a, b);
-      }
-    }
-    return pairs;
+    return list_edges(this.indices, this.firsts);
   }
 
   /** Height of the mesh over a place of its frame; NaN where it has none. */

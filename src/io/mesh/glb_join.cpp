@@ -1,6 +1,7 @@
 // Several GLB files as one. Each keeps its arrays, accessors, images and materials, which only get other numbers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -87,13 +88,18 @@ class Joining {
     for (const char* list : {"accessors", "bufferViews", "images", "textures", "samplers", "materials", "meshes"}) {
       for (std::size_t k = 0; k < count(more, list); ++k) json_[list].push_back(more[list][k]);
     }
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      for (std::size_t k = 0; k < count(more, list); ++k) {
+        Json& known = json_[list];
+        if (std::find(known.begin(), known.end(), more[list][k]) == known.end()) known.push_back(more[list][k]);
+      }
+    }
     json_["nodes"].push_back(more["nodes"][0]);
     for (std::size_t k = 1; k < count(more, "buffers"); ++k) json_["buffers"].push_back(more["buffers"][k]);
     binary_.insert(binary_.end(), part.binary.begin(), part.binary.end());
   }
 
-  /// With what makes nodes levels.
-  Result<std::vector<std::uint8_t>> finish(double ratio) {
+  void make_levels(double ratio) {
     Json& nodes = json_["nodes"];
     Json others = Json::array(), coverage = Json::array();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -104,13 +110,21 @@ class Joining {
     nodes[0]["extensions"]["MSFT_lod"] = {{"ids", others}};
     nodes[0]["extras"]["MSFT_screencoverage"] = coverage;
     json_["extensionsUsed"].push_back("MSFT_lod");
+  }
+
+  void show_all() {
+    Json& nodes = json_["scenes"][0]["nodes"] = Json::array();
+    for (std::size_t k = 0; k < json_["nodes"].size(); ++k) nodes.push_back(k);
+  }
+
+  Result<std::vector<std::uint8_t>> finish() {
     json_["buffers"][0]["byteLength"] = binary_.size();
     std::string text = print_json(json_);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t total = kHeader + 2 * kChunkHeader + text.size() + binary_.size();
     if (total > std::numeric_limits<std::uint32_t>::max())
       return fail(ErrorKind::kOutput,
-                  "a GLB file holds less than 4 GiB, and these levels need more: write a file each");
+                  "a GLB file holds less than 4 GiB, and these meshes need more: write a file each");
     std::vector<std::uint8_t> bytes(total);
     std::uint8_t* at = bytes.data();
     constexpr std::uint32_t kMagic = 0x46546C67;
@@ -130,12 +144,24 @@ class Joining {
   std::vector<std::uint8_t> binary_;
 };
 
+Joining join(std::span<const std::vector<std::uint8_t>> files) {
+  Joining joining{Part(files.front())};
+  for (const auto& file : files.subspan(1)) joining.append(Part(file));
+  return joining;
+}
+
 }  // namespace
 
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio) {
-  Joining joining{Part(levels.front())};
-  for (const auto& level : levels.subspan(1)) joining.append(Part(level));
-  return joining.finish(ratio);
+  Joining joining = join(levels);
+  joining.make_levels(ratio);
+  return joining.finish();
+}
+
+Result<std::vector<std::uint8_t>> join_glbs(std::span<const std::vector<std::uint8_t>> files) {
+  Joining joining = join(files);
+  joining.show_all();
+  return joining.finish();
 }
 
 }  // namespace scarp

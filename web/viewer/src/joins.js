@@ -1,0 +1,62 @@
+// Vertices at one place: files keep them apart where parts, tiles or images meet, the eye does not.
+
+/** The first power of two that holds as many twice. */
+function slots_for(count) {
+  return 2 ** Math.ceil(Math.log2(2 * count + 1));
+}
+
+/** Of each vertex the first one at its place. `places`: x, y, z in single precision. */
+export function join_places(places) {
+  const count = places.length / 3, bits = new Int32Array(places.buffer, places.byteOffset, places.length);
+  const mask = slots_for(count) - 1, slots = new Int32Array(mask + 1).fill(-1), firsts = new Uint32Array(count);
+  for (let v = 0; v < count; ++v) {
+    const [x, y, z] = [bits[3 * v], bits[3 * v + 1], bits[3 * v + 2]];
+    let hash = Math.imul(x, 0x9e3779b1) ^ Math.imul(y, 0x85ebca6b) ^ Math.imul(z, 0xc2b2ae35), at = (hash ^= hash >>> 15) & mask;
+    for (; slots[at] >= 0; at = (at + 1) & mask) {
+      const other = 3 * slots[at];
+      if (bits[other] === x && bits[other + 1] === y && bits[other + 2] === z) break;
+    }
+    if (slots[at] < 0) slots[at] = v;
+    firsts[v] = slots[at];
+  }
+  return firsts;
+}
+
+/** Each edge once, as pairs of vertices. */
+export function list_edges(indices, firsts) {
+  const mask = slots_for(indices.length) - 1, slots = new Float64Array(mask + 1).fill(-1), pairs = new Uint32Array(2 * indices.length);
+  let count = 0;
+  for (let k = 0; k < indices.length; ++k) {
+    const a = firsts[indices[k]], b = firsts[indices[k % 3 === 2 ? k - 2 : k + 1]], low = Math.min(a, b), high = Math.max(a, b);
+    if (low === high) continue;
+    const key = low * firsts.length + high;
+    let hash = Math.imul(low, 0x9e3779b1) ^ Math.imul(high, 0x85ebca6b), at = (hash ^= hash >>> 15) & mask;
+    while (slots[at] >= 0 && slots[at] !== key) at = (at + 1) & mask;
+    if (slots[at] === key) continue;
+    slots[at] = key;
+    pairs[count++] = a;
+    pairs[count++] = b;
+  }
+  return pairs.subarray(0, count);
+}
+
+/** Of each vertex the sum of the normals of all triangles at its place, by their areas. */
+export function sum_normals(places, indices, firsts) {
+  const sums = new Float64Array(places.length), normals = new Float32Array(places.length);
+  for (let k = 0; k < indices.length; k += 3) {
+    const [a, b, c] = [3 * firsts[indices[k]], 3 * firsts[indices[k + 1]], 3 * firsts[indices[k + 2]]];
+    const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
+    const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
+    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    for (const at of [a, b, c]) {
+      sums[at] += x;
+      sums[at + 1] += y;
+      sums[at + 2] += z;
+    }
+  }
+  for (let v = 0; v < firsts.length; ++v) {
+    const at = 3 * firsts[v], length = Math.hypot(sums[at], sums[at + 1], sums[at + 2]) || 1;
+    for (let k = 0; k < 3; ++k) normals[3 * v + k] = sums[at + k] / length;
+  }
+  return normals;
+}
