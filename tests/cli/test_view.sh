@@ -167,7 +167,7 @@ E2
 cat > judge.py << 'E2'
 import json, os, sys
 READ = "[document.getElementById('readout').innerText, document.title]"
-READY = "window.scarp_page?.drawn > 0"
+READY = "window.scarp_page?.drawn > 0 && !document.body.classList.contains('empty')"
 NOTICE = "document.getElementById('notice').hidden ? '' : document.getElementById('notice').textContent"
 jobs, checks = [], []
 
@@ -326,7 +326,7 @@ if os.path.exists("python.html"):
 
     # A page within a page, as notebooks show it; it writes no address a little later.
     job(within, "notebook.html", [
-        {"until": "document.querySelector('iframe').contentWindow.scarp_page?.drawn > 0", "read":
+        {"until": "!document.querySelector('iframe').contentDocument.body?.classList.contains('empty') && document.querySelector('iframe').contentWindow.scarp_page?.drawn > 0", "read":
          READ.replace("document.", "document.querySelector('iframe').contentDocument."), "shot": "notebook"},
         {"do": "new Promise(done => setTimeout(done, 500))"},
         {"read": "document.querySelector('iframe').contentDocument.getElementById('notice').hidden"}])
@@ -433,7 +433,12 @@ def live(values):
     assert kept(third, high, "high") < 0.5 * fine[1] and third == second, values
     assert kept(second, left, "greedy") == fine[1] and kept(second, right, "high") == high[1], values
     assert greedy == left and same[1] <= greedy[1] and same[2] < 0.6 * greedy[2], values
-    assert "both=1" in state and "error=" in state, state
+    assert "both=1" in state and "count=1" in state and "error=" in state, state
+
+
+def restored(values):
+    (error, greedy, high), same = values
+    assert same == "count" and 45 < error < 60 and kept(error, greedy, "greedy") >= high[1] and high[0] == "high", values
 
 
 REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged"), ("wrong.xyz", "no file that this page reads"), ("broken.png", "as an image"),
@@ -477,7 +482,9 @@ if os.path.exists("live.html"):
         {"keys": ["s"], "until": "scarp_page.shown.length === 2", "read": NOW, "shot": "side_by_side"},
         {"do": "(menu => { menu.value = 'count'; menu.dispatchEvent(new Event('change')); })(document.getElementById('same'))",
          "until": "scarp_page.shown[1].judged.max_error < 0.6 * scarp_page.shown[0].judged.max_error", "read": NOW},
-        {"until": "location.hash.includes('both=1')", "read": "location.hash"}], axe=True)
+        {"until": "location.hash.includes('count=1')", "read": "location.hash"}], axe=True)
+    job(restored, "live.html", [{"until": READY + " && scarp_page.shown.length === 2 && " + HIGH, "read": NOW}, {"read": "document.getElementById('same').value"}],
+        fragment="#error=50&both=1&count=1", width=500, height=400)
     OPENED = ("[document.title, scarp_page.document.field.cols, scarp_page.shown[0].judged.max_error, (f => (f.high - f.low) * 0.02)"
               "(scarp_page.document.field), scarp_page.shown[0].judged.uncovered, document.getElementById('exaggeration-text').textContent,"
               " document.getElementById('notes').textContent, document.getElementById('command').textContent]")

@@ -27,8 +27,8 @@ struct ViewPage {
 /// with kInput where it is not there.
 Result<std::string> read_page_template();
 
-/// `path` is what the meshes are of, which the page is named after. `field` may be null. Fails with kInput for samples that
-/// cannot be read.
+/// `path` is what the meshes are of, which the page is named after. `field` may be null. Fails with kInput for samples
+/// that cannot be read.
 Result<ViewPage> make_view_page(const std::string& page_template, const std::string& path,
                                 const std::vector<PageMesh>& meshes, const OwnedHeightField* field);
 

@@ -11,7 +11,7 @@ function decode_base64(text) {
 }
 
 function read_field({ samples, type, nodata = null, ...rest }) {
-  const bytes = decode_base64(samples), values = type === 'int16' ? Float32Array.from(new Int16Array(bytes)) : new Float32Array(bytes);
+  const bytes = decode_base64(samples), values = type === 'int16' ? new Float32Array(new Int16Array(bytes)) : new Float32Array(bytes);
   if (nodata !== null) for (let k = 0; k < values.length; ++k) if (values[k] === nodata) values[k] = NaN;
   if (values.length !== rest.cols * rest.rows) throw new Sentence('The raster in this page is damaged: it has not as many samples as it says.');
   return new Field({ ...rest, samples: values });

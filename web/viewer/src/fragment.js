@@ -1,5 +1,5 @@
 // The state of the page in its address, behind #: a link shows the same picture.
-const KEYS = ['errors', 'image', 'edges', 'smooth', 'exaggeration', 'azimuth', 'altitude', 'view', 'level', 'error', 'both'];
+const KEYS = ['errors', 'image', 'edges', 'smooth', 'exaggeration', 'azimuth', 'altitude', 'view', 'level', 'error', 'both', 'count'];
 
 export function read_fragment() {
   const state = {};

@@ -104,11 +104,11 @@ class Reader {
     if (!(count > 0) || offset + (count - 1) * stride + width * size > bytes.length) throw this.damaged(`accessor ${index} lies outside its buffer`);
     const out = size === 1 ? new Uint32Array(count) : new Float64Array(count * size);
     const scale = accessor.normalized && Type !== Float32Array ? 1 / (2 ** (8 * width - (Type.name[0] === 'I' ? 1 : 0)) - 1) : 1;
-    const item = new Type(size), raw = new Uint8Array(item.buffer);
-    for (let k = 0; k < count; ++k) {
-      raw.set(bytes.subarray(offset + k * stride, offset + k * stride + width * size));
-      for (let c = 0; c < size; ++c) out[k * size + c] = item[c] * scale;
-    }
+    const packed = new Uint8Array(count * width * size);  // aligned, as the array's type needs it
+    if (stride === width * size) packed.set(bytes.subarray(offset, offset + packed.length));
+    else for (let k = 0; k < count; ++k) for (let c = 0; c < width * size; ++c) packed[k * width * size + c] = bytes[offset + k * stride + c];
+    const items = new Type(packed.buffer);
+    for (let k = 0; k < items.length; ++k) out[k] = items[k] * scale;
     return out;
   }
 
@@ -120,10 +120,12 @@ class Reader {
     for (const primitive of this.json.meshes?.[node.mesh]?.primitives ?? []) {
       if ((primitive.mode ?? 4) !== 4) continue;
       const local = this.numbers(primitive.attributes?.POSITION, 3), vertices = local.length / 3;
-      const positions = new Float64Array(local.length);
+      const positions = new Float64Array(local.length), m = matrix;
       for (let v = 0; v < vertices; ++v) {
-        const [x, y, z] = local.subarray(3 * v, 3 * v + 3), at = k => matrix[k] * x + matrix[k + 4] * y + matrix[k + 8] * z + matrix[k + 12];
-        positions.set([at(0), -at(2), at(1)], 3 * v);
+        const x = local[3 * v], y = local[3 * v + 1], z = local[3 * v + 2];
+        positions[3 * v] = m[0] * x + m[4] * y + m[8] * z + m[12];
+        positions[3 * v + 1] = -(m[2] * x + m[6] * y + m[10] * z + m[14]);
+        positions[3 * v + 2] = m[1] * x + m[5] * y + m[9] * z + m[13];
         if (!Number.isFinite(positions[3 * v] + positions[3 * v + 1] + positions[3 * v + 2])) throw new Sentence(`Vertex ${v} of ${this.name} has no place: one of its coordinates is no number.`);
       }
       const indices = primitive.indices === undefined ? Uint32Array.from({ length: vertices }, (_, k) => k) : this.numbers(primitive.indices, 1);
@@ -165,7 +167,7 @@ class Reader {
       const image = images[k], ground = uvs && part.ground, last = sheets.at(-1);
       if (last?.image === image && String(last.ground) === String(ground)) last.count += part.indices.length;
       else sheets.push({ image, ground, start: i, count: part.indices.length });
-      indices.set(part.indices.map(v => v + p / 3), i);
+      for (let k = 0; k < part.indices.length; ++k) indices[i + k] = part.indices[k] + p / 3;
       positions.set(part.positions, p);
       normals?.set(part.normals, p);
       if (part.uvs) uvs?.set(part.uvs, p / 3 * 2);

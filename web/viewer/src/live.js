@@ -78,7 +78,7 @@ export class Live {
     return this.is_there && Boolean(this.page.document?.field);
   }
 
-  open(document, { error, both }) {
+  open(document, { error, both, count }) {
     for (const helper of [this.quick, this.slow]) helper?.end();
     this.meshes.clear();
     this.both = false;
@@ -95,6 +95,7 @@ export class Live {
     const judged = document.levels[0].judged.max_error;
     $('error').value = String(this.step_of(error ?? judged));
     this.label(error ?? judged);
+    $('same').value = count ? 'count' : 'error';
     if (both) this.turn_both(true);
     else if (error !== undefined) this.choose(this.step_of(error)), this.finish();
   }
@@ -128,7 +129,7 @@ export class Live {
   }
 
   state() {
-    return this.step_now === null ? {} : { error: this.error_of(this.step_now), ...(this.both ? { both: 1 } : {}) };
+    return this.step_now === null ? {} : { error: this.error_of(this.step_now), ...(this.both ? { both: 1, count: Number($('same').value === 'count') } : {}) };
   }
 
   /** For a mesh of the file. */

@@ -189,4 +189,6 @@ async function start() {
 
 addEventListener('error', event => complain(event.error ?? new Error(event.message)));
 addEventListener('unhandledrejection', event => complain(event.reason));
-start().catch(complain);
+/** A frame later than the terrain: what lies over it takes a browser as long to paint. */
+const show_panel = () => document.body.classList.remove('empty');
+start().then(() => requestAnimationFrame(() => setTimeout(show_panel)), error => complain(error) ?? show_panel());

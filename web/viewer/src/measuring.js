@@ -87,6 +87,7 @@ export class Measuring {
     $('profile').innerHTML = path('raster', 2) + path('mesh', 1);
     $('profile').setAttribute('aria-label', `Profile of ${distance(run, length_unit)}, heights ${number(low)} to ${with_unit(high, unit)}`);
     $('profile-range').textContent = `heights ${number(low)} to ${with_unit(high, unit)} over ${distance(run, length_unit)}`;
+    document.querySelector('#profile-text .of-raster').hidden = !line.some(([, , raster]) => Number.isFinite(raster));
     this.show_profile(true);
     this.line = line.map(([t, mesh]) => place.to_scene(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), mesh));
   }

@@ -55,6 +55,12 @@ class View {
     });
   }
 
+  /** The browser compiles beside what this page does next, which reads the mesh. */
+  compile(renderer, camera) {
+    this.surface.material = this.material(0);
+    renderer.compile(this.surface, camera, this.scene);
+  }
+
   show(terrain) {
     if (terrain === this.terrain) return;
     this.terrain = terrain;
@@ -107,6 +113,8 @@ export class Scene {
   /** `look`: {errors, image, edges, smooth, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller changes. */
   constructor(canvas, look) {
     Object.assign(this, { canvas, look, listeners: [], views: [] });
+    const { width, height, ratio } = this.size();
+    Object.assign(canvas, { width: width * ratio, height: height * ratio });  // before there is a buffer, which would be made twice
     try {
       this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     } catch {
@@ -125,6 +133,25 @@ export class Scene {
     new ResizeObserver(() => this.invalidate()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.invalidate());
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
+    this.add_view().compile(this.renderer, this.camera);
+  }
+
+  /** In CSS pixels, and how many of the screen's a side of one is. */
+  size() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return { width, height, ratio: Math.min(devicePixelRatio, 2) };
+  }
+
+  fit() {
+    const { width, height, ratio } = this.size(), size = `${width} ${height} ${ratio}`;
+    if (this.drawn_size === size) return;
+    this.renderer.setDrawingBufferSize(width, height, ratio);
+    this.drawn_size = size;
+  }
+
+  add_view() {
+    this.views.push(new View(this.shared));
+    return this.views.at(-1);
   }
 
   on_draw(listener) {
@@ -133,7 +160,7 @@ export class Scene {
 
   /** One terrain or two. */
   show(terrains) {
-    while (this.views.length < terrains.length) this.views.push(new View(this.shared));
+    while (this.views.length < terrains.length) this.add_view();
     terrains.forEach((terrain, k) => this.views[k].show(terrain));
     if (this.count !== terrains.length) this.divide(terrains.length);
     this.invalidate();
@@ -218,12 +245,7 @@ export class Scene {
     this.asked = false;
     if (!this.count) return;
     const { canvas, renderer, camera, look, shared } = this, { place } = this.views[0].terrain, width = canvas.clientWidth, height = canvas.clientHeight;
-    const ratio = Math.min(devicePixelRatio, 2);
-    if (renderer.getPixelRatio() !== ratio || this.drawn_size !== `${width} ${height}`) {
-      renderer.setPixelRatio(ratio);
-      renderer.setSize(width, height, false);
-      this.drawn_size = `${width} ${height}`;
-    }
+    this.fit();
     const style = getComputedStyle(document.documentElement), azimuth = look.sun.azimuth * Math.PI / 180, altitude = look.sun.altitude * Math.PI / 180;
     renderer.setClearColor(style.getPropertyValue('--sky').trim());
     shared.shows_errors.value = look.errors;

@@ -9,9 +9,13 @@ export class Place {
     this.metres = metres;
     this.low = [Infinity, Infinity, Infinity];
     this.high = [-Infinity, -Infinity, -Infinity];
-    for (let k = 0; k < positions.length; ++k) {
-      this.low[k % 3] = Math.min(this.low[k % 3], positions[k]);
-      this.high[k % 3] = Math.max(this.high[k % 3], positions[k]);
+    for (let c = 0; c < 3; ++c) {
+      let low = Infinity, high = -Infinity;
+      for (let k = c; k < positions.length; k += 3) {
+        low = Math.min(low, positions[k]);
+        high = Math.max(high, positions[k]);
+      }
+      [this.low[c], this.high[c]] = [low, high];
     }
     this.center = this.low.map((low, k) => (low + this.high[k]) / 2);
     this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => (this.high[k] - this.low[k]) / 2 * metres[k])));
@@ -40,14 +44,17 @@ export class Terrain {
     this.grid = field ? new Float64Array(2 * vertices) : null;
     this.heights = new Float64Array(vertices);
     this.reach = place.radius;  // from the scene's middle: other levels may be wider than the first
+    let reach = 0;
     for (let v = 0; v < vertices; ++v) {
-      const [x, y, z] = [positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]];
-      const at = place.to_scene(x, y, z);
-      this.scene.set(at, 3 * v);
-      this.reach = Math.max(this.reach, Math.hypot(...at));
-      this.heights[v] = z;
-      if (field) this.grid.set(field.to_grid(x, y), 2 * v);
+      const [x, y, z] = place.to_scene(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
+      this.scene[3 * v] = x;
+      this.scene[3 * v + 1] = y;
+      this.scene[3 * v + 2] = z;
+      reach = Math.max(reach, x * x + y * y + z * z);
+      this.heights[v] = positions[3 * v + 2];
+      if (field) [this.grid[2 * v], this.grid[2 * v + 1]] = field.to_grid(positions[3 * v], positions[3 * v + 1]);
     }
+    this.reach = Math.max(this.reach, Math.sqrt(reach));
     this.given_normals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
 
