@@ -235,13 +235,16 @@ job(lambda values: same("packed.json", values[0][0]), "by_simplify.html", [{"unt
 def levels(values):
     assert values[0] == 3, values
     same("level2.json", values[2][0])
+    # Where the engine is inside its slider stands at the error of the level.
+    without_engine, error = values[3]
+    assert without_engine or abs(float(error) / json.load(open("level2.json"))["max_error"] - 1) < 0.01, values[3]
 
 
 job(levels, "levels_lod0.html", [
     {"until": READY, "read": "scarp_page.document.levels.length", "shot": "phone"},
     {"do": "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))",
      "after": "document.getElementById('fold').click()"},
-    {"read": READ, "shot": "phone_controls"}], axe=True, width=390, height=780)
+    {"read": READ, "shot": "phone_controls"}, {"read": "[document.getElementById('slider-row').hidden, parseFloat(document.getElementById('error-text').textContent)]"}], axe=True, width=390, height=780)
 
 
 def tile_levels(values):

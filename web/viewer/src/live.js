@@ -92,9 +92,7 @@ export class Live {
     this.most = Math.ceil(12 * STEPS_AN_OCTAVE);
     this.unit = unit;
     $('error').max = String(this.most);
-    const judged = document.levels[0].judged.max_error;
-    $('error').value = String(this.step_of(error ?? judged));
-    this.label(error ?? judged);
+    this.follow(error ?? this.page.shown[0].judged.max_error);
     $('same').value = count ? 'count' : 'error';
     if (both) this.turn_both(true);
     else if (error !== undefined) this.choose(this.step_of(error)), this.finish();
@@ -118,6 +116,12 @@ export class Live {
     return Math.max(0, Math.min(this.most, Math.round(Math.log2(this.largest / Math.max(error, 1e-12)) * STEPS_AN_OCTAVE)));
   }
 
+  /** The slider stands at the error of what is shown. */
+  follow(error) {
+    $('error').value = String(this.step_of(error));
+    this.label(error);
+  }
+
   label(error) {
     $('error-text').textContent = with_unit(Number(error.toPrecision(3)), this.unit);
     $('error').setAttribute('aria-valuetext', $('error-text').textContent);
@@ -133,7 +137,8 @@ export class Live {
   }
 
   /** For a mesh of the file. */
-  leave() {
+  leave(terrain) {
+    if (this.is_usable) this.follow(terrain.judged.max_error);
     this.slow?.cancel();
     this.say('');
     this.step_now = null;

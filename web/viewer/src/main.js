@@ -69,9 +69,10 @@ class Page {
   }
 
   choose_level(level) {
-    this.live.leave();
     this.level = Math.max(0, Math.min(this.document.levels.length - 1, level));
-    this.show([this.document.levels[this.level]]);
+    const terrain = this.document.levels[this.level];
+    this.live.leave(terrain);
+    this.show([terrain]);
   }
 
   /** Makes the controls and the readout agree with the state. */
