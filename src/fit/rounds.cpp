@@ -79,18 +79,17 @@ bool Rounds::run(const PatchGrid& grid, double end, bool relocates) {
 }
 
 bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held) {
-  return work_on(grid, end, steps_of_moves(),
-                 [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
-                   // One bound alone, and that beyond energies.
-                   if (!error.has_energy()) return FitCounts{};
-                   const std::vector<std::uint8_t> wanted =
-                       only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
-                   RepairOptions here = options;
-                   here.wanted = wanted;
-                   here.rules = rules_of(patch);
-                   const RepairCounts counts = repair_vertices(patch, error, here);
-                   return FitCounts{counts.removed, 0, counts.removed, counts.tried};
-                 });
+  return work_on(
+      grid, end, steps_of_moves(), [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+        // One bound alone, and that beyond energies.
+        if (!error.has_energy()) return FitCounts{};
+        const std::vector<std::uint8_t> wanted = only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
+        RepairOptions here = options;
+        here.wanted = wanted;
+        here.rules = rules_of(patch);
+        const RepairCounts counts = repair_vertices(patch, error, here);
+        return FitCounts{counts.removed, 0, counts.removed, counts.tried};
+      });
 }
 
 bool Rounds::work_twice(const PatchGrid& grid, double end, Prepare prepare, Between between, Job job) {

@@ -107,7 +107,8 @@ class SquareRounds {
   }
 
   bool needs_less() const {
-    return triangles_ > options_.squares->most_triangles || rounds_.tin().vertex_count() > options_.squares->most_vertices;
+    return triangles_ > options_.squares->most_triangles ||
+           rounds_.tin().vertex_count() > options_.squares->most_vertices;
   }
 
   using Work = FunctionRef<void(Patch& patch, const TriangleError& error, Share share)>;
@@ -206,7 +207,8 @@ class SquareRounds {
     const Patch before = patch;
     const RepairOptions options = options_of(patch);
     const auto target = static_cast<double>(of.target), had = static_cast<double>(of.triangles);
-    reduce(patch, error, options, of.target - std::min(of.target, static_cast<std::size_t>(std::max(2.0, share * target))));
+    reduce(patch, error, options,
+           of.target - std::min(of.target, static_cast<std::size_t>(std::max(2.0, share * target))));
     insert(patch, error, options, of.target);
     sweep(patch, error, options, kSweepsAfterExchange);
     // Σ e² is expected to change with the triangles that come from other patches or go there.

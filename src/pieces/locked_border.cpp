@@ -120,10 +120,11 @@ Result<void> LockedBorder::check(std::span<const Point> points, std::int32_t ste
     const Point sample{p.x / steps, p.y / steps};
     if (p.x % steps == 0 && p.y % steps == 0 && std::binary_search(sorted.begin(), sorted.end(), sample, before))
       continue;
-    return fail(ErrorKind::kUsage,
-                fmt::format("a line meets the raster's edge at sample ({:.9g}, {:.9g}), and the edge is locked and has no "
-                            "vertex there: end the line inside the raster, or at a vertex of the edge",
-                            p.x / double(steps), p.y / double(steps)));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("a line meets the raster's edge at sample ({:.9g}, {:.9g}), and the edge is locked and has no "
+                    "vertex there: end the line inside the raster, or at a vertex of the edge",
+                    p.x / double(steps), p.y / double(steps)));
   }
   return {};
 }
