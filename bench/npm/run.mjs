@@ -1,6 +1,7 @@
 // The npm package beside delatin and martini: node bench/npm/run.mjs RASTER... > bench/npm/results.csv
 //
 // RASTER: name=file:columns:rows:errors, float32 samples, such as everest=everest.f32:513:513:20,80; martini takes 2^n + 1 a side.
+// They are made by gdal_translate -of ENVI -ot Float32 -srcwin 400 300 513 513 N27E086.hgt everest.f32
 // Milliseconds are CPU time, the least of several runs after one that warms up; true errors are those of the judge of the tests. Needs
 // scarp, delatin and @mapbox/martini in node_modules.
 import fs from 'node:fs';
