@@ -36,6 +36,7 @@ folder = os.path.abspath("site")
 ready = {"until": "document.readyState === 'complete'"}
 jobs = [{"page": f"{folder}/{name}", "folder": folder, "steps": [ready | {"shot": os.path.basename(name)}], "axe": True, "dark": dark}
         for name, dark in (("index.html", False), ("docs/guide/viewer.html", True))]
+jobs.append({"page": f"{folder}/try.html", "steps": [{"until": "!document.getElementById('notice').hidden", "read": "document.getElementById('notice').textContent"}]})
 jobs.append({"page": f"{folder}/example.html", "steps": [{"until": "window.scarp_page?.drawn > 0", "read": "document.title"}]})
 print(json.dumps(jobs))
 E2
@@ -46,5 +47,5 @@ import json, sys
 answers = json.load(open(sys.argv[1]))
 for answer in answers:
     assert "failed" not in answer and not answer["errors"] and not answer["elsewhere"] and not answer["violations"], answer
-assert answers[2]["values"] == ["jacksboro.glb"], answers
+assert "Drop a GeoTIFF" in answers[2]["values"][0] and answers[3]["values"] == ["jacksboro.glb"], answers
 E2

@@ -105,22 +105,51 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   succeeds other/bin/scarp view plain.glb "$dem" -o live.html
   cp other/share/scarp/viewer.html try.html
   cp "$dem" dem.tif
+  cp "$dem" .
   head -c 3000 "$dem" > cut.tif
   succeeds gdal_translate -q -ot Float32 -srcwin 0 0 60 50 -scale 0 10000 7 7 -a_nodata 7 "$dem" void.tif
   succeeds gdal_translate -q -srcwin 0 0 1 150 "$dem" column.tif
+  # A name that a shell must not read; samples without a cell; a colour picture; heights in feet; more samples than a page takes.
+  succeeds gdal_translate -q -srcwin 0 0 60 50 "$dem" "; touch x \$(touch y) 'q' .tif"
+  printf 'ncols 9\nnrows 8\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9\n' > stray.asc
+  for row in 0 1 2 3 4 5 6 7; do
+    [ $row -lt 5 ] && echo "3 4 7 1 5 9 2 6 5" || { [ $row = 6 ] && echo "-9 -9 -9 8 -9 -9 -9 7 -9" || echo "-9 -9 -9 -9 -9 -9 -9 -9 -9"; }
+  done >> stray.asc
+  succeeds gdal_translate -q -a_srs EPSG:32616 stray.asc stray.tif
+  succeeds gdal_translate -q -srcwin 0 0 80 61 -ot Byte -scale 236 1076 0 255 -b 1 -b 1 -b 1 -co PHOTOMETRIC=RGB "$dem" colour.tif
+  succeeds gdal_translate -q -srcwin 0 0 80 61 -a_srs EPSG:2264 -a_ullr 1000 9000 1802.5 8390 "$dem" feet.tif
+  succeeds gdal_translate -q -srcwin 0 0 3 3 -outsize 4200 4100 -r bilinear -co COMPRESS=DEFLATE -co PROFILE=BASELINE "$dem" thinned.tif
   cp column.tif no_tile.png
   printf 'x' > wrong.xyz
   printf 'x' > broken.png
   head -c 22 "$dem" > thin.hgt
+  head -c 5 "$dem" > head.tif
   python3 - << 'E2'
 import math, struct, zlib
 side = 65
 heights = [[int(500 + 200 * math.sin(row / 9) * math.cos(col / 7) + (row * col) % 5) for col in range(side)] for row in range(side)]
 open("N36W085.hgt", "wb").write(b"".join(struct.pack(">h", z) for row in heights for z in row))
-pixels = b"".join(b"\0" + b"".join(struct.pack(">HB", z + 32768, 0) for z in row) for row in heights)
 chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-open("terrarium.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)) +
-                                 chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+def write_png(name, depth, color, bytes_a_pixel, pixel_of):
+    """Each row is filtered in another way."""
+    def filtered(kind, row, above):
+        out = bytearray()
+        for k, byte in enumerate(row):
+            left, up, corner = row[k - bytes_a_pixel] if k >= bytes_a_pixel else 0, above[k], above[k - bytes_a_pixel] if k >= bytes_a_pixel else 0
+            near = min((left, up, corner), key=lambda value: abs(left + up - corner - value))
+            out.append(byte - (0, left, up, (left + up) // 2, near)[kind] & 255)
+        return bytes([kind]) + out
+
+    rows = [b"".join(map(pixel_of, row)) for row in heights]
+    pixels = b"".join(filtered(k % 5, row, rows[k - 1] if k else bytes(len(row))) for k, row in enumerate(rows))
+    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, depth, color, 0, 0, 0)) +
+                           chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+
+
+write_png("terrarium.png", 8, 2, 3, lambda z: struct.pack(">HB", z + 32768, 0))
+write_png("mapbox.png", 8, 6, 4, lambda z: struct.pack(">I", (z + 10000) * 10)[1:] + (b"\0" if z > 690 else b"\xff"))
+open("cut.png", "wb").write(open("terrarium.png", "rb").read()[:900])
+write_png("grey16.png", 16, 0, 2, lambda z: struct.pack(">H", 50 * z))
 E2
   sed "s/ 'wasm-unsafe-eval'//" live.html > no_wasm.html
 else
@@ -165,7 +194,7 @@ open("image_elsewhere.glb", "wb").write(struct.pack("<4sIIII", b"glTF", 2, 20 + 
 E2
 
 cat > judge.py << 'E2'
-import json, os, sys
+import base64, json, os, subprocess, sys
 READ = "[document.getElementById('readout').innerText, document.title]"
 READY = "window.scarp_page?.drawn > 0 && !document.body.classList.contains('empty')"
 NOTICE = "document.getElementById('notice').hidden ? '' : document.getElementById('notice').textContent"
@@ -229,11 +258,28 @@ job(restored, "plain.html", [
     {"until": READY, "read": "[scarp_page.look.errors, scarp_page.look.smooth, scarp_page.look.exaggeration, (o => [o.azimuth, o.altitude, o.distance])"
                              "(scarp_page.scene.orbit()), document.getElementById('panel').innerText]", "shot": "fragment"}],
     fragment="#errors=1&smooth=1&exaggeration=3&view=30,45,20000,0,0,0")
+
+
+def unmoved(values):
+    exaggeration, orbit, sun, shown, first = values[0]
+    assert exaggeration == 1 and sun == [315, 40] and shown == 1 and orbit == first, values
+
+
+# What is no number in its range leaves the page as it is at first.
+for fragment in ("#view=0,0,0,0,0,0&exaggeration=1,2&azimuth=NaN&altitude=&level=x", "#view=,,,,,&exaggeration=1e300", "#view=1e300,1,1,1,1,1&constructor=1"):
+    job(unmoved, "plain.html", [{"until": READY, "read": "[scarp_page.look.exaggeration, Object.values(scarp_page.scene.orbit()).flat().map(x => x.toFixed(4)),"
+                                 " Object.values(scarp_page.look.sun), scarp_page.level + 1, (scarp_page.scene.reset(), Object.values(scarp_page.scene.orbit()).flat()"
+                                 ".map(x => x.toFixed(4)))]"}], fragment=fragment, width=400, height=300)
+job(lambda values: values[0].index("gradient"), "plain.html", [{"until": READY, "read": "getComputedStyle(document.getElementById('legend-bar')).backgroundImage", "shot": "forced"}],
+    forced_colors=True, axe=True)
+job(lambda values: values[0] == ["none", "none"] and values[0], "plain.html", [
+    {"read": "['main', '#panel'].map(name => getComputedStyle(document.querySelector(name)).display)", "shot": "no_script"}], no_script=True)
 job(lambda values: same("packed.json", values[0][0]), "by_simplify.html", [{"until": READY, "read": READ, "shot": "dark"}], axe=True, dark=True)
 
 
 def levels(values):
-    assert values[0] == 3, values
+    count, (left, right, top, bottom) = values[0]
+    assert count == 3 and left > 0 and right < 390 and top > 0 and bottom < 780, values[0]  # all of it in sight
     same("level2.json", values[2][0])
     # Where the engine is inside its slider stands at the error of the level.
     without_engine, error = values[3]
@@ -241,7 +287,9 @@ def levels(values):
 
 
 job(levels, "levels_lod0.html", [
-    {"until": READY, "read": "scarp_page.document.levels.length", "shot": "phone"},
+    {"until": READY, "read": "[scarp_page.document.levels.length, (() => { const at = scarp_page.shown[0].scene, found = [[], []]; for (let v = 0; v < at.length; v += 3)"
+                             " scarp_page.scene.project(at.subarray(v, v + 3)).forEach((value, k) => found[k].push(value));"
+                             " return found.flatMap(values => [Math.min(...values), Math.max(...values)]); })()]", "shot": "phone"},
     {"do": "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))",
      "after": "document.getElementById('fold').click()"},
     {"read": READ, "shot": "phone_controls"}, {"read": "[document.getElementById('slider-row').hidden, parseFloat(document.getElementById('error-text').textContent)]"}], axe=True, width=390, height=780)
@@ -422,12 +470,31 @@ DRAG = ("(slider => { slider.value = String(%d); slider.dispatchEvent(new Event(
 RELEASE = "document.getElementById('error').dispatchEvent(new Event('change'))"
 NOW = ("[scarp_page.live.error_of(scarp_page.live.step_now), ...scarp_page.shown.map(t => [t.name, t.triangles, t.judged.max_error,"
        " t.judged.uncovered])]")
+COMMAND = "({command: document.getElementById('command').textContent, triangles: scarp_page.shown.at(-1).triangles})"
 HIGH = "scarp_page.shown.at(-1).name === 'high' && document.getElementById('progress').hidden"
 
 
 def kept(asked, mesh, name):
     assert mesh[0] == name and mesh[2] <= asked * (1 + 1e-6) and mesh[3] == 0, (asked, mesh)
     return mesh[1]
+
+
+PROGRAM = os.environ["SCARP_BUILD"] + "/bin/scarp"
+
+
+def ask(*words):
+    run = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+    assert run.returncode == 0, (words, run.stderr)
+    return json.loads(run.stdout)
+
+
+def runs(command, page):
+    """The command of the page, as a shell reads it, makes the page's mesh."""
+    if os.path.exists("mesh.glb"):
+        os.remove("mesh.glb")
+    subprocess.run(["sh", "-ec", command + " -q"], check=True, env={"PATH": os.path.dirname(PROGRAM) + ":" + os.environ["PATH"]}, stderr=subprocess.DEVNULL)
+    found = json.loads(subprocess.run([PROGRAM, "info", "mesh.glb", "--json"], check=True, capture_output=True, text=True).stdout)
+    assert found["mesh"]["triangles"] == page["triangles"], (command, found["mesh"]["triangles"], page)
 
 
 def live(values):
@@ -437,6 +504,8 @@ def live(values):
     assert kept(second, left, "greedy") == fine[1] and kept(second, right, "high") == high[1], values
     assert greedy == left and same[1] <= greedy[1] and same[2] < 0.6 * greedy[2], values
     assert "both=1" in state and "count=1" in state and "error=" in state, state
+    for page in (v for v in values if isinstance(v, dict)):
+        runs(page["command"], page)
 
 
 def restored(values):
@@ -444,16 +513,34 @@ def restored(values):
     assert same == "count" and 45 < error < 60 and kept(error, greedy, "greedy") >= high[1] and high[0] == "high", values
 
 
-REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged"), ("wrong.xyz", "no file that this page reads"), ("broken.png", "as an image"),
-           ("void.tif", "holds no height"), ("column.tif", "1 x 150"), ("no_tile.png", "as an image"))
+REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged or cut off"), ("head.tif", "no TIFF file"), ("wrong.xyz", "no file that this page reads"),
+           ("broken.png", "no PNG image"), ("cut.png", "damaged or cut off"), ("void.tif", "holds no height"), ("column.tif", "1 x 150"), ("no_tile.png", "no PNG image"))
+# Name, what the notes say, the decoding; whether the program reads the same samples.
+OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrarium.png", "terrarium", "terrarium", True), ("mapbox.png", "mapbox", "mapbox", True),
+           ("grey16.png", "Grey levels", "", True), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("colour.tif", "red is taken", "", True),
+           ("feet.tif", "", "", True), ("thinned.tif", "one of 2 x 2", "", False))
 
 
 def rasters(values):
-    for name, notes, said in ((os.path.basename("dem.tif"), "", "--order greedy"), ("N36W085.hgt", "", "--order greedy"), ("terrarium.png", "terrarium", "")):
-        (title, cols, error, most, uncovered, exaggeration, shown_notes, command), size = values.pop(0), values.pop(0)
-        assert title == name and error <= most * (1 + 1e-6) and uncovered == 0 and said in command and notes in shown_notes, (name, title, command)
-        assert ("(true)" in exaggeration) == (name != "terrarium.png"), exaggeration
-        assert size > 1000, size
+    for name, notes, decoding, is_same in OFFERED:
+        page, files = values.pop(0), [values.pop(0) for _ in FORMATS]
+        assert page["name"] == name and page["error"] <= page["most"] * (1 + 1e-3) and page["uncovered"] == 0 and notes in page["notes"], (name, page)
+        assert ("(true)" in page["exaggeration"]) == (name in KNOWN_METRES), (name, page)
+        assert page["is_of_full"] == (name == "thinned.tif") and ("decoded as" in page["readout"]) == bool(decoding), (name, page)
+        assert page["command"].endswith(f"--decode {decoding}" if decoding else "--order greedy") and f"-e {page['asked']:g} " in page["command"], (name, page)
+        assert not decoding or f"heights decoded as\n{decoding}" in page["readout"], page
+        if not is_same:
+            continue
+        runs(page["command"], page)
+        for form, file in zip(FORMATS, files):
+            open("saved." + form, "wb").write(base64.b64decode(file))
+            found = ask("measure", name, "saved." + form, "--json", *(["--decode", decoding] if decoding else []))
+            assert abs(found["max_error"] - page["error"]) <= 1e-6 * page["high"], (name, form, found["max_error"], page)
+            assert (found["uncovered"], found["stray"], found["samples"]) == (0, page["stray"], page["samples"]), (name, form, found, page)
+            assert found["triangles"] == page["triangles"], (name, form)
+        assert not os.path.exists("x") and not os.path.exists("y"), name
+    again = values.pop(0)
+    assert "--decode terrarium" in again["command"] and "as of terrarium" in again["notes"] and again["high"] < -30000, again
     for name, words in REFUSED:
         told = values.pop(0)
         assert name in told and words in told, (name, told)
@@ -476,28 +563,39 @@ def refused(values):
     assert "No mesh" in words and "WebAssembly" in words, words
 
 
+FORMATS, KNOWN_METRES = ("glb", "stl", "obj"), ("dem.tif", "N36W085.hgt", "; touch x $(touch y) 'q' .tif", "stray.tif", "colour.tif", "feet.tif")
 if os.path.exists("live.html"):
     job(live, "live.html", [
         {"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW},
         {"do": DRAG % 28, "until": "scarp_page.live.step_now === 28 && scarp_page.shown[0].judged.max_error <= scarp_page.live.error_of(28)",
          "read": NOW},
-        {"do": RELEASE, "until": HIGH, "read": NOW, "shot": "live"},
+        {"do": RELEASE, "until": HIGH, "read": NOW, "shot": "live"}, {"do": COMMAND},
         {"keys": ["s"], "until": "scarp_page.shown.length === 2", "read": NOW, "shot": "side_by_side"},
         {"do": "(menu => { menu.value = 'count'; menu.dispatchEvent(new Event('change')); })(document.getElementById('same'))",
          "until": "scarp_page.shown[1].judged.max_error < 0.6 * scarp_page.shown[0].judged.max_error", "read": NOW},
-        {"until": "location.hash.includes('count=1')", "read": "location.hash"}], axe=True)
+        {"do": COMMAND}, {"until": "location.hash.includes('count=1')", "read": "location.hash"}], axe=True)
     job(restored, "live.html", [{"until": READY + " && scarp_page.shown.length === 2 && " + HIGH, "read": NOW}, {"read": "document.getElementById('same').value"}],
         fragment="#error=50&both=1&count=1", width=500, height=400)
-    OPENED = ("[document.title, scarp_page.document.field.cols, scarp_page.shown[0].judged.max_error, (f => (f.high - f.low) * 0.02)"
-              "(scarp_page.document.field), scarp_page.shown[0].judged.uncovered, document.getElementById('exaggeration-text').textContent,"
-              " document.getElementById('notes').textContent, document.getElementById('command').textContent]")
+    OPENED = ("({name: document.title, error: scarp_page.shown[0].judged.max_error, most: (f => (f.high - f.low) * 0.02)(scarp_page.document.field),"
+              " asked: scarp_page.shown[0].goal.maxError, uncovered: scarp_page.shown[0].judged.uncovered, stray: scarp_page.shown[0].judged.stray,"
+              " samples: scarp_page.shown[0].judged.covered, triangles: scarp_page.shown[0].triangles, high: scarp_page.document.field.high,"
+              " exaggeration: document.getElementById('exaggeration-text').textContent, notes: document.getElementById('notes').textContent,"
+              " command: document.getElementById('command').textContent, is_of_full: !document.getElementById('command-note').hidden,"
+              " readout: document.getElementById('readout').innerText})")
     # What Download makes, caught before it is a file.
-    SAVED = ("new Promise(done => { const make = URL.createObjectURL; URL.createObjectURL = blob => { done(blob.size); URL.createObjectURL = make;"
-             " return make(blob); }; document.getElementById('format').value = '%s'; document.getElementById('save').click(); })")
+    SAVED = ("new Promise(done => { const make = URL.createObjectURL; URL.createObjectURL = blob => { const reader = new FileReader();"
+             " reader.onload = () => done(reader.result.split(',')[1]); reader.readAsDataURL(blob); URL.createObjectURL = make;"
+             " return make(blob); }; document.getElementById('format').value = '%s'; document.getElementById('save').click();"
+             " document.getElementById('format').value = 'glb'; })")
     steps = [{"until": "document.getElementById('notice').textContent"}]
-    for name, form in (("dem.tif", "glb"), ("N36W085.hgt", "stl"), ("terrarium.png", "obj")):
-        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === '{name}' && scarp_page.drawn > 0",
-                   "read": OPENED, "shot": name.split(".")[0]}, {"do": SAVED % form}]
+    for name, *_ in OFFERED:
+        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === {json.dumps(name)} && scarp_page.drawn > 0",
+                   "read": OPENED, "shot": name.split(".")[0].replace(" ", "_")}] + [{"do": SAVED % form} for form in FORMATS]
+        if name == "mapbox.png":
+            redo = [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": "document.title === 'mapbox.png'",
+                     "after": "(menu => { menu.value = 'terrarium'; menu.dispatchEvent(new Event('change')); })(document.getElementById('decoding'))"},
+                    {"until": "scarp_page.document.field.decoding === 'terrarium'", "read": OPENED}]
+    steps += redo
     for name, _ in REFUSED:
         steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
                    "after": "document.getElementById('notice').hidden = true"}]

@@ -2,14 +2,14 @@
 import { chromium } from "playwright-core";
 
 /// `errors`: those of the console. `elsewhere`: what was asked of other addresses.
-export async function open_page(address, viewport, program = "/usr/bin/chromium") {
+export async function open_page(address, viewport, program = "/usr/bin/chromium", options = {}) {
   const browser = await chromium.launch({
     executablePath: program,
     args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync",
       "--disable-component-update", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader",
       "--enable-unsafe-swiftshader"],
   });
-  const page = await browser.newPage({ viewport });
+  const page = await browser.newPage({ viewport, ...options });
   const errors = [], elsewhere = [];
   page.on("console", message => { if (message.type() === "error") errors.push(message.text()); });
   page.on("pageerror", error => errors.push(String(error)));

@@ -1,6 +1,6 @@
 // Looks at pages of the viewer in a real browser, from disk: viewer.mjs JOBS.json SHOTS [CHROMIUM]
 //
-// JOBS.json: a list of {page, folder, width, height, dark, before, steps, axe}. `folder`: what may be asked of besides the page. `before` is run in the page before its own script;
+// JOBS.json: a list of {page, folder, width, height, dark, forced_colors, no_script, before, steps, axe}. `folder`: what may be asked of besides the page. `before` is run in the page before its own script;
 // each step is {drop: [{name, path}], do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one answer a job: the
 // values of `do` and `read`, errors of the console, what was asked of elsewhere, and what axe-core objects to.
 import { readFileSync } from "node:fs";
@@ -21,9 +21,9 @@ async function wait_for(page, condition) {
 
 async function do_job(job) {
   const address = pathToFileURL(job.page).href;
-  const { browser, page, errors, elsewhere } = await open_page(job.folder ? pathToFileURL(job.folder).href : address, { width: job.width ?? 1100, height: job.height ?? 700 }, program);
+  const { browser, page, errors, elsewhere } = await open_page(job.folder ? pathToFileURL(job.folder).href : address, { width: job.width ?? 1100, height: job.height ?? 700 }, program, { javaScriptEnabled: !job.no_script });
   try {
-    await page.emulateMedia({ colorScheme: job.dark ? "dark" : "light", reducedMotion: "reduce" });
+    await page.emulateMedia({ colorScheme: job.dark ? "dark" : "light", reducedMotion: "reduce", forcedColors: job.forced_colors ? "active" : "none" });
     if (job.before) await page.addInitScript(job.before);
     await page.goto(address + (job.fragment ?? ""));
     const values = [];

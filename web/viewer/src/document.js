@@ -38,22 +38,18 @@ export async function make_document(files, field, metres = null, unit = null) {
   return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known, is_of_tiles: parts[0].extras.tile_level !== undefined, notes };
 }
 
-/** The raster itself, with the mesh that the engine has made of it: on the grid, as live.js has it. */
-export function document_of_raster(field, knows_metres, notes, { mesh, judged }) {
-  const corners = [field.to_place(0, field.rows - 1), field.to_place(field.cols - 1, 0)], place = new Place([...corners[0], field.low, ...corners[1], field.high], [1, 1, 1]);
-  return { name: field.name, levels: [place_on_grid('greedy', mesh, judged, field, place)], place, field, unit: knows_metres ? 'm' : '', knows_metres, notes };
+/** The raster itself, with the mesh that the engine has made of it. */
+export function document_of_raster({ field, frame: { metres, extras, knows_metres }, unit, notes }, { mesh, judged, goal }) {
+  const corners = [0, 1, 2, 3].flatMap(k => [...field.to_place(k & 1 && field.cols - 1, k & 2 && field.rows - 1), k < 2 ? field.low : field.high]), place = new Place(corners, metres);
+  return { name: field.name, levels: [terrain_of_engine('greedy', mesh, { judged, goal, extras }, field, place)], place, field, unit, knows_metres, notes };
 }
 
-/** A mesh whose x is the column, and whose y counts rows from the last one up; under the image of `shown`, if there is one. */
-export function place_on_grid(name, { positions, indices, origin }, judged, field, place, shown = null) {
-  const placed = new Float64Array(positions.length);
-  for (let v = 0; v < positions.length; v += 3) {
-    const [x, y] = field.to_place(positions[v] + origin[0], field.rows - 1 - positions[v + 1] - origin[1]);
-    placed.set([x, y, positions[v + 2] + origin[2]], v);
-  }
+/** A mesh of the engine, which is in the field's frame; `known` of it: {judged, goal, extras}. Under the image of `shown`, if there is one. */
+export function terrain_of_engine(name, { positions, indices, origin }, known, field, place, shown = null) {
+  const placed = Float64Array.from(positions, (value, k) => value + origin[k % 3]);
   const in_image = shown?.placing, uvs = in_image ? new Float32Array(placed.length / 3 * 2) : null;
   for (let v = 0; uvs && v < uvs.length; v += 2) uvs.set(in_image(placed[1.5 * v], placed[1.5 * v + 1]), v);
-  return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), judged, uvs, ...(uvs && { sheets: [{ ...shown.sheets[0], start: 0, count: indices.length }] }) }, place, field);
+  return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), ...known, uvs, ...(uvs && { sheets: [{ ...shown.sheets[0], start: 0, count: indices.length }] }) }, place, field);
 }
 
 /** Whether a mesh lies where the raster does, so that one can judge the other. */

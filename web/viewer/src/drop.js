@@ -7,11 +7,12 @@ const MOST_BYTES = 2 ** 30;
 const RASTERS = /\.(tiff?|hgt|png)$/i;
 const FIRST_SHARE = 0.02;  // max error of the first mesh, of the relief
 
-async function open_raster(page, file) {
+async function open_raster(page, file, decoding = null) {
   if (!HAS_ENGINE) throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
   const { read_raster } = await import('./rasters.js');
-  const { field, knows_metres, notes } = await read_raster(file);
-  page.open(await document_of_raster(field, knows_metres, notes, await page.live.make_first(field, (field.high - field.low) * FIRST_SHARE)));
+  const raster = await read_raster(file, decoding);
+  page.open(document_of_raster(raster, await page.live.make_first(raster.field, FIRST_SHARE)));
+  page.decode = other => open_raster(page, file, other);
 }
 
 /** What a drop does; `page.load` for who brings files in another way. */
@@ -32,6 +33,8 @@ export function accept_drops(page, complain) {
     document.getElementById('notice').hidden = true;
     return open_files(page, files).catch(complain);
   };
+  const decoding = document.getElementById('decoding');
+  decoding.addEventListener('change', () => page.decode(decoding.value).catch(complain));
   addEventListener('dragover', event => event.preventDefault());
   addEventListener('drop', event => {
     event.preventDefault();

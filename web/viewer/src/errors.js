@@ -1,11 +1,29 @@
 // The error of every sample, mesh minus sample, by brute force over the triangles.
 const EDGE = 1e-9;  // of a triangle: what rounding moves a sample that lies on an edge
 
+const known_stray = new WeakMap();
+
+/** Valid samples that are corners of no cell with three valid corners: no mesh needs to cover them. */
+function find_stray({ samples, cols, rows }) {
+  if (known_stray.has(samples)) return known_stray.get(samples);
+  const stray = new Set(), is_valid = (col, row) => col >= 0 && row >= 0 && col < cols && row < rows && samples[row * cols + col] === samples[row * cols + col];
+  for (let row = 0, at = 0; row < rows; ++row) {
+    for (let col = 0; col < cols; ++col, ++at) {
+      if (samples[at] !== samples[at]) continue;
+      const is_corner = (dx, dy) => is_valid(col + dx, row) + is_valid(col, row + dy) + is_valid(col + dx, row + dy) >= 2;
+      if (!(is_corner(1, 1) || is_corner(-1, 1) || is_corner(1, -1) || is_corner(-1, -1))) stray.add(at);
+    }
+  }
+  known_stray.set(samples, stray);
+  return stray;
+}
+
 /**
  * `grid`: column and row of each vertex; `heights`: z of each. Returns errors of all samples (NaN: void or uncovered),
- * the largest |error|, the root of the mean square, and how many samples were covered and not.
+ * the largest |error|, the root of the mean square, and how many samples were covered, not, and stray: these are not judged.
  */
-export function judge({ samples, cols, rows }, { grid, heights, indices }) {
+export function judge(field, { grid, heights, indices }) {
+  const { samples, cols, rows } = field, stray = find_stray(field);
   const errors = new Float32Array(cols * rows).fill(NaN);
   let max_error = 0, squares = 0, covered = 0;
   for (let t = 0; t < indices.length; t += 3) {
@@ -20,7 +38,7 @@ export function judge({ samples, cols, rows }, { grid, heights, indices }) {
         const v = ((col - ax) * (cy - ay) - (row - ay) * (cx - ax)) / area, w = ((bx - ax) * (row - ay) - (by - ay) * (col - ax)) / area;
         if (v < -EDGE || w < -EDGE || v + w > 1 + EDGE) continue;
         const at = row * cols + col;
-        if (errors[at] === errors[at]) continue;  // on an edge, judged with the neighbour
+        if (errors[at] === errors[at] || stray.has(at)) continue;  // on an edge, judged with the neighbour
         const error = heights[a] + v * (heights[b] - heights[a]) + w * (heights[c] - heights[a]) - samples[at];
         if (error !== error) continue;
         errors[at] = error;
@@ -33,7 +51,7 @@ export function judge({ samples, cols, rows }, { grid, heights, indices }) {
   let valid = 0, worst = -1;
   errors.forEach((error, at) => { if (Math.abs(error) > (worst < 0 ? -1 : Math.abs(errors[worst]))) worst = at; });
   for (const z of samples) if (z === z) ++valid;
-  return { errors, max_error, rmse: Math.sqrt(squares / Math.max(1, covered)), covered, uncovered: valid - covered,
+  return { errors, max_error, rmse: Math.sqrt(squares / Math.max(1, covered)), covered, uncovered: valid - covered - stray.size, stray: stray.size,
     worst: worst < 0 ? null : [worst % cols, Math.floor(worst / cols)] };
 }
 

@@ -1,12 +1,22 @@
 // The state of the page in its address, behind #: a link shows the same picture.
-const KEYS = ['errors', 'image', 'edges', 'smooth', 'exaggeration', 'azimuth', 'altitude', 'view', 'level', 'error', 'both', 'count'];
+const FLAG = { low: 0, high: 1 }, ANY = { low: -1e9, high: 1e9 }, LENGTH = { low: 1e-9, high: 1e9 };
+const KEYS = {
+  errors: [FLAG], image: [FLAG], edges: [FLAG], smooth: [FLAG], both: [FLAG], count: [FLAG], exaggeration: [{ low: 0.1, high: 10 }], azimuth: [{ low: 0, high: 360 }], altitude: [{ low: 0, high: 90 }],
+  level: [{ low: 0, high: 1000 }], error: [LENGTH], view: [ANY, { low: -90, high: 90 }, LENGTH, ANY, ANY, ANY],
+};
+
+/** As many numbers as the key has, each within its range; else null. */
+function parse(text, ranges) {
+  const words = text.split(','), numbers = words.map(Number);
+  const are_right = words.length === ranges.length && ranges.every(({ low, high }, k) => words[k].trim() !== '' && numbers[k] >= low && numbers[k] <= high);
+  return !are_right ? null : numbers.length > 1 ? numbers : numbers[0];
+}
 
 export function read_fragment() {
   const state = {};
-  for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
-    if (!KEYS.includes(key)) continue;
-    const numbers = value.split(',').map(Number);
-    if (numbers.every(Number.isFinite)) state[key] = numbers.length > 1 ? numbers : numbers[0];
+  for (const [key, text] of new URLSearchParams(location.hash.slice(1))) {
+    const value = Object.hasOwn(KEYS, key) ? parse(text, KEYS[key]) : null;
+    if (value !== null) state[key] = value;
   }
   return state;
 }

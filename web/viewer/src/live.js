@@ -1,12 +1,15 @@
 // The engine beside the page: meshes for the slider's max error, and side by side. Without it the controls stay away.
 import SOURCE from 'worker-source';
 import { watchLock } from './alive.js';
-import { place_on_grid } from './document.js';
+import { terrain_of_engine } from './document.js';
 import { Sentence } from './sentence.js';
 import { with_unit } from './words.js';
 
 const $ = id => document.getElementById(id);
 const STEPS_AN_OCTAVE = 8;
+
+/** Four digits: what is asked can be said, and asked again. */
+const tidy = error => Number(error.toPrecision(4));
 
 /** A worker that holds the raster and answers one question at a time; of those that wait, the latest. */
 class Helper {
@@ -31,8 +34,8 @@ class Helper {
       lose(event.message || 'it was stopped');
     };
     this.worker = worker;
-    const { samples, cols, rows } = this.field;
-    this.worker.postMessage({ field: { samples, cols, rows } });
+    const { samples, cols, rows, affine } = this.field;
+    this.worker.postMessage({ field: { samples, cols, rows, affine } });
   }
 
   ask(question, answer) {
@@ -92,24 +95,24 @@ export class Live {
     this.most = Math.ceil(12 * STEPS_AN_OCTAVE);
     this.unit = unit;
     $('error').max = String(this.most);
-    this.follow(error ?? this.page.shown[0].judged.max_error);
+    this.follow(error ?? document.levels[0].goal?.maxError ?? this.page.shown[0].judged.max_error);
     $('same').value = count ? 'count' : 'error';
     if (both) this.turn_both(true);
     else if (error !== undefined) this.choose(this.step_of(error)), this.finish();
   }
 
-  /** Of a raster that has no mesh yet: {mesh, judged}, on its grid. */
-  make_first(field, error) {
-    const helper = new Helper(field);
-    return new Promise((done, failed) => helper.ask({ kind: 'refine', error }, answer => {
+  /** Of a raster that has no mesh yet, for a max error of that share of the relief: {mesh, judged, goal}. */
+  make_first(field, share) {
+    const helper = new Helper(field), goal = { maxError: tidy((field.high - field.low) * share) };
+    return new Promise((done, failed) => helper.ask({ kind: 'finish', goal, effort: 'fast', order: 'greedy' }, answer => {
       helper.end();
       if (answer.error) failed(new Sentence(`${field.name}: ${answer.error}`));
-      else done(answer);
+      else done({ ...answer, goal });
     }));
   }
 
   error_of(step) {
-    return this.largest / 2 ** (step / STEPS_AN_OCTAVE);
+    return tidy(this.largest / 2 ** (step / STEPS_AN_OCTAVE));
   }
 
   step_of(error) {
@@ -165,7 +168,7 @@ export class Live {
     this.show();
   }
 
-  /** A mesh of this error at once, by the engine that inserts the worst sample. */
+  /** A mesh of this error at once, by the engine that inserts the worst sample: among equal ones not as the program chooses, so that no command makes it. */
   choose(step) {
     this.step_now = step;
     $('error').value = String(step);
@@ -176,19 +179,19 @@ export class Live {
     const key = `greedy ${step}`;
     if (this.meshes.has(key)) return this.show();
     this.quick.ask({ kind: 'refine', error }, answer => {
-      if (!this.take(answer, key, 'greedy') || step !== this.step_now) return;
+      if (!this.take(answer, key, 'greedy', null) || step !== this.step_now) return;
       this.show();
       if (this.wants_finish) this.finish();
     });
   }
 
-  take({ error, mesh, judged }, key, name) {
+  take({ error, mesh, judged }, key, name, goal) {
     if (error) {
       this.say(`No mesh: ${error}`);
       return false;
     }
     const { field, place, levels } = this.page.document;
-    this.meshes.set(key, place_on_grid(name, mesh, judged, field, place, levels[0]));
+    this.meshes.set(key, terrain_of_engine(name, mesh, { judged, goal, extras: levels[0].extras }, field, place, levels[0]));
     return true;
   }
 
@@ -209,7 +212,7 @@ export class Live {
     const goal = this.both && $('same').value === 'count' ? { maxTriangles: this.meshes.get(greedy).triangles } : { maxError: this.error_of(step) };
     this.slow.cancel();
     this.slow.ask({ kind: 'finish', goal, effort: 'high' }, answer => {
-      if (!this.take(answer, high, 'high') || this.keys()[1] !== high) return;
+      if (!this.take(answer, high, 'high', goal) || this.keys()[1] !== high) return;
       this.say('');
       this.show();
     });

@@ -6,6 +6,7 @@ import { listen_to_keys } from './keys.js';
 import { Live } from './live.js';
 import { Measuring } from './measuring.js';
 import { draw_bar, draw_compass, draw_legend, draw_map } from './overlay.js';
+import { command_of } from './command.js';
 import { save, save_mesh } from './downloads.js';
 import { fill_readout, summarize } from './readout.js';
 import { Scene } from './scene.js';
@@ -35,7 +36,7 @@ class Page {
   /** Shows another document; `state` as in the address. */
   open(document_, state = {}) {
     this.document = document_;
-    this.level = Math.min(state.level ?? 0, document_.levels.length - 1);
+    this.level = Math.min(Math.trunc(state.level ?? 0), document_.levels.length - 1);
     $('name').textContent = document.title = document_.name;
     $('level').max = String(document_.levels.length - 1);
     $('level-row').hidden = document_.levels.length < 2;
@@ -45,12 +46,12 @@ class Page {
     $('image-choice').hidden = !this.has_image;
     this.look.image = Boolean(state.image ?? true) && this.has_image;
     for (const name of ['edges', 'smooth']) this.look[name] = Boolean(state[name] ?? this.look[name]);
-    this.look.exaggeration = Math.min(10, Math.max(0.1, state.exaggeration ?? 1));
+    this.look.exaggeration = state.exaggeration ?? (document_.knows_metres ? 1 : document_.place.low_exaggeration);
     this.look.sun = { azimuth: state.azimuth ?? 315, altitude: state.altitude ?? 40 };
     this.measuring.clear();
     this.show([document_.levels[this.level]]);
     this.scene.draw();
-    if (state.view?.length === 6) {
+    if (state.view) {
       const [azimuth, altitude, distance, ...target] = state.view;
       this.scene.set_orbit({ azimuth, altitude, distance, target });
     } else {
@@ -106,9 +107,12 @@ class Page {
     if (!knows_metres) notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
     if (field && !this.live.is_there) notes.push('This page was built without the engine: the mesh is as in its file.');
     $('notes').textContent = notes.join(' ');
-    const made = shown.at(-1), how = { greedy: '--effort fast --order greedy', high: '--effort high' }[made.name];
-    $('command').hidden = how === undefined;
-    if (how) $('command').textContent = `scarp simplify ${field.name} mesh.glb -e ${number(made.judged.max_error)} ${how}`;
+    const command = command_of(shown.at(-1), $('format').value);
+    $('command').parentElement.hidden = command === null;
+    $('command').textContent = command;
+    $('command-note').hidden = !(field?.step > 1);
+    $('decoding-row').hidden = !field?.decoding;
+    if (field?.decoding) $('decoding').value = field.decoding;
     $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${look.errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`);
     this.scene.invalidate();
   }
@@ -152,6 +156,7 @@ class Page {
     on('measured-close', 'click', () => this.measuring.turn(false));
     on('reset', 'click', () => this.scene.reset());
     on('picture', 'click', () => this.save_picture().catch(complain));
+    on('format', 'change', () => this.update());
     on('save', 'click', () => save_mesh(this.shown.at(-1), this.document.name, $('format').value));
     on('full', 'click', () => document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
     on('help', 'click', () => $('keys').showModal());

@@ -1,54 +1,11 @@
-// Rasters dropped on the page: GeoTIFF, .hgt, and PNG tiles of the web. The mesh's frame is metres around the centre.
-import { fromArrayBuffer } from 'geotiff';
+// Rasters dropped on the page: GeoTIFF, .hgt, and PNG tiles of the web, in the frame that the program gives them.
 import { Field } from './field.js';
+import { grid_frame, local_frame } from './frame.js';
+import { read_geotiff } from './geotiff.js';
+import { read_png } from './png.js';
 import { Sentence } from './sentence.js';
 
 const MOST_SAMPLES = 2 ** 24;
-const METRES_OF_UNIT = { 9001: 1, 9002: 0.3048, 9003: 1200 / 3937 };
-
-/** Metres of a degree of longitude and latitude, on the ellipsoid WGS 84. */
-function metres_of_degree(latitude) {
-  const phi = latitude * Math.PI / 180, e2 = 0.00669437999014, w = Math.sqrt(1 - e2 * Math.sin(phi) ** 2), a = 6378137 * Math.PI / 180;
-  return [a * Math.cos(phi) / w, a * (1 - e2) / w ** 3];
-}
-
-function make_field(name, cols, rows, samples, [width, height] = [1, 1]) {
-  if (cols < 2 || rows < 2) throw new Sentence(`${name} is ${cols} x ${rows} samples: a mesh needs two of each at least.`);
-  const field = new Field({ name, cols, rows, samples, affine: [-(cols - 1) / 2 * width, width, 0, (rows - 1) / 2 * height, 0, -height] });
-  if (field.low > field.high) throw new Sentence(`${name} holds no height.`);
-  return field;
-}
-
-async function read_geotiff(name, buffer) {
-  let tiff, image;
-  try {
-    tiff = await fromArrayBuffer(buffer);
-    image = await tiff.getImage();
-  } catch (error) {
-    throw new Sentence(`${name} cannot be read as GeoTIFF: ${error?.message ?? 'it is damaged'}.`);
-  }
-  const [full_cols, full_rows] = [image.getWidth(), image.getHeight()], step = Math.ceil(Math.sqrt(full_cols * full_rows / MOST_SAMPLES));
-  const cols = Math.floor(full_cols / step), rows = Math.floor(full_rows / step);
-  let values;
-  try {
-    [values] = step > 1 ? await tiff.readRasters({ samples: [0], width: cols, height: rows }) : await image.readRasters({ samples: [0] });
-  } catch (error) {
-    throw new Sentence(`${name} is damaged, or packed in a way that this page does not know${error?.message ? `: ${error.message}` : ''}.`);
-  }
-  const nodata = image.getGDALNoData(), samples = Float32Array.from(values, z => z === nodata || !Number.isFinite(z) ? NaN : z);
-  const keys = image.getGeoKeys() ?? {}, notes = step > 1 ? [`${name} has ${full_cols} x ${full_rows} samples, too many for a page: every ${step}th was read.`] : [];
-  let cell, knows_metres = true;
-  try {
-    cell = image.getResolution().slice(0, 2).map(size => Math.abs(size) * step);
-    const [, south, , north] = image.getBoundingBox(), is_degrees = keys.GTModelTypeGeoKey === 2;
-    const metres = is_degrees ? metres_of_degree((south + north) / 2) : [1, 1].map(() => METRES_OF_UNIT[keys.ProjLinearUnitsGeoKey ?? 9001] ?? 1);
-    cell = cell.map((size, k) => size * metres[k]);
-  } catch {
-    cell = [1, 1];
-    knows_metres = false;
-  }
-  return { field: make_field(name, cols, rows, samples, cell), knows_metres, notes };
-}
 
 function read_hgt(name, buffer) {
   const side = Math.round(Math.sqrt(buffer.byteLength / 2)), place = /^([NS])(\d\d)([EW])(\d{3})/i.exec(name);
@@ -58,38 +15,50 @@ function read_hgt(name, buffer) {
     const z = view.getInt16(2 * k);
     samples[k] = z === -32768 ? NaN : z;
   }
-  const latitude = place ? Number(place[2]) * (/s/i.test(place[1]) ? -1 : 1) + 0.5 : 0;
-  return { field: make_field(name, side, side, samples, metres_of_degree(latitude).map(metres => metres / (side - 1))), knows_metres: Boolean(place), notes: [] };
+  const raster = { cols: side, rows: side, samples, unit: 'm', notes: [] };
+  if (!place) return { ...raster, frame: grid_frame(side) };
+  const [, ns, south, ew, west] = place, cell = 1 / (side - 1), x = Number(west) * (/w/i.test(ew) ? -1 : 1), y = Number(south) * (/s/i.test(ns) ? -1 : 1) + 1;
+  return { ...raster, frame: local_frame([x, cell, 0, y, 0, -cell], side, side, { radians: Math.PI / 180, crs: 'EPSG:4326' }) };
 }
 
-const ENCODINGS = { terrarium: (r, g, b) => r * 256 + g + b / 256 - 32768, mapbox: (r, g, b) => (r * 65536 + g * 256 + b) / 10 - 10000 };
+const DECODINGS = {
+  terrarium: (r, g, b) => r * 256 + g + b / 256 - 32768,
+  mapbox: (r, g, b) => -10000 + (r * 65536 + g * 256 + b) * 0.1,
+  grey: r => r,
+};
+const LOWEST = -12000, HIGHEST = 9000;  // of the earth
+const MOST_ODD = 0.1;  // of a tile's pixels: what stands for nodata
 
-/** A grey PNG is heights; of coloured ones, that encoding whose neighbours differ less. */
-async function read_png(name, file) {
-  let bitmap;
-  try {
-    bitmap = await createImageBitmap(file, { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
-  } catch {
-    throw new Sentence(`${name} cannot be read as an image.`);
-  }
-  const { width, height } = bitmap;
-  if (width * height > MOST_SAMPLES) throw new Sentence(`${name} has ${width} x ${height} pixels, too many for a page.`);
-  const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
-  context.drawImage(bitmap, 0, 0);
-  const { data } = context.getImageData(0, 0, width, height);
-  const decode = of => Float32Array.from({ length: width * height }, (_, k) => data[4 * k + 3] === 0 ? NaN : of(data[4 * k], data[4 * k + 1], data[4 * k + 2]));
-  const roughness = z => z.reduce((sum, value, k) => k && value === value && z[k - 1] === z[k - 1] ? sum + Math.abs(value - z[k - 1]) : sum, 0);
-  const is_grey = Array.from({ length: width * height }, (_, k) => 4 * k).every(k => data[k] === data[k + 1] && data[k] === data[k + 2]);
-  if (is_grey) return { field: make_field(name, width, height, decode(r => r)), knows_metres: false, notes: ['Grey levels are taken for heights.'] };
-  const [best] = Object.keys(ENCODINGS).map(key => ({ key, samples: decode(ENCODINGS[key]) })).sort((a, b) => roughness(a.samples) - roughness(b.samples));
-  return { field: make_field(name, width, height, best.samples), knows_metres: false, notes: [`Colours are taken for heights as of ${best.key} tiles.`] };
+/** That whose heights are of the earth. Both never are: terrarium's have a red of 81 to 163, mapbox's of 0 to 2. */
+function guess_decoding(pixels, decode) {
+  return ['terrarium', 'mapbox'].find(key => {
+    const heights = decode(key);
+    let there = 0, odd = 0;
+    for (const z of heights) if (z === z) ++there, odd += !(z >= LOWEST && z <= HIGHEST);
+    return there > 0 && odd <= MOST_ODD * there;
+  }) ?? 'grey';
 }
 
-export const RASTERS = /\.(tiff?|hgt|png)$/i;
+const NOTES = { terrarium: 'Colours are taken for heights as of terrarium tiles.', mapbox: 'Colours are taken for heights as of mapbox tiles.',
+  grey: 'This is a colour picture, and its red is taken as height.' };
 
-/** {field, knows_metres, notes}. Throws a Sentence. */
-export async function read_raster(file) {
-  if (/\.png$/i.test(file.name)) return read_png(file.name, file);
-  const buffer = await file.arrayBuffer();
-  return /\.hgt$/i.test(file.name) ? read_hgt(file.name, buffer) : read_geotiff(file.name, buffer);
+/** A grey PNG or one with a palette is heights as they stand. `asked`: a decoding; null: the one that fits. */
+async function read_png_heights(name, buffer, asked) {
+  const image = await read_png(name, new Uint8Array(buffer), MOST_SAMPLES), { width, height, channels, values, missing } = image;
+  const is_missing = at => (channels % 2 === 0 && values[at + channels - 1] === 0) || (missing !== null && missing.every((value, k) => values[at + k] === value));
+  const decode = key => Float32Array.from({ length: width * height }, (_, k) => is_missing(channels * k) ? NaN : DECODINGS[key](values[channels * k], values[channels * k + 1], values[channels * k + 2]));
+  const is_packed = channels >= 3 && image.depth === 8, key = is_packed ? asked ?? guess_decoding(image, decode) : 'grey';
+  const note = channels >= 3 ? NOTES[key] : image.is_palette ? 'The numbers of the palette are taken for heights.' : 'Grey levels are taken for heights.';
+  return { cols: width, rows: height, samples: decode(key), frame: grid_frame(height), unit: key === 'grey' ? '' : 'm', notes: [note], decoding: is_packed ? key : null };
+}
+
+/** {field, frame, unit, notes}. `decoding`: of heights packed into colours. Throws a Sentence. */
+export async function read_raster(file, decoding = null) {
+  const { name } = file, buffer = await file.arrayBuffer();
+  const raster = /\.png$/i.test(name) ? await read_png_heights(name, buffer, decoding) : /\.hgt$/i.test(name) ? read_hgt(name, buffer) : await read_geotiff(name, buffer, MOST_SAMPLES);
+  const { cols, rows, frame, unit, notes, step = 1 } = raster;
+  if (cols < 2 || rows < 2) throw new Sentence(`${name} is ${cols} x ${rows} samples: a mesh needs two of each at least.`);
+  const field = new Field({ name, cols, rows, samples: raster.samples, affine: frame.affine, unit, decoding: raster.decoding ?? null, step });
+  if (field.low > field.high) throw new Sentence(`${name} holds no height.`);
+  return { field, frame, unit, notes };
 }

@@ -6,12 +6,14 @@ export function fill_readout(list, terrain, unit, shown) {
   const { field, judged, told } = terrain, rows = shown ? [['shown', shown]] : [];
   rows.push(['triangles', count(terrain.triangles)]);
   if (field) rows.push(['of the full grid', share(terrain.triangles, field.full_triangles)]);
+  if (field?.decoding) rows.push(['heights decoded as', field.decoding]);
   if (terrain.bytes !== null) rows.push(['file', bytes(terrain.bytes)]);
   if (judged && judged.covered === 0) rows.push(['max error', 'none: no sample is covered']);
   else if (judged) rows.push(['max error', with_unit(judged.max_error, unit)], ['at column, row', judged.worst.join(', ')], ['RMSE', with_unit(judged.rmse, unit)]);
   else if (told?.max_error !== undefined) rows.push(['max error, its file says', with_unit(told.max_error, unit)]);
   if (judged) rows.push(['samples judged', count(judged.covered)]);
   if (judged?.uncovered) rows.push(['samples uncovered', count(judged.uncovered)]);
+  if (judged?.stray) rows.push(['samples stray', count(judged.stray)]);
   list.replaceChildren(...rows.flatMap(([name, value]) => [['dt', name], ['dd', value]]).map(([kind, text]) => {
     const item = document.createElement(kind);
     item.textContent = text;

@@ -182,9 +182,25 @@ export class Scene {
 
   /** As it is at first: from the south-south-west, all of it in sight. */
   reset() {
-    const { place } = this.views[0].terrain;
+    const first = { azimuth: -20, altitude: 38, target: [0, 0, 0] };
     this.controls.target.set(0, 0, 0);
-    this.set_orbit({ azimuth: -20, altitude: 38, distance: place.radius / Math.sin(this.fov() / 2) * 0.92, target: [0, 0, 0] });
+    this.set_orbit({ ...first, distance: 1 });
+    this.camera.updateMatrixWorld();
+    this.set_orbit({ ...first, distance: this.distance_to_see() });
+  }
+
+  /** From where each corner of the terrain's box is in sight, looking as the camera does. */
+  distance_to_see() {
+    const { place } = this.views[0].terrain, half = Math.tan(this.camera.fov * Math.PI / 360) / Math.max(1, this.canvas.clientHeight);
+    const [right, up, back] = [0, 1, 2].map(k => new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, k));
+    const reaches = [...Array(this.count).keys()].flatMap(k => {
+      const [, , wide, high] = this.free(k);
+      return Array.from({ length: 8 }, (_, corner) => {
+        const [x, y, z] = place.to_scene(...[0, 1, 2].map(c => (corner >> c & 1 ? place.high : place.low)[c])), at = new THREE.Vector3(x, y, z * this.look.exaggeration);
+        return at.dot(back) + Math.max(Math.abs(at.dot(right)) / (half * wide), Math.abs(at.dot(up)) / (half * high));
+      });
+    });
+    return Math.max(place.radius * 1e-3, 1.04 * Math.max(...reaches));
   }
 
   /** The smallest angle that is free, of a view's width or height. */

@@ -21,6 +21,12 @@ export class Place {
     this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => (this.high[k] - this.low[k]) / 2 * metres[k])));
   }
 
+  /** At most 1: with it heights stay below a quarter of the width, where that is not below 0.1. */
+  get low_exaggeration() {
+    const [wide, deep, high] = [0, 1, 2].map(k => (this.high[k] - this.low[k]) * this.metres[k]);
+    return Math.min(1, Math.max(0.1, Number((Math.max(wide, deep) / 4 / Math.max(high, 1e-9)).toPrecision(2))));
+  }
+
   to_scene(x, y, z) {
     const [cx, cy, cz] = this.center, [mx, my, mz] = this.metres;
     return [(x - cx) * mx, (y - cy) * my, (z - cz) * mz];
@@ -35,10 +41,10 @@ export class Place {
 export class Terrain {
   /**
    * `positions`: x, y, z of the mesh's own frame, as are `normals`; these, `uvs` and `field` may be null. `sheets`: runs of indices under one image, or of one ground.
-   * `judged`: what judge() found, if it is known.
+   * `extras`: what a file of it says of itself; `goal`: what the engine was asked for; `judged`: what judge() found, if it is known.
    */
-  constructor({ name, positions, indices, bytes = null, told = null, judged = null, normals = null, uvs = null, sheets = [{ image: null, ground: null, start: 0, count: indices.length }] }, place, field) {
-    Object.assign(this, { name, positions, indices, bytes, told, place, field, known: judged, uvs, sheets });
+  constructor({ name, positions, indices, bytes = null, told = null, extras = {}, goal = null, judged = null, normals = null, uvs = null, sheets = [{ image: null, ground: null, start: 0, count: indices.length }] }, place, field) {
+    Object.assign(this, { name, positions, indices, bytes, told, extras, goal, place, field, known: judged, uvs, sheets });
     const vertices = positions.length / 3;
     this.scene = new Float32Array(positions.length);
     this.grid = field ? new Float64Array(2 * vertices) : null;

@@ -2,8 +2,9 @@
 import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
+import { Field } from './field.js';
 
-let field = null, refiner = null, failed = null;
+let field = null, place = null, refiner = null, failed = null;
 const loaded = ready().then(warm_up).catch(error => { failed = `this browser refuses WebAssembly, which the slider needs (${error.message})`; });
 
 /** The first mesh of a fresh module takes ten times as long as the next. */
@@ -16,18 +17,17 @@ function warm_up() {
 function refine(error) {
   if (!refiner || refiner.maxError < error) {
     refiner?.free();
-    refiner = new Refiner(field.samples, field.cols, field.rows);
+    refiner = new Refiner(field.samples, field.cols, field.rows, place);
   }
   refiner.run({ maxError: error });
   return refiner.mesh();
 }
 
-function answer({ kind, error, goal, effort }) {
-  const mesh = kind === 'refine' ? refine(error) : simplifySync(field.samples, field.cols, field.rows, { ...goal, effort });
+function answer({ kind, error, goal, effort, order = 'auto' }) {
+  const mesh = kind === 'refine' ? refine(error) : simplifySync(field.samples, field.cols, field.rows, { ...place, ...goal, effort, order });
   const { positions, indices } = mesh, origin = [...mesh.origin], vertices = positions.length / 3, grid = new Float64Array(2 * vertices), heights = new Float64Array(vertices);
   for (let v = 0; v < vertices; ++v) {
-    grid[2 * v] = positions[3 * v] + origin[0];
-    grid[2 * v + 1] = field.rows - 1 - positions[3 * v + 1] - origin[1];
+    grid.set(field.to_grid(positions[3 * v] + origin[0], positions[3 * v + 1] + origin[1]), 2 * v);
     heights[v] = positions[3 * v + 2] + origin[2];
   }
   return { mesh: { positions, indices, origin }, judged: judge(field, { grid, heights, indices }) };
@@ -37,7 +37,9 @@ const lock = holdLock();
 
 onmessage = async ({ data }) => {
   if (data.field) {
-    field = data.field;
+    field = new Field(data.field);
+    const a = field.affine;
+    place = { transform: [a[0] - (a[1] + a[2]) / 2, a[1], a[2], a[3] - (a[4] + a[5]) / 2, a[4], a[5]] };
     return postMessage({ lock: await lock });
   }
   await Promise.all([loaded, lock]);
