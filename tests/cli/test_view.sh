@@ -103,6 +103,8 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   succeeds node "$SCARP_BUILD/viewer/build.mjs" other/share/scarp/viewer.html "$SCARP_BUILD-wasm/npm"
   grep -q 'with the engine' "$logs/out" || fail "the page has no engine"
   succeeds other/bin/scarp view plain.glb "$dem" -o live.html
+  succeeds "$scarp" simplify "$dem" scaled.glb -e 60 --z-scale 3 --te -84.4 36.2 -84.2 36.4 --crs grid -q
+  succeeds other/bin/scarp view scaled.glb "$dem" --te -84.4 36.2 -84.2 36.4 -o scaled.html
   cp other/share/scarp/viewer.html try.html
   cp "$dem" dem.tif
   cp "$dem" .
@@ -521,6 +523,12 @@ OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrariu
            ("feet.tif", "", "", True), ("thinned.tif", "one of 2 x 2", "", False))
 
 
+def scaled(values):
+    page = next(v for v in values if isinstance(v, dict))
+    assert page["command"].endswith("--effort high --crs grid --z-scale 3 --te -84.4 36.2 -84.2 36.4"), page
+    runs(page["command"], page)
+
+
 def rasters(values):
     for name, notes, decoding, is_same in OFFERED:
         page, files = values.pop(0), [values.pop(0) for _ in FORMATS]
@@ -602,6 +610,7 @@ if os.path.exists("live.html"):
     job(rasters, "try.html", steps, axe=True)
     # The image lies over the engine's meshes, too.
     job(image_kept, "image.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"read": QUARTERS}])
+    job(scaled, "scaled.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'"}, {"do": RELEASE, "until": HIGH}, {"do": COMMAND}])
     # A worker that ends while it works: a sentence, and the next wish has a new one.
     job(killed, "live.html", [
         {"until": READY}, {"do": DRAG % 40 + "; scarp_page.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
