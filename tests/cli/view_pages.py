@@ -1,0 +1,454 @@
+# What the browser is asked of each page of test_view.sh, and what must be true of its answers: view_pages.py [jobs].
+import base64, json, os, subprocess, sys
+READ = "[document.getElementById('readout').innerText, document.title]"
+READY = "window.scarp_page?.drawn > 0 && !document.body.classList.contains('empty')"
+NOTICE = "document.getElementById('notice').hidden ? '' : document.getElementById('notice').textContent"
+jobs, checks = [], []
+
+
+def job(check, name, steps, axe=False, **words):
+    jobs.append({"page": os.path.abspath(name), "steps": steps, "axe": axe, **words})
+    checks.append(check)
+
+
+def told(report):
+    """What the readout says, as `measure` knows it."""
+    words = json.load(open(report))
+    unit = words["input"]["unit"]
+    six = lambda value: repr(float(f"{value:.6g}")).removesuffix(".0") + (f" {unit}" if unit else "")
+    return {"triangles": f"{words['triangles']:,}", "max error": six(words["max_error"]), "RMSE": six(words["rmse"]),
+            "samples judged": f"{words['samples']:,}", "at column, row": ", ".join(map(str, words["max_error_at"]))}
+
+
+def same(report, text):
+    lines = text.split("\n")
+    found = dict(zip(lines[::2], lines[1::2]))
+    for key, value in told(report).items():
+        assert found.get(key) == value, (key, found.get(key), value)
+
+
+def plain(values):
+    same("plain.json", values[0][0])
+    assert values[0][1] == "plain.glb", values[0]
+    picture, wire, errors, after, profile, shared, state = values[1:]
+    assert wire != picture and errors != wire and after != errors, "a key changes nothing"
+    assert "Distance" in profile[0] and "slope" in profile[0] and profile[1] > 50 and profile[2] > 50, profile
+    assert shared > 0, "no PNG"
+    assert "errors=1" in state and "view=" in state, state
+
+
+CANVAS = "document.getElementById('canvas').toDataURL()"
+MEASURED = ("[document.getElementById('measured-text').textContent, (document.querySelector('#profile .mesh')?.getAttribute('d') ?? '')"
+            ".split('L').length, document.getElementById('profile').getBoundingClientRect().height]")
+job(plain, "plain.html", [
+    {"until": READY, "read": READ, "shot": "light"},
+    {"read": CANVAS},
+    {"keys": ["w"], "until": "scarp_page.scene.views[0].edges.visible", "read": CANVAS, "shot": "wireframe"},
+    {"keys": ["w", "e"], "until": "scarp_page.scene.views[0].uniforms.errors.value", "read": CANVAS, "shot": "errors"},
+    {"keys": ["ArrowLeft", "ArrowUp", "PageUp"], "until": "!scarp_page.scene.asked", "read": CANVAS},
+    {"keys": ["r", "m"], "clicks": [[600, 330], [800, 450]], "until": "scarp_page.measuring.points.length === 2", "read": MEASURED,
+     "shot": "profile"},
+    {"do": "scarp_page.scene.png().then(blob => blob.size)"},
+    {"until": "location.hash.includes('errors=1')", "read": "location.hash"}], axe=True)
+
+
+def restored(values):
+    errors, smooth, exaggeration, orbit, words = values[0]
+    assert errors and smooth and exaggeration == 3, values
+    assert all(abs(a - b) < 0.01 for a, b in zip(orbit, (30, 45, 20000))), orbit
+    assert "3 ×" in words, words
+
+
+job(restored, "plain.html", [
+    {"until": READY, "read": "[scarp_page.look.errors, scarp_page.look.smooth, scarp_page.look.exaggeration, (o => [o.azimuth, o.altitude, o.distance])"
+                             "(scarp_page.scene.orbit()), document.getElementById('panel').innerText]", "shot": "fragment"}],
+    fragment="#errors=1&smooth=1&exaggeration=3&view=30,45,20000,0,0,0")
+
+
+def unmoved(values):
+    exaggeration, orbit, sun, shown, first = values[0]
+    assert exaggeration == 1 and sun == [315, 40] and shown == 1 and orbit == first, values
+
+
+# What is no number in its range leaves the page as it is at first.
+for fragment in ("#view=0,0,0,0,0,0&exaggeration=1,2&azimuth=NaN&altitude=&level=x", "#view=,,,,,&exaggeration=1e300", "#view=1e300,1,1,1,1,1&constructor=1"):
+    job(unmoved, "plain.html", [{"until": READY, "read": "[scarp_page.look.exaggeration, Object.values(scarp_page.scene.orbit()).flat().map(x => x.toFixed(4)),"
+                                 " Object.values(scarp_page.look.sun), scarp_page.level + 1, (scarp_page.scene.reset(), Object.values(scarp_page.scene.orbit()).flat()"
+                                 ".map(x => x.toFixed(4)))]"}], fragment=fragment, width=400, height=300)
+job(lambda values: values[0].index("gradient"), "plain.html", [{"until": READY, "read": "getComputedStyle(document.getElementById('legend-bar')).backgroundImage", "shot": "forced"}],
+    forced_colors=True, axe=True)
+job(lambda values: values[0] == ["none", "none"] and values[0], "plain.html", [
+    {"read": "['main', '#panel'].map(name => getComputedStyle(document.querySelector(name)).display)", "shot": "no_script"}], no_script=True)
+job(lambda values: same("packed.json", values[0][0]), "by_simplify.html", [{"until": READY, "read": READ, "shot": "dark"}], axe=True, dark=True)
+
+
+def levels(values):
+    count, (left, right, top, bottom) = values[0]
+    assert count == 3 and left > 0 and right < 390 and top > 0 and bottom < 780, values[0]  # all of it in sight
+    same("level2.json", values[2][0])
+    # Where the engine is inside its slider stands at the error of the level.
+    without_engine, error = values[3]
+    assert without_engine or abs(float(error) / json.load(open("level2.json"))["max_error"] - 1) < 0.01, values[3]
+
+
+job(levels, "levels_lod0.html", [
+    {"until": READY, "read": "[scarp_page.document.levels.length, (() => { const at = scarp_page.shown[0].scene, found = [[], []]; for (let v = 0; v < at.length; v += 3)"
+                             " scarp_page.scene.project(at.subarray(v, v + 3)).forEach((value, k) => found[k].push(value));"
+                             " return found.flatMap(values => [Math.min(...values), Math.max(...values)]); })()]", "shot": "phone"},
+    {"do": "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))",
+     "after": "document.getElementById('fold').click()"},
+    {"read": READ, "shot": "phone_controls"}, {"read": "[document.getElementById('slider-row').hidden, parseFloat(document.getElementById('error-text').textContent)]"}], axe=True, width=390, height=780)
+
+
+def tile_levels(values):
+    levels, notes, reaches = values[0]
+    assert len(levels) > 2 and all(0 < coarse < fine for (_, fine), (_, coarse) in zip(levels, levels[1:])), levels
+    numbers = [int(name.split()[-1]) for name, _ in levels]
+    assert numbers == list(range(numbers[0], numbers[0] - len(levels), -1)), levels
+    assert "flat map" in notes and "scarp view MESH RASTER" not in notes, notes
+    # The raster is 30 km wide: its heights are above the ellipsoid, 30 m lower here.
+    assert 15000 < reaches[0] < 60000 and reaches == sorted(reaches), reaches
+    assert 980 < values[1] < 1070, values[1]
+    assert all(outer > 0 and cracks == 0 for outer, cracks in values[2]), values[2]
+
+
+TILES = ("[scarp_page.document.levels.map(l => [l.name, l.triangles]), document.getElementById('notes').textContent,"
+         " scarp_page.document.levels.map(l => l.reach)]")
+# Edges of one triangle, but for those around all tiles of a level.
+CRACKS = """scarp_page.document.levels.map(({positions, indices, firsts}) => {
+  const used = new Map(), corner = k => firsts[indices[k]], ends = [0, 1].map(c => positions.reduce(([low, high], value, k) => k % 3 === c ? [Math.min(low, value), Math.max(high, value)] : [low, high], [Infinity, -Infinity]));
+  const is_outer = (a, b) => [0, 1].some(c => ends[c].some(end => [a, b].every(v => Math.abs(positions[3 * v + c] - end) < 1e-3 * (ends[c][1] - ends[c][0]))));
+  indices.forEach((_, k) => {
+    const pair = [corner(k), corner(k % 3 === 2 ? k - 2 : k + 1)].sort((a, b) => a - b);
+    used.set(String(pair), [...(used.get(String(pair)) ?? []), pair]);
+  });
+  const open = [...used.values()].filter(found => found.length === 1);
+  return [open.length, open.filter(([[a, b]]) => !is_outer(a, b)).length];
+})"""
+TOP = "scarp_page.document.place.high[2]"
+COARSE = "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))"
+
+
+def plane(values):
+    east, north = values[0]
+    assert abs(east - 149 * 90) < 2 and abs(north - 149 * 90) < 2, values
+
+
+job(plane, "plane.html", [{"until": READY, "read": "[0, 1].map(k => scarp_page.document.place.high[k] - scarp_page.document.place.low[k])", "shot": "tiles_plane"}])
+for name in ("set", "archive"):
+    job(tile_levels, f"{name}.html", [
+        {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP}, {"read": CRACKS},
+        {"do": COARSE, "until": "scarp_page.level === 2 && !scarp_page.scene.asked", "shot": f"tiles_{name}_coarse"}])
+# Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and beside it; which parts of the page
+# tell of the image.
+QUARTERS = """(() => {
+  const {scene, shown: [terrain], document: {place}} = scarp_page, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.heights[(k - c) / 3] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
+  scene.draw();
+  [picture.width, picture.height] = [scene.canvas.width, scene.canvas.height];
+  picture.getContext('2d').drawImage(scene.canvas, 0, 0);
+  const between = (k, share) => land[k][0] + share * (land[k].at(-1) - land[k][0]);
+  const colors = [[.25, .75], [.75, .75], [.25, .25], [.75, .25], [-.1, -.1]].map(([u, v]) => {
+    const [x, y] = [between(0, u), between(1, v)], z = terrain.height_at(x, y), at = scene.project(place.to_scene(x, y, z));
+    if (!(z === z)) return 'sky';
+    const [red, green, blue] = picture.getContext('2d').getImageData(...at.map(c => c * ratio), 1, 1).data;
+    return [red > 1.5 * blue && 'r', green > 1.5 * blue && 'g', blue > 1.5 * green && 'b'].filter(Boolean).join('');
+  });
+  return [colors.join(' '), !document.getElementById('image-choice').hidden, document.getElementById('image').checked,
+    document.getElementById('notes').textContent, picture.toDataURL()];
+})()"""
+
+def draped(values):
+    finest, relief, again, coarse, sheets = [value for value in values if value]
+    assert all(found[:3] == ["r g b rg ", True, True] and "image" not in found[3] for found in (finest, again, coarse)), [found[:4] for found in (finest, again, coarse)]
+    assert relief[:3] != finest[:3] and relief[1:3] == [True, False], relief[:4]
+    for level in sheets:
+        assert sum(with_image for with_image, _ in level) > 1 and len({ground for _, ground in level if ground}) <= 1, sheets
+    earth = ",".join(str(round(255 * (1.055 * c ** (1 / 2.4) - 0.055))) for c in (0.47, 0.42, 0.33))  # of tiles without an image
+    assert sheets[0][0] == [False, earth], sheets[0]
+
+
+job(draped, "draped.html", [
+    {"until": READY, "read": QUARTERS, "shot": "tiles_draped"}, {"keys": ["i"], "read": QUARTERS}, {"keys": ["i"], "read": QUARTERS},
+    {"do": COARSE.replace("'2'", "'1'"), "until": "scarp_page.level === 1", "read": QUARTERS, "shot": "tiles_draped_coarse"},
+    {"read": "scarp_page.document.levels.map(l => l.sheets.map(s => [Boolean(s.image), s.ground && String(s.ground.map(c => Math.round(255 * c)))]))"}], axe=True)
+job(lambda values: same("plain.json", values[0][0]), "obj.html", [{"until": READY, "read": READ}])
+
+
+if os.path.exists("python.html"):
+    job(lambda values: same("plain.json", values[0][0]), "python.html", [{"until": READY, "read": READ}])
+    def within(values):
+        same("plain.json", values[0][0])
+        assert values[-1] is True, "a notice"
+
+    # A page within a page, as notebooks show it; it writes no address a little later.
+    job(within, "notebook.html", [
+        {"until": "!document.querySelector('iframe').contentDocument.body?.classList.contains('empty') && document.querySelector('iframe').contentWindow.scarp_page?.drawn > 0", "read":
+         READ.replace("document.", "document.querySelector('iframe').contentDocument."), "shot": "notebook"},
+        {"do": "new Promise(done => setTimeout(done, 500))"},
+        {"read": "document.querySelector('iframe').contentDocument.getElementById('notice').hidden"}])
+
+
+def named(values):
+    assert values[0][1] == "<!--<script>.glb", values
+
+
+job(named, "name.html", [{"until": READY, "read": READ}])
+
+
+def alone(values):
+    assert "its file says" in values[0][0] and "samples judged" not in values[0][0], values
+
+
+job(alone, "alone.html", [{"until": READY, "read": READ}])
+
+
+def sentences(values):
+    for name, words in (("cut.glb", "cut off"), ("other.glb", "no GLB file"), ("nan.glb", "Vertex 17"), ("index.glb", "vertex 65535"),
+                        ("raster.xyz", "no file that this page reads")):
+        told = values.pop(0)
+        assert name in told and words in told, (name, told)
+    same("packed.json", values[0][0])  # a good file is shown after them, and judged by the same raster
+    assert values[1] == "", values
+
+
+job(sentences, "plain.html", [{"until": READY}] + [
+    {"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE,
+     "read": NOTICE, "after": "document.getElementById('notice').hidden = true"} for name in ("cut.glb", "other.glb", "nan.glb", "index.glb", "raster.xyz")] + [
+    {"drop": [{"name": "packed.glb", "path": os.path.abspath("packed.glb")}], "until": "document.title === 'packed.glb'", "read": READ},
+    {"read": NOTICE}])
+job(lambda values: values[0].index("refuses WebAssembly"), "by_simplify.html", [{"until": NOTICE, "read": NOTICE, "shot": "refused"}],
+    before="delete window.WebAssembly")
+job(lambda values: values[0].index("WebGL"), "plain.html", [{"until": NOTICE, "read": NOTICE}],
+    before="HTMLCanvasElement.prototype.getContext = () => null", errors_are_expected=True)
+empty = open(os.environ["SCARP_BUILD"] + "/share/scarp/viewer.html").read()
+open("empty.html", "w").write(empty)
+job(lambda values: values[0].index("here"), "empty.html", [{"until": NOTICE, "read": NOTICE}])
+
+
+# The file's normals, beside those of the triangles: the mean cosine.
+NORMALS = """(() => {
+  const {terrain, surface: {geometry}} = scarp_page.scene.views[0], given = geometry.attributes.normal.array.slice();
+  geometry.computeVertexNormals();
+  const own = geometry.attributes.normal.array, count = given.length / 3;
+  let sum = 0;
+  for (let k = 0; k < own.length; ++k) sum += given[k] * own[k] / Math.hypot(...given.subarray(k - k % 3, k - k % 3 + 3));
+  return [terrain.normals !== null, sum / count];
+})()"""
+UNDER = "r g b rg sky"
+
+
+def image(values):
+    first, smooth, (given, cosine), errors, relief, again, dropped, plain, one, damaged, elsewhere, state = values
+    for found in (first, smooth, again, dropped):
+        assert found[:3] == [UNDER, True, True] and "image" not in found[3], found[:4]
+    assert len({found[4] for found in (first, smooth, errors, relief)}) == 4, "a key changes nothing"
+    assert given and 0.9 < cosine < 0.9999, (given, cosine)
+    assert errors[1:3] == relief[1:3] == [True, False] and relief[0] != UNDER, (errors[:3], relief[:3])
+    for found, words in ((plain, ""), (one, ""), (damaged, "cannot read it (image/png)"), (elsewhere, "does not lie in the file")):
+        assert found[0] != UNDER and found[1:3] == [False, False] and words in found[3] and ("image" in found[3]) == bool(words), found[:4]
+    assert "smooth=1" in state and "image" not in state, state
+
+
+def dropped(name):
+    return {"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === '{name}'", "read": QUARTERS}
+
+
+job(image, "image.html", [
+    {"until": READY, "read": QUARTERS, "shot": "image"},
+    {"keys": ["n"], "read": QUARTERS, "shot": "image_smooth"}, {"read": NORMALS},
+    {"keys": ["e"], "read": QUARTERS}, {"keys": ["i", "i"], "read": QUARTERS, "shot": "smooth"}, {"keys": ["i"], "read": QUARTERS},
+    dropped("packed_image.glb"), dropped("plain.glb"), dropped("places.glb"), dropped("image_damaged.glb"), dropped("image_elsewhere.glb"),
+    {"until": "location.hash.includes('smooth=1') && !location.hash.includes('image')", "read": "location.hash"}], axe=True)
+
+
+def image_kept(values):
+    _, mesh, found = values
+    assert mesh[1][0] == "greedy" and found[:3] == [UNDER, True, True], (mesh, found[:4])
+
+
+def loads(values):
+    first, last = values[0]
+    assert first == last and 0 < last["geometries"] < 10 and last["textures"] >= 2, values
+
+
+DRAG = ("(slider => { slider.value = String(%d); slider.dispatchEvent(new Event('input')); })(document.getElementById('error'))")
+RELEASE = "document.getElementById('error').dispatchEvent(new Event('change'))"
+NOW = ("[scarp_page.live.error_of(scarp_page.live.step_now), ...scarp_page.shown.map(t => [t.name, t.triangles, t.judged.max_error,"
+       " t.judged.uncovered])]")
+COMMAND = "({command: document.getElementById('command').textContent, triangles: scarp_page.shown.at(-1).triangles})"
+HIGH = "scarp_page.shown.at(-1).name === 'high' && document.getElementById('progress').hidden"
+
+
+def kept(asked, mesh, name):
+    assert mesh[0] == name and mesh[2] <= asked * (1 + 1e-6) and mesh[3] == 0, (asked, mesh)
+    return mesh[1]
+
+
+PROGRAM = os.environ["SCARP_BUILD"] + "/bin/scarp"
+
+
+def ask(*words):
+    run = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+    assert run.returncode == 0, (words, run.stderr)
+    return json.loads(run.stdout)
+
+
+def runs(command, page):
+    """The command of the page, as a shell reads it, makes the page's mesh."""
+    if os.path.exists("mesh.glb"):
+        os.remove("mesh.glb")
+    subprocess.run(["sh", "-ec", command + " -q"], check=True, env={"PATH": os.path.dirname(PROGRAM) + ":" + os.environ["PATH"]}, stderr=subprocess.DEVNULL)
+    found = json.loads(subprocess.run([PROGRAM, "info", "mesh.glb", "--json"], check=True, capture_output=True, text=True).stdout)
+    assert found["mesh"]["triangles"] == page["triangles"], (command, found["mesh"]["triangles"], page)
+
+
+def live(values):
+    (first, coarse), (second, fine), (third, high), (_, left, right), (_, greedy, same), state = [v for v in values if isinstance(v, (list, str))]
+    assert kept(second, fine, "greedy") > kept(first, coarse, "greedy") and second < first, values
+    assert kept(third, high, "high") < 0.5 * fine[1] and third == second, values
+    assert kept(second, left, "greedy") == fine[1] and kept(second, right, "high") == high[1], values
+    assert greedy == left and same[1] <= greedy[1] and same[2] < 0.6 * greedy[2], values
+    assert "both=1" in state and "count=1" in state and "error=" in state, state
+    for page in (v for v in values if isinstance(v, dict)):
+        runs(page["command"], page)
+
+
+def restored(values):
+    (error, greedy, high), same = values
+    assert same == "count" and 45 < error < 60 and kept(error, greedy, "greedy") >= high[1] and high[0] == "high", values
+
+
+REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged or cut off"), ("head.tif", "no TIFF file"), ("wrong.xyz", "no file that this page reads"),
+           ("broken.png", "no PNG image"), ("cut.png", "damaged or cut off"), ("void.tif", "holds no height"), ("column.tif", "1 x 150"), ("no_tile.png", "no PNG image"))
+# Name, what the notes say, the decoding; whether the program reads the same samples.
+OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrarium.png", "terrarium", "terrarium", True), ("mapbox.png", "mapbox", "mapbox", True),
+           ("grey16.png", "Grey levels", "", True), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("colour.tif", "red is taken", "", True),
+           ("feet.tif", "", "", True), ("thinned.tif", "one of 2 x 2", "", False))
+
+
+def scaled(values):
+    page = next(v for v in values if isinstance(v, dict))
+    assert page["command"].endswith("--effort high --crs grid --z-scale 3 --te -84.4 36.2 -84.2 36.4"), page
+    runs(page["command"], page)
+
+
+def rasters(values):
+    for name, notes, decoding, is_same in OFFERED:
+        page, files = values.pop(0), [values.pop(0) for _ in FORMATS]
+        assert page["name"] == name and page["error"] <= page["most"] * (1 + 1e-3) and page["uncovered"] == 0 and notes in page["notes"], (name, page)
+        assert ("(true)" in page["exaggeration"]) == (name in KNOWN_METRES), (name, page)
+        assert (page["stray"] == 2) == (name == "stray.tif"), (name, page)
+        assert page["is_of_full"] == (name == "thinned.tif") and ("decoded as" in page["readout"]) == bool(decoding), (name, page)
+        assert page["command"].endswith(f"--decode {decoding}" if decoding else "--order greedy") and f"-e {page['asked']:g} " in page["command"], (name, page)
+        assert not decoding or f"heights decoded as\n{decoding}" in page["readout"], page
+        if not is_same:
+            continue
+        runs(page["command"], page)
+        for form, file in zip(FORMATS, files):
+            open("saved." + form, "wb").write(base64.b64decode(file))
+            found = ask("measure", name, "saved." + form, "--json", *(["--decode", decoding] if decoding else []))
+            assert abs(found["max_error"] - page["error"]) <= 1e-6 * page["high"], (name, form, found["max_error"], page)
+            assert (found["uncovered"], found["stray"], found["samples"]) == (0, page["stray"], page["samples"]), (name, form, found, page)
+            assert found["triangles"] == page["triangles"], (name, form)
+        assert not os.path.exists("x") and not os.path.exists("y"), name
+    again = values.pop(0)
+    assert "--decode terrarium" in again["command"] and "as of terrarium" in again["notes"] and again["high"] < -30000, again
+    for name, words in REFUSED:
+        told = values.pop(0)
+        assert name in told and words in told, (name, told)
+
+
+def killed(values):
+    words, mesh = (value for value in values if value)
+    assert "No mesh" in words and "worker ended (out of memory)" in words, words
+    kept(mesh[0], mesh[1], "greedy")
+
+
+def ended(values):
+    words, mesh = (value for value in values if value)
+    assert "No mesh" in words and "lack of memory" in words, words
+    kept(mesh[0], mesh[1], "greedy")
+
+
+def refused(values):
+    words = values[-1]
+    assert "No mesh" in words and "WebAssembly" in words, words
+
+
+FORMATS, KNOWN_METRES = ("glb", "stl", "obj"), ("dem.tif", "N36W085.hgt", "; touch x $(touch y) 'q' .tif", "stray.tif", "colour.tif", "feet.tif")
+if os.path.exists("live.html"):
+    job(live, "live.html", [
+        {"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW},
+        {"do": DRAG % 28, "until": "scarp_page.live.step_now === 28 && scarp_page.shown[0].judged.max_error <= scarp_page.live.error_of(28)",
+         "read": NOW},
+        {"do": RELEASE, "until": HIGH, "read": NOW, "shot": "live"}, {"do": COMMAND},
+        {"keys": ["s"], "until": "scarp_page.shown.length === 2", "read": NOW, "shot": "side_by_side"},
+        {"do": "(menu => { menu.value = 'count'; menu.dispatchEvent(new Event('change')); })(document.getElementById('same'))",
+         "until": "scarp_page.shown[1].judged.max_error < 0.6 * scarp_page.shown[0].judged.max_error", "read": NOW},
+        {"do": COMMAND}, {"until": "location.hash.includes('count=1')", "read": "location.hash"}], axe=True)
+    job(restored, "live.html", [{"until": READY + " && scarp_page.shown.length === 2 && " + HIGH, "read": NOW}, {"read": "document.getElementById('same').value"}],
+        fragment="#error=50&both=1&count=1", width=500, height=400)
+    OPENED = ("({name: document.title, error: scarp_page.shown[0].judged.max_error, most: (f => (f.high - f.low) * 0.02)(scarp_page.document.field),"
+              " asked: scarp_page.shown[0].goal.maxError, uncovered: scarp_page.shown[0].judged.uncovered, stray: scarp_page.shown[0].judged.stray,"
+              " samples: scarp_page.shown[0].judged.covered, triangles: scarp_page.shown[0].triangles, high: scarp_page.document.field.high,"
+              " exaggeration: document.getElementById('exaggeration-text').textContent, notes: document.getElementById('notes').textContent,"
+              " command: document.getElementById('command').textContent, is_of_full: !document.getElementById('command-note').hidden,"
+              " readout: document.getElementById('readout').innerText})")
+    # What Download makes, caught before it is a file.
+    SAVED = ("new Promise(done => { const make = URL.createObjectURL; URL.createObjectURL = blob => { const reader = new FileReader();"
+             " reader.onload = () => done(reader.result.split(',')[1]); reader.readAsDataURL(blob); URL.createObjectURL = make;"
+             " return make(blob); }; document.getElementById('format').value = '%s'; document.getElementById('save').click();"
+             " document.getElementById('format').value = 'glb'; })")
+    steps = [{"until": "document.getElementById('notice').textContent"}]
+    for name, *_ in OFFERED:
+        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === {json.dumps(name)} && scarp_page.drawn > 0",
+                   "read": OPENED, "shot": name.split(".")[0].replace(" ", "_")}] + [{"do": SAVED % form} for form in FORMATS]
+        if name == "mapbox.png":
+            redo = [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": "document.title === 'mapbox.png'",
+                     "after": "(menu => { menu.value = 'terrarium'; menu.dispatchEvent(new Event('change')); })(document.getElementById('decoding'))"},
+                    {"until": "scarp_page.document.field.decoding === 'terrarium'", "read": OPENED}]
+    steps += redo
+    for name, _ in REFUSED:
+        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
+                   "after": "document.getElementById('notice').hidden = true"}]
+    job(rasters, "try.html", steps, axe=True)
+    # The image lies over the engine's meshes, too.
+    job(image_kept, "image.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"read": QUARTERS}])
+    job(scaled, "scaled.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'"}, {"do": RELEASE, "until": HIGH}, {"do": COMMAND}])
+    # A worker that ends while it works: a sentence, and the next wish has a new one.
+    job(killed, "live.html", [
+        {"until": READY}, {"do": DRAG % 40 + "; scarp_page.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
+                           "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
+        {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}])
+    # One that ends without an event, as browsers end what wants too much memory: its lock tells.
+    job(ended, "live.html", [
+        {"until": READY}, {"do": DRAG % 40, "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
+        {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}], before="const { Blob: Whole } = window; window.Blob = class extends Whole"
+        " { constructor(parts, options) { super(options?.type === 'text/javascript' ? [`const post = postMessage;"
+        " self.postMessage = (data, moved) => { if (data.judged?.max_error < 20) close(); else post(data, moved); };`, ...parts] : parts, options); } };")
+    job(refused, "no_wasm.html", [{"until": READY}, {"do": DRAG % 20, "until": "!document.getElementById('progress').hidden",
+                                                    "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
+
+# Each load replaces what the last one holds.
+job(loads, "image.html", [{"until": READY}, {"do": """(async () => {
+  const data = JSON.parse(document.getElementById('scarp-data').textContent), page = scarp_page, memory = page.scene.renderer.info.memory;
+  const buffer = Uint8Array.from(atob(data.meshes[0].glb), letter => letter.charCodeAt(0)).buffer, seen = [];
+  for (let k = 0; k < 50; ++k) {
+    await page.load([new File([buffer], 'again.glb')]);
+    page.change({errors: true, edges: true, smooth: true});
+    page.scene.draw();
+    if (k === 9 || k === 49) seen.push({geometries: memory.geometries, textures: memory.textures, programs: page.scene.renderer.info.programs.length});
+  }
+  return seen;
+})()"""}], width=300, height=200)
+
+if sys.argv[1:] == ["jobs"]:
+    print(json.dumps(jobs))
+else:
+    for job, check, answer in zip(jobs, checks, json.load(open("answers.json")), strict=True):
+        assert "failed" not in answer, answer
+        assert not answer["elsewhere"], answer["elsewhere"]
+        assert job.get("errors_are_expected") or not answer["errors"], answer["errors"]
+        assert not answer["violations"], answer["violations"]
+        check(answer["values"])
+        print(os.path.basename(job["page"]), "ok")
