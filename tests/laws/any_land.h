@@ -16,7 +16,7 @@
 #include "tiles/sine.h"
 
 namespace scarp::testing {
-inline constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
 /// Heights from a hash of a node's place, on waves: steep, flat, with steps and voids, all round the globe.
 class AnyLand final : public NodeSource {
@@ -28,12 +28,12 @@ class AnyLand final : public NodeSource {
     col = ((col % window.per_turn) + window.per_turn) % window.per_turn;
     if (window.is_pole(row)) col = 0;
     const double lon = window.longitude(col), lat = window.latitude(row);
-    if (lon < covered_.west || lon > covered_.east || lat < covered_.south || lat > covered_.north) return kNone;
+    if (lon < covered_.west || lon > covered_.east || lat < covered_.south || lat > covered_.north) return kNoHeight;
     const std::uint32_t hash =
         mix(static_cast<std::uint32_t>(col) * 2654435761u ^ mix(static_cast<std::uint32_t>(row) + seed_));
     if (has_voids_ &&
         mix(static_cast<std::uint32_t>(col / 9) * 31u + static_cast<std::uint32_t>(row / 7) + seed_) % 11 == 0)
-      return kNone;
+      return kNoHeight;
     const double wave = sine_of_degrees(std::fmod(lon * 977 + seed_ % 360, 720)).sine *
                         sine_of_degrees(std::fmod(lat * 1201, 720)).cosine;
     const double step = std::fmod(lon * 53 + lat * 17 + 1e4, 7) < 0.4 ? relief_ / 3 : 0;
