@@ -132,7 +132,7 @@ if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vit
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022,dom --typeRoots none typed.mts
   told=$(node app.mjs)
   for bundler in esbuild inline vite webpack; do succeeds node bundle.mjs "$bundler"; done
-  bundles=(esbuild/index.html file:inline/index.html vite/vite.html webpack/index.html)
+  bundles=(esbuild/index.html file:inline/index.html vite/vite.html dev:vite.html webpack/index.html)
 fi
 if command -v chromium > /dev/null && npm_judges playwright-core; then
   cp "$js/browser.mjs" open_page.mjs

@@ -1,7 +1,8 @@
 // What the entries for rasters export.
 import { pool } from './pool.js';
 
-export { ScarpError, isStarted as isReady, version } from './module.js';
+export { ScarpError } from './error.js';
+export { isStarted as isReady, version } from './module.js';
 export { Mesh } from './mesh.js';
 export { measure, simplifySync } from './simplify.js';
 export { Refiner } from './refiner.js';

@@ -1,5 +1,6 @@
 // Heights of the pixels of terrain tiles.
-import { ScarpError } from './module.js';
+import { ScarpError } from './error.js';
+import { checkSide } from './heights.js';
 
 /// Metres: scaler · value, summed, plus the offset.
 const ENCODINGS = {
@@ -14,6 +15,8 @@ export function decodeTile(rgba, width, height, encoding = 'terrarium') {
   if (![rScaler, gScaler, bScaler, offset].every(Number.isFinite)) {
     throw new ScarpError('usage', `the encoding is none of ${Object.keys(ENCODINGS).join(', ')}, nor { rScaler, gScaler, bScaler, offset }`);
   }
+  checkSide('width', width, 1);
+  checkSide('height', height, 1);
   if (rgba?.length !== 4 * width * height)
     throw new ScarpError('usage', `a tile of ${width} x ${height} pixels has ${4 * width * height} bytes, and ${rgba?.length} were given`);
   const z = new Float32Array(width * height);

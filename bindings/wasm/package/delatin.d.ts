@@ -11,7 +11,7 @@ export default class Delatin {
   getMaxError(): number;
   getRMSD(): number;
   heightAt(x: number, y: number): number;
-  /** x, y of each vertex: columns and rows from the top. */
+  /** x, y of each vertex: columns and rows from the top. The same arrays until run() or refine() inserts. */
   readonly coords: number[];
   readonly triangles: number[];
   free(): void;

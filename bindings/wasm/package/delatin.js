@@ -5,7 +5,7 @@ export { ready } from './index.js';
 
 export default class Delatin {
   #refiner;
-  #mesh = null;
+  #mesh = null;  // coords and triangles, until it grows
   #data;
 
   /// `data`: any array of numbers.
@@ -30,17 +30,17 @@ export default class Delatin {
   }
 
   get #made() {
-    return (this.#mesh ??= this.#refiner.mesh());
-  }
-  /// Columns and rows, the first row at the top.
-  get coords() {
-    const { positions, origin: [x, y] } = this.#made;
-    const coords = [];
+    if (this.#mesh) return this.#mesh;
+    const { positions, indices, origin: [x, y] } = this.#refiner.mesh(), coords = [];
     for (let k = 0; k < positions.length; k += 3) coords.push(positions[k] + x, this.height - 1 - (positions[k + 1] + y));
-    return coords;
+    return (this.#mesh = { coords, triangles: Array.from(indices) });
+  }
+  /// Columns and rows, the first row at the top. The same array until run() or refine() inserts.
+  get coords() {
+    return this.#made.coords;
   }
   get triangles() {
-    return Array.from(this.#made.indices);
+    return this.#made.triangles;
   }
 
   /// Root of the mean square error.

@@ -1,4 +1,4 @@
-import type { AsyncOptions, Heights, Mesh, PointOptions } from './index.js';
+import type { AsyncOptions, Bytes, Heights, Mesh, PointOptions } from './index.js';
 
 export * from './index.js';
 
@@ -7,10 +7,10 @@ export function simplifyPointsSync(points: Heights, options: PointOptions): Mesh
 export function simplifyPoints(points: Heights, options: PointOptions & AsyncOptions): Promise<Mesh>;
 
 export interface TilerOptions {
-  /** West, south, east, north of the raster, its outer pixels included: degrees, or metres of web Mercator. */
+  /** West, south, east, north of the raster, its outer pixels included: degrees of the globe, or metres of web Mercator. */
   bounds: ArrayLike<number>;
   crs?: 'degrees' | 'mercator';
-  nodata?: number;
+  nodata?: number | null;
   /** Nodes' cells a side of the finest tiles: a power of two, 16 to 256. */
   cells?: number;
   maxZoom?: number;
@@ -24,7 +24,7 @@ export interface TilerOptions {
 }
 export interface Tile {
   /** quantized-mesh 1.0 with normals, not compressed. */
-  bytes: Uint8Array;
+  bytes: Bytes;
   triangleCount: number;
   vertexCount: number;
   /** Largest errors in metres: at the tile's nodes; with the sag of flat triangles; at the source's samples. NaN: not known. */

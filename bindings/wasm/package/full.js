@@ -1,9 +1,10 @@
 // Scattered points and terrain tiles, too.
-import { defaults } from './ready.js';
+import { defaults, findModule, makeMovedWorker } from './ready.js';
 import { pool } from './pool.js';
 
-defaults.source ??= () => new URL('./full.wasm', import.meta.url);
-defaults.worker ??= () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+const beside = () => new URL('./full.wasm', import.meta.url);
+defaults.source ??= () => findModule(beside());
+defaults.worker ??= () => makeMovedWorker(beside()) ?? new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
 
 export * from './api.js';
 export { simplifyPointsSync } from './simplify.js';

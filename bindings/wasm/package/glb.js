@@ -1,6 +1,7 @@
 // GLB: glTF 2.0 in one file, y up. A JSON chunk describes one binary chunk of arrays by vertex and indices.
-import { ScarpError } from './module.js';
-import { checkOptions } from './heights.js';
+import { ScarpError } from './error.js';
+import { checkMesh } from './mesh.js';
+import { takeOptions } from './options.js';
 import { encodeAttributes, encodeTriangles, orderForCodec } from './meshopt.js';
 
 const MESHOPT = 'EXT_meshopt_compression';
@@ -162,12 +163,10 @@ function addPlain(glb, { positions, indices, normals, uvs }) {
 /// The bytes of a GLB file, whose node's translation is the mesh's origin. `compress`: meshoptimizer's codec, which loaders of
 /// three.js, Babylon.js and CesiumJS know; positions on a lattice (simplify's option) take 16 bits each.
 export function encodeGlb(mesh, options = {}) {
-  checkOptions(options);
-  const { compress = false } = options;
-  const { positions, indices, origin: [x, y, z] = [0, 0, 0] } = mesh ?? {};
-  if (!positions?.length || !indices?.length) throw new ScarpError('usage', 'the mesh needs positions and indices');
+  const { compress = false } = takeOptions(options, 'glb');
+  const checked = checkMesh(mesh), [x, y, z] = checked.origin;
   const glb = new Builder();
-  const { shift, scale, ...primitive } = (compress ? addCompressed : addPlain)(glb, mesh);
+  const { shift, scale, ...primitive } = (compress ? addCompressed : addPlain)(glb, checked);
   const extensions = compress ? ['KHR_mesh_quantization', MESHOPT] : [];
   return glb.assemble({
     asset: { version: '2.0', generator: 'Scarp' },

@@ -1,6 +1,15 @@
-/** Heights: whole numbers and float32 exactly; float64 is rounded to float32, and the promise counts what that costs. */
+/**
+ * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and every maxError counts
+ * the largest rounding. null in an array is no height, as NaN is.
+ */
 export type Heights = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array
-  | Int32Array | Uint32Array | readonly number[];
+  | Int32Array | Uint32Array | readonly (number | null)[];
+
+/** Arrays that the package makes: never in shared memory, which TypeScript tells apart from 5.7 on. */
+export type Bytes = ReturnType<typeof Uint8Array.of>;
+export type Floats = ReturnType<typeof Float32Array.of>;
+export type Doubles = ReturnType<typeof Float64Array.of>;
+export type Corners = ReturnType<typeof Uint32Array.of> | ReturnType<typeof Uint16Array.of>;
 
 export type ErrorCode = 'usage' | 'memory' | 'input' | 'promise' | 'output' | 'cancelled' | 'internal' | 'unsupported';
 /** One sentence that names the culprit and the way out. */
@@ -20,9 +29,9 @@ export function version(): string;
 /** Where samples lie. Without a transform x is the column, and y counts rows from the last one up. */
 export interface Place {
   /** A value that is no height. NaN and infinities never are. */
-  nodata?: number;
+  nodata?: number | null;
   /** GDAL's geotransform, of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
-  transform?: ArrayLike<number>;
+  transform?: ArrayLike<number> | null;
   /** The transform is in degrees of WGS 84: the mesh is in metres around the raster's centre. */
   degrees?: boolean;
 }
@@ -63,16 +72,17 @@ export interface Options extends Goals, Place {
   /** Edges of the raster depend on their own samples alone: neighbours that share them fit. */
   lockBorder?: boolean;
   /** A weight for each sample: weight * |error| is bounded. 0: no bound. */
-  mask?: ArrayLike<number>;
+  mask?: ArrayLike<number> | null;
   /** A bound of its own for each sample; Infinity: none. */
-  tolerance?: ArrayLike<number>;
+  tolerance?: ArrayLike<number> | null;
   /** A few times a second at most; false cancels. */
   onProgress?: (progress: Progress) => boolean | void;
 }
 
+/** What is given is copied at the call: the caller may go on to change it. */
 export interface AsyncOptions {
-  signal?: AbortSignal;
-  /** The buffer of the heights is moved to the worker, not copied. */
+  signal?: AbortSignal | null;
+  /** The buffer of Float32Array heights (of points: Float64Array) is moved at the call, not copied. */
   transfer?: boolean;
 }
 
@@ -82,10 +92,14 @@ export interface Report {
   triangleCount: number;
   /** Samples that were judged. */
   samples: number;
-  /** Valid samples that no triangle covers. */
+  /** Valid samples of the surface that no triangle covers: their errors are not counted, so look here before maxError. */
   uncovered: number;
+  /** Valid samples beyond the surface, whose cells all lack three valid corners: no mesh covers them. */
   stray: number;
+  /** Of the heights as they were given: the largest error at the float32 heights, plus sampleRounding. */
   maxError: number;
+  /** What the heights lost in float32 at most; 0 where they fit. All other errors are of the float32 heights. */
+  sampleRounding: number;
   /** Column and row. */
   maxErrorAt: [number, number] | null;
   rmse: number;
@@ -97,17 +111,17 @@ export interface Report {
   /** Why the run ended. */
   stop?: 'maxError' | 'maxTriangles' | 'maxVertices' | 'exact';
   effort?: 'fast' | 'normal' | 'high' | 'max';
-  /** Of measure(): no flipped, overlapping or degenerate triangles, no cracks or holes. */
+  /** Of measure(): no flipped, overlapping or degenerate triangles, no cracks. A mesh that lies elsewhere can be sound: see uncovered. */
   isSound?: boolean;
 }
 
 /** x east, y north, z up; vertex v lies at origin + positions[3v .. 3v + 2]. */
 export class Mesh {
-  positions: Float32Array | Float64Array;
+  positions: Floats | Doubles;
   /** Counter-clockwise from above. */
-  indices: Uint32Array | Uint16Array;
-  normals?: Float32Array;
-  uvs?: Float32Array;
+  indices: Corners;
+  normals?: Floats;
+  uvs?: Floats;
   origin: [number, number, number];
   /** Sides of the raster's cell along x and y, of either sign; 0 where it has none. */
   cell: [number, number];
@@ -119,7 +133,7 @@ export class Mesh {
   readonly vertexCount: number;
   readonly triangleCount: number;
   /** What postMessage() may move instead of copying. */
-  transferables(): ArrayBufferLike[];
+  transferables(): ArrayBuffer[];
 }
 
 /** Simplifies in this thread. Needs ready(). */
@@ -141,7 +155,7 @@ export interface PoolOptions {
   /** Workers. Default: one less than cores, 4 at most. */
   size?: number;
   /** Makes a worker of the script scarp/worker, where a bundler does not find it. */
-  worker?: () => Worker;
+  worker?: (() => Worker) | null;
 }
 export interface Pool {
   readonly size: number;
@@ -155,7 +169,7 @@ export function createPool(options?: PoolOptions): Pool;
 /** A mesh that grows by one vertex at a time, the worst sample first. */
 export class Refiner {
   constructor(z: Heights, width: number, height: number, place?: Place);
-  /** Inserts until both hold, or all is exact; returns how many were inserted. */
+  /** Inserts until maxError holds, or there are maxVertices, or all is exact; returns how many were inserted. */
   run(goals?: { maxError?: number, maxVertices?: number }): number;
   /** False once every sample is exact. */
   insertWorst(): boolean;
@@ -163,6 +177,7 @@ export class Refiner {
   readonly vertexCount: number;
   readonly triangleCount: number;
   mesh(): Mesh;
+  /** Gives its memory back at once; else the garbage collector does, which runs late: it does not know how much there is. */
   free(): void;
 }
 
@@ -171,8 +186,8 @@ export class Refiner {
  * bits each where simplify() was asked for a lattice.
  */
 export function encodeGlb(mesh: { positions: Float32Array | Float64Array, indices: ArrayLike<number>, normals?: Float32Array,
-  uvs?: Float32Array, origin?: ArrayLike<number>, cell?: ArrayLike<number> }, options?: { compress?: boolean }): Uint8Array;
+  uvs?: Float32Array, origin?: ArrayLike<number>, cell?: ArrayLike<number> }, options?: { compress?: boolean }): Bytes;
 
 /** Heights in metres of a tile's pixels, four bytes each; NaN where a pixel is transparent. */
 export function decodeTile(rgba: Uint8ClampedArray | Uint8Array, width: number, height: number,
-  encoding?: 'terrarium' | 'mapbox' | { rScaler: number, gScaler: number, bScaler: number, offset: number }): Float32Array;
+  encoding?: 'terrarium' | 'mapbox' | { rScaler: number, gScaler: number, bScaler: number, offset: number }): Floats;

@@ -1,5 +1,6 @@
 // In place of @mapbox/martini: the same names, any size, and an error that is kept. Needs ready().
 import { ScarpError, simplifySync } from './index.js';
+import { takeOptions } from './options.js';
 import { buildSkirts } from './skirts.js';
 
 export { ready } from './index.js';
@@ -37,7 +38,8 @@ class Tile {
 
 export default class Martini {
   /// `gridSize`: samples a side, any; `effort`: as simplifySync() takes it.
-  constructor(gridSize = 257, { height = gridSize, effort = 'normal' } = {}) {
+  constructor(gridSize = 257, options = {}) {
+    const { height = gridSize, effort = 'normal' } = takeOptions(options, 'martini');
     if (gridSize > 65536 || height > 65536) throw new ScarpError('usage', 'columns and rows are Uint16: at most 65536 samples a side');
     this.gridSize = this.width = gridSize;
     this.height = height;

@@ -1,17 +1,19 @@
 // Meshes as JavaScript has them: copies, so that nothing has to be freed.
+import { ScarpError } from './error.js';
 import { call, view } from './module.js';
+import { checkArray, checkLength, refuse } from './heights.js';
 
 const STOPS = ['maxError', 'maxTriangles', 'maxVertices', 'exact'];
 const EFFORTS = ['fast', 'normal', 'high', 'max'];
 const REPORT = 17;
 const VIEW = 11;
 
-/// Of the door's doubles.
-export function readReport(numbers) {
+/// Of the door's doubles. `rounding`: what heights lost in float32, which an error may hide.
+export function readReport(numbers, rounding = 0) {
   const [stop, effort, vertices, triangles, samples, uncovered, stray, maxError, col, row, rmse, meanError, meanAbsError,
     p50, p95, p99, isSound] = numbers;
-  const report = { vertexCount: vertices, triangleCount: triangles, samples, uncovered, stray, maxError,
-    maxErrorAt: col < 0 ? null : [col, row], rmse, meanError, meanAbsError, p50, p95, p99 };
+  const report = { vertexCount: vertices, triangleCount: triangles, samples, uncovered, stray,
+    maxError: maxError + rounding, sampleRounding: rounding, maxErrorAt: col < 0 ? null : [col, row], rmse, meanError, meanAbsError, p50, p95, p99 };
   if (stop >= 0) report.stop = STOPS[stop];
   if (effort >= 0) report.effort = EFFORTS[effort];
   if (isSound >= 0) report.isSound = isSound === 1;
@@ -35,15 +37,37 @@ export class Mesh {
   }
 }
 
+/// A mesh of the caller's: its arrays have the right lengths, and its indices name vertices.
+export function checkMesh(mesh) {
+  const { positions, indices, normals, uvs } = mesh ?? {}, origin = mesh?.origin ?? [0, 0, 0], cell = mesh?.cell ?? undefined;
+  if (!positions?.length || !indices?.length) refuse('the mesh needs positions and indices');
+  for (const [name, values] of Object.entries({ positions, indices, origin, cell, normals, uvs })) {
+    if (values == null) continue;
+    const bad = checkArray(`the mesh's ${name}`, values).findIndex(value => !Number.isFinite(value));
+    if (bad >= 0) throw new ScarpError('input', `index ${bad} of the mesh's ${name} is ${values[bad]}, and no finite number`);
+  }
+  for (const [name, values] of Object.entries({ positions, indices })) {
+    if (values.length % 3) refuse(`the mesh's ${name} has ${values.length} numbers, and needs three for each ${name === 'indices' ? 'triangle' : 'vertex'}`);
+  }
+  const count = positions.length / 3, vertices = `a mesh of ${count} vertices`;
+  const lost = indices.findIndex(index => !(index >= 0 && index < count && Number.isInteger(index)));
+  if (lost >= 0) throw new ScarpError('input', `index ${lost} of the mesh's indices is ${indices[lost]}, and ${vertices} has none of that number`);
+  checkLength("the mesh's origin", origin, 3, 'a point');
+  if (cell) checkLength("the mesh's cell", cell, 2, 'a cell');
+  if (normals) checkLength("the mesh's normals", normals, 3 * count, vertices);
+  if (uvs) checkLength("the mesh's uvs", uvs, 2 * count, vertices);
+  return { positions, indices, origin, cell, normals, uvs };
+}
+
 /// The mesh of a handle, which is freed. `doubles`: positions are float64.
-export function takeMesh(blocks, handle, { doubles = false } = {}) {
+export function takeMesh(blocks, handle, { doubles = false, rounding = 0 } = {}) {
   try {
     const out = blocks.allocate(8 * (VIEW + REPORT));
     call('scarp_mesh_view', [handle, out]);
     const numbers = view(Float64Array, out, VIEW + REPORT).slice();
     const [vertices, triangles, positions, corners, normals, uvs] = numbers;
     const Corner = vertices <= 65535 ? Uint16Array : Uint32Array;
-    const report = readReport(numbers.subarray(VIEW));
+    const report = readReport(numbers.subarray(VIEW), rounding);
     const mesh = new Mesh({
       positions: (doubles ? Float64Array : Float32Array).from(view(Float64Array, positions, 3 * vertices)),
       indices: Corner.from(view(Uint32Array, corners, 3 * triangles)),

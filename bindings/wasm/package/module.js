@@ -1,16 +1,10 @@
 // The WebAssembly module: how it starts, what it imports, its memory and its errors.
 
+import { ScarpError } from './error.js';
 import { printNumber } from './number.js';
+import { translate } from './options.js';
 
 const KINDS = ['usage', 'memory', 'input', 'promise', 'output', 'cancelled', 'internal'];
-
-export class ScarpError extends Error {
-  constructor(code, message, options) {
-    super(message, options);
-    this.name = 'ScarpError';
-    this.code = code;
-  }
-}
 
 let starting = null;  // the promise of start()
 let compiled = null;
@@ -59,6 +53,16 @@ const IMPORTS = {
 
 const ADVICE = "serve the package's .wasm file there, or import 'scarp/inline', which holds it";
 
+/// `where` they come from. A server that answers with a page where it has no file says that all is well.
+function checkBytes(bytes, where) {
+  const first = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
+  if ([0, 0x61, 0x73, 0x6d].every((byte, k) => first[k] === byte)) return bytes;
+  const isPage = /^\s*</.test(new TextDecoder().decode(first.subarray(0, 64)));
+  const is = isPage ? "a page of HTML, with which a server answers where it has no file; vite's dev server needs optimizeDeps: { exclude: ['scarp'] }"
+                    : `no WebAssembly: ${first.length === 0 ? 'it is empty' : 'it begins with other bytes'}`;
+  throw new ScarpError('input', `${where} is ${is}; ${ADVICE}`);
+}
+
 function refuse(error) {
   const why = error instanceof Error ? error.message : String(error);
   return new ScarpError('unsupported', `WebAssembly is refused here: ${why}; it needs WebAssembly with SIMD and exceptions ` +
@@ -67,8 +71,9 @@ function refuse(error) {
 
 /// The bytes at an address; of a file in Node, whose fetch() does not know files.
 async function fetchBytes(address) {
-  const url = new URL(address, globalThis.location?.href);
+  let url = address;
   try {
+    url = new URL(address, globalThis.location?.href);
     if (url.protocol === 'file:' && globalThis.process?.versions?.node !== undefined) {
       const name = 'node:fs/promises';
       const files = await import(/* webpackIgnore: true */ /* @vite-ignore */ name);
@@ -86,12 +91,17 @@ async function readBytes(response) {
   throw new ScarpError('input', `${response.url} cannot be loaded: HTTP ${response.status}; ${ADVICE}`);
 }
 
+async function takeBytes(source) {
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return checkBytes(source, 'what ready() was given');
+  if (source instanceof Response) return checkBytes(await readBytes(source), source.url || 'the Response');
+  return checkBytes(await fetchBytes(source), source);
+}
+
 async function instantiate(source) {
   if (typeof WebAssembly === 'undefined') throw refuse('there is none');
   if (source instanceof WebAssembly.Module) compiled = source;
   else {
-    const isBytes = source instanceof ArrayBuffer || ArrayBuffer.isView(source);
-    const bytes = isBytes ? source : source instanceof Response ? await readBytes(source) : await fetchBytes(source);
+    const bytes = await takeBytes(source);
     try {
       compiled = await WebAssembly.compile(bytes);
     } catch (error) {
@@ -149,7 +159,7 @@ export function callOrThrow(name, args, progress) {
 }
 
 export const lastError = () =>
-  new ScarpError(KINDS[functions.scarp_error_kind()], text(functions.scarp_error_text()));
+  new ScarpError(KINDS[functions.scarp_error_kind()], translate(text(functions.scarp_error_text())));
 
 export const version = () => text(call('scarp_version', []));
 

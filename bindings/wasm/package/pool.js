@@ -1,10 +1,12 @@
 // Workers that simplify: one raster a worker, which is faster than many threads in one raster.
 import { watchLock } from './alive.js';
-import { ScarpError, compiledModule } from './module.js';
+import { ScarpError } from './error.js';
+import { compiledModule } from './module.js';
 import { defaults, ready } from './ready.js';
 import { Mesh } from './mesh.js';
-import { checkHeights, checkOptions } from './heights.js';
-import { checkSignal } from './simplify.js';
+import { checkHeights, refuse, takeBeside } from './heights.js';
+import { show, takeOptions } from './options.js';
+import { checkPoints, checkSignal } from './simplify.js';
 
 /// A worker of the browser or of Node, behind the same two functions.
 async function openWorker(make, onMessage, onFailure) {
@@ -13,6 +15,7 @@ async function openWorker(make, onMessage, onFailure) {
     globalThis.Worker ??= (await import(/* webpackIgnore: true */ /* @vite-ignore */ name)).Worker;
   }
   const worker = make();
+  if (typeof worker?.postMessage !== 'function') throw new ScarpError('usage', `createPool({ worker }) made ${show(worker)}, and no Worker`);
   if (worker.on) {
     worker.on('message', onMessage);
     worker.on('error', onFailure);
@@ -117,6 +120,18 @@ class Hand {
   }
 }
 
+/// The values for a worker: a copy, or the array itself in a buffer that is the caller's no more.
+function take(array, isMoved) {
+  if (!isMoved) return array.slice();
+  if (typeof SharedArrayBuffer !== 'undefined' && array.buffer instanceof SharedArrayBuffer)
+    refuse('transfer moves the buffer of the heights, and theirs is a SharedArrayBuffer, which cannot be moved: leave transfer out');
+  try {
+    return globalThis.structuredClone ? structuredClone(array, { transfer: [array.buffer] }) : array;
+  } catch (cause) {
+    throw new ScarpError('usage', `the buffer of the heights cannot be moved (${cause.message}): leave transfer out`, { cause });
+  }
+}
+
 const cores = () => globalThis.navigator?.hardwareConcurrency ?? 4;
 
 class Pool {
@@ -126,9 +141,7 @@ class Pool {
   #isOver = false;
 
   constructor(options = {}) {
-    checkOptions(options);
-    const { size = Math.min(4, Math.max(1, cores() - 1)), worker = defaults.worker } = options;
-    if (!Number.isInteger(size) || size < 1) throw new ScarpError('usage', `size is ${size}; it is a whole number of workers, at least 1`);
+    const { size = Math.min(4, Math.max(1, cores() - 1)), worker = defaults.worker } = takeOptions(options, 'pool');
     this.#hands = Array.from({ length: size }, () => new Hand(worker));
   }
 
@@ -145,11 +158,11 @@ class Pool {
     this.#next();
   }
 
-  #add(work, args, buffer, { signal, onProgress, transfer, ...options }) {
+  /// `given`: the arguments, which no one else changes; buffers of `moved` are moved to the worker.
+  #add(work, given, moved, { signal, onProgress, transfer, ...options }) {
     return new Promise((resolve, reject) => {
       checkSignal(signal);
-      if (this.#isOver) throw new ScarpError('usage', 'the pool was terminated');
-      const job = { work, args: [...args, options], moved: transfer ? [buffer] : [], onProgress, isOver: false };
+      const job = { work, args: [...given, options], moved, onProgress, isOver: false };
       const settle = end => value => {
         if (job.isOver) return;
         job.isOver = true;
@@ -179,18 +192,34 @@ class Pool {
     });
   }
 
-  /// As simplifySync(), in a worker. `transfer`: the heights' buffer is moved there, not copied.
+  #check() {
+    if (this.#isOver) throw new ScarpError('usage', 'the pool was terminated');
+  }
+
+  /// As simplifySync(), in a worker. What is given is copied now, so that the caller may go on to change it; `transfer`: the
+  /// heights' buffer is moved, and not copied.
   async simplify(z, width, height, options = {}) {
-    checkOptions(options);
-    const { samples, rounding } = checkHeights(z, width, height);
-    const isMoved = Boolean(options.transfer) && samples === z;
+    const taken = takeOptions(options, 'simplify');
+    const { given, samples, rounding } = checkHeights(z, width, height, taken.nodata);
+    checkSignal(taken.signal);
+    this.#check();
+    for (const name of ['mask', 'tolerance']) {
+      const beside = takeBeside(name, taken[name], width, height);
+      if (beside) taken[name] = beside;
+    }
+    if (taken.transform) taken.transform = Array.from(taken.transform);
     // Float64 goes as it is: the worker counts what float32 rounds.
-    return this.#add('simplify', [rounding ? Float64Array.from(z) : samples, width, height], samples.buffer, { ...options, transfer: isMoved });
+    const own = samples === z ? take(z, taken.transfer) : rounding ? Float64Array.from(given) : samples;
+    return this.#add('simplify', [own, width, height], [own.buffer], taken);
   }
 
   async simplifyPoints(points, options = {}) {
-    checkOptions(options);
-    return this.#add('simplifyPoints', [points], points?.buffer, options);
+    const taken = takeOptions(options, 'simplifyPoints');
+    const given = checkPoints(points);
+    checkSignal(taken.signal);
+    this.#check();
+    const own = given instanceof Float64Array ? take(given, taken.transfer) : Float64Array.from(given);
+    return this.#add('simplifyPoints', [own], [own.buffer], taken);
   }
 
   /// Ends the workers; what they had is rejected.

@@ -1,7 +1,9 @@
 // A mesh that grows by one vertex at a time, the worst sample first.
-import { Blocks, ScarpError, call, callOrThrow, lastError, withBlocks } from './module.js';
-import { checkOptions, putField } from './heights.js';
+import { ScarpError } from './error.js';
+import { Blocks, call, callOrThrow, lastError, withBlocks } from './module.js';
+import { putField } from './heights.js';
 import { takeMesh } from './mesh.js';
+import { takeOptions } from './options.js';
 
 const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
   call('scarp_refiner_free', [handle]);
@@ -10,12 +12,15 @@ const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
 
 export class Refiner {
   #held;
+  #rounding;  // of the heights, which each error counts
 
   constructor(z, width, height, options = {}) {
-    checkOptions(options);
+    const place = takeOptions(options, 'place');
     const blocks = new Blocks();
     try {
-      this.#held = { handle: callOrThrow('scarp_refiner_create', [putField(blocks, z, width, height, options)]), blocks };
+      const { address, rounding } = putField(blocks, z, width, height, place);
+      this.#rounding = rounding;
+      this.#held = { handle: callOrThrow('scarp_refiner_create', [address]), blocks };
     } catch (error) {
       blocks.free();
       throw error;
@@ -35,16 +40,22 @@ export class Refiner {
   }
 
   /// Inserts until the largest error is at most maxError, or there are maxVertices. Returns how many were inserted.
-  run({ maxError = 0, maxVertices = 0 } = {}) {
-    if (!(maxError >= 0)) throw new ScarpError('usage', `maxError is ${maxError}; it is a number, at least 0`);
-    return this.#insert(maxError, maxVertices, Infinity);
+  run(goals = {}) {
+    const { maxError, maxVertices = 0 } = takeOptions(goals, 'refine'), rounding = this.#rounding;
+    if (maxError < rounding) {
+      throw new ScarpError('promise', `a maxError of ${maxError} cannot be kept: the heights do not fit float32 and are rounded by up to ` +
+        `${rounding}; ask for that or more`);
+    }
+    // A little less, so that the sum is not rounded above.
+    const bound = rounding > 0 ? Math.max(0, maxError * (1 - 2 ** -52) - rounding) : maxError;
+    return this.#insert(maxError === undefined ? 0 : bound, maxVertices, Infinity);
   }
   /// False once every sample is exact.
   insertWorst() {
     return this.#insert(-1, 0, 1) === 1;
   }
   get maxError() {
-    return call('scarp_refiner_max_error', [this.#handle]);
+    return call('scarp_refiner_max_error', [this.#handle]) + this.#rounding;
   }
   get vertexCount() {
     return call('scarp_refiner_vertices', [this.#handle]);
@@ -54,7 +65,7 @@ export class Refiner {
   }
   /// Without a report: nobody has measured it but the refiner, which knows its largest error.
   mesh() {
-    const mesh = withBlocks(blocks => takeMesh(blocks, callOrThrow('scarp_refiner_mesh', [this.#handle])));
+    const mesh = withBlocks(blocks => takeMesh(blocks, callOrThrow('scarp_refiner_mesh', [this.#handle]), { rounding: this.#rounding }));
     delete mesh.report;
     delete mesh.rmse;
     return mesh;

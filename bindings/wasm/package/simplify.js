@@ -1,41 +1,12 @@
 // Rasters to meshes, and their measurement.
-import { ScarpError, callOrThrow, view, withBlocks } from './module.js';
-import { checkNumbers, checkOptions, putBeside, putDoubles, putField } from './heights.js';
-import { REPORT_DOUBLES, readReport, takeMesh } from './mesh.js';
-
-const CHOICES = {
-  effort: ['auto', 'fast', 'normal', 'high', 'max'],
-  vertices: ['auto', 'samples', 'free'],
-  order: ['auto', 'greedy', 'dominant'],
-  objective: ['max', 'rms'],
-  duplicates: ['first', 'last', 'highest', 'lowest', 'mean'],
-};
-const KNOWN = ['maxError', 'maxTriangles', 'maxVertices', 'effort', 'vertices', 'order', 'objective', 'minShape',
-  'outlineTolerance', 'normals', 'uvs', 'lattice', 'doubles', 'lockBorder', 'mask', 'tolerance', 'nodata', 'transform', 'degrees',
-  'onProgress', 'signal', 'transfer'];
-
-/// The number of a choice in the library's list of them.
-export function choose(name, value) {
-  const number = CHOICES[name].indexOf(value);
-  if (number < 0) throw new ScarpError('usage', `${name} '${value}' is unknown: choose ${CHOICES[name].join(', ')}`);
-  return number;
-}
-
-export function checkKnown(options, known) {
-  checkOptions(options);
-  for (const name of Object.keys(options)) {
-    if (!known.includes(name)) throw new ScarpError('usage', `option ${name} is unknown; there are ${known.join(', ')}`);
-  }
-}
+import { ScarpError } from './error.js';
+import { callOrThrow, view, withBlocks } from './module.js';
+import { checkArray, putDoubles, putField, refuse, takeBeside } from './heights.js';
+import { REPORT_DOUBLES, checkMesh, readReport, takeMesh } from './mesh.js';
+import { choose, takeOptions } from './options.js';
 
 /// Goals as the door has them.
-export function takeGoals({ maxError, maxTriangles = 0, maxVertices = 0 }) {
-  if (maxError !== undefined && !(Number(maxError) >= 0)) throw new ScarpError('usage', `maxError is ${maxError}; it is a number, at least 0`);
-  for (const [name, budget] of Object.entries({ maxTriangles, maxVertices })) {
-    if (!Number.isSafeInteger(budget) || budget < 0) throw new ScarpError('usage', `${name} is ${budget}; it is a whole number, at least 1`);
-  }
-  return [maxError ?? NaN, maxTriangles, maxVertices];
-}
+const listGoals = ({ maxError = NaN, maxTriangles = 0, maxVertices = 0 }) => [maxError, maxTriangles, maxVertices];
 
 /// What is asked during a call: the caller's function, and a flag that another thread sets.
 export function watch(onProgress, flag) {
@@ -49,30 +20,28 @@ export function checkSignal(signal) {
 
 /// Simplifies here and now. `flag`: an Int32Array over shared memory, whose first number cancels.
 export function simplifySync(z, width, height, options = {}, flag = undefined) {
-  checkKnown(options, KNOWN);
-  checkSignal(options.signal);
+  const taken = takeOptions(options, 'simplify');
+  checkSignal(taken.signal);
   const { effort = 'auto', vertices = 'auto', order = 'auto', objective = 'max', minShape = NaN, outlineTolerance = 0,
-    normals, uvs, lattice, doubles, lockBorder, mask, tolerance, onProgress } = options;
+    normals, uvs, lattice, doubles, lockBorder, mask, tolerance, onProgress } = taken;
   const progress = watch(onProgress, flag);
   return withBlocks(blocks => {
-    const field = putField(blocks, z, width, height, options);
-    const asked = putDoubles(blocks, takeGoals(options), choose('effort', effort), choose('vertices', vertices), choose('order', order),
+    const { address, rounding } = putField(blocks, z, width, height, taken);
+    const beside = (name, values) => (values ? blocks.put(takeBeside(name, values, width, height)) : 0);
+    const asked = putDoubles(blocks, listGoals(taken), choose('effort', effort), choose('vertices', vertices), choose('order', order),
       choose('objective', objective), minShape, outlineTolerance, Number(Boolean(normals)), Number(Boolean(uvs)),
       Number(Boolean(lattice)), Number(Boolean(doubles)), Number(Boolean(lockBorder)),
-      putBeside(blocks, 'mask', mask, width, height), putBeside(blocks, 'tolerance', tolerance, width, height), Number(Boolean(progress)));
-    return takeMesh(blocks, callOrThrow('scarp_simplify', [field, asked], progress), options);
+      beside('mask', mask), beside('tolerance', tolerance), Number(Boolean(progress)));
+    return takeMesh(blocks, callOrThrow('scarp_simplify', [address, asked], progress), { doubles, rounding });
   });
 }
 
 /// Judges a mesh by brute force, without knowing how it was made.
 export function measure(z, width, height, mesh, options = {}) {
-  checkKnown(options, ['nodata', 'transform', 'degrees']);
-  const { positions, indices, origin = [0, 0, 0] } = mesh ?? {};
-  if (!positions?.length || !indices?.length || positions.length % 3 || indices.length % 3)
-    throw new ScarpError('usage', 'the mesh needs positions and indices, three numbers for each vertex and each triangle');
-  const [x, y, up] = checkNumbers('origin', origin, 3);
+  const place = takeOptions(options, 'place');
+  const { positions, indices, origin: [x, y, up] } = checkMesh(mesh);
   return withBlocks(blocks => {
-    const field = putField(blocks, z, width, height, options);
+    const { address, rounding } = putField(blocks, z, width, height, place);
     const absolute = Float64Array.from(positions);
     for (let k = 0; k < absolute.length; k += 3) {
       absolute[k] += x;
@@ -80,23 +49,29 @@ export function measure(z, width, height, mesh, options = {}) {
       absolute[k + 2] += up;
     }
     const out = blocks.allocate(8 * REPORT_DOUBLES);
-    callOrThrow('scarp_measure', [field, blocks.put(absolute), positions.length / 3, blocks.put(Uint32Array.from(indices)),
+    callOrThrow('scarp_measure', [address, blocks.put(absolute), positions.length / 3, blocks.put(Uint32Array.from(indices)),
       indices.length / 3, out]);
-    return readReport(view(Float64Array, out, REPORT_DOUBLES).slice());
+    return readReport(view(Float64Array, out, REPORT_DOUBLES).slice(), rounding);
   });
+}
+
+/// Scattered points, checked.
+export function checkPoints(points) {
+  const given = checkArray('the points', points);
+  if (given.length === 0 || given.length % 3) refuse(`the points have ${given.length} numbers, and are x, y, z in turn`);
+  return given;
 }
 
 /// Scattered points: x, y, z in turn.
 export function simplifyPointsSync(points, options = {}, flag = undefined) {
-  checkKnown(options, ['maxError', 'maxTriangles', 'maxVertices', 'duplicates', 'doubles', 'onProgress', 'signal', 'transfer']);
-  checkSignal(options.signal);
-  const { duplicates = 'first', doubles, onProgress } = options;
-  if (!(ArrayBuffer.isView(points) || Array.isArray(points)) || points.length === 0 || points.length % 3)
-    throw new ScarpError('usage', 'the points are no array of x, y, z in turn');
+  const taken = takeOptions(options, 'simplifyPoints');
+  checkSignal(taken.signal);
+  const { duplicates = 'first', doubles, onProgress } = taken;
+  const given = checkPoints(points);
   const progress = watch(onProgress, flag);
   return withBlocks(blocks => {
-    const asked = putDoubles(blocks, blocks.put(Float64Array.from(points)), points.length / 3, takeGoals(options),
+    const asked = putDoubles(blocks, blocks.put(Float64Array.from(given)), given.length / 3, listGoals(taken),
       choose('duplicates', duplicates), Number(Boolean(doubles)), Number(Boolean(progress)));
-    return takeMesh(blocks, callOrThrow('scarp_simplify_points', [asked], progress), options);
+    return takeMesh(blocks, callOrThrow('scarp_simplify_points', [asked], progress), { doubles });
   });
 }

@@ -1,7 +1,8 @@
 // Terrain tiles for globes: quantized-mesh, made of one raster as they are asked for.
-import { Blocks, ScarpError, call, callOrThrow, view, withBlocks } from './module.js';
+import { ScarpError } from './error.js';
+import { Blocks, call, callOrThrow, view, withBlocks } from './module.js';
 import { putDoubles, putField } from './heights.js';
-import { checkKnown, choose } from './simplify.js';
+import { choose, takeOptions } from './options.js';
 
 const VIEW = 7;
 const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
@@ -10,10 +11,21 @@ const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
 });
 
 /// From the corners of the raster's outer pixels, west, south, east, north, to a geotransform.
-function placeBounds(bounds, width, height) {
-  const [west, south, east, north] = Array.from(bounds ?? []);
-  if (!(east > west && north > south)) throw new ScarpError('usage', 'bounds is not [west, south, east, north] with east above west, and north above south');
+function placeBounds([west, south, east, north], width, height) {
   return [west, (east - west) / width, 0, north, 0, (south - north) / height];
+}
+
+/// `degrees`: the bounds in degrees, whatever their CRS. The centres of pixels lie on the globe, and their edges may lie beyond.
+function checkBounds(bounds, degrees, width, height) {
+  const refuse = why => {
+    throw new ScarpError('usage', `bounds is ${bounds ? `[${bounds.join(', ')}]` : 'not given'}, ${why}`);
+  };
+  if (!bounds) refuse('and a globe needs [west, south, east, north]');
+  const [west, south, east, north] = degrees;
+  if (!(east > west && north > south)) refuse('and is [west, south, east, north] with east above west, and north above south');
+  const half = (north - south) / height / 2;
+  if ((east - west) * (1 - 1 / width) > 360 + 1e-9) refuse(`which are ${east - west} degrees of longitude, and a globe has 360`);
+  if (south + half < -90 - 1e-9 || north - half > 90 + 1e-9) refuse("and latitudes go from -90 to 90: take crs: 'mercator' if they are its metres");
 }
 
 /// West, south, east, north in degrees, of web Mercator's metres.
@@ -48,16 +60,17 @@ export class Tiler {
 
   /// Of heights in metres above the ellipsoid.
   constructor(z, width, height, options = {}) {
-    checkKnown(options, ['bounds', 'crs', 'nodata', 'cells', 'maxZoom', 'maxError', 'quality', 'effort', 'background']);
-    const { bounds, crs = 'degrees', nodata, cells = 128, maxZoom = -1, maxError = 0, quality = 2, effort = 'normal', background = 0 } = options;
-    if (crs !== 'degrees' && crs !== 'mercator') throw new ScarpError('usage', `crs '${crs}' is neither degrees nor mercator`);
-    const transform = placeBounds(bounds, width, height);
-    this.#bounds = crs === 'mercator' ? degreesOf(Array.from(bounds)) : Array.from(bounds);
+    const { bounds, crs = 'degrees', nodata, cells = 128, maxZoom = -1, maxError = 0, quality = 2, effort = 'normal', background = 0 } =
+      takeOptions(options, 'tiler');
+    const corners = bounds && Array.from(bounds);
+    this.#bounds = corners && crs === 'mercator' ? degreesOf(corners) : corners;
+    checkBounds(corners, this.#bounds, width, height);
+    const transform = placeBounds(corners, width, height);
     const blocks = new Blocks();
     try {
-      const field = putField(blocks, z, width, height, { nodata, transform });
+      const { address } = putField(blocks, z, width, height, { nodata, transform });
       const settings = putDoubles(blocks, Number(crs === 'mercator'), cells, maxZoom, maxError, quality, choose('effort', effort), background);
-      this.#held = { handle: callOrThrow('scarp_tiler_create', [field, settings]), blocks };
+      this.#held = { handle: callOrThrow('scarp_tiler_create', [address, settings]), blocks };
     } catch (error) {
       blocks.free();
       throw error;
@@ -98,8 +111,7 @@ export class Tiler {
   }
   /// What clients read first, beside the tiles: layer.json. `tiles`: templates of the tiles' addresses.
   layerJson(options = {}) {
-    checkKnown(options, ['name', 'attribution', 'tiles']);
-    const { name = 'terrain', attribution = '', tiles = ['{z}/{x}/{y}.terrain'] } = options, { maxZoom } = this;
+    const { name = 'terrain', attribution = '', tiles = ['{z}/{x}/{y}.terrain'] } = takeOptions(options, 'layerJson'), { maxZoom } = this;
     return {
       tilejson: '2.1.0', name, version: '1.0.0', format: 'quantized-mesh-1.0', attribution, schema: 'tms', tiles, projection: 'EPSG:4326',
       bounds: this.#bounds, minzoom: 0, maxzoom: maxZoom, extensions: ['octvertexnormals'],

@@ -80,6 +80,32 @@ test('the promise is about float64 values as they are given', () => {
   assert.ok(judgeMesh(exact, width, height, mesh).max <= 0.05 + ROUNDING * 1e5);
 });
 
+test('an error counts what float32 took from the heights', () => {
+  const large = Int32Array.from(z, value => 2e9 + Math.round(value));
+  const mesh = simplifySync(large, width, height, { maxTriangles: 500 }), report = measure(large, width, height, mesh);
+  const refiner = new Refiner(large, width, height);
+  refiner.run({ maxError: 150 });
+  for (const one of [mesh, refiner.mesh()]) assert.ok(judgeMesh(large, width, height, one).max <= one.maxError, `${one.maxError}`);
+  assert.ok(refiner.maxError <= 150 && report.sampleRounding > 1 && report.maxError === mesh.maxError);
+  refuses(() => refiner.run({ maxError: 1 }), 'promise', /maxError of 1 cannot be kept/);
+  refuses(() => simplifySync(large, width, height, { maxError: 1 }), 'promise', /cannot be kept/);
+});
+
+test('null is no height, and what is no number is refused', () => {
+  const plain = JSON.parse(JSON.stringify(Array.from(z, (value, k) => (k === 500 ? NaN : value))));
+  assert.equal(plain[500], null);
+  assert.equal(simplifySync(plain, width, height, { maxError: 4 }).report.samples, z.length - 1);
+  for (const odd of [undefined, '12', 5n])
+    refuses(() => simplifySync(plain.map((value, k) => (k === 7 ? odd : value)), width, height, { maxError: 4 }), 'usage', /index 7 of the heights/);
+  refuses(() => simplifySync(new Array(z.length), width, height, { maxError: 4 }), 'usage', /index 0 of the heights is undefined/);
+  refuses(() => simplifyPointsSync([0, 0, null], { maxError: 1 }), 'usage', /index 2 of the points is null/);
+});
+
+test('a mesh that lies elsewhere covers nothing', () => {
+  const { isSound, uncovered, samples } = measure(z, width, height, { ...simplifySync(z, width, height, { maxError: 4 }), origin: [1e6, 0, 0] });
+  assert.deepEqual([isSound, uncovered, samples], [true, width * height, 0]);
+});
+
 test('NaN and nodata are no heights, and are not covered', () => {
   const holes = Float32Array.from(z), marked = Float32Array.from(z);
   for (let k = 30; k < 50; ++k) {
@@ -189,8 +215,37 @@ test('a pool simplifies as the thread itself, in any order', async () => {
   assert.equal(kept.length, 0);
   await rejects(pool.simplify(kept, width, height, { maxError: 4 }), 'usage', /detached/);
   await rejects(pool.simplify(z.fill(NaN, 0, 0), width, height, {}), 'usage', /goal/);
+  const shared = new Float32Array(new SharedArrayBuffer(z.byteLength));
+  await rejects(pool.simplify(shared, width, height, { maxError: 4, transfer: true }), 'usage', /SharedArrayBuffer.*leave transfer out/);
   pool.terminate();
   await rejects(pool.simplify(z, width, height, { maxError: 4 }), 'usage', /terminated/);
+});
+
+test('what is given to a pool may be changed after the call', async () => {
+  const pool = createPool({ size: 1 }), scratch = new Float32Array(z.length), tolerance = new Float32Array(z.length), given = [];
+  for (let k = 0; k < 3; ++k) {
+    scratch.set(z.map(value => value + 1000 * k));
+    tolerance.fill(2 + k);
+    given.push(pool.simplify(scratch, width, height, { tolerance, transform: [0, 1, 0, 0, 0, -1] }));
+  }
+  const points = new Float64Array([0, 0, 1, 9, 0, 2, 0, 9, 3]), last = pool.simplifyPoints(points, { maxError: 1 });
+  for (const array of [scratch, tolerance, points]) array.fill(7);
+  (await Promise.all(given)).forEach((mesh, k) => {
+    const own = { tolerance: new Float32Array(z.length).fill(2 + k), transform: [0, 1, 0, 0, 0, -1] };
+    const mine = simplifySync(z.map(value => value + 1000 * k), width, height, own);
+    assert.deepEqual([mesh.positions, mesh.origin], [mine.positions, mine.origin]);
+  });
+  assert.equal((await last).triangleCount, 1);
+  pool.terminate();
+  await rejects(createPool({ size: 1, worker: () => null }).simplify(z, width, height, { maxError: 4 }), 'usage', /made null/);
+});
+
+test('a page of HTML is no module, and the sentence says so', async () => {
+  const { start } = await import('./node_modules/scarp/module.js?again');
+  const page = new TextEncoder().encode('<!doctype html><title>');
+  await assert.rejects(start(page), error => error.code === 'input' &&
+    /a page of HTML.*optimizeDeps: { exclude: \['scarp'\] }/.test(error.message) && !/refused/.test(error.message));
+  await assert.rejects(start(new Uint8Array(9)), { code: 'input', message: /begins with other bytes/ });
 });
 
 test('a signal cancels what runs, what waits and what has not begun', async () => {
@@ -231,6 +286,9 @@ test('simplify() needs neither ready() nor a pool', async () => {
 });
 
 test('bad input gets a sentence that names it', () => {
+  const flat = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], indices: [0, 1, 2] };
+  assert.ok(encodeGlb(flat).length > 0);
+  new Tiler(z, width, height, { bounds: [-180 - 1, -90 - 1, 180 + 1, 90 + 1] }).free();  // pixels around the poles
   const cases = [
     [() => simplifySync(z, width, height + 1, { maxError: 1 }), 'usage', /8051 values, and a raster of 97 x 84 has 8148/],
     [() => simplifySync(z, 1, z.length, { maxError: 1 }), 'usage', /width is 1/],
@@ -258,6 +316,33 @@ test('bad input gets a sentence that names it', () => {
     [() => createPool({ size: 0 }), 'usage', /size is 0/],
     [() => new Tiler(z, width, height, { bounds: [0, 0, 1, 1] }).layerJson(null), 'usage', /options are null/],
     [() => new Tiler(z, width, height, 'bounds'), 'usage', /options are a string/],
+    [() => simplifySync(z, width, height, { maxError: 1n }), 'usage', /maxError is the BigInt 1; it is a number/],
+    [() => simplifySync(z, width, height, { maxError: Symbol('x') }), 'usage', /maxError is Symbol/],
+    [() => simplifySync(z, width, height, { maxError: '' }), 'usage', /maxError is ''/],
+    [() => simplifySync(z, width, height, { maxTriangles: 0 }), 'usage', /maxTriangles is 0/],
+    [() => simplifySync(z, width, height, { maxError: 1, minShape: 'x' }), 'usage', /minShape is 'x'; it is a number, 0 to 0.5/],
+    [() => simplifySync(z, width, height, { maxError: 1, mask: () => 1 }), 'usage', /mask is a function/],
+    [() => simplifySync(z, width, height, { maxError: 1, signal: 'x' }), 'usage', /signal is 'x'; it is an AbortSignal/],
+    ...['abc', '', []].map(nodata => [() => simplifySync(z, width, height, { maxError: 1, nodata }), 'usage', /nodata is .*; it is a number/]),
+    [() => simplifySync(z, width, height, {}), 'usage', /set maxError, maxTriangles, maxVertices/],
+    [() => simplifySync(z, width, height, { maxError: 1, outlineTolerance: Infinity }), 'usage', /outlineTolerance must be/],
+    [() => simplifyPointsSync([0, 0, 1e39, 1, 0, 0, 0, 1, 0], { maxError: 1 }), 'promise', /float32: take doubles: true/],
+    [() => new Refiner(z, width, height, { noData: -9999 }), 'usage', /noData is unknown: did you mean nodata\?/],
+    [() => new Refiner(z, width, height).run({ maxErr: 50 }), 'usage', /maxErr is unknown: did you mean maxError\?/],
+    [() => new Refiner(z, width, height).run(null), 'usage', /options are null/],
+    ...[NaN, -1, 'x'].map(maxVertices => [() => new Refiner(z, width, height).run({ maxVertices }), 'usage', /maxVertices is .*whole number/]),
+    [() => createPool({ sise: 1 }), 'usage', /sise is unknown: did you mean size\?/],
+    [() => createPool({ worker: 'x' }), 'usage', /worker is 'x'; it is a function/],
+    [() => encodeGlb(flat, { compres: true }), 'usage', /did you mean compress/],
+    [() => encodeGlb({ ...flat, positions: [0, 0, NaN, 1, 0, 0, 0, 1, 0] }), 'input', /index 2 of the mesh's positions is NaN/],
+    [() => encodeGlb({ ...flat, indices: [0, 1, 3] }), 'input', /index 2 of the mesh's indices is 3, and a mesh of 3 vertices/],
+    [() => encodeGlb({ ...flat, indices: [0, 1] }), 'usage', /indices has 2 numbers/],
+    [() => encodeGlb({ ...flat, normals: [0, 0, 1] }), 'usage', /normals has 3 values/],
+    ...[[-2, -2], [1.6, 2.5]].map(sides => [() => decodeTile(new Uint8ClampedArray(16), ...sides), 'usage', /width is/]),
+    [() => new Tiler(z, width, height, {}), 'usage', /bounds is not given/],
+    [() => new Tiler(z, width, height, { bounds: [0, 80, 10, 100] }), 'usage', /latitudes go from -90 to 90/],
+    [() => new Tiler(z, width, height, { bounds: [-400, 0, 400, 10] }), 'usage', /800 degrees of longitude/],
+    [() => new Tiler(z, width, height, { bounds: [900, 0, 901, 1] }), 'input', /in bounds, or take crs/],
     ...[() => simplifySync(z, width, height, null), () => new Refiner(z, width, height, null), () => createPool(null), () => encodeGlb({}, null)]
       .map(work => [work, 'usage', /options are null/]),
   ];

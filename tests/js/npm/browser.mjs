@@ -1,5 +1,5 @@
-// The package in Chromium: browser.mjs CHROMIUM [BUNDLE=TOLD...]. A plain module makes the meshes of Node; each BUNDLE, a page
-// in this folder or beside it, tells TOLD.
+// The package in Chromium: browser.mjs CHROMIUM TOLD [BUNDLE...]. A plain module makes the meshes of Node; each BUNDLE, a page
+// in this folder or beside it (file:), or from the dev server of vite without a configuration (dev:), tells TOLD.
 import { pathToFileURL } from 'node:url';
 import { open_page } from './open_page.mjs';
 import { serve } from './serve.mjs';
@@ -7,6 +7,13 @@ import { serve } from './serve.mjs';
 const [program, told, ...bundles] = process.argv.slice(2);
 const server = await serve(process.cwd());
 const { browser, page, errors } = await open_page(server.address, { width: 400, height: 300 }, program);
+/// The dev server, and a page of it; it packs what the page imports at the first visit.
+async function open_dev(page) {
+  const { createServer } = await import('vite');
+  const dev = await createServer({ root: process.cwd(), configFile: false, logLevel: 'warn', server: { host: '127.0.0.1' } });
+  await dev.listen();
+  return { address: `${dev.resolvedUrls.local[0]}${page}`, close: () => dev.close() };
+}
 const visit = async address => {
   await page.goto(address);
   await page.waitForFunction(() => window.told !== undefined);
@@ -31,8 +38,10 @@ try {
   if (strict.refused !== 'unsupported' || !/wasm-unsafe-eval/.test(strict.message)) fail('a refusal of WebAssembly has no sentence');
   errors.length = 0;
   for (const bundle of bundles) {
-    const address = bundle.startsWith('file:') ? pathToFileURL(bundle.slice(5)).href : `${server.address}/${bundle}`;
-    const answer = await visit(address);
+    const dev = bundle.startsWith('dev:') ? await open_dev(bundle.slice(4)) : null;
+    const answer = await visit(dev?.address ?? (bundle.startsWith('file:') ? pathToFileURL(bundle.slice(5)).href : `${server.address}/${bundle}`));
+    if (dev) await page.goto('about:blank');  // or it misses the server
+    await dev?.close();
     console.log(bundle, answer);
     if (answer !== told) fail(`${bundle} tells ${answer}, and Node ${told}`);
     if (errors.length > 0) fail(`${bundle}: ${errors.splice(0).join('\n')}`);

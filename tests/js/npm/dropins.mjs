@@ -29,6 +29,7 @@ test('delatin: the same names and, but for ties, the same mesh', () => {
   const { coords, triangles } = mine;
   const positions = Array.from({ length: coords.length / 2 }, (_, v) => [coords[2 * v], side - 1 - coords[2 * v + 1], z[coords[2 * v + 1] * side + coords[2 * v]]]).flat();
   assert.ok(Math.abs(mine.getRMSD() / measure(z, side, side, { positions, indices: triangles }).rmse - 1) < 1e-9);
+  assert.ok(mine.coords === mine.coords && mine.triangles === mine.triangles, 'loops over them are not quadratic');
   const before = mine.coords.length;
   mine.refine();
   assert.equal(mine.coords.length, before + 2);

@@ -13,8 +13,11 @@ const mesh: Mesh = simplifySync(z, 65, 65, { maxError: 1, effort: 'high', onProg
 const report: Report = measure(z, 65, 65, mesh);
 const later: Promise<Mesh> = simplify(z, 65, 65, { maxTriangles: 100, signal: new AbortController().signal, transfer: true });
 const pool = createPool({ size: 2 });
-const glb: Uint8Array = encodeGlb(await pool.simplify(decodeTile(new Uint8ClampedArray(16), 2, 2, 'mapbox'), 2, 2, { maxError: 1 }));
-const refiner = new Refiner([1, 2, 3, 4], 2, 2), lite = new Lite(z, 65, 65);
+const glb = encodeGlb(await pool.simplify(decodeTile(new Uint8ClampedArray(16), 2, 2, 'mapbox'), 2, 2, { maxError: 1 }));
+const files: BlobPart[] = [glb, mesh.positions, mesh.indices];
+const blob = new Blob(files), file = new File([encodeGlb(mesh)], 'a.glb'), response = new Response(encodeGlb(mesh));
+postMessage(mesh, '*', mesh.transferables());
+const refiner = new Refiner([1, null, 3, 4], 2, 2, { nodata: null }), lite = new Lite(z, 65, 65);
 const inserted: number = refiner.run({ maxError: 1 }) + lite.run({ maxVertices: 10 });
 const tile: Uint8Array = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).tile(0, 1, 0).bytes;
 const layer: LayerJson = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).layerJson({ name: 'land' });
@@ -27,4 +30,4 @@ const code: 'usage' | string = new ScarpError('usage', 'a sentence').code;
 simplifySync(z, 65, 65, { maxError: 1, effort: 'best' });
 // @ts-expect-error: no such option
 simplifySync(z, 65, 65, { maxEror: 1 });
-export { code, coords, glb, inlined, inserted, later, layer, loaded, points, report, tile, vertices, TerrainLoader };
+export { blob, file, response, code, coords, glb, inlined, inserted, later, layer, loaded, points, report, tile, vertices, TerrainLoader };

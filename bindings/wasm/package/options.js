@@ -1,0 +1,118 @@
+// The options of every entry: one table of their kinds, and one check.
+import { ScarpError } from './error.js';
+
+const EFFORTS = ['auto', 'fast', 'normal', 'high', 'max'];
+
+const isArray = value => ArrayBuffer.isView(value) ? !(value instanceof DataView) : Array.isArray(value);
+const number = (least = -Infinity, most = Infinity) => ({
+  fits: value => typeof value === 'number' && value >= least && value <= most,
+  is: most < Infinity ? `a number, ${least} to ${most}` : least === -Infinity ? 'a number' : `a number, at least ${least}`,
+});
+const whole = (least, most = Number.MAX_SAFE_INTEGER) => ({
+  fits: value => Number.isSafeInteger(value) && value >= least && value <= most,
+  is: most < Number.MAX_SAFE_INTEGER ? `a whole number, ${least} to ${most}` : `a whole number, at least ${least}`,
+});
+const choice = (...list) => ({ fits: value => list.includes(value), is: `one of ${list.join(', ')}`, list });
+const kind = (fits, is) => ({ fits, is });
+/// null stands for none, as files without it have it.
+const orNull = ({ fits, is }) => ({ fits: value => value === null || fits(value), is });
+
+const flag = kind(value => typeof value === 'boolean', 'true or false');
+const work = orNull(kind(value => typeof value === 'function', 'a function'));
+const text = kind(value => typeof value === 'string', 'a text');
+const numbers = count => kind(value => isArray(value) &&
+  value.length === count && Array.from(value).every(Number.isFinite), `an array of ${count} finite numbers`);
+const bySample = orNull(kind(isArray, 'an array of numbers, one for each sample'));
+
+const TABLE = {
+  maxError: number(0), maxTriangles: whole(1), maxVertices: whole(1),
+  effort: choice(...EFFORTS), vertices: choice('auto', 'samples', 'free'), order: choice('auto', 'greedy', 'dominant'), objective: choice('max', 'rms'),
+  duplicates: choice('first', 'last', 'highest', 'lowest', 'mean'),
+  minShape: number(0, 0.5), outlineTolerance: number(0),
+  normals: flag, uvs: flag, lattice: flag, doubles: flag, lockBorder: flag, compress: flag, degrees: flag, transfer: flag,
+  mask: bySample, tolerance: bySample,
+  nodata: orNull(kind(value => typeof value === 'number', 'a number')), transform: orNull(numbers(6)),
+  onProgress: work, worker: work, signal: orNull(kind(value => typeof value.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal')),
+  size: whole(1, 1024), height: whole(2), bounds: numbers(4), crs: choice('degrees', 'mercator'), cells: whole(16), maxZoom: whole(0), quality: number(0.5),
+  background: number(), name: text, attribution: text, tiles: kind(value => isArray(value) && value.every(one => typeof one === 'string'), 'an array of texts'),
+};
+
+const PLACE = ['nodata', 'transform', 'degrees'];
+const GOALS = ['maxError', 'maxTriangles', 'maxVertices'];
+const RUN = ['onProgress', 'signal', 'transfer'];
+/// What each entry takes.
+export const ENTRIES = {
+  simplify: [...GOALS, 'effort', 'vertices', 'order', 'objective', 'minShape', 'outlineTolerance', 'normals', 'uvs', 'lattice', 'doubles',
+    'lockBorder', 'mask', 'tolerance', ...PLACE, ...RUN],
+  simplifyPoints: [...GOALS, 'duplicates', 'doubles', ...RUN],
+  place: PLACE,
+  refine: ['maxError', 'maxVertices'],
+  pool: ['size', 'worker'],
+  glb: ['compress'],
+  tiler: ['bounds', 'crs', 'nodata', 'cells', 'maxZoom', 'maxError', 'quality', 'effort', 'background'],
+  layerJson: ['name', 'attribution', 'tiles'],
+  martini: ['height', 'effort'],
+};
+
+/// The number of a choice in the library's list of them.
+export const choose = (name, value) => TABLE[name].list.indexOf(value);
+
+/// A value as a sentence shows it.
+export function show(value) {
+  if (typeof value === 'string') return `'${value.slice(0, 40)}'`;
+  if (typeof value === 'bigint') return `the BigInt ${value}`;
+  if (typeof value === 'function') return 'a function';
+  if (isArray(value)) return `an array of ${value.length}`;
+  return typeof value === 'object' && value ? 'an object' : String(value);
+}
+
+/// Letters to change, insert or remove between two words.
+function distance(a, b) {
+  let row = Array.from({ length: b.length + 1 }, (_, k) => k);
+  for (let i = 1; i <= a.length; ++i) {
+    const next = [i];
+    for (let j = 1; j <= b.length; ++j) next.push(Math.min(row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] === b[j - 1] ? 0 : 1)));
+    row = next;
+  }
+  return row[b.length];
+}
+
+function findNear(name, known) {
+  const plain = word => word.toLowerCase().replace(/[^a-z]/g, '');
+  const far = known.map(one => [distance(plain(name), plain(one)) / one.length, one]).sort(([a], [b]) => a - b);
+  const [share, near] = far[0];
+  return share <= 0.4 ? near : known.find(one => plain(one).startsWith(plain(name)) && plain(name).length > 2);
+}
+
+/// The options of an entry that are given, checked.
+export function takeOptions(options, entry) {
+  if (options === null || typeof options !== 'object' || isArray(options))
+    throw new ScarpError('usage', `the options are ${options === null ? 'null' : isArray(options) ? 'an array' : `a ${typeof options}`}, and no object: ` +
+      'leave them out, or give { name: value }');
+  const known = ENTRIES[entry], taken = {};
+  for (const [name, value] of Object.entries(options)) {
+    if (!known.includes(name)) {
+      const near = findNear(name, known);
+      throw new ScarpError('usage', `option ${name} is unknown${near ? `: did you mean ${near}? Known are` : '; known are'} ${known.join(', ')}`);
+    }
+    if (value === undefined) continue;
+    const { fits, is } = TABLE[name];
+    if (!fits(value)) throw new ScarpError('usage', `${name} is ${show(value)}; it is ${is}`);
+    if (value !== null) taken[name] = value;
+  }
+  return taken;
+}
+
+/// Sentences of the library in the package's words.
+const WORDS = [
+  [/write OBJ or PLY, whose positions are double/, 'take doubles: true'],
+  [/(?:or use|write in) the local or grid frame/, 'leave transform out'],
+  [/choose the frame 'source'/, 'leave degrees out'],
+  [/choose a polar CRS such as EPSG:3413 or EPSG:3031/, 'leave degrees out if the transform is in other units'],
+  [/\(gdal_edit -a_ullr, or gdal_edit -a_srs if they are not degrees\)/, "in bounds, or take crs: 'mercator' if they are its metres"],
+  [/\b[a-z]+(?:_[a-z]+)+\b/g, word => {
+    const name = word.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+    return TABLE[name] ? name : word;
+  }],
+];
+export const translate = sentence => WORDS.reduce((told, [theirs, ours]) => told.replace(theirs, ours), sentence);
