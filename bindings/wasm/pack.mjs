@@ -11,7 +11,7 @@ const staged = path.join(build, 'npm');
 
 /// The worker and what it imports in one script: each file a function, after those that it needs.
 function join_worker() {
-  const files = ['number.js', 'error.js', 'options.js', 'module.js', 'heights.js', 'mesh.js', 'simplify.js', 'alive.js', 'worker.js'];
+  const files = ['number.js', 'error.js', 'options.js', 'module.js', 'heights.js', 'mesh.js', 'simplify.js', 'hills.js', 'warm.js', 'alive.js', 'worker.js'];
   const parts = files.map(file => {
     const text = fs.readFileSync(`${here}/package/${file}`, 'utf8').replace(/^\s*\/\/.*\n/gm, '');
     const names = [...text.matchAll(/^export (?:async )?(?:const|function|class) (\w+)/gm)].map(([, name]) => name);

@@ -1,5 +1,9 @@
 // What the entries for rasters export.
 import { pool } from './pool.js';
+import { defaults } from './ready.js';
+import { simplifyHills } from './warm.js';
+
+defaults.warm ??= simplifyHills;
 
 export { ScarpError } from './error.js';
 export { isStarted as isReady, version } from './module.js';

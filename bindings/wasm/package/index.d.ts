@@ -21,8 +21,10 @@ export class ScarpError extends Error {
 /**
  * Loads the library, once. The asynchronous functions call it themselves.
  * @param source The bytes of scarp.wasm, their URL or Response, or a compiled module. Default: the file beside the script.
+ * @param options warm: runs small rasters, too, in a quarter of a second, so that engines have optimised the library before the
+ * first call, which takes up to seven times as long as later ones else. Workers of a pool do so by themselves.
  */
-export function ready(source?: BufferSource | URL | string | Response | WebAssembly.Module): Promise<void>;
+export function ready(source?: BufferSource | URL | string | Response | WebAssembly.Module, options?: { warm?: boolean }): Promise<void>;
 export function isReady(): boolean;
 export function version(): string;
 

@@ -29,7 +29,7 @@ const TABLE = {
   effort: choice(...EFFORTS), vertices: choice('auto', 'samples', 'free'), order: choice('auto', 'greedy', 'dominant'), objective: choice('max', 'rms'),
   duplicates: choice('first', 'last', 'highest', 'lowest', 'mean'),
   minShape: number(0, 0.5), outlineTolerance: number(0),
-  normals: flag, uvs: flag, lattice: flag, doubles: flag, lockBorder: flag, compress: flag, degrees: flag, transfer: flag,
+  normals: flag, uvs: flag, lattice: flag, doubles: flag, lockBorder: flag, compress: flag, degrees: flag, transfer: flag, warm: flag,
   mask: bySample, tolerance: bySample,
   nodata: orNull(kind(value => typeof value === 'number', 'a number')), transform: orNull(numbers(6)),
   onProgress: work, worker: work, signal: orNull(kind(value => typeof value.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal')),
@@ -50,6 +50,7 @@ export const ENTRIES = {
   pool: ['size', 'worker'],
   glb: ['compress'],
   tiler: ['bounds', 'crs', 'nodata', 'cells', 'maxZoom', 'maxError', 'quality', 'effort', 'background'],
+  ready: ['warm'],
   layerJson: ['name', 'attribution', 'tiles'],
   martini: ['height', 'effort'],
 };

@@ -2,25 +2,16 @@
 import { holdLock } from './alive.js';
 import { start } from './module.js';
 import { simplifyPointsSync, simplifySync } from './simplify.js';
+import { simplifyHills } from './warm.js';
 
 const WORKS = { simplify: simplifySync, simplifyPoints: simplifyPointsSync };
-
-/// Compilers of WebAssembly optimise what has run: a small raster, so that the first of the caller's is not slow.
-function warmUp() {
-  const side = 65;
-  const z = Float32Array.from({ length: side * side }, (_, k) => {
-    const x = k % side, y = Math.floor(k / side);
-    return 20 * Math.sin(x / 7) * Math.cos(y / 5) + ((x * 7919 + y * 104729) % 97) / 20;
-  });
-  for (const effort of ['fast', 'normal']) simplifySync(z, side, side, { maxError: 1, effort });
-}
 
 async function answer({ id, work, module, args, flag, tells }, post) {
   try {
     if (module) {
       post({ lock: await holdLock() });
       await start(module);
-      warmUp();
+      simplifyHills();
       post({ id });
       return;
     }

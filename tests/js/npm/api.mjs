@@ -28,6 +28,8 @@ test('before ready() a sentence says so', () => refuses(() => simplifySync(z, wi
 
 test('ready() may be called twice, and the version is the library’s', async () => {
   await Promise.all([ready(), ready()]);
+  await ready(undefined, { warm: true });
+  await assert.rejects(ready(undefined, { hot: true }), { code: 'usage', message: /hot/ });
   assert.equal(scarp.version(), JSON.parse(fs.readFileSync('node_modules/scarp/package.json')).version);
 });
 
