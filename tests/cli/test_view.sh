@@ -68,7 +68,7 @@ succeeds "$scarp" tile "$dem" draped --of 3dtiles --vertical egm96 --zoom 10 --d
 succeeds "$scarp" view draped
 refuses 1 "tile check set --source $dem" "$scarp" view set "$dem" -o x.html
 mkdir folder
-refuses 2 'it is a folder' "$scarp" view folder -o x.html
+refuses 2 'folder is a folder without layer.json or tileset.json' "$scarp" view folder -o x.html
 cp -r set damaged
 tile=$(find damaged -path "*/$(ls set | grep -E '^[0-9]+$' | sort -n | tail -1)/*.terrain" | sort | head -1)
 head -c 200 "$tile" > cut

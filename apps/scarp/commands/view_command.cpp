@@ -163,6 +163,11 @@ Result<void> ViewCommand::run() const {
                             "--source {}' judges it",
                             mesh_, shell_word(mesh_), shell_word(raster_.path())));
   }
+  if (std::error_code error; !is_set && std::filesystem::is_directory(mesh_, error)) {
+    return fail(ErrorKind::kInput, fmt::format("{} is a folder without layer.json or tileset.json, so no set of tiles: "
+                                               "name the folder that holds one of them, or a mesh",
+                                               mesh_));
+  }
   const auto page_template = read_page_template();
   if (!page_template) return tl::unexpected(page_template.error());
   const std::string path =
