@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "scarp/glb.h"
@@ -32,6 +33,10 @@ struct LevelMesh {
 /// do, until their tiles are more than four times as wide or as high as all of the set's finest level. Fails with
 /// kInput for tiles that are damaged, and with kUsage where no level is so small. Cost: O(tiles that are read).
 Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::uint64_t most_bytes);
+
+/// Sentences of what the set holds other than it says: tiles that are missing or not announced, a layer.json or
+/// tileset.json that makes no sense. Empty of a whole set. Cost: O(tiles), none of which is read.
+std::vector<std::string> find_set_faults(const TileSetReader& set);
 
 }  // namespace scarp
 

@@ -4,7 +4,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
+#include "check/availability.h"
 #include "check/client_tile.h"
 #include "io/tiles/set_claims.h"
 #include "scarp/tile_set_mesh.h"
@@ -156,6 +158,15 @@ Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::
   if (levels.empty())
     return fail(ErrorKind::kUsage, fmt::format("the tiles of each level take more than {} bytes", most_bytes));
   return levels;
+}
+
+std::vector<std::string> find_set_faults(const TileSetReader& set) {
+  const SetClaims claims = read_set_claims(set);
+  std::vector<TileFault> faults;
+  check_availability(set, claims, claims.grid, faults);
+  std::vector<std::string> sentences;
+  for (TileFault& fault : faults) sentences.push_back(std::move(fault.sentence));
+  return sentences;
 }
 
 }  // namespace scarp

@@ -57,6 +57,7 @@ refuses 1 '--html cannot be combined with --solid' "$scarp" simplify "$dem" x.st
 succeeds "$scarp" tile "$dem" set --vertical egm96 -e 20 -q
 succeeds "$scarp" tile "$dem" set.3tz --of 3dtiles --vertical egm96 -e 20 -q
 succeeds "$scarp" view set/
+! grep -q 'not whole' "$logs/err" || fail "a whole set is said not to be: $(cat "$logs/err")"
 [ -s set.html ] || fail "the page of a folder is elsewhere"
 succeeds "$scarp" view set.3tz -o archive.html
 succeeds "$scarp" generate fractal 150 150 no_place.tif -q
@@ -77,6 +78,9 @@ refuses 2 'damaged: ' "$scarp" view damaged -o x.html
 head -c 9000000 /dev/zero > "$tile"
 succeeds "$scarp" view damaged -o large.html
 grep -q "the finest level of the page is 10 of 11.* 'scarp serve damaged'" "$logs/err" || fail "a level that is left out is not told: $(cat "$logs/err")"
+rm "$tile"
+succeeds "$scarp" view damaged -o thin.html
+grep -q "damaged is not whole: .* is announced, but missing; 'scarp tile check damaged'" "$logs/err" || fail "a missing tile is not told: $(cat "$logs/err")"
 # Elsewhere, without its page: a sentence that tells how to build it.
 mkdir -p other/bin
 cp "$scarp" other/bin/

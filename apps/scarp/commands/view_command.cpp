@@ -81,6 +81,11 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
         "all of them to globes, with a page of docs/guide/globe.md",
         levels->front().z, finest, format_bytes(kMostTileBytes), shell_word(path)));
   }
+  if (const auto faults = find_set_faults(**set); !faults.empty()) {
+    const std::string more = faults.size() > 1 ? fmt::format(", and {} more", faults.size() - 1) : "";
+    warnings.push_back(fmt::format("{} is not whole: {}{}; 'scarp tile check {}' tells all", path, faults.front(), more,
+                                   shell_word(path)));
+  }
   std::vector<PageMesh> meshes;
   for (const LevelMesh& level : *levels) {
     auto glb = encode_level(level);
