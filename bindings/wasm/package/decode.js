@@ -1,6 +1,6 @@
 // Heights of the pixels of terrain tiles.
 import { ScarpError } from './error.js';
-import { checkSide } from './heights.js';
+import { checkArray, checkSide } from './heights.js';
 
 /// Metres: scaler · value, summed, plus the offset.
 const ENCODINGS = {
@@ -17,8 +17,8 @@ export function decodeTile(rgba, width, height, encoding = 'terrarium') {
   }
   checkSide('width', width, 1);
   checkSide('height', height, 1);
-  if (rgba?.length !== 4 * width * height)
-    throw new ScarpError('usage', `a tile of ${width} x ${height} pixels has ${4 * width * height} bytes, and ${rgba?.length} were given`);
+  if (checkArray('the pixels', rgba).length !== 4 * width * height)
+    throw new ScarpError('usage', `a tile of ${width} x ${height} pixels has ${4 * width * height} bytes, and ${rgba.length} were given`);
   const z = new Float32Array(width * height);
   for (let k = 0; k < z.length; ++k) {
     const at = 4 * k;

@@ -1,5 +1,6 @@
 // GLB: glTF 2.0 in one file, y up. A JSON chunk describes one binary chunk of arrays by vertex and indices.
 import { ScarpError } from './error.js';
+import { checkFloat32 } from './heights.js';
 import { checkMesh } from './mesh.js';
 import { takeOptions } from './options.js';
 import { encodeAttributes, encodeTriangles, orderForCodec } from './meshopt.js';
@@ -165,15 +166,18 @@ function addPlain(glb, { positions, indices, normals, uvs }) {
 export function encodeGlb(mesh, options = {}) {
   const { compress = false } = takeOptions(options, 'glb');
   const checked = checkMesh(mesh), [x, y, z] = checked.origin;
+  for (const name of ['positions', 'origin', 'normals', 'uvs']) if (checked[name]) checkFloat32(`the mesh's ${name}`, checked[name]);
   const glb = new Builder();
   const { shift, scale, ...primitive } = (compress ? addCompressed : addPlain)(glb, checked);
+  const translation = [x + shift[0], z + shift[1], 0 - y + shift[2]];
+  checkFloat32('the translation of the node', translation);
   const extensions = compress ? ['KHR_mesh_quantization', MESHOPT] : [];
   return glb.assemble({
     asset: { version: '2.0', generator: 'Scarp' },
     ...(compress ? { extensionsUsed: extensions, extensionsRequired: extensions } : {}),
     scene: 0,
     scenes: [{ nodes: [0] }],
-    nodes: [{ name: 'terrain', mesh: 0, translation: [x + shift[0], z + shift[1], 0 - y + shift[2]], scale }],
+    nodes: [{ name: 'terrain', mesh: 0, translation, scale }],
     meshes: [{ name: 'terrain', primitives: [{ ...primitive, material: 0, mode: 4 }] }],
     materials: [{ name: 'earth', pbrMetallicRoughness: { baseColorFactor: [0.47, 0.42, 0.33, 1], metallicFactor: 0, roughnessFactor: 1 } }],
   });

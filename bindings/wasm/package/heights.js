@@ -1,7 +1,8 @@
 // What callers give as heights: checked, in float32, and in the module's memory.
 import { ScarpError } from './error.js';
-import { show } from './options.js';
+import { article, kindOf, show } from './options.js';
 
+const FARTHEST = '3.4028235e38';
 const EXACT = [Float32Array, Int16Array, Uint16Array, Int8Array, Uint8Array, Uint8ClampedArray];
 
 export function refuse(message) {
@@ -19,6 +20,12 @@ export function checkLength(name, values, count, grid) {
                     : `${name} has ${values.length} values, and ${grid} has ${count}`);
 }
 
+/// The way out with arrays that hold no numbers.
+const WAYS = {
+  BigInt64Array: 'its BigInts are numbers in Float64Array.from(array, Number)', BigUint64Array: 'its BigInts are numbers in Float64Array.from(array, Number)',
+  DataView: 'give a typed array over its buffer', ArrayBuffer: 'give a typed array over it', SharedArrayBuffer: 'give a typed array over it',
+};
+
 /// A typed array as it is; of an array the numbers. `voidOf`: what null stands for, as NaN is in JSON.
 export function checkArray(name, values, voidOf = undefined) {
   if (Array.isArray(values)) {
@@ -27,21 +34,41 @@ export function checkArray(name, values, voidOf = undefined) {
     if (odd >= 0) refuse(`index ${odd} of ${name} is ${show(values[odd])}, and no number${advice}`);
     return voidOf === undefined ? values : values.map(value => value ?? voidOf);
   }
-  if (!ArrayBuffer.isView(values) || values instanceof DataView || values instanceof BigInt64Array || values instanceof BigUint64Array)
-    refuse(`${name} ${name.endsWith('s') ? 'are' : 'is'} no array of numbers, but ${show(values)}`);
+  const kind = kindOf(values);
+  if (!ArrayBuffer.isView(values) || WAYS[kind])
+    refuse(`${name} ${name.endsWith('s') ? 'are' : 'is'} no array of numbers, but ${WAYS[kind] ? `${article(kind)}: ${WAYS[kind]}` : show(values)}`);
   return values;
 }
 
-/// Float32 of the values, and the largest rounding among those that are heights.
+/// The nodata that float32 values may have: NaN, which is none, of one that no such value is.
+function roundNodata(values, nodata = NaN) {
+  const near = Math.fround(nodata);
+  return near === nodata || (values instanceof Float32Array && near !== 0) ? near : NaN;
+}
+
+/// Float32 of the values, their nodata, and the largest rounding among those that are heights. Rounded values have NaN for nodata, which
+/// they are compared with as they were given.
 function round(values, nodata) {
-  if (EXACT.some(Kind => values instanceof Kind)) return { samples: values instanceof Float32Array ? values : Float32Array.from(values), rounding: 0 };
+  if (EXACT.some(Kind => values instanceof Kind))
+    return { samples: values instanceof Float32Array ? values : Float32Array.from(values), nodata: roundNodata(values, nodata), rounding: 0 };
   const samples = Float32Array.from(values);
   let rounding = 0;
   for (let k = 0; k < samples.length; ++k) {
+    if (values[k] === nodata) {
+      samples[k] = NaN;
+      continue;
+    }
     const moved = Math.abs(values[k] - samples[k]);
-    if (moved > rounding && moved < Infinity && values[k] !== nodata) rounding = moved;
+    if (moved === Infinity) checkFloat32('the heights', values, nodata);
+    if (moved > rounding) rounding = moved;
   }
-  return { samples, rounding };
+  return { samples, nodata: NaN, rounding };
+}
+
+/// Refuses numbers that float32 makes infinite.
+export function checkFloat32(name, values, nodata = undefined) {
+  const far = values.findIndex(value => Number.isFinite(value) && !Number.isFinite(Math.fround(value)) && value !== nodata);
+  if (far >= 0) throw new ScarpError('input', `index ${far} of ${name} is ${values[far]}, and float32 ends at ${FARTHEST}: scale or move ${name}`);
 }
 
 /// Checks heights without a copy of those that are float32. `z`: a typed array, or another array of numbers; `given`: the same, without null.
@@ -67,9 +94,9 @@ export function takeBeside(name, values, width, height) {
 
 /// A Field of the door (door.h), whose samples `blocks` hold.
 export function putField(blocks, z, width, height, { nodata, transform, degrees = false } = {}) {
-  const { samples, rounding } = checkHeights(z, width, height, nodata);
+  const { samples, rounding, nodata: hole } = checkHeights(z, width, height, nodata);
   if (degrees && !transform) refuse('degrees: true needs a transform, which says where the samples lie');
   const place = transform === undefined ? 0 : degrees ? 2 : 1;
   const geotransform = Array.from(transform ?? [0, 1, 0, 0, 0, -1]);
-  return { address: putDoubles(blocks, blocks.put(samples), width, height, nodata ?? NaN, rounding, place, geotransform), rounding };
+  return { address: putDoubles(blocks, blocks.put(samples), width, height, hole, rounding, place, geotransform), rounding };
 }

@@ -1,6 +1,6 @@
 /**
  * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and every maxError counts
- * the largest rounding. null in an array is no height, as NaN is.
+ * the largest rounding. A height beyond float32's range (3.4e38) is refused. null in an array is no height, as NaN is.
  */
 export type Heights = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array
   | Int32Array | Uint32Array | readonly (number | null)[];
@@ -30,7 +30,7 @@ export function version(): string;
 
 /** Where samples lie. Without a transform x is the column, and y counts rows from the last one up. */
 export interface Place {
-  /** A value that is no height. NaN and infinities never are. */
+  /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN and infinities never are. */
   nodata?: number | null;
   /** GDAL's geotransform, of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
   transform?: ArrayLike<number> | null;

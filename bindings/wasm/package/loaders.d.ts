@@ -1,10 +1,11 @@
+/** Others are refused by name; the loader leaves out loaders.gl's tesselator and workerUrl. */
 export interface TerrainOptions {
   /** West, south, east, north of the mesh. Default: pixels. */
-  bounds?: number[];
+  bounds?: ArrayLike<number> | null;
   meshMaxError?: number;
   elevationDecoder?: { rScaler: number, gScaler: number, bScaler: number, offset: number } | 'terrarium' | 'mapbox';
   /** Height of walls below the edges. */
-  skirtHeight?: number;
+  skirtHeight?: number | null;
   effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
 }
 export interface TerrainMesh {

@@ -1,6 +1,7 @@
 // In place of loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: heights as they are, without a border of zeros, and an error
 // that is kept. Loads pictures of tiles (terrarium, mapbox or any elevationDecoder) to meshes. It needs no ready().
 import { ScarpError, decodeTile, ready, simplifySync } from './index.js';
+import { show, takeOptions } from './options.js';
 import { buildSkirts } from './skirts.js';
 
 const DEFAULTS = {
@@ -38,7 +39,8 @@ function addSkirts(attributes, triangles, height) {
 
 /// `image`: { data, width, height } with four bytes a pixel. Needs ready().
 export function makeTerrainMesh(image, options = {}) {
-  const { bounds, meshMaxError, elevationDecoder, skirtHeight, effort } = { ...DEFAULTS, ...options };
+  const { bounds, meshMaxError, elevationDecoder, skirtHeight, effort } = { ...DEFAULTS, ...takeOptions(options, 'terrain') };
+  if (image === null || typeof image !== 'object') throw new ScarpError('usage', `the image is ${show(image)}; it is { data, width, height }`);
   const { data, width, height } = image;
   const z = decodeTile(data, width, height, elevationDecoder);
   const mesh = simplifySync(z, width, height, { maxError: meshMaxError, effort });
@@ -81,6 +83,7 @@ export const TerrainLoader = {
   options: { terrain: DEFAULTS },
   async parse(bytes, options = {}) {
     const [image] = await Promise.all([decodeImage(bytes), ready()]);
-    return makeTerrainMesh(image, options.terrain);
+    const { tesselator, workerUrl, ...ours } = options.terrain ?? {};  // what loaders.gl tells its own loader
+    return makeTerrainMesh(image, ours);
   },
 };

@@ -1,5 +1,6 @@
 // In place of @mapbox/martini: the same names, any size, and an error that is kept. Needs ready().
 import { ScarpError, simplifySync } from './index.js';
+import { checkArray, checkLength, checkSide } from './heights.js';
 import { takeOptions } from './options.js';
 import { buildSkirts } from './skirts.js';
 
@@ -39,6 +40,7 @@ class Tile {
 export default class Martini {
   /// `gridSize`: samples a side, any; `effort`: as simplifySync() takes it.
   constructor(gridSize = 257, options = {}) {
+    checkSide('gridSize', gridSize);
     const { height = gridSize, effort = 'normal' } = takeOptions(options, 'martini');
     if (gridSize > 65536 || height > 65536) throw new ScarpError('usage', 'columns and rows are Uint16: at most 65536 samples a side');
     this.gridSize = this.width = gridSize;
@@ -46,8 +48,7 @@ export default class Martini {
     this.effort = effort;
   }
   createTile(terrain) {
-    if (terrain?.length !== this.width * this.height)
-      throw new ScarpError('usage', `the terrain has ${terrain?.length} values, and a grid of ${this.width} x ${this.height} has ${this.width * this.height}`);
+    checkLength('the terrain', checkArray('the terrain', terrain, NaN), this.width * this.height, `a grid of ${this.width} x ${this.height}`);
     return new Tile(terrain, this);
   }
 }

@@ -2,7 +2,7 @@
 
 import { ScarpError } from './error.js';
 import { printNumber } from './number.js';
-import { translate } from './options.js';
+import { show, translate } from './options.js';
 
 const KINDS = ['usage', 'memory', 'input', 'promise', 'output', 'cancelled', 'internal'];
 
@@ -94,6 +94,8 @@ async function readBytes(response) {
 async function takeBytes(source) {
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return checkBytes(source, 'what ready() was given');
   if (source instanceof Response) return checkBytes(await readBytes(source), source.url || 'the Response');
+  if (typeof source !== 'string' && typeof source?.href !== 'string')
+    throw new ScarpError('usage', `ready() was given ${show(source)}; it takes the module's bytes, their URL or Response, or a WebAssembly.Module`);
   return checkBytes(await fetchBytes(source), source);
 }
 
@@ -135,7 +137,11 @@ export function start(source) {
 /// Calls a function of the module. `progress` is asked during the call; false cancels.
 export function call(name, args, progress) {
   if (!functions) throw new ScarpError('usage', "the library is not loaded yet: await ready() first");
-  if (!functions[name]) throw new ScarpError('usage', 'this module does not hold that: import scarp for rasters, scarp/full for points and tiles');
+  if (!functions[name]) {
+    const loaded = functions.scarp_simplify ? 'scarp' : 'scarp/lite';
+    throw new ScarpError('usage', `the module of ${loaded} was loaded first, and does not hold that: in place of ${loaded} import ` +
+      `${/points|tiler/.test(name) ? 'scarp/full, which has points and tiles' : 'scarp, or scarp/full'}`);
+  }
   const outer = [tell, thrown];
   [tell, thrown] = [progress, null];
   try {

@@ -5,8 +5,8 @@ const EFFORTS = ['auto', 'fast', 'normal', 'high', 'max'];
 
 const isArray = value => ArrayBuffer.isView(value) ? !(value instanceof DataView) : Array.isArray(value);
 const number = (least = -Infinity, most = Infinity) => ({
-  fits: value => typeof value === 'number' && value >= least && value <= most,
-  is: most < Infinity ? `a number, ${least} to ${most}` : least === -Infinity ? 'a number' : `a number, at least ${least}`,
+  fits: value => Number.isFinite(value) && value >= least && value <= most,
+  is: most < Infinity ? `a number, ${least} to ${most}` : least === -Infinity ? 'a finite number' : `a number, at least ${least} and finite`,
 });
 const whole = (least, most = Number.MAX_SAFE_INTEGER) => ({
   fits: value => Number.isSafeInteger(value) && value >= least && value <= most,
@@ -15,13 +15,17 @@ const whole = (least, most = Number.MAX_SAFE_INTEGER) => ({
 const choice = (...list) => ({ fits: value => list.includes(value), is: `one of ${list.join(', ')}`, list });
 const kind = (fits, is) => ({ fits, is });
 /// null stands for none, as files without it have it.
-const orNull = ({ fits, is }) => ({ fits: value => value === null || fits(value), is });
+const orNull = ({ fits, ...told }) => ({ fits: value => value === null || fits(value), ...told });
+/// An array of items that fit; a sentence names the first that does not.
+const items = (fits, item, is, count = undefined) => {
+  const findOdd = value => (isArray(value) && value.length === (count ?? value.length) ? Array.from(value).findIndex(one => !fits(one)) : undefined);
+  return { fits: value => findOdd(value) === -1, is, item, findOdd };
+};
 
 const flag = kind(value => typeof value === 'boolean', 'true or false');
 const work = orNull(kind(value => typeof value === 'function', 'a function'));
 const text = kind(value => typeof value === 'string', 'a text');
-const numbers = count => kind(value => isArray(value) &&
-  value.length === count && Array.from(value).every(Number.isFinite), `an array of ${count} finite numbers`);
+const numbers = count => items(Number.isFinite, 'finite number', `an array of ${count} finite numbers`, count);
 const bySample = orNull(kind(isArray, 'an array of numbers, one for each sample'));
 
 const TABLE = {
@@ -33,8 +37,11 @@ const TABLE = {
   mask: bySample, tolerance: bySample,
   nodata: orNull(kind(value => typeof value === 'number', 'a number')), transform: orNull(numbers(6)),
   onProgress: work, worker: work, signal: orNull(kind(value => typeof value.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal')),
-  size: whole(1, 1024), height: whole(2), bounds: numbers(4), crs: choice('degrees', 'mercator'), cells: whole(16), maxZoom: whole(0), quality: number(0.5),
-  background: number(), name: text, attribution: text, tiles: kind(value => isArray(value) && value.every(one => typeof one === 'string'), 'an array of texts'),
+  size: whole(1, 1024), height: whole(2), bounds: orNull(numbers(4)), crs: choice('degrees', 'mercator'), cells: whole(16), maxZoom: whole(0),
+  quality: number(0.5), background: number(), name: text, attribution: text, tiles: items(one => typeof one === 'string', 'text', 'an array of texts'),
+  meshMaxError: number(0), skirtHeight: orNull(number(0)),
+  elevationDecoder: kind(value => typeof value === 'string' || (typeof value === 'object' && value),
+    'terrarium, mapbox or { rScaler, gScaler, bScaler, offset }'),
 };
 
 const PLACE = ['nodata', 'transform', 'degrees'];
@@ -53,10 +60,20 @@ export const ENTRIES = {
   ready: ['warm'],
   layerJson: ['name', 'attribution', 'tiles'],
   martini: ['height', 'effort'],
+  terrain: ['bounds', 'meshMaxError', 'elevationDecoder', 'skirtHeight', 'effort'],
 };
+/// Where an entry takes less.
+const NARROWER = { tiler: { effort: choice('fast', 'normal', 'high') } };
+/// What an entry cannot do without.
+const GOAL = 'give a goal, such as { maxError: 1 }';
+const NEEDS = { simplify: GOAL, simplifyPoints: GOAL, tiler: 'give { bounds: [west, south, east, north] }' };
 
 /// The number of a choice in the library's list of them.
 export const choose = (name, value) => TABLE[name].list.indexOf(value);
+
+/// Of an object what it is, such as DataView.
+export const kindOf = value => Object.prototype.toString.call(value).slice(8, -1).replace(/^Object$/, 'object');
+export const article = noun => `${/^[aeiou]/i.test(noun) ? 'an' : 'a'} ${noun}`;
 
 /// A value as a sentence shows it.
 export function show(value) {
@@ -64,7 +81,7 @@ export function show(value) {
   if (typeof value === 'bigint') return `the BigInt ${value}`;
   if (typeof value === 'function') return 'a function';
   if (isArray(value)) return `an array of ${value.length}`;
-  return typeof value === 'object' && value ? 'an object' : String(value);
+  return typeof value === 'object' && value ? article(kindOf(value)) : String(value);
 }
 
 /// Letters to change, insert or remove between two words.
@@ -89,7 +106,7 @@ function findNear(name, known) {
 export function takeOptions(options, entry) {
   if (options === null || typeof options !== 'object' || isArray(options))
     throw new ScarpError('usage', `the options are ${options === null ? 'null' : isArray(options) ? 'an array' : `a ${typeof options}`}, and no object: ` +
-      'leave them out, or give { name: value }');
+      (NEEDS[entry] ?? 'leave them out, or give { name: value }'));
   const known = ENTRIES[entry], taken = {};
   for (const [name, value] of Object.entries(options)) {
     if (!known.includes(name)) {
@@ -97,8 +114,12 @@ export function takeOptions(options, entry) {
       throw new ScarpError('usage', `option ${name} is unknown${near ? `: did you mean ${near}? Known are` : '; known are'} ${known.join(', ')}`);
     }
     if (value === undefined) continue;
-    const { fits, is } = TABLE[name];
-    if (!fits(value)) throw new ScarpError('usage', `${name} is ${show(value)}; it is ${is}`);
+    const { fits, is, item, findOdd } = NARROWER[entry]?.[name] ?? TABLE[name];
+    if (!fits(value)) {
+      const odd = findOdd?.(value);
+      throw new ScarpError('usage', odd === undefined ? `${name} is ${show(value)}; it is ${is}`
+                                                      : `index ${odd} of ${name} is ${show(value[odd])}, and no ${item}`);
+    }
     if (value !== null) taken[name] = value;
   }
   return taken;
@@ -106,6 +127,7 @@ export function takeOptions(options, entry) {
 
 /// Sentences of the library in the package's words.
 const WORDS = [
+  [/\binf\b/g, 'Infinity'],
   [/write OBJ or PLY, whose positions are double/, 'take doubles: true'],
   [/(?:or use|write in) the local or grid frame/, 'leave transform out'],
   [/choose the frame 'source'/, 'leave degrees out'],

@@ -200,7 +200,7 @@ class Pool {
   /// heights' buffer is moved, and not copied.
   async simplify(z, width, height, options = {}) {
     const taken = takeOptions(options, 'simplify');
-    const { given, samples, rounding } = checkHeights(z, width, height, taken.nodata);
+    const { given, samples, rounding, nodata } = checkHeights(z, width, height, taken.nodata);
     checkSignal(taken.signal);
     this.#check();
     for (const name of ['mask', 'tolerance']) {
@@ -208,7 +208,8 @@ class Pool {
       if (beside) taken[name] = beside;
     }
     if (taken.transform) taken.transform = Array.from(taken.transform);
-    // Float64 goes as it is: the worker counts what float32 rounds.
+    // Float64 goes as it is: the worker counts what float32 rounds, and finds nodata.
+    if (!rounding) taken.nodata = nodata;
     const own = samples === z ? take(z, taken.transfer) : rounding ? Float64Array.from(given) : samples;
     return this.#add('simplify', [own, width, height], [own.buffer], taken);
   }

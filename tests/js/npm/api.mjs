@@ -1,5 +1,6 @@
 // What the package promises, in Node.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import test from 'node:test';
 import { Worker } from 'node:worker_threads';
@@ -31,6 +32,17 @@ test('ready() may be called twice, and the version is the library’s', async ()
   await ready(undefined, { warm: true });
   await assert.rejects(ready(undefined, { hot: true }), { code: 'usage', message: /hot/ });
   assert.equal(scarp.version(), JSON.parse(fs.readFileSync('node_modules/scarp/package.json')).version);
+});
+
+test('what a module lacks is told with the entry that was loaded, and what ready() does not take', () => {
+  const told = (entry, later, work) => execFileSync(process.execPath, ['--input-type=module', '-e', `import { ready } from '${entry}'; await ready();
+    const { measure, Refiner, Tiler } = await import('${later}');
+    try { ${work} } catch (error) { console.log(error.code, error.message); }`]).toString();
+  assert.match(told('scarp/lite', 'scarp', 'measure([1, 2, 3, 4], 2, 2, { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], indices: [0, 1, 2] })'),
+    /^usage the module of scarp\/lite was loaded first.*import scarp, or scarp\/full/);
+  assert.match(told('scarp', 'scarp/full', 'new Tiler([1, 2, 3, 4], 2, 2, { bounds: [0, 0, 1, 1] })'),
+    /^usage the module of scarp was loaded first.*import scarp\/full/);
+  assert.match(told('scarp', 'scarp/lite', "await (await import('./node_modules/scarp/module.js?again')).start(5)"), /^usage ready\(\) was given 5; it takes/);
 });
 
 test('no sample is farther away than the error that was asked for', () => {
@@ -118,6 +130,39 @@ test('NaN and nodata are no heights, and are not covered', () => {
   assert.deepEqual(a.positions, b.positions);
   assert.ok(judgeMesh(holes, width, height, a).max <= 4 + ROUNDING * 1000);
   assert.equal(measure(holes, width, height, a).samples, width * height - 400);
+});
+
+test('nodata is compared with the heights as they are given', async () => {
+  const near = Float64Array.from(z, (_, k) => (k === 500 ? 100.0000001 : k === 700 ? 100 : 200 + (k % 7)));
+  const count = async (heights, nodata) => {
+    const options = { maxError: 4, nodata }, mesh = simplifySync(heights, width, height, options);
+    for (const other of [await simplify(heights, width, height, options), { ...mesh, report: measure(heights, width, height, mesh, { nodata }) }])
+      assert.deepEqual([other.report.samples, other.positions], [mesh.report.samples, mesh.positions]);
+    return z.length - mesh.report.samples;
+  };
+  assert.equal(await count(near, 100), 1);
+  assert.equal(await count(near, 100.0000001), 1);
+  const whole = near.map(Math.floor);
+  for (const heights of [whole, Array.from(whole), Float32Array.from(whole), Int16Array.from(whole)]) {
+    assert.equal(await count(heights, 100), 2);
+    assert.equal(await count(heights.map(value => value - 100), 5e-324), 0);
+  }
+  for (const heights of [whole, Int16Array.from(whole)]) assert.equal(await count(heights, 100.0000001), 0);
+  assert.equal(await count(Float32Array.from(z, (_, k) => (k % 7 ? k % 5 : 0.1)), 0.1), Math.ceil(z.length / 7));
+});
+
+test('a height beyond float32 is refused, and as nodata it is a hole', async () => {
+  for (const far of [1e39, -1e300]) {
+    const heights = Float64Array.from(z, (value, k) => (k === 40 ? far : value));
+    for (const given of [heights, Array.from(heights)]) {
+      const sentence = /^index 40 of the heights is -?1e\+\d+, and float32 ends at 3.4028235e38: scale/;
+      refuses(() => simplifySync(given, width, height, { maxError: 4 }), 'input', sentence);
+      refuses(() => new Refiner(given, width, height), 'input', sentence);
+      await rejects(simplify(given, width, height, { maxError: 4 }), 'input', sentence);
+      assert.equal(simplifySync(given, width, height, { maxError: 4, nodata: far }).report.samples, z.length - 1);
+    }
+  }
+  assert.equal(simplifySync(Float64Array.from(z, (value, k) => (k === 40 ? Infinity : value)), width, height, { maxError: 4 }).report.samples, z.length - 1);
 });
 
 test('weights and tolerances bind each sample', () => {
@@ -327,8 +372,25 @@ test('bad input gets a sentence that names it', () => {
     [() => simplifySync(z, width, height, { maxError: 1, signal: 'x' }), 'usage', /signal is 'x'; it is an AbortSignal/],
     ...['abc', '', []].map(nodata => [() => simplifySync(z, width, height, { maxError: 1, nodata }), 'usage', /nodata is .*; it is a number/]),
     [() => simplifySync(z, width, height, {}), 'usage', /set maxError, maxTriangles, maxVertices/],
-    [() => simplifySync(z, width, height, { maxError: 1, outlineTolerance: Infinity }), 'usage', /outlineTolerance must be/],
+    [() => simplifySync(z, width, height, { maxError: 1, outlineTolerance: Infinity }), 'usage', /outlineTolerance is Infinity; .*and finite/],
     [() => simplifyPointsSync([0, 0, 1e39, 1, 0, 0, 0, 1, 0], { maxError: 1 }), 'promise', /float32: take doubles: true/],
+    ...[simplifySync, (...given) => new Refiner(...given.slice(0, 3)).run({ maxError: given[3].maxError })]
+      .map(work => [() => work(z, width, height, { maxError: Infinity }), 'usage', /maxError is Infinity; it is a number, at least 0 and finite/]),
+    [() => simplifySync(z, width, height, { maxError: 1, transform: [0, 1, 0, 0, NaN, 1] }), 'usage', /index 4 of transform is NaN, and no finite/],
+    [() => new Tiler(z, width, height, { bounds: [0, 0, 1, 1] }).layerJson({ tiles: ['a', 5] }), 'usage', /index 1 of tiles is 5, and no text/],
+    [() => new Tiler(z, width, height, { bounds: [0, 0, 1, 1], effort: 'max' }), 'usage', /effort is 'max'; it is one of fast, normal, high/],
+    ...[BigInt64Array, BigUint64Array].map(Kind => [() => simplifySync(new Kind(9), 3, 3, { maxError: 1 }), 'usage', /heights .*Array: its BigInts are/]),
+    [() => encodeGlb({ ...flat, indices: new BigUint64Array(3) }), 'usage', /indices are no array of numbers, but a BigUint64Array/],
+    [() => simplifySync(new DataView(z.buffer), width, height, { maxError: 1 }), 'usage', /a DataView: give a typed array over its buffer/],
+    [() => simplifySync(z.buffer, width, height, { maxError: 1 }), 'usage', /an ArrayBuffer: give a typed array over it/],
+    [() => simplifySync(new Map(), width, height, { maxError: 1 }), 'usage', /but a Map$/],
+    [() => decodeTile(null, 2, 1), 'usage', /the pixels are no array of numbers, but null/],
+    ...[() => simplifySync(z, width, height, null), () => simplifyPointsSync([0, 0, 1], null)]
+      .map(work => [work, 'usage', /options are null.*give a goal/]),
+    [() => new Tiler(z, width, height, null), 'usage', /null.*give { bounds/],
+    [() => encodeGlb({ ...flat, positions: [0, 0, 0, 1e39, 0, 0, 0, 1, 0] }), 'input', /index 3 of the mesh's positions is 1e\+39, and float32 ends/],
+    [() => encodeGlb({ ...flat, origin: [1e300, 0, 0] }), 'input', /index 0 of the mesh's origin is 1e\+300, and float32 ends/],
+    [() => encodeGlb({ ...flat, positions: [0, 3e38, 0, 1, 3e38, 0, 0, 3e38, 1], origin: [0, 3e38, 0] }, { compress: true }), 'input', /node is -6e\+38/],
     [() => new Refiner(z, width, height, { noData: -9999 }), 'usage', /noData is unknown: did you mean nodata\?/],
     [() => new Refiner(z, width, height).run({ maxErr: 50 }), 'usage', /maxErr is unknown: did you mean maxError\?/],
     [() => new Refiner(z, width, height).run(null), 'usage', /options are null/],

@@ -48,6 +48,11 @@ test('martini: the same names, fewer triangles, and a bound that holds', () => {
   assert.equal(numVerticesWithoutSkirts, tile.getMesh(8).vertices.length / 2);
   assert.ok(vertices.length / 2 > numVerticesWithoutSkirts && triangles.every(v => v < vertices.length / 2));
   assert.throws(() => new Martini(50).createTile(z), /2500/);
+  assert.throws(() => new Martini(50).createTile(null), { code: 'usage', message: /the terrain is no array of numbers, but null/ });
+  for (const [size, sentence] of [[65n, /gridSize is the BigInt 65/], [1, /gridSize is 1/]])
+    assert.throws(() => new Martini(size), { code: 'usage', message: sentence });
+  for (const run of [() => tile.getMesh(Infinity), () => new Delatin(z, side, side).run(Infinity)])
+    assert.throws(run, { code: 'usage', message: /maxError is Infinity/ });
 });
 
 test('loaders.gl: the shape of its terrain, without its cliffs at the last row and column', async () => {
@@ -74,4 +79,12 @@ test('loaders.gl: the shape of its terrain, without its cliffs at the last row a
   assert.ok(skirted.attributes.POSITION.value.length > mine.attributes.POSITION.value.length);
   assert.equal(lowest(skirted), lowest(mine));
   assert.equal(skirted.indices.value.length % 3, 0);
+  for (const [given, sentence] of [[{ bounds: [0, 0, 1] }, /bounds is an array of 3; it is an array of 4/], [{ bounds: 'abcd' }, /bounds is 'abcd'/],
+    [{ bounds: [0, 0, 1, NaN] }, /index 3 of bounds is NaN/], [{ skirtHeight: 'x' }, /skirtHeight is 'x'/], [{ skirtHeight: NaN }, /skirtHeight is NaN/],
+    [{ meshMaxerror: 3 }, /meshMaxerror is unknown: did you mean meshMaxError/], [{ elevationdecoder: {} }, /did you mean elevationDecoder/],
+    [{ elevationDecoder: {} }, /rScaler/], [{ elevationDecoder: null }, /elevationDecoder is null/], [{ meshMaxError: '4' }, /meshMaxError is '4'/]])
+    assert.throws(() => makeTerrainMesh({ data, width, height }, { ...options, ...given }), { code: 'usage', message: sentence });
+  assert.throws(() => makeTerrainMesh(null), { code: 'usage', message: /the image is null; it is { data, width, height }/ });
+  assert.throws(() => makeTerrainMesh({ width, height }), { code: 'usage', message: /the pixels are no array of numbers, but undefined/ });
+  assert.ok(makeTerrainMesh({ data, width, height }, { elevationDecoder, bounds: null, skirtHeight: null }), 'as deck.gl says none');
 });
