@@ -122,6 +122,10 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
     [ $row -lt 5 ] && echo "3 4 7 1 5 9 2 6 5" || { [ $row = 6 ] && echo "-9 -9 -9 8 -9 -9 -9 7 -9" || echo "-9 -9 -9 -9 -9 -9 -9 -9 -9"; }
   done >> stray.asc
   succeeds gdal_translate -q -a_srs EPSG:32616 stray.asc stray.tif
+  # Flat steps, whose mesh is exact.
+  sed -n 1,5p stray.asc > terraces.asc
+  for row in 1 2 3 4 5 6 7 8; do echo "0.1 0.1 0.1 0.1 0.7 0.7 0.7 0.7 0.7"; done >> terraces.asc
+  succeeds gdal_translate -q -a_srs EPSG:32616 terraces.asc terraces.tif
   succeeds gdal_translate -q -srcwin 0 0 80 61 -ot Byte -scale 236 1076 0 255 -b 1 -b 1 -b 1 -co PHOTOMETRIC=RGB "$dem" colour.tif
   succeeds gdal_translate -q -srcwin 0 0 80 61 -a_srs EPSG:2264 -a_ullr 1000 9000 1802.5 8390 "$dem" feet.tif
   succeeds gdal_translate -q -srcwin 0 0 3 3 -outsize 4200 4100 -r bilinear -co COMPRESS=DEFLATE -co PROFILE=BASELINE "$dem" thinned.tif

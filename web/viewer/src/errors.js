@@ -35,11 +35,11 @@ export function judge(field, { grid, heights, indices }) {
     const first_col = Math.max(0, Math.ceil(Math.min(ax, bx, cx)));
     for (let row = Math.max(0, Math.ceil(Math.min(ay, by, cy))); row <= last_row; ++row) {
       for (let col = first_col; col <= last_col; ++col) {
-        const v = ((col - ax) * (cy - ay) - (row - ay) * (cx - ax)) / area, w = ((bx - ax) * (row - ay) - (by - ay) * (col - ax)) / area;
-        if (v < -EDGE || w < -EDGE || v + w > 1 + EDGE) continue;
+        const of_b = (col - ax) * (cy - ay) - (row - ay) * (cx - ax), of_c = (bx - ax) * (row - ay) - (by - ay) * (col - ax);
+        if (of_b / area < -EDGE || of_c / area < -EDGE || (of_b + of_c) / area > 1 + EDGE) continue;
         const at = row * cols + col;
         if (errors[at] === errors[at] || stray.has(at)) continue;  // on an edge, judged with the neighbour
-        const error = heights[a] + v * (heights[b] - heights[a]) + w * (heights[c] - heights[a]) - samples[at];
+        const z = samples[at], error = ((area - of_b - of_c) * (heights[a] - z) + of_b * (heights[b] - z) + of_c * (heights[c] - z)) / area;  // 0 where it is flat
         if (error !== error) continue;
         errors[at] = error;
         ++covered;

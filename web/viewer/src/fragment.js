@@ -1,8 +1,8 @@
 // The state of the page in its address, behind #: a link shows the same picture.
-const FLAG = { low: 0, high: 1 }, ANY = { low: -1e9, high: 1e9 }, LENGTH = { low: 1e-9, high: 1e9 };
+const FLAG = { low: 0, high: 1 }, ANY = { low: -1e9, high: 1e9 }, LENGTH = { low: 1e-9, high: 1e9 }, COUNT = { low: 2, high: 2 ** 24 };
 const KEYS = {
   errors: [FLAG], image: [FLAG], edges: [FLAG], smooth: [FLAG], both: [FLAG], count: [FLAG], exaggeration: [{ low: 0.1, high: 10 }], azimuth: [{ low: 0, high: 360 }], altitude: [{ low: 0, high: 90 }],
-  level: [{ low: 0, high: 1000 }], error: [LENGTH], view: [ANY, { low: -90, high: 90 }, LENGTH, ANY, ANY, ANY],
+  level: [{ low: 0, high: 1000 }], error: [LENGTH], samples: [COUNT, COUNT], view: [ANY, { low: -90, high: 90 }, LENGTH, ANY, ANY, ANY],
 };
 
 /** As many numbers as the key has, each within its range; else null. */

@@ -103,12 +103,18 @@ export class Live {
 
   /** Of a raster that has no mesh yet, for a max error of that share of the relief: {mesh, judged, goal}. */
   make_first(field, share) {
-    const helper = new Helper(field), goal = { maxError: tidy((field.high - field.low) * share) };
+    const helper = this.first = new Helper(field), goal = { maxError: tidy((field.high - field.low) * share) };
     return new Promise((done, failed) => helper.ask({ kind: 'finish', goal, effort: 'fast', order: 'greedy' }, answer => {
       helper.end();
       if (answer.error) failed(new Sentence(`${field.name}: ${answer.error}`));
       else done({ ...answer, goal });
     }));
+  }
+
+  /** For what another opening overtakes. */
+  cancel_first() {
+    this.first?.settle({ error: 'another file was opened' });
+    this.first = null;
   }
 
   error_of(step) {
@@ -126,7 +132,7 @@ export class Live {
   }
 
   label(error) {
-    $('error-text').textContent = with_unit(Number(error.toPrecision(3)), this.unit);
+    $('error-text').textContent = with_unit(error, this.unit);
     $('error').setAttribute('aria-valuetext', $('error-text').textContent);
   }
 

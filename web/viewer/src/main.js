@@ -1,12 +1,12 @@
 // The page: what is shown, and how its controls change that.
 import { read_inline } from './document.js';
-import { accept_drops } from './drop.js';
+import { accept_drops, begin } from './drop.js';
 import { read_fragment, write_fragment } from './fragment.js';
 import { listen_to_keys } from './keys.js';
 import { Live } from './live.js';
 import { Measuring } from './measuring.js';
 import { draw_bar, draw_compass, draw_legend, draw_map } from './overlay.js';
-import { command_of } from './command.js';
+import { command_notes, command_of } from './command.js';
 import { save, save_mesh } from './downloads.js';
 import { fill_readout, summarize } from './readout.js';
 import { Scene } from './scene.js';
@@ -15,10 +15,19 @@ import { number } from './words.js';
 
 const $ = id => document.getElementById(id);
 
+/** What needs a mesh. */
+const CONTROLS = '#controls :is(input, select, button):not(#file, #full, #help)';
+
+/** A card in the middle, red if it tells of an error; none for no words. */
+function say(text, is_error = false) {
+  $('notice').textContent = text;
+  $('notice').classList.toggle('error', is_error);
+  $('notice').hidden = !text;
+}
+
 function complain(error) {
   if (!(error instanceof Sentence)) console.error(error);
-  $('notice').textContent = error instanceof Sentence ? error.message : `This page failed: ${error.message}`;
-  $('notice').hidden = false;
+  say(error instanceof Sentence ? error.message : `This page failed: ${error.message}`, true);
 }
 
 class Page {
@@ -30,11 +39,14 @@ class Page {
     this.scene.on_draw(() => this.draw_overlay());
     this.wire();
     listen_to_keys(this);
-    accept_drops(this, complain);
+    accept_drops(this);
+    Object.assign(this, { say, complain });
+    for (const control of document.querySelectorAll(CONTROLS)) control.disabled = true;
   }
 
   /** Shows another document; `state` as in the address. */
   open(document_, state = {}) {
+    for (const control of this.document ? [] : document.querySelectorAll(CONTROLS)) control.disabled = false;
     this.document = document_;
     this.level = Math.min(Math.trunc(state.level ?? 0), document_.levels.length - 1);
     $('name').textContent = document.title = document_.name;
@@ -107,10 +119,13 @@ class Page {
     if (!knows_metres) notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
     if (field && !this.live.is_there) notes.push('This page was built without the engine: the mesh is as in its file.');
     $('notes').textContent = notes.join(' ');
-    const command = command_of(shown.at(-1), $('format').value);
+    const saved = shown.at(-1), command = command_of(saved, $('format').value), which = shown.length > 1 ? saved.name : '', command_note = command_notes(saved, $('format').value);
+    $('save').textContent = `Download ${which}`.trim();
     $('command').parentElement.hidden = command === null;
     $('command').textContent = command;
-    $('command-note').hidden = !(field?.step > 1);
+    $('command-of').textContent = which && `${which}: `;
+    $('command-note').textContent = command_note;
+    $('command-note').hidden = !command_note;
     $('decoding-row').hidden = !field?.decoding;
     if (field?.decoding) $('decoding').value = field.decoding;
     $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${look.errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`);
@@ -123,7 +138,7 @@ class Page {
   }
 
   draw_overlay() {
-    const { scene, look } = this, { azimuth, altitude, distance, target } = scene.orbit();
+    const { scene, look, document: { field } } = this, { azimuth, altitude, distance, target } = scene.orbit();
     draw_compass(azimuth);
     draw_bar(scene.metres_per_pixel(), this.document.knows_metres ? 'm' : 'units');
     this.measuring.draw_marks();
@@ -137,7 +152,7 @@ class Page {
       $('side-right').style.maxWidth = `${width - left - (innerWidth > 640 ? 90 : 30)}px`;
     }
     write_fragment(() => ({ errors: Number(look.errors), ...(this.has_image ? { image: Number(look.image) } : {}), edges: Number(look.edges), smooth: Number(look.smooth), exaggeration: look.exaggeration, azimuth: look.sun.azimuth, altitude: look.sun.altitude,
-      ...(this.level ? { level: this.level } : {}), ...this.live.state(), view: [azimuth, altitude, distance, ...target] }));
+      ...(this.level ? { level: this.level } : {}), ...(field ? { samples: [field.cols, field.rows] } : {}), ...this.live.state(), view: [azimuth, altitude, distance, ...target] }));
     this.drawn = (this.drawn ?? 0) + 1;
   }
 
@@ -188,9 +203,9 @@ async function start() {
   const data = $('scarp-data');
   const page = new Page();
   window.scarp_page = page;
-  if (!data) throw new Sentence(HAS_ENGINE ? 'Drop a GeoTIFF, an .hgt file or a PNG tile here, or a GLB. It stays on this machine.'
+  if (!data) return say(HAS_ENGINE ? 'Drop a GeoTIFF, an .hgt file or a PNG tile here, or a GLB. It stays on this machine.'
     : 'This page holds no mesh: scarp view MESH RASTER makes one that does. Or drop a GLB file here.');
-  page.open(await read_inline(JSON.parse(data.textContent)), read_fragment());
+  await begin(page, async () => ({ document: await read_inline(JSON.parse(data.textContent)), state: read_fragment() }));
 }
 
 addEventListener('error', event => complain(event.error ?? new Error(event.message)));
