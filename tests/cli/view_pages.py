@@ -373,14 +373,15 @@ def overtaken(values):
 
 
 def first(values):
-    empty, full, (error, greedy, high), (look, same, odd, note) = values
+    empty, full, (error, greedy, high), (look, same, odd, note, distance) = values
     assert empty == [True, True, True, False] and full == [False, False, False, False], (empty, full)
     assert 45 < error < 60 and kept(error, greedy, "greedy") >= high[1] and high[0] == "high", values
+    assert abs(distance / 90000 - 1) < 1e-6, distance
     assert look and same == "count" and "'odd?.tif'" in odd and "no line shows" in note, values[-1]
 
 
 def anew(values):
-    assert values == [[False, 1]], values
+    assert values == [[False, 1, -20]], values
 
 
 def killed(values):
@@ -446,12 +447,12 @@ if os.path.exists("live.html"):
         {"do": "Promise.all(loads).then(() => [document.title, scarp_page.document.name, " + NOTICE + ", Boolean(scarp_page.live.first?.worker)])"}])
     # A page that began empty: without a mesh there is nothing to save; its address is for the first file, if that has as many samples.
     EMPTY = ("[...['save', 'format', 'picture'].map(id => document.getElementById(id).disabled), document.getElementById('notice').classList.contains('error')]")
-    fragment = "#errors=1&error=50&both=1&count=1&samples=%d,%d" % (403, 344)
+    fragment = "#errors=1&error=50&both=1&count=1&samples=403,344&view=10,40,90000,0,0,0"
     job(first, "try.html", [
         {"until": NOTICE, "read": EMPTY, "shot": "empty"}, {**drop("odd\x01.tif", "dem.tif"), "until": "scarp_page.document && scarp_page.shown.length === 2 && " + HIGH, "read": EMPTY}, {"read": NOW},
-        {"read": "[scarp_page.look.errors, document.getElementById('same').value, ...['command', 'command-note'].map(id => document.getElementById(id).textContent)]"}],
+        {"read": "[scarp_page.look.errors, document.getElementById('same').value, ...['command', 'command-note'].map(id => document.getElementById(id).textContent), scarp_page.scene.orbit().distance]"}],
         fragment=fragment)
-    job(anew, "try.html", [{"until": NOTICE}, {**drop("N36W085.hgt", "N36W085.hgt"), "until": "scarp_page.drawn > 0", "read": "[scarp_page.look.errors, scarp_page.shown.length]"}],
+    job(anew, "try.html", [{"until": NOTICE}, {**drop("N36W085.hgt", "N36W085.hgt"), "until": "scarp_page.drawn > 0", "read": "[scarp_page.look.errors, scarp_page.shown.length, Math.round(scarp_page.scene.orbit().azimuth)]"}],
         fragment=fragment)
     # The image lies over the engine's meshes, too.
     job(image_kept, "image.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"read": QUARTERS}])

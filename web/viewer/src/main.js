@@ -62,6 +62,7 @@ class Page {
     this.look.sun = { azimuth: state.azimuth ?? 315, altitude: state.altitude ?? 40 };
     this.measuring.clear();
     this.show([document_.levels[this.level]]);
+    this.scene.is_for_two = Boolean(state.view && state.both) && this.live.is_usable;
     this.scene.draw();
     if (state.view) {
       const [azimuth, altitude, distance, ...target] = state.view;

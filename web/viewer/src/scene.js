@@ -166,12 +166,13 @@ export class Scene {
     this.invalidate();
   }
 
-  /** As much of the terrain stays in sight when one view becomes two, which what is free has room for equally. */
+  /** As much of the terrain stays in sight when one view becomes two, which what is free has room for equally. `is_for_two`: the orbit is already one of two. */
   divide(count) {
     const before = this.count && Math.tan(this.fov() / 2), { right, top } = this.look.covered(), { clientWidth: width, clientHeight: height } = this.canvas;
     this.count = count;
     this.look.divider = top > 0.3 * height ? 0.5 : Math.min(0.8, (1 + right / width) / 2);
-    if (before) this.approach(before / Math.tan(this.fov() / 2));
+    if (before && !this.is_for_two) this.approach(before / Math.tan(this.fov() / 2));
+    this.is_for_two = false;
   }
 
   invalidate() {
