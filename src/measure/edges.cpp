@@ -80,7 +80,7 @@ class EdgeList {
     constexpr std::ptrdiff_t kFew = 24;
     std::span edges(first, last);
     if (last - first > kFew) return sort_rarely(edges);
-    for (HalfEdge* next = first + 1; next < last; ++next) {
+    for (HalfEdge* next = first; next < last; ++next) {
       const HalfEdge edge = *next;
       HalfEdge* hole = next;
       for (; hole > first && edge < hole[-1]; --hole) *hole = hole[-1];
