@@ -9,6 +9,7 @@
 
 #include "metric/criterion.h"
 #include "pieces/goals.h"
+#include "simplify/pass_work.h"
 #include "simplify/search_progress.h"
 
 namespace scarp {

@@ -15,6 +15,7 @@
 #include "pieces/tile_worker.h"
 #include "pieces/tiled.h"
 #include "simplify/checks.h"
+#include "simplify/pass_work.h"
 #include "simplify/proof.h"
 #include "simplify/run.h"
 
@@ -63,10 +64,6 @@ Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Raster&
       [&] { tiled = refine_tiles(plan, raster, criterion, nullptr, strips); });
   if (!prepared) return tl::unexpected(prepared.error());
   return tiled;
-}
-
-Pass pass_of(const char* name, double seconds, const Work& work) {
-  return {name, seconds, work.samples_scanned, work.triangles_scanned, work.passes};
 }
 
 /// What tiles and strips did, `seconds` in all.

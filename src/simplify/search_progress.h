@@ -9,17 +9,6 @@
 
 namespace scarp {
 
-/// Adds the work of a run, or of one of its passes, to that of the search.
-inline void add_work(const Pass& pass, Pass& search) {
-  search.samples_scanned += pass.samples_scanned;
-  search.triangles_scanned += pass.triangles_scanned;
-  search.insertions += pass.insertions;
-  search.removals += pass.removals;
-}
-inline void add_work(const Simplified& run, Pass& search) {
-  for (const Pass& pass : run.passes) add_work(pass, search);
-}
-
 /// Tells the whole search as one pass. Each stage takes its share of what was left.
 class SearchProgress {
  public:

@@ -1,0 +1,26 @@
+// What a pass did, as it is reported.
+#pragma once
+
+#include <string_view>
+
+#include "metric/error_metric.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+inline Pass pass_of(std::string_view name, double seconds, const Work& work = {}) {
+  return {name, seconds, work.samples_scanned, work.triangles_scanned, work.passes};
+}
+
+/// Adds the work of a pass, or of all of a run, to that of `sum`.
+inline void add_work(const Pass& pass, Pass& sum) {
+  sum.samples_scanned += pass.samples_scanned;
+  sum.triangles_scanned += pass.triangles_scanned;
+  sum.insertions += pass.insertions;
+  sum.removals += pass.removals;
+}
+inline void add_work(const Simplified& run, Pass& sum) {
+  for (const Pass& pass : run.passes) add_work(pass, sum);
+}
+
+}  // namespace scarp
