@@ -4,6 +4,7 @@
 
 #include "fit/collapse.h"
 #include "fit/flips.h"
+#include "fit/removal_queue.h"
 #include "fit/vertex_step.h"
 
 namespace scarp {
@@ -20,19 +21,14 @@ bool has_free_vertex(const Patch& patch) {
   return false;
 }
 
-Point sample_under(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
-
 }  // namespace
 
 Schedule::Schedule(Patch& patch, const TriangleError& error, ErrorRule::Power power, const RepairOptions& options)
     : patch_(patch),
       strict_(error.with({1, power})),
       loose_(error.with({options.depth.slack, power})),
-      search_(loose_, options.rules.shape),
       options_(options),
       repair_(patch, loose_, options.depth, options.rules),
-      notes_(patch.node_count()),
-      queue_(patch.node_count()),
       is_settled_(patch.node_count(), 0) {}
 
 void Schedule::measure_all() {
@@ -41,21 +37,26 @@ void Schedule::measure_all() {
   }
 }
 
+struct Schedule::Removals {
+  Schedule& of;
+  std::size_t most, left;  // triangles
+
+  bool wants(Id v) const { return of.is_wanted(v) && !of.patch_.is_removed(v); }
+  bool is_over() const { return left <= most || of.is_time_up(); }
+  float energy_of(Id f) const { return of.patch_.face(f).energy; }
+  std::span<const Id> remove(Id v, const Patch::Star& star, std::span<const Patch::RingTriangle> triangles) {
+    ++of.counts_.tried;
+    if (!of.repair_.remove(v, star, triangles)) return {};
+    ++of.counts_.removed;
+    left -= star.faces.size() - triangles.size();
+    return of.repair_.changed();
+  }
+};
+
 void Schedule::remove_all(std::size_t most) {
   std::fill(is_settled_.begin(), is_settled_.end(), std::uint8_t{0});
-  left_ = count_faces(patch_);
-  for (Id v = 0; v < patch_.node_count(); ++v) notes_[v].witness = sample_under(patch_.at(v));
-  for (Id v = 0; v < patch_.node_count(); ++v) {
-    if (is_wanted(v) && !patch_.is_locked(v) && !patch_.is_removed(v)) offer(v);
-  }
-  while (!queue_.empty()) {
-    for (; !queue_.empty(); take()) {
-      if (left_ <= most || is_time_up()) return;
-    }
-    queue_.each_waiting([this](Id v) {
-      if (!patch_.is_removed(v)) offer(v);
-    });
-  }
+  Removals pass{*this, most, count_faces(patch_)};
+  RemovalQueue(patch_, loose_, options_.rules.shape).run(pass);
 }
 
 void Schedule::collapse() {
@@ -106,55 +107,6 @@ void Schedule::shake() {
     // Numerical Recipes' congruential generator, its bits mixed.
     dice = dice * 1664525u + 1013904223u;
     if (!patch_.is_removed(v)) step.shake(strict_, v, (dice ^ dice >> 15) * 0x2c1b3c6du);
-  }
-}
-
-/// Whether v's ring has a triangulation; leaves its star in star_ and the best triangles in search_.
-bool Schedule::look_at(Id v, float& price) {
-  queue_.refresh(v);
-  patch_.find_star(v, star_);
-  if (star_.ring.size() < 3 || star_.ring.size() > RingSearch::kMostCorners) return false;
-  ring_.clear();
-  for (const Id corner : star_.ring) ring_.push_back(patch_.at(corner));
-  if (!search_.find(ring_, patch_.at(v), notes_[v].witness)) return false;
-  notes_[v].code = search_.code();
-  float now = 0;
-  for (const Id f : star_.faces) now += patch_.face(f).energy;
-  price = search_.energy() - now;
-  if (has_short_edge(options_.rules.shape, patch_.at(v), ring_)) price -= kShortEdgeFirst;
-  return true;
-}
-
-void Schedule::offer(Id v) {
-  float price = 0;
-  if (look_at(v, price)) queue_.push(v, price);
-}
-
-void Schedule::take() {
-  const Id v = queue_.pop();
-  if (!queue_.is_stale(v)) {
-    patch_.find_star(v, star_);
-    RingSearch::decode(notes_[v].code, star_.ring.size(), triangles_);
-    remove(v);
-    return;
-  }
-  float price = 0;
-  if (!look_at(v, price)) return;
-  if (!queue_.is_first(v, price)) {
-    queue_.push(v, price);
-    return;
-  }
-  search_.triangles(triangles_);
-  remove(v);
-}
-
-void Schedule::remove(Id v) {
-  ++counts_.tried;
-  if (!repair_.remove(v, star_, triangles_)) return;
-  ++counts_.removed;
-  left_ -= star_.faces.size() - triangles_.size();
-  for (const Id u : repair_.changed()) {
-    if (!patch_.is_locked(u)) queue_.touch(u);
   }
 }
 

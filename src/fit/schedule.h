@@ -1,10 +1,9 @@
 // Which vertices are removed with repair, and in which order.
 //
-// As in removal (removal.h) the cheapest goes first, its price the rise of energy of the best triangulation of its
-// ring, but with the slack of repair and with Σ t⁸, which weighs what is near the bound. A successful repair makes the
-// prices of all corners of changed triangles stale. Before, one sweep of flips and steps over the whole patch, under
-// the bound itself, puts vertices and edges where removal wants them: without it a second round would find what the
-// first left.
+// As in removal (removal.h) the cheapest goes first (removal_queue.h), but with the slack of repair and with Σ t⁸, which
+// weighs what is near the bound. A successful repair makes the prices of all corners of changed triangles stale. Before,
+// one sweep of flips and steps over the whole patch, under the bound itself, puts vertices and edges where removal wants
+// them: without it a second round would find what the first left.
 //
 // On Fuji and Crater Lake at 2 to 0.5 % of the relief 2 to 4 % more triangles stay without the sweep, 2 to 5 % more
 // after one round than after two; a third takes 1 to 2 % more away.
@@ -16,10 +15,8 @@
 #include <span>
 #include <vector>
 
-#include "fit/lazy_queue.h"
 #include "fit/patch.h"
 #include "fit/repair.h"
-#include "fit/ring_search.h"
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
@@ -63,30 +60,17 @@ class Schedule {
   const RepairCounts& counts() const { return counts_; }
 
  private:
-  struct Note {
-    std::uint64_t code = 0;  // the triangles that would take the vertex' place
-    Point witness;           // against its removal
-  };
+  struct Removals;
 
   bool is_wanted(Patch::Id v) const { return options_.wanted.empty() || options_.wanted[v] != 0; }
   bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
-  bool look_at(Patch::Id v, float& price);
-  void offer(Patch::Id v);
-  void take();
-  void remove(Patch::Id v);
   void unsettle_flipped(Patch::Id face);
 
   Patch& patch_;
   TriangleError strict_, loose_;
-  RingSearch search_;
   const RepairOptions& options_;
   Repair repair_;
-  std::vector<Note> notes_;
-  LazyQueue queue_;
   Patch::Star star_;
-  std::vector<FitCorner> ring_;
-  std::vector<Patch::RingTriangle> triangles_;
-  std::size_t left_ = 0;  // triangles
   std::vector<std::uint8_t> is_settled_;  // by node, 1 where a step found nothing and nothing has changed around since
   RepairCounts counts_;
 };
