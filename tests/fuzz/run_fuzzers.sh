@@ -24,8 +24,9 @@ failed=0
 for name in "$@"; do
   corpus=$build/fuzz/$name
   mkdir -p "$corpus"
-  arguments=(-seed="${SCARP_FUZZ_SEED:-1}" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1
-    -artifact_prefix="$corpus/")
+  # Without the entropic schedule, whose own arithmetic is most of a run of ours: fuzz_lines runs 5 times as often.
+  arguments=(-entropic=0 -seed="${SCARP_FUZZ_SEED:-1}" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048
+    -print_final_stats=1 -artifact_prefix="$corpus/")
   [ -f "$here/$name.dict" ] && arguments+=(-dict="$here/$name.dict")
   seeds=()
   [ -d "$here/corpus/$name" ] && seeds=("$here/corpus/$name")
