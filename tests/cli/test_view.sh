@@ -135,6 +135,13 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   head -c 22 "$dem" > thin.hgt
   head -c 5 "$dem" > head.tif
   python3 "$SCARP_SOURCE/tests/cli/dropped_rasters.py"
+  mkdir geotiffs
+  cd geotiffs
+  succeeds python3 "$SCARP_SOURCE/tests/cli/dropped_geotiffs.py" "$dem" "$scarp" node "$SCARP_SOURCE/tests/js/geotiffs.mjs" "$SCARP_BUILD/viewer/src" "$SCARP_BUILD-wasm/npm"
+  cat "$logs/out"
+  cd ..
+  cp geotiffs/mask_deflate.tif masked.tif
+  cp geotiffs/LERC_ZSTD_Float64_LITTLE.tif doubles.tif
   sed "s/ 'wasm-unsafe-eval'//" live.html > no_wasm.html
 else
   echo "left out: live meshes in the page (make npm builds their engine)"

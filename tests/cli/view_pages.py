@@ -330,6 +330,7 @@ REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged or cut off"), ("head.
 # Name, what the notes say, the decoding; whether the program reads the same samples.
 OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrarium.png", "terrarium", "terrarium", True), ("mapbox.png", "mapbox", "mapbox", True),
            ("grey16.png", "Grey levels", "", True), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("terraces.tif", "", "", True), ("colour.tif", "red is taken", "", True),
+           ("masked.tif", "", "", True), ("doubles.tif", "", "", True),
            ("feet.tif", "", "", True), ("thinned.tif", "one of 2 x 2", "", False))
 
 

@@ -2,6 +2,7 @@
 import { fromArrayBuffer } from 'geotiff';
 import { WGS84, grid_frame, local_frame, thin_frame } from './frame.js';
 import { Sentence } from './sentence.js';
+import { TiffSamples } from './tiff_samples.js';
 
 const METRES_OF_UNIT = { 9001: 1, 9002: 0.3048, 9003: 1200 / 3937 };
 const RADIANS_OF_UNIT = { 9101: 1, 9102: Math.PI / 180, 9105: Math.PI / 200 };
@@ -39,39 +40,89 @@ function frame_of(image, unit) {
   return local_frame(samples, cols, rows, { metres, keeps_unit: Math.abs(metres - 0.3048) < 1e-5, height, crs: of_code(keys.ProjectedCSTypeGeoKey) });
 }
 
-/** Every `step`th sample of every `step`th row, by bands of rows: never all of a raster that is too large. */
-async function read_samples(image, cols, rows, step) {
-  const window = (top, bottom) => image.readRasters({ samples: [0], window: [0, top, image.getWidth(), bottom] });
-  if (step === 1) return (await window(0, rows))[0];
-  const out = new Float64Array(cols * rows), high = step * Math.max(1, Math.ceil(image.getTileHeight() / step));
-  for (let top = 0; top < rows * step; top += high) {
-    const bottom = Math.min(image.getHeight(), top + high), [band] = await window(top, bottom);
-    for (let row = top / step; row < rows && row * step < bottom; ++row)
-      for (let col = 0; col < cols; ++col) out[row * cols + col] = band[(row * step - top) * image.getWidth() + col * step];
+const LARGEST = 3.4028234663852886e38, NEAR_LARGEST = 3.4e38;  // the latter: "-3.40282e+38" and its like, however few digits survived
+
+/** As C reads a number. */
+function number_of(text) {
+  const infinity = /^\s*([+-]?)inf/i.exec(text);
+  return infinity ? Number(`${infinity[1]}Infinity`) : Number.parseFloat(text);
+}
+
+const ENTITIES = { lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' };
+/** What GDAL's own tag says of a band, counted from 0, by role; of the file, by name. */
+function metadata_of({ GDAL_METADATA = '' }, band) {
+  const text = String(GDAL_METADATA), of_file = band === undefined, found = {};
+  for (const [, words, value] of text.matchAll(/<Item\s+([^>]*)>([^<]*)<\/Item>/g)) {
+    const { name, sample, role } = Object.fromEntries([...words.matchAll(/(\w+)="([^"]*)"/g)].map(([, key, word]) => [key, word]));
+    if (of_file ? sample === undefined : Number(sample) === band) found[of_file ? name : role] = value.replace(/&(\w+);/g, (whole, key) => ENTITIES[key] ?? whole);
   }
-  return out;
+  return found;
+}
+
+/** Whether a value stands for no sample; the program's rule (src/io/gdal/read_samples.cpp). */
+function missing_test({ format, bits }, nodata) {
+  if (nodata === null || Number.isNaN(nodata)) return () => false;
+  if (format !== 3) return z => z === nodata;
+  const value = bits <= 32 ? Math.fround(Math.max(-LARGEST, Math.min(LARGEST, nodata))) : nodata, near = bits <= 32 ? Math.fround(NEAR_LARGEST) : NEAR_LARGEST;
+  const least = value >= near ? near : NaN, most = value <= -near ? -near : NaN;
+  return z => z === value || z >= least || z <= most;
+}
+
+/** The alpha band that tells where there is nothing; null: none. A declared value hides it from GDAL but in one place: a program reads both. */
+function find_alpha({ fileDirectory: d }, { bands, format, bits }, has_nodata) {
+  const { ExtraSamples: extra = [] } = d, is_alpha = k => {
+    const told = metadata_of(d, k).colorinterp;
+    return told ? told === 'Alpha' : [1, 2].includes(extra[k - bands + extra.length]);
+  };
+  if (has_nodata) return Array.from({ length: bands - 1 }, (_, k) => k + 1).find(is_alpha) ?? null;
+  return (bands === 2 || bands === 4) && is_alpha(bands - 1) && format === 1 && (bits === 8 || bits === 16) ? bands - 1 : null;
+}
+
+/** The image of the file that is a mask of the first; null: none. */
+async function find_mask(tiff) {
+  const seen = new Set([0]);
+  for (let k = 1, before = await tiff.requestIFD(0); !seen.has(before.nextIFDByteOffset); ++k) {
+    seen.add(before.nextIFDByteOffset);
+    before = await tiff.requestIFD(k);
+    if ((before.fileDirectory.NewSubfileType & 5) === 4) return tiff.getImage(k);
+  }
+  return null;
+}
+
+/** Heights of each `step`th sample of each `step`th row, in doubles where float32 does not hold them. */
+async function read_heights(name, tiff, image, buffer, step, told) {
+  const source = new TiffSamples(name, image, buffer), { fileDirectory: { GDAL_NODATA } } = image, { NODATA_VALUES } = metadata_of(image.fileDirectory);
+  const nodata = GDAL_NODATA ? number_of(GDAL_NODATA) : source.bands === 1 && NODATA_VALUES ? number_of(NODATA_VALUES) : null;
+  if (source.bands > 1 && NODATA_VALUES) throw new Sentence(`${name} tells by all bands at once where there is nothing (NODATA_VALUES): this page reads one band; gdal_translate -b 1 makes a file of it.`);
+  let scale = number_of(told.scale ?? '1'), offset = number_of(told.offset ?? '0'), beyond = null;
+  if (scale === 0 || !Number.isFinite(scale) || !Number.isFinite(offset)) [scale, offset] = [1, 0];
+  const is_scaled = scale !== 1 || offset !== 0, is_missing = missing_test(source, nodata), [low, high] = source.range;
+  const values = new Float64Array(Math.floor(source.cols / step) * Math.floor(source.rows / step));
+  await source.each(0, step, Math.max(low, Math.min(high, nodata || 0)), (at, raw) => {
+    const value = is_missing(raw) || !Number.isFinite(raw) ? NaN : is_scaled ? raw * scale + offset : raw;
+    if (Math.abs(value) > LARGEST) beyond ??= value;
+    values[at] = value;
+  });
+  if (beyond !== null) throw new Sentence(`${name} has a height of ${beyond}, and heights end at 3.4028235e38.`);
+  const mask = await find_mask(tiff).catch(() => { throw source.damaged(); }), alpha = mask ? 0 : find_alpha(image, source, nodata !== null);
+  const shows = mask ? new TiffSamples(name, mask, buffer) : source;
+  if (shows.cols !== source.cols || shows.rows !== source.rows) throw shows.damaged();
+  if (alpha !== null) await shows.each(alpha, step, 0, (at, shown) => { if (!(shown >= 0.5)) values[at] = NaN; });
+  return values.every(z => z !== z || Math.fround(z) === z) ? Float32Array.from(values) : values;
 }
 
 export async function read_geotiff(name, buffer, most_samples) {
-  let image;
+  let tiff, image;
   try {
-    image = await (await fromArrayBuffer(buffer)).getImage();
+    tiff = await fromArrayBuffer(buffer);
+    image = await tiff.getImage();
   } catch {
     throw new Sentence(`${name} is no TIFF file, or its beginning is damaged.`);
   }
   const [full_cols, full_rows] = [image.getWidth(), image.getHeight()], step = Math.max(1, Math.ceil(Math.sqrt(full_cols * full_rows / most_samples)));
-  const cols = Math.floor(full_cols / step), rows = Math.floor(full_rows / step), { Compression, PhotometricInterpretation: colours } = image.fileDirectory;
-  let values;
-  try {
-    values = await read_samples(image, cols, rows, step);
-  } catch (error) {
-    if (/compression method/i.test(error?.message)) throw new Sentence(`${name} is packed in a way that this page does not know (compression ${Compression}): gdal_translate unpacks it.`);
-    throw new Sentence(`${name} is damaged or cut off: its samples cannot be read.`);
-  }
-  const told = image.getGDALMetadata(0) ?? {}, scale = Number(told.SCALE ?? 1), offset = Number(told.OFFSET ?? 0), nodata = image.getGDALNoData(), rounded = Math.fround(nodata);
-  const is_missing = values instanceof Float32Array || step > 1 ? z => z === nodata || Math.fround(z) === rounded && nodata !== null : z => z === nodata;
-  const samples = Float32Array.from(values, z => is_missing(z) || !Number.isFinite(z) ? NaN : z * scale + offset), unit = UNITS[told.UNITTYPE] ?? told.UNITTYPE ?? '';
-  const notes = [];
+  const cols = Math.floor(full_cols / step), rows = Math.floor(full_rows / step), { PhotometricInterpretation: colours } = image.fileDirectory;
+  const told = metadata_of(image.fileDirectory, 0), unit = UNITS[told.unittype] ?? told.unittype ?? '', notes = [];
+  const samples = await read_heights(name, tiff, image, buffer, step, told);
   if (step > 1) notes.push(`${name} has ${full_cols} x ${full_rows} samples, too many for a page: one of ${step} x ${step} was read, and errors are against these.`);
   if (colours === COLOURS || colours === PALETTE) notes.push(`This is a colour picture, and its ${colours === COLOURS ? 'red is' : 'colour numbers are'} taken as height.`);
   return { cols, rows, samples, frame: thin_frame(frame_of(image, unit), step), unit, notes, step };
