@@ -119,6 +119,9 @@ TEST(RasterValues, NodataIsComparedInTheBandsType) {
   const ScratchFolder scratch;
   write_envi<float>(scratch.file("dem"), 2, 2, {1, 0.1f, -5, 4}, "data ignore value = 0.1\n");
   EXPECT_EQ(read_height_field(scratch.file("dem"))->info.valid, 3u) << "0.1 as float32 is what the file holds";
+  ReadOptions scaled;
+  scaled.z_scale = 2;
+  EXPECT_EQ(read_height_field(scratch.file("dem"), scaled)->info.valid, 3u) << "whatever is made of the others";
   write_envi<std::int16_t>(scratch.file("ints"), 2, 2, {1, -9999, 2, 3}, "data ignore value = -9999.5\n");
   EXPECT_EQ(read_height_field(scratch.file("ints"))->info.valid, 4u) << "no int16 is -9999.5";
 }

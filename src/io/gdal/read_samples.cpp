@@ -110,13 +110,13 @@ class BandReader : public WindowReader {
     } else if (is_float32(plan_)) {
       done = read_direct(window);
     } else {
-      done = read_converted<double>(window, GDT_Float64, NodataTest<double>(plan_.nodata));
+      done = read_converted<double>(window, GDT_Float64, NodataTest<double>(nodata_in_double()));
     }
     return done && apply_mask(window);
   }
 
   /// The height that a value of the band stands for.
-  float height_of(double raw) { return convert(raw, NodataTest<double>(plan_.nodata)); }
+  float height_of(double raw) { return convert(raw, NodataTest<double>(nodata_in_double())); }
 
  private:
   float* row_of(int row) const { return out_ + row * stride_; }
@@ -152,6 +152,11 @@ class BandReader : public WindowReader {
     }
     if (std::isnan(nodata)) return {};
     return static_cast<float>(std::clamp(nodata, -kLargest, kLargest));
+  }
+
+  std::optional<double> nodata_in_double() const {
+    if (plan_.type == GDT_Float32) return narrowed_nodata();
+    return plan_.nodata;
   }
 
   template <class Raw>
