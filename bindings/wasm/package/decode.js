@@ -1,6 +1,6 @@
 // Heights of the pixels of terrain tiles.
 import { ScarpError } from './error.js';
-import { checkArray, checkSide } from './heights.js';
+import { FARTHEST, checkArray, checkSide } from './heights.js';
 
 /// Metres: scaler · value, summed, plus the offset.
 const ENCODINGS = {
@@ -22,7 +22,15 @@ export function decodeTile(rgba, width, height, encoding = 'terrarium') {
   const z = new Float32Array(width * height);
   for (let k = 0; k < z.length; ++k) {
     const at = 4 * k;
-    z[k] = rgba[at + 3] === 0 ? NaN : rgba[at] * rScaler + rgba[at + 1] * gScaler + rgba[at + 2] * bScaler + offset;
+    if (rgba[at + 3] === 0) {
+      z[k] = NaN;
+      continue;
+    }
+    const metres = rgba[at] * rScaler + rgba[at + 1] * gScaler + rgba[at + 2] * bScaler + offset;
+    z[k] = metres;
+    if (Number.isFinite(z[k])) continue;
+    throw new ScarpError('input', `the encoding makes ${metres} of pixel ${k} (${rgba[at]}, ${rgba[at + 1]}, ${rgba[at + 2]}), and float32 ends at ` +
+      `${FARTHEST}: take smaller scalers`);
   }
   return z;
 }

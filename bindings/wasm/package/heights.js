@@ -2,7 +2,7 @@
 import { ScarpError } from './error.js';
 import { article, kindOf, show } from './options.js';
 
-const FARTHEST = '3.4028235e38';
+export const FARTHEST = '3.4028235e38';
 const EXACT = [Float32Array, Int16Array, Uint16Array, Int8Array, Uint8Array, Uint8ClampedArray];
 
 export function refuse(message) {

@@ -241,6 +241,7 @@ test('pixels of tiles become heights', () => {
   assert.deepEqual([...decodeTile(pixel(7, 2, 1, 255), 1, 1, { rScaler: 1, gScaler: 10, bScaler: 100, offset: -5 })], [122]);
   assert.ok(Number.isNaN(decodeTile(pixel(7, 2, 1, 0), 1, 1)[0]));
   refuses(() => decodeTile(pixel(1, 2, 3, 4), 2, 1), 'usage', /8 bytes/);
+  refuses(() => decodeTile(pixel(1, 2, 3, 4), 1, 1, { rScaler: 4e38, gScaler: 0, bScaler: 0, offset: 0 }), 'input', /makes 4e\+38 of pixel 0 \(1, 2, 3\), and float32 ends at/);
   refuses(() => decodeTile(pixel(1, 2, 3, 4), 1, 1, 'mapzen'), 'usage', /terrarium/);
 });
 
