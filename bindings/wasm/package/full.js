@@ -1,10 +1,9 @@
 // Scattered points and terrain tiles, too.
-import { defaults, findModule, makeMovedWorker } from './ready.js';
+import { defaults } from './ready.js';
 import { pool } from './pool.js';
 
-const beside = () => new URL('./full.wasm', import.meta.url);
-defaults.source ??= () => findModule(beside());
-defaults.worker ??= () => makeMovedWorker(beside()) ?? new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+defaults.source ??= () => new URL('./full.wasm', import.meta.url);
+defaults.worker ??= () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
 
 export * from './api.js';
 export { simplifyPointsSync } from './simplify.js';

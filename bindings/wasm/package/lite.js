@@ -1,9 +1,9 @@
 // The Refiner alone, behind a module of a third of the size.
-import { defaults, findModule } from './ready.js';
+import { defaults } from './ready.js';
 import { hills, SIDE } from './hills.js';
 import { Refiner } from './refiner.js';
 
-defaults.source ??= () => findModule(new URL('./lite.wasm', import.meta.url));
+defaults.source ??= () => new URL('./lite.wasm', import.meta.url);
 defaults.warm ??= () => {
   const refiner = new Refiner(hills(), SIDE, SIDE);
   refiner.run({ maxError: 1 });

@@ -7,10 +7,10 @@ import { serve } from './serve.mjs';
 const [program, told, ...bundles] = process.argv.slice(2);
 const server = await serve(process.cwd());
 const { browser, page, errors } = await open_page(server.address, { width: 400, height: 300 }, program);
-/// The dev server, and a page of it; it packs what the page imports at the first visit.
+/// The dev server, and a page of it; it packs what the page imports at the first visit. Its cache is not where the package is.
 async function open_dev(page) {
   const { createServer } = await import('vite');
-  const dev = await createServer({ root: process.cwd(), configFile: false, logLevel: 'warn', server: { host: '127.0.0.1' } });
+  const dev = await createServer({ root: process.cwd(), configFile: false, cacheDir: 'elsewhere', logLevel: 'warn', server: { host: '127.0.0.1' } });
   await dev.listen();
   return { address: `${dev.resolvedUrls.local[0]}${page}`, close: () => dev.close() };
 }
