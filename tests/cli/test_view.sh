@@ -135,6 +135,11 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   head -c 22 "$dem" > thin.hgt
   head -c 5 "$dem" > head.tif
   python3 "$SCARP_SOURCE/tests/cli/dropped_rasters.py"
+  # GDAL before 3.10.1 misreads it.
+  succeeds "$scarp" info grey16.png --json
+  highest=$(json "$logs/out" input max)
+  try "$scarp" info interlaced.png --json
+  [ "$code" = 2 ] && grep -q 'interlaced PNG of 16 bits' "$logs/err" || [ "$(json "$logs/out" input max)" = "$highest" ] || fail "an interlaced PNG is misread"
   mkdir geotiffs
   cd geotiffs
   succeeds python3 "$SCARP_SOURCE/tests/cli/dropped_geotiffs.py" "$dem" "$scarp" node "$SCARP_SOURCE/tests/js/geotiffs.mjs" "$SCARP_BUILD/viewer/src" "$SCARP_BUILD-wasm/npm"

@@ -329,7 +329,7 @@ REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged or cut off"), ("head.
            ("broken.png", "no PNG image"), ("cut.png", "damaged or cut off"), ("void.tif", "holds no height"), ("column.tif", "1 x 150"), ("no_tile.png", "no PNG image"))
 # Name, what the notes say, the decoding; whether the program reads the same samples.
 OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrarium.png", "terrarium", "terrarium", True), ("mapbox.png", "mapbox", "mapbox", True),
-           ("grey16.png", "Grey levels", "", True), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("terraces.tif", "", "", True), ("colour.tif", "red is taken", "", True),
+           ("grey16.png", "Grey levels", "", True), ("interlaced.png", "Grey levels", "", False), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("terraces.tif", "", "", True), ("colour.tif", "red is taken", "", True),
            ("masked.tif", "", "", True), ("doubles.tif", "", "", True),
            ("feet.tif", "", "", True), ("thinned.tif", "one of 2 x 2", "", False))
 
@@ -341,6 +341,8 @@ def scaled(values):
 
 
 def rasters(values):
+    pages = {value["name"]: value for value in values if isinstance(value, dict)}
+    assert all(pages["interlaced.png"][key] == pages["grey16.png"][key] for key in ("triangles", "high", "error")), pages
     for name, notes, decoding, is_same in OFFERED:
         page, files = values.pop(0), [values.pop(0) for _ in FORMATS]
         assert page["name"] == name and page["error"] <= page["most"] * (1 + 1e-3) and page["uncovered"] == 0 and notes in page["notes"], (name, page)

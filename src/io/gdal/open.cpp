@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/spool.h"
@@ -88,17 +90,32 @@ Result<Dataset> open_in_zip(Session& session, const std::string& path, const std
   return dataset;
 }
 
+/// The first bytes of a file; fewer than asked for where it is shorter, or none.
+std::string read_head(const std::string& vsi, std::size_t bytes) {
+  std::string head(bytes, '\0');
+  VSIStatBufL status{};
+  if (VSIStatL(vsi.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return {};
+  VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
+  if (file == nullptr) return {};
+  head.resize(VSIFReadL(head.data(), 1, bytes, file));
+  VSIFCloseL(file);
+  return head;
+}
+
 /// An HDF4 file, or one of its rasters by name.
 bool is_hdf4(const std::string& vsi) {
-  if (vsi.starts_with("HDF4_SDS:") || vsi.starts_with("HDF4_EOS:")) return true;
-  std::array<char, 4> head{};
-  VSIStatBufL status{};
-  if (VSIStatL(vsi.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return false;
-  VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
-  if (file == nullptr) return false;
-  const bool is_read = VSIFReadL(head.data(), 1, head.size(), file) == head.size();
-  VSIFCloseL(file);
-  return is_read && std::string_view(head.data(), head.size()) == "\x0e\x03\x13\x01";
+  return vsi.starts_with("HDF4_SDS:") || vsi.starts_with("HDF4_EOS:") || read_head(vsi, 4) == "\x0e\x03\x13\x01";
+}
+
+/// Before 3.10.1 GDAL reads an interlaced PNG of 16 bits with the two bytes of each sample in the wrong order,
+/// silently.
+bool is_misread_png(GDALDatasetH dataset) {
+  constexpr int kMended = 3100100;
+  constexpr std::size_t kDepth = 24, kInterlace = 28;
+  if (std::atoi(GDALVersionInfo("VERSION_NUM")) >= kMended) return false;
+  if (!EQUAL(GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), "PNG")) return false;
+  const std::string head = read_head(GDALGetDescription(dataset), kInterlace + 1);
+  return head.size() > kInterlace && head[kDepth] == 16 && head[kInterlace] == 1;
 }
 
 /// What to say of a name that no raster driver opens.
@@ -181,7 +198,11 @@ Result<Dataset> open_raster(Session& session, const std::string& path) {
   Dataset dataset = open_quietly(vsi, GDAL_OF_RASTER);
   if (!dataset && ends_with(vsi, ".zip")) {
     VSIStatBufL status{};
-    if (VSIStatL(vsi.c_str(), &status) == 0) return open_in_zip(session, path, vsi);
+    if (VSIStatL(vsi.c_str(), &status) == 0) {
+      auto inside = open_in_zip(session, path, vsi);
+      if (!inside) return inside;
+      dataset = std::move(*inside);
+    }
   }
   if (!dataset) return explain(session, path, vsi);
   if (GDALGetRasterCount(dataset.get()) == 0) {
@@ -189,6 +210,13 @@ Result<Dataset> open_raster(Session& session, const std::string& path) {
     if (parts.empty()) return fail(ErrorKind::kInput, path + ": holds no raster band");
     return fail(ErrorKind::kInput,
                 fmt::format("{}: holds {} rasters; name one of them: {}", path, parts.size(), join(parts, 4)));
+  }
+  if (is_misread_png(dataset.get())) {
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{}: an interlaced PNG of 16 bits, whose bytes GDAL {} takes in the wrong order (3.10.1 does "
+                    "not): save it without interlacing",
+                    path, GDALVersionInfo("RELEASE_NAME")));
   }
   return dataset;
 }
