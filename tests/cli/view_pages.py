@@ -311,8 +311,9 @@ def live(values):
     assert kept(second, left, "greedy") == fine[1] and kept(second, right, "high") == high[1], values
     assert greedy == left and same[1] <= greedy[1] and same[2] < 0.6 * greedy[2], values
     assert "both=1" in state and "count=1" in state and "error=" in state, state
-    one, obj, two = (v for v in values if isinstance(v, dict))
-    for page in (one, obj, two):
+    drag, one, obj, two = (v for v in values if isinstance(v, dict))
+    assert drag["command"].endswith(" --effort fast --order greedy"), drag
+    for page in (drag, one, obj, two):
         runs(page["command"], page)
     # The label is the bound of the command, to its last digit.
     assert one["texts"][:3] == ["Download", "", ""] and f" -e {one['texts'][3].split()[0]} " in one["command"], one
@@ -407,7 +408,7 @@ def refused(values):
 FORMATS, KNOWN_METRES = ("glb", "stl", "obj"), ("dem.tif", "N36W085.hgt", "; touch x $(touch y) 'q' .tif", "stray.tif", "terraces.tif", "colour.tif", "feet.tif")
 if os.path.exists("live.html"):
     job(live, "live.html", [
-        {"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW},
+        {"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"do": COMMAND},
         {"do": DRAG % 28, "until": "scarp_page.live.step_now === 28 && scarp_page.shown[0].judged.max_error <= scarp_page.live.error_of(28)",
          "read": NOW},
         {"do": RELEASE, "until": HIGH, "read": NOW, "shot": "live"}, {"do": COMMAND},

@@ -174,7 +174,7 @@ export class Live {
     this.show();
   }
 
-  /** A mesh of this error at once, by the engine that inserts the worst sample: among equal ones not as the program chooses, so that no command makes it. */
+  /** A mesh of this error at once, by the engine that inserts the worst sample: the program's greedy mesh, but where x and y are no offsets that float32 holds. */
   choose(step) {
     this.step_now = step;
     $('error').value = String(step);
@@ -184,8 +184,9 @@ export class Live {
     this.say('');
     const key = `greedy ${step}`;
     if (this.meshes.has(key)) return this.show();
+    const goal = ['local', 'grid'].includes(this.page.document.levels[0].extras.crs_option) ? { maxError: error } : null;
     this.quick.ask({ kind: 'refine', error }, answer => {
-      if (!this.take(answer, key, 'greedy', null) || step !== this.step_now) return;
+      if (!this.take(answer, key, 'greedy', goal) || step !== this.step_now) return;
       this.show();
       if (this.wants_finish) this.finish();
     });
