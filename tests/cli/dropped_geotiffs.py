@@ -138,6 +138,11 @@ make("beyond", "-ot", "Float64", "-a_scale", "1e39", says="3.4028235e38")
 whole = open("DEFLATE_Float32_BIG.tif", "rb").read()
 open("cut_off.tif", "wb").write(whole[:len(whole) * 2 // 3])
 refused["cut_off.tif"] = "damaged or cut off"
+whole = open("NONE_Float32_LITTLE.tif", "rb").read()
+sample_format = struct.pack("<HHI", 339, 3, 1)  # text in its place
+assert whole.count(sample_format) == 1
+open("odd_tag.tif", "wb").write(whole.replace(sample_format, struct.pack("<HHI", 339, 2, 1)))
+refused["odd_tag.tif"] = "damaged or cut off"
 
 files = [*same, *refused]
 output = subprocess.run([*reader, str(ERROR), *files], check=True, stdout=subprocess.PIPE, text=True).stdout

@@ -2,7 +2,7 @@
 import { fromArrayBuffer } from 'geotiff';
 import { WGS84, grid_frame, local_frame, thin_frame } from './frame.js';
 import { Sentence } from './sentence.js';
-import { TiffSamples } from './tiff_samples.js';
+import { TiffSamples, damaged } from './tiff_samples.js';
 
 const METRES_OF_UNIT = { 9001: 1, 9002: 0.3048, 9003: 1200 / 3937 };
 const RADIANS_OF_UNIT = { 9101: 1, 9102: Math.PI / 180, 9105: Math.PI / 200 };
@@ -104,9 +104,9 @@ async function read_heights(name, tiff, image, buffer, step, told) {
     values[at] = value;
   });
   if (beyond !== null) throw new Sentence(`${name} has a height of ${beyond}, and heights end at 3.4028235e38.`);
-  const mask = await find_mask(tiff).catch(() => { throw source.damaged(); }), alpha = mask ? 0 : find_alpha(image, source, nodata !== null);
+  const mask = await find_mask(tiff), alpha = mask ? 0 : find_alpha(image, source, nodata !== null);
   const shows = mask ? new TiffSamples(name, mask, buffer) : source;
-  if (shows.cols !== source.cols || shows.rows !== source.rows) throw shows.damaged();
+  if (shows.cols !== source.cols || shows.rows !== source.rows) throw damaged(name);
   if (alpha !== null) await shows.each(alpha, step, 0, (at, shown) => { if (!(shown >= 0.5)) values[at] = NaN; });
   return values.every(z => z !== z || Math.fround(z) === z) ? Float32Array.from(values) : values;
 }
@@ -122,7 +122,7 @@ export async function read_geotiff(name, buffer, most_samples) {
   const [full_cols, full_rows] = [image.getWidth(), image.getHeight()], step = Math.max(1, Math.ceil(Math.sqrt(full_cols * full_rows / most_samples)));
   const cols = Math.floor(full_cols / step), rows = Math.floor(full_rows / step), { PhotometricInterpretation: colours } = image.fileDirectory;
   const told = metadata_of(image.fileDirectory, 0), unit = UNITS[told.unittype] ?? told.unittype ?? '', notes = [];
-  const samples = await read_heights(name, tiff, image, buffer, step, told);
+  const samples = await read_heights(name, tiff, image, buffer, step, told).catch(error => { throw error instanceof Sentence ? error : damaged(name); });
   if (step > 1) notes.push(`${name} has ${full_cols} x ${full_rows} samples, too many for a page: one of ${step} x ${step} was read, and errors are against these.`);
   if (colours === COLOURS || colours === PALETTE) notes.push(`This is a colour picture, and its ${colours === COLOURS ? 'red is' : 'colour numbers are'} taken as height.`);
   return { cols, rows, samples, frame: thin_frame(frame_of(image, unit), step), unit, notes, step };

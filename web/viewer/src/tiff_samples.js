@@ -22,6 +22,8 @@ function half(bits) {
   return sign * (exponent ? (1 + fraction / 1024) * 2 ** (exponent - 15) : fraction * 2 ** -24);
 }
 
+export const damaged = name => new Sentence(`${name} is damaged or cut off: its samples cannot be read.`);
+
 /** Most significant bit first, each row from a byte on. */
 function unpack_bits(bytes, bits, in_row, rows) {
   const out = new Uint32Array(in_row * rows), row_bytes = Math.ceil(in_row * bits / 8);
@@ -48,12 +50,11 @@ function add_up(words, in_row, bands) {
   for (let k = 0; k < words.length; ++k) if (k % in_row >= bands) words[k] += words[k - bands];
 }
 
-/** How one image of a TIFF lies in the file. Throws a Sentence where its samples are none that are read here. */
+/** How one image of a TIFF lies in the file. Throws a Sentence where its samples are none that are read here, or anything where it is damaged. */
 export class TiffSamples {
   constructor(name, { fileDirectory: d, littleEndian }, buffer) {
-    this.damaged = () => new Sentence(`${name} is damaged or cut off: its samples cannot be read.`);
     const unknown = what => new Sentence(`${name} ${what}: gdal_translate makes a GeoTIFF of it that this page reads.`);
-    Object.assign(this, { buffer, is_little: littleEndian, cols: d.ImageWidth, rows: d.ImageLength, bands: d.SamplesPerPixel ?? 1 });
+    Object.assign(this, { name, buffer, is_little: littleEndian, cols: d.ImageWidth, rows: d.ImageLength, bands: d.SamplesPerPixel ?? 1 });
     Object.assign(this, { compression: d.Compression ?? 1, predictor: d.Predictor ?? 1, lerc_packed: d.LercParameters?.[1] ?? 0, is_planar: d.PlanarConfiguration === 2 });
     this.bits = d.BitsPerSample?.[0] ?? 1;
     this.format = [UNSIGNED, SIGNED, FLOAT, 5, 6].includes(d.SampleFormat?.[0]) ? d.SampleFormat[0] : UNSIGNED;
@@ -71,7 +72,7 @@ export class TiffSamples {
     this.are_rows_whole = is_tiled;
     this.offsets = d.TileOffsets ?? d.StripOffsets;
     this.counts = d.TileByteCounts ?? d.StripByteCounts;
-    if (!(this.cols > 0 && this.rows > 0 && this.block_cols > 0 && this.block_rows > 0 && this.bands > 0 && this.offsets && this.counts)) throw this.damaged();
+    if (!(this.cols > 0 && this.rows > 0 && this.block_cols > 0 && this.block_rows > 0 && this.bands > 0 && this.offsets && this.counts)) throw damaged(this.name);
   }
 
   /** The least and the greatest number that a sample can be. */
@@ -85,7 +86,7 @@ export class TiffSamples {
     if (this.compression === LERC) return this.unpack_lerc(bytes, rows);
     const { bits } = this, bands = this.is_planar ? 1 : this.bands, in_row = this.block_cols * bands, row_bytes = Math.ceil(in_row * bits / 8);
     const all = new Uint8Array(this.compression === ZSTD ? unpack_zstd(bytes) : await (await getDecoder({ Compression: this.compression })).decodeBlock(bytes));
-    if (all.length < row_bytes * rows) throw this.damaged();
+    if (all.length < row_bytes * rows) throw damaged(this.name);
     const own = all.slice(0, row_bytes * rows), size = bits / 8;
     if (this.predictor === 3) undo_float_predictor(own, row_bytes, size, bands);
     else if (!this.is_little && bits % 8 === 0) for (let k = 0; k < own.length; k += size) own.subarray(k, k + size).reverse();
@@ -99,7 +100,7 @@ export class TiffSamples {
   async unpack_lerc(bytes, rows) {
     const packed = this.lerc_packed === 1 ? await unpack_deflate(bytes) : this.lerc_packed === 2 ? unpack_zstd(bytes) : bytes;
     const { pixels: [values], mask, width, height, dimCount: pitch = 1 } = Lerc.decode(packed, { returnPixelInterleavedDims: true });
-    if (width !== this.block_cols || height < rows) throw this.damaged();
+    if (width !== this.block_cols || height < rows) throw damaged(this.name);
     if (mask && this.format === FLOAT) for (let k = 0; k < values.length; ++k) if (!mask[Math.floor(k / pitch)]) values[k] = NaN;
     return { values, pitch, mask };
   }
@@ -112,8 +113,8 @@ export class TiffSamples {
       const left = block % across * this.block_cols, top = Math.floor(block / across) * this.block_rows;
       const rows_here = this.are_rows_whole ? this.block_rows : Math.min(this.block_rows, this.rows - top);
       const at = block + (this.is_planar ? band * across * down : 0), offset = this.offsets[at], count = this.counts[at];
-      if (offset === undefined || count === undefined || offset + count > this.buffer.byteLength) throw this.damaged();
-      const read = offset === 0 || count === 0 ? null : await this.unpack(this.buffer.slice(offset, offset + count), rows_here).catch(() => { throw this.damaged(); });
+      if (offset === undefined || count === undefined || offset + count > this.buffer.byteLength) throw damaged(this.name);
+      const read = offset === 0 || count === 0 ? null : await this.unpack(this.buffer.slice(offset, offset + count), rows_here);
       const k = this.is_planar ? 0 : band, is_alpha = read && k >= read.pitch;
       for (let row = Math.ceil(top / step); row < rows && row * step < top + rows_here; ++row) {
         for (let col = Math.ceil(left / step); col < cols && col * step < left + this.block_cols; ++col) {
