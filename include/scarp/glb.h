@@ -35,9 +35,12 @@ struct GlbOptions {
   int threads = 1;  ///< 0: all cores. Never changes the bytes. DEFAULT: 1.
 };
 
+/// Whether this build can `compress`: it has libmeshoptimizer.
+bool can_compress_glb();
+
 /// The bytes of a GLB file. encode_mesh() is this without options. Fails with kOutput as it does, for images without
-/// uvs, and for `compress` where positions are neither on the lattice nor float32, or without libmeshoptimizer; with kInput where
-/// memory runs out.
+/// uvs, and for `compress` where positions are neither on the lattice nor float32, or without libmeshoptimizer; with
+/// kInput where memory runs out.
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options);
 
 }  // namespace scarp

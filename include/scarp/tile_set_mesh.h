@@ -1,6 +1,7 @@
 // Sets of tiles as plain meshes, to look at.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@
 
 namespace scarp {
 
-/// Tiles under one image, or without one.
-struct LevelSheet {
+/// A tile.
+struct LevelTile {
   /// On a flat map: metres east and north of the middle, true to scale there, and heights of the tiles. Where tiles
   /// meet each has its own vertex, at the very same place. Its metadata tell `tile_level`.
   Mesh mesh;
@@ -25,8 +26,11 @@ struct LevelSheet {
 /// The tiles of a level beside each other, as clients decode them.
 struct LevelMesh {
   int z = 0;
-  std::vector<LevelSheet> sheets;  ///< that of all tiles without an image, and one for each tile with one
-  std::uint64_t tile_bytes = 0;    ///< as they are kept
+  std::vector<LevelTile> tiles;  ///< first those without an image
+  /// Metres that x and y are multiples of, a power of two each; heights are of a third. They are the least that let a
+  /// difference within a tile have 16 bits: GlbOptions::cell for a small file.
+  std::array<double, 2> cell{};
+  std::uint64_t tile_bytes = 0;  ///< as they are kept
 };
 
 /// The finest level whose tiles take at most `most_bytes`, then coarser ones of the same place as long as all together

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -58,14 +59,18 @@ struct FlatMap {
   double longitude, latitude, metres_east = 0, metres_north = 0;
 };
 
+/// The least power of two that `extent` is at most 65,534 of: rounding to it leaves a difference of 16 bits.
+double find_step(double extent) {
+  constexpr double kMostSteps = 65534;
+  return extent > 0 ? std::exp2(std::ceil(std::log2(extent / kMostSteps))) : 1;
+}
+
 /// Lays the tiles of a level on a map.
 class Laying {
  public:
   Laying(const FlatMap& map, int z) : map_(map), z_(z) {}
 
   void add(ClientTile tile) {
-    Mesh& mesh = choose_sheet(tile);
-    const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
     std::vector<Place> places;
     for (std::size_t v = 0; v < tile.u.size(); ++v) places.push_back(place_of(tile, v));
     // A step of a tile, which is more than what rounding moves a vertex by, and less than from one side of the map to
@@ -79,33 +84,49 @@ class Laying {
         if (length(known - places[v]) < near) places[v] = known;
       }
     }
-    for (const Place& place : places) mesh.positions.insert(mesh.positions.end(), place.begin(), place.end());
-    for (const std::uint32_t v : tile.triangles) mesh.triangles.push_back(first + v);
-    mesh.uvs.insert(mesh.uvs.end(), tile.uvs.begin(), tile.uvs.end());
+    LevelTile laid{{}, std::move(tile.image)};
+    laid.mesh.metadata = {{"crs_option", "local"}, {"unit", "m"}, {"tile_level", fmt::format("{}", z_)}};
+    for (const Place& place : places) laid.mesh.positions.insert(laid.mesh.positions.end(), place.begin(), place.end());
+    laid.mesh.triangles = std::move(tile.triangles);
+    laid.mesh.uvs = std::move(tile.uvs);
+    tiles_.push_back(std::move(laid));
   }
 
-  std::vector<LevelSheet> take() { return std::move(sheets_); }
+  /// Rounds alike in all tiles, so that neighbours still meet.
+  LevelMesh take() {
+    Place extents{};
+    for (const LevelTile& tile : tiles_) {
+      for (std::size_t k = 0; k < 3; ++k) extents[k] = std::max(extents[k], extent_of(tile.mesh, k));
+    }
+    const Place steps{find_step(extents[0]), find_step(extents[1]), find_step(extents[2])};
+    for (LevelTile& tile : tiles_) {
+      auto& positions = tile.mesh.positions;
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        positions[i] = std::nearbyint(positions[i] / steps[i % 3]) * steps[i % 3];
+    }
+    std::stable_partition(tiles_.begin(), tiles_.end(), [](const LevelTile& tile) { return tile.image.bytes.empty(); });
+    return {z_, std::move(tiles_), {steps[0], steps[1]}};
+  }
 
  private:
-  Mesh& choose_sheet(ClientTile& tile) {
-    const bool is_plain = tile.image.bytes.empty();
-    if (!is_plain || sheets_.empty() || !sheets_.front().image.bytes.empty()) {
-      LevelSheet sheet{{}, std::move(tile.image)};
-      sheet.mesh.metadata = {{"crs_option", "local"}, {"unit", "m"}, {"tile_level", fmt::format("{}", z_)}};
-      sheets_.insert(is_plain ? sheets_.begin() : sheets_.end(), std::move(sheet));
-    }
-    return is_plain ? sheets_.front().mesh : sheets_.back().mesh;
-  }
-
   Place place_of(const ClientTile& tile, std::size_t v) const {
     const Geographic at = geographic_at(tile.box, tile.u[v], tile.v[v], tile.heights[v]);
     return {(at.longitude - map_.longitude) * map_.metres_east, (at.latitude - map_.latitude) * map_.metres_north,
             at.height};
   }
 
+  static double extent_of(const Mesh& mesh, std::size_t axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = axis; i < mesh.positions.size(); i += 3) {
+      low = std::min(low, mesh.positions[i]);
+      high = std::max(high, mesh.positions[i]);
+    }
+    return high - low;
+  }
+
   const FlatMap& map_;
   int z_;
-  std::vector<LevelSheet> sheets_;
+  std::vector<LevelTile> tiles_;
   std::map<Place, Place> shared_;  ///< of vertices on edges
 };
 
@@ -143,17 +164,17 @@ Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::
     if (!kept) return tl::unexpected(kept.error());
     if (!*kept && levels.empty()) continue;
     if (!*kept) break;
-    LevelMesh level{static_cast<int>(z), {}, 0};
-    Laying laying(map, level.z);
+    Laying laying(map, static_cast<int>(z));
+    std::uint64_t level_bytes = 0;
     for (std::size_t k = 0; k < tiles.ids.size(); ++k) {
-      level.tile_bytes += (**kept)[k].size();
+      level_bytes += (**kept)[k].size();
       auto tile = decode_client_tile(set.format(), (**kept)[k], tiles.ids[k], claims.grid, world, nullptr);
       if (!tile) return tl::unexpected(tile.error());
       laying.add(std::move(*tile));
     }
-    bytes += level.tile_bytes;
-    level.sheets = laying.take();
-    levels.push_back(std::move(level));
+    bytes += level_bytes;
+    levels.push_back(laying.take());
+    levels.back().tile_bytes = level_bytes;
   }
   if (levels.empty())
     return fail(ErrorKind::kUsage, fmt::format("the tiles of each level take more than {} bytes", most_bytes));

@@ -68,6 +68,8 @@ make_image quarters.tif '220 if (col < 202) == (row < 172) else 40' '200 if col 
 succeeds "$scarp" tile "$dem" draped --of 3dtiles --vertical egm96 --zoom 10 --drape quarters.tif --drape-format jpeg -q
 succeeds "$scarp" view draped
 refuses 1 "tile check set --source $dem" "$scarp" view set "$dem" -o x.html
+printf 'x,y,z\n1,2,3\n' > survey.csv
+refuses 2 "survey.csv holds points" "$scarp" view plain.glb survey.csv -o x.html
 mkdir folder
 refuses 2 'folder is a folder without layer.json or tileset.json' "$scarp" view folder -o x.html
 cp -r set damaged

@@ -1,5 +1,5 @@
 # What the browser is asked of each page of test_view.sh, and what must be true of its answers: view_pages.py [jobs].
-import base64, json, os, subprocess, sys
+import base64, functools, json, os, subprocess, sys
 READ = "[document.getElementById('readout').innerText, document.title]"
 READY = "window.scarp_page?.drawn > 0 && !document.body.classList.contains('empty')"
 NOTICE = "document.getElementById('notice').hidden ? '' : document.getElementById('notice').textContent"
@@ -100,7 +100,11 @@ job(levels, "levels_lod0.html", [
     {"read": READ, "shot": "phone_controls"}, {"read": "[document.getElementById('slider-row').hidden, parseFloat(document.getElementById('error-text').textContent)]"}], axe=True, width=390, height=780)
 
 
-def tile_levels(values):
+def tile_levels(name, values):
+    page = open(f"{name}.html").read()
+    meshes = json.loads(page.split('id="scarp-data">')[1].split("</script>")[0])["meshes"]
+    held, kept = (sum(sizes) for sizes in zip(*((len(mesh["glb"]), mesh["bytes"]) for mesh in meshes)))
+    assert held < 1.5 * kept, (held, kept)
     levels, notes, reaches = values[0]
     assert len(levels) > 2 and all(0 < coarse < fine for (_, fine), (_, coarse) in zip(levels, levels[1:])), levels
     numbers = [int(name.split()[-1]) for name, _ in levels]
@@ -136,7 +140,7 @@ def plane(values):
 
 job(plane, "plane.html", [{"until": READY, "read": "[0, 1].map(k => scarp_page.document.place.high[k] - scarp_page.document.place.low[k])", "shot": "tiles_plane"}])
 for name in ("set", "archive"):
-    job(tile_levels, f"{name}.html", [
+    job(functools.partial(tile_levels, name), f"{name}.html", [
         {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP}, {"read": CRACKS},
         {"do": COARSE, "until": "scarp_page.level === 2 && !scarp_page.scene.asked", "shot": f"tiles_{name}_coarse"}])
 # Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and beside it; which parts of the page

@@ -14,6 +14,7 @@
 #include "options/output_kind.h"
 #include "scarp/glb.h"
 #include "scarp/io.h"
+#include "scarp/points.h"
 #include "scarp/solid.h"
 #include "scarp/tile_set_mesh.h"
 #include "terminal/text.h"
@@ -52,8 +53,8 @@ bool is_tile_set(const std::string& path) {
 
 Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
   std::vector<std::vector<std::uint8_t>> files;
-  for (const LevelSheet& sheet : level.sheets) {
-    auto glb = encode_glb(sheet.mesh, {.base_color = sheet.image});
+  for (const LevelTile& tile : level.tiles) {
+    auto glb = encode_glb(tile.mesh, {.compress = can_compress_glb(), .cell = level.cell, .base_color = tile.image});
     if (!glb) return glb;
     files.push_back(std::move(*glb));
   }
@@ -144,6 +145,12 @@ Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<
   const Result<ReadOptions> read = asked.parse();
   if (!read) return tl::unexpected(read.error());
   Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
+  if (!field && is_point_file(raster_.path())) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{} holds points, and a page judges by a raster alone: 'scarp view {}' shows the mesh, "
+                            "'scarp measure {} {}' judges it",
+                            raster_.path(), shell_word(mesh_), shell_word(raster_.path()), shell_word(mesh_)));
+  }
   if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
   if (!asked.crs) fit_frame(mesh, *field);
   if (!raster_.crs) warnings = place_frame(mesh, *field);

@@ -252,6 +252,8 @@ class GlbWriter {
 
 }  // namespace
 
+bool can_compress_glb() { return kHasMeshoptCodec; }
+
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh) { return GlbWriter(mesh, {}).encode(); }
 
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options) {
