@@ -12,6 +12,8 @@ succeeds "$scarp" simplify "$dem" packed.glb -e 5 --compress --html by_simplify.
 grep -qF by_simplify.html "$logs/out" || fail "the summary does not name the page"
 succeeds "$scarp" simplify "$dem" levels.glb -e 5 --lods 3:4 --html levels.html -q
 succeeds "$scarp" simplify "$dem" plain.obj -e 20 --crs source -q
+succeeds "$scarp" generate smooth 2 2 two.tif -q
+succeeds "$scarp" simplify two.tif two.glb -e 0 -q
 succeeds "$scarp" simplify "$dem" bent.glb -e 20 --crs EPSG:32616 -q
 
 # Under an image: red in the north-west, green, blue, yellow in the south-east.
@@ -35,6 +37,7 @@ refuses 4 'plain.html' "$scarp" view plain.glb "$dem"
 succeeds "$scarp" view plain.glb "$dem" --overwrite -q
 [ ! -s "$logs/out" ] || fail "-q is not quiet"
 succeeds "$scarp" view plain.glb -o alone.html
+succeeds "$scarp" view two.glb two.tif
 succeeds "$scarp" view plain.obj "$dem" -o obj.html
 succeeds "$scarp" view levels_lod0.glb "$dem"
 succeeds "$scarp" view bent.glb "$dem"
@@ -179,6 +182,14 @@ open("nan.glb", "wb").write(broken)
 broken = bytearray(plain)
 struct.pack_into("<H", broken, binary + views[1]["byteOffset"], 65535)
 open("index.glb", "wb").write(broken)
+
+# Lines beside the triangles.
+words = json.loads(plain[20:20 + length])
+primitives = words["meshes"][0]["primitives"]
+primitives.append({**primitives[0], "mode": 1})
+text = json.dumps(words).encode()
+text += b" " * (-len(text) % 4)
+open("lines.glb", "wb").write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(plain) - 20 - length, len(text), 0x4E4F534A) + text + plain[20 + length:])
 
 # Images that are damaged, or elsewhere.
 whole = open("image.glb", "rb").read()

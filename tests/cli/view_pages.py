@@ -1,7 +1,8 @@
 # What the browser is asked of each page of test_view.sh, and what must be true of its answers: view_pages.py [jobs].
 import base64, functools, json, os, subprocess, sys
 READ = "[document.getElementById('readout').innerText, document.title]"
-READY = "window.scarp_page?.drawn > 0 && !document.body.classList.contains('empty')"
+JUDGED = "scarp_page.shown.every(terrain => terrain.is_judged)"
+READY = "window.scarp_page?.drawn > 0 && !document.body.classList.contains('empty') && " + JUDGED
 NOTICE = "document.getElementById('notice').hidden ? '' : document.getElementById('notice').textContent"
 jobs, checks = [], []
 
@@ -30,7 +31,8 @@ def same(report, text):
 def plain(values):
     same("plain.json", values[0][0])
     assert values[0][1] == "plain.glb", values[0]
-    picture, wire, errors, after, profile, shared, state = values[1:]
+    picture, wire, errors, after, moved, profile, shared, state = values[1:]
+    assert [abs(moved[0][0]) < 1e-6, moved[0][1] > 0, moved[1] < 0, moved[2]] == [True, True, True, True], moved
     assert wire != picture and errors != wire and after != errors, "a key changes nothing"
     assert "Distance" in profile[0] and "slope" in profile[0] and profile[1] > 50 and profile[2] > 50, profile
     assert shared > 0, "no PNG"
@@ -38,6 +40,13 @@ def plain(values):
 
 
 CANVAS = "document.getElementById('canvas').toDataURL()"
+# Ahead is north there; one step to the right and two back end south-east of the middle, as far from it as before.
+MOVED = """(first => {
+  const press = key => dispatchEvent(new KeyboardEvent('keydown', {key, shiftKey: true})), far = scarp_page.scene.orbit().distance;
+  for (const key of ['ArrowRight', 'ArrowDown', 'ArrowDown']) press(key);
+  const {target: [x, y, z], distance} = scarp_page.scene.orbit();
+  return [first, y / x, x > 0 && Math.abs(x + y) < 1e-6 * x && z === 0 && Math.abs(distance / far - 1) < 1e-6];
+})(scarp_page.scene.orbit().target)"""
 MEASURED = ("[document.getElementById('measured-text').textContent, (document.querySelector('#profile .mesh')?.getAttribute('d') ?? '')"
             ".split('L').length, document.getElementById('profile').getBoundingClientRect().height]")
 job(plain, "plain.html", [
@@ -46,6 +55,7 @@ job(plain, "plain.html", [
     {"keys": ["w"], "until": "scarp_page.scene.views[0].edges.visible", "read": CANVAS, "shot": "wireframe"},
     {"keys": ["w", "e"], "until": "scarp_page.scene.views[0].uniforms.errors.value", "read": CANVAS, "shot": "errors"},
     {"keys": ["ArrowLeft", "ArrowUp", "PageUp"], "until": "!scarp_page.scene.asked", "read": CANVAS},
+    {"keys": ["r"], "after": "scarp_page.scene.set_orbit({...scarp_page.scene.orbit(), azimuth: 0})"}, {"keys": ["Shift+ArrowUp"], "read": MOVED},
     {"keys": ["r", "m"], "clicks": [[600, 330], [800, 450]], "until": "scarp_page.measuring.points.length === 2", "read": MEASURED,
      "shot": "profile"},
     {"do": "scarp_page.scene.png().then(blob => blob.size)"},
@@ -97,7 +107,7 @@ job(levels, "levels_lod0.html", [
                              " return found.flatMap(values => [Math.min(...values), Math.max(...values)]); })()]", "shot": "phone"},
     {"do": "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))",
      "after": "document.getElementById('fold').click()"},
-    {"read": READ, "shot": "phone_controls"}, {"read": "[document.getElementById('slider-row').hidden, parseFloat(document.getElementById('error-text').textContent)]"}], axe=True, width=390, height=780)
+    {"until": JUDGED, "read": READ, "shot": "phone_controls"}, {"read": "[document.getElementById('slider-row').hidden, parseFloat(document.getElementById('error-text').textContent)]"}], axe=True, width=390, height=780)
 
 
 def tile_levels(name, values):
@@ -146,7 +156,7 @@ for name in ("set", "archive"):
 # Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and beside it; which parts of the page
 # tell of the image.
 QUARTERS = """(() => {
-  const {scene, shown: [terrain], document: {place}} = scarp_page, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.heights[(k - c) / 3] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
+  const {scene, shown: [terrain], document: {place}} = scarp_page, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.positions[k - c + 2] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
   scene.draw();
   [picture.width, picture.height] = [scene.canvas.width, scene.canvas.height];
   picture.getContext('2d').drawImage(scene.canvas, 0, 0);
@@ -206,6 +216,22 @@ def alone(values):
 job(alone, "alone.html", [{"until": READY, "read": READ}])
 
 
+# The map from above of a mesh without an error: as white as the middle of the scale.
+job(lambda values: values == [[242, 242, 242, 255]] or sys.exit(str(values)), "two.html", [
+    {"until": READY}, {"keys": ["e", "w"], "until": "!document.getElementById('map').hidden",
+                       "read": "[...document.getElementById('map').getContext('2d').getImageData(0, 0, 1, 1).data]", "shot": "exact"}], axe=True)
+
+
+def lines(values):
+    same("plain.json", values[0][0])
+    assert "only triangles are shown" in values[1] and "mode 1" in values[1], values
+
+
+job(lines, "plain.html", [
+    {"until": READY}, {"drop": [{"name": "lines.glb", "path": os.path.abspath("lines.glb")}], "until": "document.title === 'lines.glb' && " + JUDGED, "read": READ},
+    {"read": "document.getElementById('notes').textContent"}])
+
+
 def sentences(values):
     for name, words in (("cut.glb", "cut off"), ("other.glb", "no GLB file"), ("nan.glb", "Vertex 17"), ("index.glb", "vertex 65535"),
                         ("raster.xyz", "no file that this page reads")):
@@ -218,7 +244,7 @@ def sentences(values):
 job(sentences, "plain.html", [{"until": READY}] + [
     {"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE,
      "read": NOTICE, "after": "document.getElementById('notice').hidden = true"} for name in ("cut.glb", "other.glb", "nan.glb", "index.glb", "raster.xyz")] + [
-    {"drop": [{"name": "packed.glb", "path": os.path.abspath("packed.glb")}], "until": "document.title === 'packed.glb'", "read": READ},
+    {"drop": [{"name": "packed.glb", "path": os.path.abspath("packed.glb")}], "until": "document.title === 'packed.glb' && " + JUDGED, "read": READ},
     {"read": NOTICE}])
 job(lambda values: values[0].index("refuses WebAssembly"), "by_simplify.html", [{"until": NOTICE, "read": NOTICE, "shot": "refused"}],
     before="delete window.WebAssembly")

@@ -15,11 +15,12 @@ async function bundle(entry, options) {
 }
 
 const worker = has_engine ? await bundle('worker.js', { alias: { 'scarp/inline': join(engine, 'inline.js') } }) : '';
+const sources = { 'worker-source': worker, 'judge-source': await bundle('judge_worker.js') };
 const script = await bundle('main.js', { plugins: [{
-  name: 'worker-source',
+  name: 'sources',
   setup({ onResolve, onLoad }) {
-    onResolve({ filter: /^worker-source$/ }, ({ path }) => ({ path, namespace: 'worker' }));
-    onLoad({ filter: /.*/, namespace: 'worker' }, () => ({ contents: worker, loader: 'text' }));
+    onResolve({ filter: /^(worker|judge)-source$/ }, ({ path }) => ({ path, namespace: 'sources' }));
+    onLoad({ filter: /.*/, namespace: 'sources' }, ({ path }) => ({ contents: sources[path], loader: 'text' }));
   },
 }] });
 const html = readFileSync(join(source, 'page.html'), 'utf8')

@@ -1,5 +1,5 @@
 // What the page shows: levels of a mesh and, where it is known, their raster.
-import { Field } from './field.js';
+import { Field, place_mesh } from './field.js';
 import { read_glb } from './glb.js';
 import { Sentence } from './sentence.js';
 import { Place, Terrain } from './terrain.js';
@@ -46,7 +46,7 @@ export function document_of_raster({ field, frame: { metres, extras, knows_metre
 
 /** A mesh of the engine, which is in the field's frame; `known` of it: {judged, goal, extras}. Under the image of `shown`, if there is one. */
 export function terrain_of_engine(name, { positions, indices, origin }, known, field, place, shown = null) {
-  const placed = Float64Array.from(positions, (value, k) => value + origin[k % 3]);
+  const placed = place_mesh({ positions, origin });
   const in_image = shown?.placing, uvs = in_image ? new Float32Array(placed.length / 3 * 2) : null;
   for (let v = 0; uvs && v < uvs.length; v += 2) uvs.set(in_image(placed[1.5 * v], placed[1.5 * v + 1]), v);
   return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), ...known, uvs, ...(uvs && { sheets: [{ ...shown.sheets[0], start: 0, count: indices.length }] }) }, place, field);

@@ -19,11 +19,11 @@ function find_stray({ samples, cols, rows }) {
 }
 
 /**
- * `grid`: column and row of each vertex; `heights`: z of each. Returns errors of all samples (NaN: void or uncovered),
+ * `positions`: x, y, z of the frame that the field lies in. Returns errors of all samples (NaN: void or uncovered),
  * the largest |error|, the root of the mean square, and how many samples were covered, not, and stray: these are not judged.
  */
-export function judge(field, { grid, heights, indices }) {
-  const { samples, cols, rows } = field, stray = find_stray(field);
+export function judge(field, { positions, indices }) {
+  const { samples, cols, rows } = field, stray = find_stray(field), grid = field.to_grids(positions);
   const errors = new Float32Array(cols * rows).fill(NaN);
   let max_error = 0, squares = 0, covered = 0;
   for (let t = 0; t < indices.length; t += 3) {
@@ -31,6 +31,7 @@ export function judge(field, { grid, heights, indices }) {
     const ax = grid[2 * a], ay = grid[2 * a + 1], bx = grid[2 * b], by = grid[2 * b + 1], cx = grid[2 * c], cy = grid[2 * c + 1];
     const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
     if (area === 0) continue;
+    const az = positions[3 * a + 2], bz = positions[3 * b + 2], cz = positions[3 * c + 2];
     const last_row = Math.min(rows - 1, Math.floor(Math.max(ay, by, cy))), last_col = Math.min(cols - 1, Math.floor(Math.max(ax, bx, cx)));
     const first_col = Math.max(0, Math.ceil(Math.min(ax, bx, cx)));
     for (let row = Math.max(0, Math.ceil(Math.min(ay, by, cy))); row <= last_row; ++row) {
@@ -39,7 +40,7 @@ export function judge(field, { grid, heights, indices }) {
         if (of_b / area < -EDGE || of_c / area < -EDGE || (of_b + of_c) / area > 1 + EDGE) continue;
         const at = row * cols + col;
         if (errors[at] === errors[at] || stray.has(at)) continue;  // on an edge, judged with the neighbour
-        const z = samples[at], error = ((area - of_b - of_c) * (heights[a] - z) + of_b * (heights[b] - z) + of_c * (heights[c] - z)) / area;  // 0 where it is flat
+        const z = samples[at], error = ((area - of_b - of_c) * (az - z) + of_b * (bz - z) + of_c * (cz - z)) / area;  // 0 where it is flat
         if (error !== error) continue;
         errors[at] = error;
         ++covered;

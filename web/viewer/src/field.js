@@ -28,6 +28,13 @@ export class Field {
     return [snap((a[5] * dx - a[2] * dy) / this.determinant), snap((a[1] * dy - a[4] * dx) / this.determinant)];
   }
 
+  /** Of all vertices: column, row, column, … */
+  to_grids(positions) {
+    const grid = new Float64Array(positions.length / 3 * 2);
+    for (let v = 0, k = 0; k < grid.length; v += 3, k += 2) [grid[k], grid[k + 1]] = this.to_grid(positions[v], positions[v + 1]);
+    return grid;
+  }
+
   /** Bilinear between samples; NaN outside and beside voids. */
   height_at(x, y) {
     const [col, row] = this.to_grid(x, y);
@@ -37,6 +44,11 @@ export class Field {
     const mix = (a, b, t) => t === 0 ? a : t === 1 ? b : a + t * (b - a);
     return mix(mix(at(0, 0), at(1, 0), u), mix(at(0, 1), at(1, 1), u), v);
   }
+}
+
+/** Vertices of the engine, which are offsets from an origin. */
+export function place_mesh({ positions, origin }) {
+  return Float64Array.from(positions, (value, k) => value + origin[k % 3]);
 }
 
 function snap(value) {

@@ -118,7 +118,10 @@ class Reader {
     if (!node || depth > 64) throw this.damaged('its nodes form no tree');
     const matrix = multiply(above, matrix_of(node));
     for (const primitive of this.json.meshes?.[node.mesh]?.primitives ?? []) {
-      if ((primitive.mode ?? 4) !== 4) continue;
+      if ((primitive.mode ?? 4) !== 4) {
+        this.notes.add(`Of ${this.name} only triangles are shown: it has primitives of mode ${primitive.mode}, too.`);
+        continue;
+      }
       const local = this.numbers(primitive.attributes?.POSITION, 3), vertices = local.length / 3;
       const positions = new Float64Array(local.length), m = matrix;
       for (let v = 0; v < vertices; ++v) {

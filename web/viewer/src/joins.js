@@ -24,20 +24,45 @@ export function join_places(places) {
 
 /** Each edge once, as pairs of vertices. */
 export function list_edges(indices, firsts) {
-  const mask = slots_for(indices.length) - 1, slots = new Float64Array(mask + 1).fill(-1), pairs = new Uint32Array(2 * indices.length);
+  const begins = new Uint32Array(firsts.length + 1), each_side = use => {
+    for (let k = 0; k < indices.length; ++k) {
+      const a = firsts[indices[k]], b = firsts[indices[k % 3 === 2 ? k - 2 : k + 1]];
+      if (a !== b) use(Math.min(a, b), Math.max(a, b));
+    }
+  };
+  each_side(low => { ++begins[low + 1]; });
+  for (let v = 0; v < firsts.length; ++v) begins[v + 1] += begins[v];
+  const ends = begins.slice(), highs = new Uint32Array(begins[firsts.length]), seen = new Uint32Array(firsts.length).fill(firsts.length), pairs = new Uint32Array(2 * highs.length);
+  each_side((low, high) => { highs[ends[low]++] = high; });
   let count = 0;
-  for (let k = 0; k < indices.length; ++k) {
-    const a = firsts[indices[k]], b = firsts[indices[k % 3 === 2 ? k - 2 : k + 1]], low = Math.min(a, b), high = Math.max(a, b);
-    if (low === high) continue;
-    const key = low * firsts.length + high;
-    let hash = Math.imul(low, 0x9e3779b1) ^ Math.imul(high, 0x85ebca6b), at = (hash ^= hash >>> 15) & mask;
-    while (slots[at] >= 0 && slots[at] !== key) at = (at + 1) & mask;
-    if (slots[at] === key) continue;
-    slots[at] = key;
-    pairs[count++] = a;
-    pairs[count++] = b;
+  for (let low = 0; low < firsts.length; ++low) {
+    for (let at = begins[low]; at < ends[low]; ++at) {
+      if (seen[highs[at]] === low) continue;
+      seen[highs[at]] = low;
+      pairs[count++] = low;
+      pairs[count++] = highs[at];
+    }
   }
   return pairs.subarray(0, count);
+}
+
+/** By length, roughly: {pairs, count_from}, the longest first, and how many there are, at least, of a length or more. */
+export function rank_edges(pairs, places) {
+  const SHIFT = 21, ranks = 2 ** (31 - SHIFT), count = pairs.length / 2, squares = new Float32Array(count), bits = new Int32Array(squares.buffer);
+  const ends = new Uint32Array(ranks + 1), ranked = new Uint32Array(pairs.length);
+  for (let k = 0; k < count; ++k) {
+    const a = 3 * pairs[2 * k], b = 3 * pairs[2 * k + 1], x = places[a] - places[b], y = places[a + 1] - places[b + 1], z = places[a + 2] - places[b + 2];
+    squares[k] = x * x + y * y + z * z;
+    ++ends[ranks - (bits[k] >> SHIFT)];
+  }
+  for (let rank = 1; rank <= ranks; ++rank) ends[rank] += ends[rank - 1];
+  const next = ends.slice();
+  for (let k = 0; k < count; ++k) {
+    const at = 2 * next[ranks - 1 - (bits[k] >> SHIFT)]++;
+    ranked[at] = pairs[2 * k];
+    ranked[at + 1] = pairs[2 * k + 1];
+  }
+  return { pairs: ranked, count_from: length => ends[ranks - (new Int32Array(Float32Array.of(length * length).buffer)[0] >> SHIFT)] };
 }
 
 /** Of each vertex the sum of the normals of all triangles at its place, by their areas. */

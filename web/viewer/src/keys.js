@@ -1,10 +1,13 @@
 // What keys do.
+const TURNED = 5;  // degrees
+const MOVED = 0.1;  // of the picture's height
+
 export function listen_to_keys(page) {
   addEventListener('keydown', event => {
     const { target, key } = event, is_control = target.matches?.('input, select, button, dialog, [role=slider]');
     if (event.ctrlKey || event.metaKey || event.altKey || !page.document || document.querySelector('dialog[open]')) return;
     if (is_control && /^(Arrow|Enter|Page| )/.test(key)) return;
-    const step = event.shiftKey ? 1 : 6;
+    const arrow = (x, y) => event.shiftKey ? page.scene.move(x * MOVED, y * MOVED) : page.scene.turn(-x * TURNED, y * TURNED);
     const action = {
       w: () => page.change({ edges: !page.look.edges }),
       e: () => page.document.field && page.change({ errors: !page.look.errors }),
@@ -17,10 +20,10 @@ export function listen_to_keys(page) {
       '+': () => page.live.step(1),
       '=': () => page.live.step(1),
       '-': () => page.live.step(-1),
-      ArrowLeft: () => page.scene.turn(step, 0),
-      ArrowRight: () => page.scene.turn(-step, 0),
-      ArrowUp: () => page.scene.turn(0, step),
-      ArrowDown: () => page.scene.turn(0, -step),
+      ArrowLeft: () => arrow(-1, 0),
+      ArrowRight: () => arrow(1, 0),
+      ArrowUp: () => arrow(0, 1),
+      ArrowDown: () => arrow(0, -1),
       PageUp: () => page.scene.approach(0.8),
       PageDown: () => page.scene.approach(1.25),
       Enter: () => page.measuring.is_on && page.measuring.click(innerWidth / 2, innerHeight / 2, page),

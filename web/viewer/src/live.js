@@ -81,12 +81,13 @@ export class Live {
     return this.is_there && Boolean(this.page.document?.field);
   }
 
-  open(document, { error, both, count }) {
+  open(document) {
     for (const helper of [this.quick, this.slow]) helper?.end();
     this.meshes.clear();
     this.both = false;
     this.step_now = null;
     $('slider-row').hidden = $('both-row').hidden = !this.is_usable;
+    this.label(null);
     if (!this.is_usable) return;
     const { field, unit } = document, relief = Math.max(field.high - field.low, 1e-9);
     this.quick = new Helper(field);
@@ -95,10 +96,27 @@ export class Live {
     this.most = Math.ceil(12 * STEPS_AN_OCTAVE);
     this.unit = unit;
     $('error').max = String(this.most);
-    this.follow(error ?? document.levels[0].goal?.maxError ?? this.page.shown[0].judged.max_error);
+  }
+
+  /** As the address says. Where it names no error the slider stands at that of the mesh, once it is known. */
+  begin({ error, both, count }) {
+    if (!this.is_usable) return;
+    const first = error ?? this.page.document.levels[0].goal?.maxError;
     $('same').value = count ? 'count' : 'error';
-    if (both) this.turn_both(true);
-    else if (error !== undefined) this.choose(this.step_of(error)), this.finish();
+    this.hears = () => {
+      this.hears = null;
+      this.follow(first ?? this.page.shown[0].judged.max_error);
+      if (both) this.turn_both(true);
+      else if (error !== undefined) this.choose(this.step_of(error)), this.finish();
+    };
+    if (first !== undefined || this.page.shown[0].is_judged) this.hears();
+  }
+
+  /** A mesh of the file has been judged. */
+  hear(terrain) {
+    if (!this.is_usable || this.step_now !== null) return;
+    if (this.hears) this.hears();
+    else this.follow(terrain.judged.max_error);
   }
 
   /** Of a raster that has no mesh yet, for a max error of that share of the relief: {mesh, judged, goal}. */
@@ -132,7 +150,7 @@ export class Live {
   }
 
   label(error) {
-    $('error-text').textContent = with_unit(error, this.unit);
+    $('error-text').textContent = error === null ? '…' : with_unit(error, this.unit);
     $('error').setAttribute('aria-valuetext', $('error-text').textContent);
   }
 
@@ -147,7 +165,7 @@ export class Live {
 
   /** For a mesh of the file. */
   leave(terrain) {
-    if (this.is_usable) this.follow(terrain.judged.max_error);
+    if (this.is_usable && terrain.is_judged) this.follow(terrain.judged.max_error);
     this.slow?.cancel();
     this.say('');
     this.step_now = null;

@@ -61,17 +61,16 @@ class Page {
     this.look.exaggeration = state.exaggeration ?? (document_.knows_metres ? 1 : document_.place.low_exaggeration);
     this.look.sun = { azimuth: state.azimuth ?? 315, altitude: state.altitude ?? 40 };
     this.measuring.clear();
+    this.live.open(document_);
     this.show([document_.levels[this.level]]);
     this.scene.is_for_two = Boolean(state.view && state.both) && this.live.is_usable;
-    this.scene.draw();
     if (state.view) {
       const [azimuth, altitude, distance, ...target] = state.view;
       this.scene.set_orbit({ azimuth, altitude, distance, target });
     } else {
       this.scene.reset();
     }
-    this.live.open(document_, state);
-    this.update();
+    this.live.begin(state);
   }
 
   /** One mesh, or two beside each other. */
@@ -80,6 +79,16 @@ class Page {
     this.scene.show(terrains);
     this.update();
     this.measuring.tell(this);
+    for (const terrain of terrains) if (!terrain.is_judged) this.judge(terrain);
+  }
+
+  /** Once the picture is there: the worker takes a processor that a picture drawn by software needs. */
+  async judge(terrain) {
+    await this.scene.next_picture();
+    await terrain.judge();
+    if (!this.shown.includes(terrain)) return;
+    this.live.hear(terrain);
+    this.update(this.look.errors);
   }
 
   choose_level(level) {
@@ -89,9 +98,10 @@ class Page {
     this.show([terrain]);
   }
 
-  /** Makes the controls and the readout agree with the state. */
-  update() {
+  /** Makes the controls and the readout agree with the state, and the picture. */
+  update(is_drawn = true) {
     const { look, shown, document: { field, unit, levels, place, knows_metres, is_of_tiles } } = this, [terrain] = shown;
+    const are_judged = shown.every(({ is_judged }) => is_judged), shows_errors = look.errors && are_judged;
     const colors = look.errors ? 'errors' : look.image ? 'image' : 'relief';
     for (const name of ['relief', 'errors', 'image']) $(name).checked = name === colors;
     for (const name of ['edges', 'smooth']) $(name).checked = look[name];
@@ -103,17 +113,17 @@ class Page {
     $('altitude-text').textContent = `${look.sun.altitude}°`;
     $('level').value = String(this.level);
     $('level-text').textContent = `${this.level + 1} of ${levels.length}`;
-    look.scale = field ? Math.max(...shown.map(t => t.judged.max_error)) : 1;
+    look.scale = field && are_judged ? Math.max(...shown.map(t => t.judged.max_error)) : 1;
     fill_readout($('readout'), terrain, unit, levels.includes(terrain) && levels.length === 1 ? null : terrain.name);
     [$('side-left'), $('side-right')].forEach((line, k) => {
       line.hidden = shown.length < 2;
       if (shown.length > 1) line.textContent = summarize(shown[k], unit);
     });
     $('divider').hidden = shown.length < 2;
-    draw_legend({ errors: look.errors, image: look.image && terrain.has_image, scale: look.scale, low: place.low[2], high: place.high[2], unit });
-    $('map').hidden = !look.errors;
-    if (look.errors && (this.mapped !== terrain || this.mapped_scale !== look.scale)) draw_map(terrain.judged, field, look.scale);
-    [this.mapped, this.mapped_scale] = look.errors ? [terrain, look.scale] : [];
+    draw_legend({ errors: shows_errors, image: look.image && terrain.has_image, scale: look.scale, low: place.low[2], high: place.high[2], unit });
+    $('map').hidden = !shows_errors;
+    if (shows_errors && (this.mapped !== terrain || this.mapped_scale !== look.scale)) draw_map(terrain.judged, field, look.scale);
+    [this.mapped, this.mapped_scale] = shows_errors ? [terrain, look.scale] : [];
     const notes = [...this.document.notes];
     if (is_of_tiles) notes.push('Tiles side by side on a flat map; heights are those of the tiles. What judges them is scarp tile check SET.');
     else if (!field) notes.push('Without its raster nothing can be judged here: scarp view MESH RASTER.');
@@ -129,8 +139,8 @@ class Page {
     $('command-note').hidden = !command_note;
     $('decoding-row').hidden = !field?.decoding;
     if (field?.decoding) $('decoding').value = field.decoding;
-    $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${look.errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`);
-    this.scene.invalidate();
+    $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${shows_errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`);
+    if (is_drawn) this.scene.invalidate();
   }
 
   change(look) {
@@ -201,9 +211,9 @@ class Page {
 }
 
 async function start() {
+  const page = window.scarp_page = new Page();  // before the data are there: the browser compiles meanwhile what draws
+  if (document.readyState === 'loading') await new Promise(done => addEventListener('DOMContentLoaded', done));
   const data = $('scarp-data');
-  const page = new Page();
-  window.scarp_page = page;
   if (!data) return say(HAS_ENGINE ? 'Drop a GeoTIFF, an .hgt file or a PNG tile here, or a GLB. It stays on this machine.'
     : 'This page holds no mesh: scarp view MESH RASTER makes one that does. Or drop a GLB file here.');
   await begin(page, async () => ({ document: await read_inline(JSON.parse(data.textContent)), state: read_fragment() }));

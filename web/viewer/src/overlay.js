@@ -22,7 +22,7 @@ export function draw_legend({ errors, image, scale, low, high, unit }) {
   $('legend').hidden = image && !errors;
   $('legend-bar').style.background = errors ? ERRORS : RELIEF;
   const end = Number(scale.toPrecision(3));
-  const words = errors ? [`−${end} below`, '0', `+${with_unit(end, unit)} above`] : [number(low), '', with_unit(high, unit)];
+  const words = errors ? [end ? `−${end} below` : '', '0', end ? `+${with_unit(end, unit)} above` : ''] : [number(low), '', with_unit(high, unit)];
   [...$('legend-text').children].forEach((span, k) => { span.textContent = words[k]; });
 }
 
@@ -41,7 +41,7 @@ export function draw_map(judged, field, scale) {
     }
   }
   worst.forEach((error, at) => {
-    const t = Math.min(1, Math.abs(error) / scale), end = error < 0 ? [33, 102, 171] : [178, 23, 43];
+    const t = Math.min(1, Math.abs(error) / (scale || 1)), end = error < 0 ? [33, 102, 171] : [178, 23, 43];
     const color = error === Infinity ? [140, 140, 140] : error === error ? end.map(c => 242 + (c - 242) * t) : [0, 0, 0];
     picture.data.set([...color, error === error ? 255 : 0], 4 * at);
   });

@@ -10,6 +10,7 @@ export function fill_readout(list, terrain, unit, shown) {
   if (terrain.bytes !== null) rows.push(['file', bytes(terrain.bytes)]);
   if (judged && judged.covered === 0) rows.push(['max error', 'none: no sample is covered']);
   else if (judged) rows.push(['max error', with_unit(judged.max_error, unit)], ['at column, row', judged.worst.join(', ')], ['RMSE', with_unit(judged.rmse, unit)]);
+  else if (field) rows.push(['max error', 'measuring'], ...['at column, row', 'RMSE', 'samples judged'].map(name => [name, '…']));
   else if (told?.max_error !== undefined) rows.push(['max error, its file says', with_unit(told.max_error, unit)]);
   if (judged) rows.push(['samples judged', count(judged.covered)]);
   if (judged?.uncovered) rows.push(['samples uncovered', count(judged.uncovered)]);

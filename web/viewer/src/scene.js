@@ -1,12 +1,14 @@
 // The terrain on the canvas: one view or two beside each other, drawn when something has changed.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Antialias } from './antialias.js';
 import { make_pyramid } from './errors.js';
 import { EDGE_FRAGMENT, EDGE_VERTEX, SURFACE_FRAGMENT, SURFACE_VERTEX } from './shaders.js';
 import { Sentence } from './sentence.js';
 
 THREE.ColorManagement.enabled = false;  // colours go to the screen as they are
 const UNCOVERED = 1e30;
+const SHORTEST = 4;  // pixels of an edge that is seen, as shaders.js has it
 const MOST_TEXELS = 4096;  // a side; what is larger is reduced by largest errors
 
 function error_texture(judged, { cols, rows }) {
@@ -70,12 +72,10 @@ class View {
       texture.value?.dispose();
       texture.value = null;
     }
-    this.has_edges = false;
-    const geometry = new THREE.BufferGeometry(), { field, grid } = terrain;
+    this.ranked = null;
+    this.edges_there = 0;
+    const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(terrain.scene, 3));
-    const sampled = new Float32Array(terrain.heights.length * 2);
-    if (field) for (let k = 0; k < sampled.length; ++k) sampled[k] = (grid[k] + 0.5) / (k % 2 ? field.rows : field.cols);
-    geometry.setAttribute('sampled', new THREE.BufferAttribute(sampled, 2));
     if (terrain.uvs) geometry.setAttribute('uv', new THREE.BufferAttribute(terrain.uvs, 2));
     geometry.setIndex(new THREE.BufferAttribute(terrain.indices, 1));
     terrain.sheets.forEach(({ start, count }, k) => geometry.addGroup(start, count, k));
@@ -87,7 +87,10 @@ class View {
   /** Made when they are first looked at. */
   prepare(look) {
     const { terrain, uniforms } = this, { geometry } = this.surface;
-    if (look.errors && !uniforms.errors.value && terrain.judged) uniforms.errors.value = error_texture(terrain.judged, terrain.field);
+    if (look.errors && terrain.judged && !uniforms.errors.value) {
+      uniforms.errors.value = error_texture(terrain.judged, terrain.field);
+      geometry.setAttribute('sampled', new THREE.BufferAttribute(terrain.sampled, 2));
+    }
     terrain.sheets.forEach((sheet, k) => {
       const { image, shows_image, ground, shows_ground } = this.materials[k].uniforms;
       shows_image.value = look.image && sheet.image !== null;
@@ -97,15 +100,26 @@ class View {
     });
     if (look.smooth && !geometry.attributes.normal) geometry.setAttribute('normal', new THREE.BufferAttribute(terrain.normals, 3));
     this.edges.visible = look.edges;
-    if (!look.edges || this.has_edges) return;
-    this.has_edges = true;
-    const pairs = terrain.edges(), here = new Float32Array(pairs.length * 3), there = new Float32Array(pairs.length * 3);
-    for (let k = 0; k < pairs.length; ++k) {
-      here.set(terrain.scene.subarray(3 * pairs[k], 3 * pairs[k] + 3), 3 * k);
-      there.set(terrain.scene.subarray(3 * pairs[k ^ 1], 3 * pairs[k ^ 1] + 3), 3 * k);
+  }
+
+  /** Of the edges only those that may be long enough to be seen: `shortest`, in the scene's units. */
+  prepare_edges(shortest) {
+    const { terrain, edges } = this, { pairs, count_from } = this.ranked ??= terrain.edges(), count = count_from(shortest);
+    if (count > this.edges_there) {
+      this.edges_there = Math.min(pairs.length / 2, Math.max(2 * this.edges_there, count));
+      const here = new Float32Array(this.edges_there * 6), there = new Float32Array(this.edges_there * 6), { scene } = terrain;
+      for (let k = 0; k < 2 * this.edges_there; ++k) {
+        for (let c = 0, from = 3 * pairs[k], to = 3 * pairs[k ^ 1]; c < 3; ++c) {
+          here[3 * k + c] = scene[from + c];
+          there[3 * k + c] = scene[to + c];
+        }
+      }
+      edges.geometry.dispose();
+      edges.geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(here, 3)).setAttribute('other', new THREE.BufferAttribute(there, 3));
+      edges.geometry.boundingSphere = this.surface.geometry.boundingSphere;
     }
-    this.edges.geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(here, 3)).setAttribute('other', new THREE.BufferAttribute(there, 3));
-    this.edges.geometry.boundingSphere = this.surface.geometry.boundingSphere;
+    edges.geometry.setDrawRange(0, 2 * count);
+    edges.visible = count > 0;
   }
 }
 
@@ -116,12 +130,13 @@ export class Scene {
     const { width, height, ratio } = this.size();
     Object.assign(canvas, { width: width * ratio, height: height * ratio });  // before there is a buffer, which would be made twice
     try {
-      this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+      this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
     } catch {
       throw new Sentence('This browser cannot draw WebGL 2: update it, or turn on its hardware acceleration.');
     }
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setScissorTest(true);
+    this.antialias = new Antialias(this.renderer);
     this.camera = new THREE.PerspectiveCamera(35, 1, 1, 1e5);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -130,7 +145,7 @@ export class Scene {
     this.controls.addEventListener('change', () => this.invalidate());
     this.shared = { shows_errors: { value: false }, is_smooth: { value: false }, scale: { value: 1 }, range: { value: new THREE.Vector2() }, sun: { value: new THREE.Vector3() },
       pixels: { value: new THREE.Vector2() }, ink: { value: new THREE.Color() }, weight: { value: 0.5 } };
-    new ResizeObserver(() => this.invalidate()).observe(canvas);
+    new ResizeObserver(() => this.size().text === this.drawn_size || this.invalidate()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.invalidate());
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
     this.add_view().compile(this.renderer, this.camera);
@@ -138,15 +153,16 @@ export class Scene {
 
   /** In CSS pixels, and how many of the screen's a side of one is. */
   size() {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    return { width, height, ratio: Math.min(devicePixelRatio, 2) };
+    const { clientWidth: width, clientHeight: height } = this.canvas, ratio = Math.min(devicePixelRatio, 2);
+    return { width, height, ratio, text: `${width} ${height} ${ratio}` };
   }
 
   fit() {
-    const { width, height, ratio } = this.size(), size = `${width} ${height} ${ratio}`;
-    if (this.drawn_size === size) return;
+    const { width, height, ratio, text } = this.size();
+    if (this.drawn_size === text) return;
     this.renderer.setDrawingBufferSize(width, height, ratio);
-    this.drawn_size = size;
+    this.antialias.fit(width * ratio, height * ratio);
+    this.drawn_size = text;
   }
 
   add_view() {
@@ -156,6 +172,11 @@ export class Scene {
 
   on_draw(listener) {
     this.listeners.push(listener);
+  }
+
+  /** When the one that has been asked for is on the screen. */
+  next_picture() {
+    return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
   }
 
   /** One terrain or two. */
@@ -230,6 +251,13 @@ export class Scene {
     this.set_orbit({ ...orbit, azimuth: orbit.azimuth + azimuth, altitude: orbit.altitude + altitude });
   }
 
+  /** The camera over the ground, to its right and ahead: shares of the picture's height. */
+  move(right, ahead) {
+    const { azimuth, target: [x, y, z], ...orbit } = this.orbit(), a = azimuth * Math.PI / 180, length = this.metres_per_pixel() * this.canvas.clientHeight;
+    const [east, north] = [right * Math.cos(a) + ahead * Math.sin(a), ahead * Math.cos(a) - right * Math.sin(a)];
+    this.set_orbit({ ...orbit, azimuth, target: [x + east * length, y + north * length, z] });
+  }
+
   approach(factor) {
     const orbit = this.orbit();
     this.set_orbit({ ...orbit, distance: orbit.distance * factor });
@@ -265,7 +293,7 @@ export class Scene {
     this.fit();
     const style = getComputedStyle(document.documentElement), azimuth = look.sun.azimuth * Math.PI / 180, altitude = look.sun.altitude * Math.PI / 180;
     renderer.setClearColor(style.getPropertyValue('--sky').trim());
-    shared.shows_errors.value = look.errors;
+    shared.shows_errors.value = look.errors && this.views.slice(0, this.count).every(({ terrain }) => terrain.judged);
     shared.is_smooth.value = look.smooth;
     shared.scale.value = Math.max(look.scale, 1e-12);
     shared.sun.value.set(Math.sin(azimuth) * Math.cos(altitude), Math.cos(azimuth) * Math.cos(altitude), Math.sin(altitude));
@@ -275,17 +303,20 @@ export class Scene {
     const radius = Math.max(...this.views.slice(0, this.count).map(view => view.terrain.reach)) * Math.max(1, look.exaggeration), away = camera.position.length();
     camera.near = Math.max(away - radius * 1.1, radius * 1e-4);
     camera.far = away + radius * 1.1;
+    const target = this.antialias.begin(this.views.slice(0, this.count).reduce((sum, { terrain }) => sum + terrain.triangles, 0));
     for (let k = 0; k < this.count; ++k) {
       const view = this.views[k], [left, wide] = this.part(k);
       if (wide < 1) continue;
       view.prepare(look);
+      if (look.edges) view.prepare_edges(SHORTEST * camera.near * 2 * Math.tan(camera.fov * Math.PI / 360) / height / Math.max(1, look.exaggeration));
       view.group.scale.z = look.exaggeration;
       this.aim(k);
       shared.pixels.value.set(wide, height);
-      renderer.setViewport(left, 0, wide, height);
-      renderer.setScissor(left, 0, wide, height);
+      target.setViewport(left, 0, wide, height);
+      target.setScissor(left, 0, wide, height);
       renderer.render(view.scene, camera);
     }
+    this.antialias.end();
     for (const listener of this.listeners) listener();
   }
 

@@ -67,7 +67,7 @@ void main() {
   vec4 here = projectionMatrix * modelViewMatrix * vec4(position, 1.0), there = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
   float length_on_screen = there.w <= 0. || here.w <= 0. ? 1e4 : length((here.xy / here.w - there.xy / there.w) * .5 * pixels);
   shown = smoothstep(4., 12., length_on_screen);
-  gl_Position = here;
+  gl_Position = shown > 0. ? here : vec4(0., 0., 2., 1.);
 }`;
 
 export const EDGE_FRAGMENT = `
@@ -75,6 +75,5 @@ uniform vec3 ink;
 uniform float weight;
 varying float shown;
 void main() {
-  if (shown <= 0.) discard;
   gl_FragColor = vec4(ink, weight * shown);
 }`;

@@ -1,7 +1,7 @@
 // A mesh in place: in metres around the page's centre for drawing, in columns and rows for judging.
-import { judge } from './errors.js';
+import { judge_beside } from './judging.js';
 import { find_placing } from './images.js';
-import { join_places, list_edges, sum_normals } from './joins.js';
+import { join_places, list_edges, rank_edges, sum_normals } from './joins.js';
 
 /** Where the page's scene lies: `metres` a unit of x, y and z. */
 export class Place {
@@ -41,26 +41,20 @@ export class Place {
 export class Terrain {
   /**
    * `positions`: x, y, z of the mesh's own frame, as are `normals`; these, `uvs` and `field` may be null. `sheets`: runs of indices under one image, or of one ground.
-   * `extras`: what a file of it says of itself; `goal`: what the engine was asked for; `judged`: what judge() found, if it is known.
+   * `extras`: what a file of it says of itself; `goal`: what the engine was asked for; `judged`: what judge() found, if it is known: of every sample; null without a raster.
    */
   constructor({ name, positions, indices, bytes = null, told = null, extras = {}, goal = null, judged = null, normals = null, uvs = null, sheets = [{ image: null, ground: null, start: 0, count: indices.length }] }, place, field) {
-    Object.assign(this, { name, positions, indices, bytes, told, extras, goal, place, field, known: judged, uvs, sheets });
-    const vertices = positions.length / 3;
+    Object.assign(this, { name, positions, indices, bytes, told, extras, goal, place, field, judged, uvs, sheets });
     this.scene = new Float32Array(positions.length);
-    this.grid = field ? new Float64Array(2 * vertices) : null;
-    this.heights = new Float64Array(vertices);
-    this.reach = place.radius;  // from the scene's middle: other levels may be wider than the first
     let reach = 0;
-    for (let v = 0; v < vertices; ++v) {
-      const [x, y, z] = place.to_scene(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
-      this.scene[3 * v] = x;
-      this.scene[3 * v + 1] = y;
-      this.scene[3 * v + 2] = z;
+    for (let k = 0; k < positions.length; k += 3) {
+      const [x, y, z] = place.to_scene(positions[k], positions[k + 1], positions[k + 2]);
+      this.scene[k] = x;
+      this.scene[k + 1] = y;
+      this.scene[k + 2] = z;
       reach = Math.max(reach, x * x + y * y + z * z);
-      this.heights[v] = positions[3 * v + 2];
-      if (field) [this.grid[2 * v], this.grid[2 * v + 1]] = field.to_grid(positions[3 * v], positions[3 * v + 1]);
     }
-    this.reach = Math.max(this.reach, Math.sqrt(reach));
+    this.reach = Math.max(place.radius, Math.sqrt(reach));  // from the scene's middle: other levels may be wider than the first
     this.given_normals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
 
@@ -68,11 +62,19 @@ export class Terrain {
     return this.indices.length / 3;
   }
 
-  /** Of every sample; null without a raster. */
-  get judged() {
-    if (!this.field) return null;
-    this.known ??= judge(this.field, this);
-    return this.known;
+  get is_judged() {
+    return !this.field || this.judged !== null;
+  }
+
+  /** Once, beside what the page does. */
+  judge() {
+    return this.judging ??= judge_beside(this.field, this).then(judged => { this.judged = judged; });
+  }
+
+  /** Where vertices lie in the raster, as shares of its columns and rows. */
+  get sampled() {
+    const { cols, rows } = this.field;
+    return Float32Array.from(this.field.to_grids(this.positions), (value, k) => (value + 0.5) / (k % 2 ? rows : cols));
   }
 
   get has_image() {
@@ -94,8 +96,9 @@ export class Terrain {
     return this.known_firsts ??= join_places(this.scene);
   }
 
+  /** Longest first, as rank_edges() has them. */
   edges() {
-    return list_edges(this.indices, this.firsts);
+    return rank_edges(list_edges(this.indices, this.firsts), this.scene);
   }
 
   /** Height of the mesh over a place of its frame; NaN where it has none. */

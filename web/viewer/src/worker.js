@@ -2,7 +2,7 @@
 import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
-import { Field } from './field.js';
+import { Field, place_mesh } from './field.js';
 
 let field = null, place = null, refiner = null, failed = null;
 const loaded = ready().then(warm_up).catch(error => { failed = `this browser refuses WebAssembly, which the slider needs (${error.message})`; });
@@ -27,12 +27,8 @@ function refine(error) {
 
 function answer({ kind, error, goal, effort, order = 'auto' }) {
   const mesh = kind === 'refine' ? refine(error) : simplifySync(field.samples, field.cols, field.rows, { ...place, ...goal, effort, order });
-  const { positions, indices } = mesh, origin = [...mesh.origin], vertices = positions.length / 3, grid = new Float64Array(2 * vertices), heights = new Float64Array(vertices);
-  for (let v = 0; v < vertices; ++v) {
-    grid.set(field.to_grid(positions[3 * v] + origin[0], positions[3 * v + 1] + origin[1]), 2 * v);
-    heights[v] = positions[3 * v + 2] + origin[2];
-  }
-  return { mesh: { positions, indices, origin }, judged: judge(field, { grid, heights, indices }) };
+  const { positions, indices } = mesh, origin = [...mesh.origin];
+  return { mesh: { positions, indices, origin }, judged: judge(field, { positions: place_mesh({ positions, origin }), indices }) };
 }
 
 const lock = holdLock();

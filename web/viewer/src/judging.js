@@ -1,0 +1,29 @@
+// Judges a mesh in a worker, so that the picture can be turned meanwhile.
+import SOURCE from 'judge-source';
+import { judge } from './errors.js';
+
+/** What judge() finds. Where the browser starts no worker the page waits for it. */
+export function judge_beside(field, { positions, indices }) {
+  return new Promise(done => {
+    let worker = null;
+    const address = URL.createObjectURL(new Blob([SOURCE], { type: 'text/javascript' }));
+    const end = judged => {
+      worker?.terminate();
+      URL.revokeObjectURL(address);
+      done(judged);
+    };
+    const judge_here = event => {
+      event.preventDefault?.();
+      end(judge(field, { positions, indices }));
+    };
+    try {
+      worker = new Worker(address);
+      worker.onmessage = ({ data }) => end(data);
+      worker.onerror = judge_here;
+      const { samples, cols, rows, affine } = field;
+      worker.postMessage({ field: { samples, cols, rows, affine }, mesh: { positions, indices } });
+    } catch (error) {
+      judge_here(error);
+    }
+  });
+}
