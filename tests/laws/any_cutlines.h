@@ -19,7 +19,7 @@
 
 namespace scarp::testing {
 
-inline constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kNoLevel = std::numeric_limits<double>::quiet_NaN();
 
 class Draughtsman {
  public:
@@ -39,8 +39,8 @@ class Draughtsman {
         Line ring = ring_of(polygon, k);
         for (int n = 3 + below(7); n > 0; --n) {
           const double reach = below(8) == 0 ? 100 : 2;
-          std::array<double, 3> p{between(-reach, field.cols + reach), between(-reach, field.rows + reach), kNoHeight};
-          if (is_on_samples) p = {std::round(p[0]), std::round(p[1]), kNoHeight};
+          std::array<double, 3> p{between(-reach, field.cols + reach), between(-reach, field.rows + reach), kNoLevel};
+          if (is_on_samples) p = {std::round(p[0]), std::round(p[1]), kNoLevel};
           ring.points.push_back(p);
         }
         close(ring, cutline);
@@ -58,7 +58,7 @@ class Draughtsman {
         const auto [top, bottom] = side(field.rows);
         Line ring = ring_of(polygon, k);
         ring.points = {
-            {left, top, kNoHeight}, {right, top, kNoHeight}, {right, bottom, kNoHeight}, {left, bottom, kNoHeight}};
+            {left, top, kNoLevel}, {right, top, kNoLevel}, {right, bottom, kNoLevel}, {left, bottom, kNoLevel}};
         if (below(2) == 0) std::reverse(ring.points.begin(), ring.points.end());
         close(ring, cutline);
       }
