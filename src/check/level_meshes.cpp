@@ -62,7 +62,10 @@ struct FlatMap {
 /// The least power of two that `extent` is at most 65,534 of: rounding to it leaves a difference of 16 bits.
 double find_step(double extent) {
   constexpr double kMostSteps = 65534;
-  return extent > 0 ? std::exp2(std::ceil(std::log2(extent / kMostSteps))) : 1;
+  if (extent == 0) return 1;
+  int exponent = 0;
+  const double share = std::frexp(extent / kMostSteps, &exponent);  // 1/2 to below 1
+  return std::ldexp(1.0, share == 0.5 ? exponent - 1 : exponent);
 }
 
 /// Lays the tiles of a level on a map.
