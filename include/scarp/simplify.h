@@ -216,8 +216,9 @@ class Refiner {
   double max_error() const;
   std::uint64_t vertex_count() const;
   std::uint64_t triangle_count() const;
-  /// The current mesh, in the field's frame, rounded as for writing.
-  Mesh mesh() const;
+  /// The current mesh, in the field's frame. `float32_positions`: rounded as for writing, so that its own error may be
+  /// larger than max_error() where float32 does not hold the offsets of x and y.
+  Mesh mesh(bool float32_positions = true) const;
 
  private:
   struct Impl;

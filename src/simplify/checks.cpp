@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "lines/breaklines.h"
@@ -89,10 +90,25 @@ double round_to_two_digits(double value) {
   return scale(scale(count) < value ? count + 1 : count);
 }
 
+/// Far from 0 doubles lie farther apart than samples do.
+Result<void> check_places(const HeightField& field) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const double* const terms = &field.frame.affine[3 * static_cast<std::size_t>(axis)];
+    const double far = std::abs(terms[0]) + std::abs(terms[1]) * field.cols + std::abs(terms[2]) * field.rows;
+    const double cell = std::max(std::abs(terms[1]), std::abs(terms[2]));
+    if (cell < far * std::numeric_limits<double>::epsilon())
+      return fail(ErrorKind::kPromise, fmt::format("coordinates of {:.3g} cannot tell samples {:.3g} apart from each "
+                                                   "other, as double has 16 digits; move the raster nearer to 0",
+                                                   far, cell));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options) {
   if (auto goals = check_goals(options); !goals) return goals;
+  if (auto places = check_places(field); !places) return places;
   if (!(options.domain.outline_tolerance >= 0 && std::isfinite(options.domain.outline_tolerance)))
     return usage(fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
                              options.domain.outline_tolerance));
@@ -101,7 +117,7 @@ Result<void> check_values(const HeightField& field, const SimplifyOptions& optio
         ErrorKind::kPromise,
         fmt::format(
             "a max error of {} cannot be kept: the raster's values do not fit float32 and are rounded by up to {:.3g}; "
-            "ask for {} or more",
+            "ask for {} or more, or subtract a base from them",
             *options.goals.max_error, field.sample_rounding, round_to_two_digits(field.sample_rounding)));
   return {};
 }

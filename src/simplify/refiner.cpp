@@ -52,10 +52,10 @@ bool Refiner::insert_worst() {
 double Refiner::max_error() const { return impl_->refinement.worst_error(); }
 std::uint64_t Refiner::vertex_count() const { return impl_->domain.tin.vertex_count() - impl_->domain.unused; }
 std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangle_count(); }
-Mesh Refiner::mesh() const {
+Mesh Refiner::mesh(bool float32_positions) const {
   const HeightField& field = impl_->field;
   const Raster given{field.frame.space ? field.samples : impl_->raster.samples, field.cols, field.rows};
-  return freeze(impl_->domain.tin, {SampleHeights(given), {}, field.frame, true});
+  return freeze(impl_->domain.tin, {SampleHeights(given), {}, field.frame, float32_positions});
 }
 
 }  // namespace scarp

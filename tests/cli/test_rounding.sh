@@ -56,6 +56,12 @@ for raster in fits.tif eighths.tif; do
   succeeds "$scarp" measure "$raster" exact.glb --fail-above 0 -q
 done
 
+# Coordinates so large that double does not tell samples apart are named; around the centre there is room.
+gdal_translate -q -of VRT -srcwin 0 0 40 30 "$dem" far.vrt
+sed -i 's|<GeoTransform>.*</GeoTransform>|<GeoTransform>1e20, 1, 0, 1e20, 0, -1</GeoTransform>|; s|<SRS.*</SRS>||' far.vrt
+refuses 3 "coordinates of 1e+20 cannot tell samples 1 apart" "$scarp" simplify far.vrt far.glb -e 5 --crs source
+succeeds "$scarp" simplify far.vrt far.glb -e 5 --crs local -q
+
 # Where the samples are the values, nothing is said.
 succeeds "$scarp" simplify "$dem" plain.glb -e 0 --report plain.json
 if grep -q 'rounded' "$logs/out" || grep -q '^  "sample_rounding"' plain.json; then fail "a rounding that is none"; fi
