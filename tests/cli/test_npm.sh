@@ -116,11 +116,15 @@ read -r tiles proven < "$logs/out"
 
 # GLBs, plain and compressed, as the program reads them.
 succeeds node glb.mjs land 200 180 8
-read -r plain lattice plain_bytes packed_bytes loose_bytes < "$logs/out"
+read -r fine plain lattice plain_bytes packed_bytes loose_bytes < "$logs/out"
 for file in plain:$plain packed:$lattice loose:$plain; do
   succeeds "$scarp" measure land.tif "${file%:*}.glb" --crs grid --fail-above 8 --json
   [ "$(json "$logs/out" triangles)" = "${file#*:}" ] || fail "${file%:*}.glb has other triangles: $(cat "$logs/out")"
 done
+succeeds gdal_translate -q -a_srs EPSG:32611 -a_ullr 400000 5000000 400020 4999982 land.tif fine.tif
+succeeds "$scarp" measure fine.tif fine.glb --crs source --fail-above 8 --json
+off=$(json "$logs/out" max_error)
+holds "$off - $fine < 1e-9 && $fine - $off < 1e-9"
 holds "2 * $packed_bytes < $plain_bytes && $loose_bytes < $plain_bytes"
 
 # What follows needs packages of others.
@@ -130,7 +134,11 @@ if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vit
   for installed in "$js"/node_modules/*; do [ -e "node_modules/$(basename "$installed")" ] || ln -s "$installed" node_modules/; done
   succeeds node dropins.mjs
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022,dom --typeRoots none typed.mts
+  # Without types of a browser, and as older programs look for them.
+  succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022 --typeRoots none plain.mts
+  succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module esnext --moduleResolution node10 --target es2022 --lib es2022 --typeRoots none node10.ts
   told=$(node app.mjs)
+  succeeds node bundle.mjs formats
   for bundler in esbuild inline vite webpack; do succeeds node bundle.mjs "$bundler"; done
   bundles=(esbuild/index.html file:inline/index.html vite/vite.html dev:vite.html webpack/index.html)
 fi

@@ -1,5 +1,6 @@
 #include "scarp/simplify.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -89,14 +90,15 @@ SCARP_EXPORT(scarp_simplify) WholeMesh* scarp_simplify(const Field* given_field,
   });
 }
 
-/// Positions: 3 doubles a vertex, absolute.
+/// Positions: 3 doubles a vertex, offsets from the origin, which are judged as they are.
 SCARP_EXPORT(scarp_measure)
-std::int32_t scarp_measure(const Field* given_field, const double* positions, double vertices,
+std::int32_t scarp_measure(const Field* given_field, const double* origin, const double* positions, double vertices,
                            const std::uint32_t* corners, double triangles, Report* out) {
   return guarded<std::int32_t>(0, [&]() -> Result<std::int32_t> {
     const auto field = take_field(*given_field);
     if (!field) return tl::unexpected(field.error());
     scarp::Mesh mesh;
+    std::copy_n(origin, 3, mesh.origin.begin());
     mesh.positions.assign(positions, positions + 3 * static_cast<std::size_t>(vertices));
     mesh.triangles.assign(corners, corners + 3 * static_cast<std::size_t>(triangles));
     scarp::MeasureOptions options;

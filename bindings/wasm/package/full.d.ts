@@ -1,4 +1,4 @@
-import type { AsyncOptions, Bytes, Heights, Mesh, PointOptions } from './index.js';
+import type { AsyncOptions, Bytes, Heights, Mesh, Numbers, PointOptions } from './index.js';
 
 export * from './index.js';
 
@@ -8,7 +8,7 @@ export function simplifyPoints(points: Heights, options: PointOptions & AsyncOpt
 
 export interface TilerOptions {
   /** West, south, east, north of the raster, its outer pixels included: degrees of the globe, or metres of web Mercator. */
-  bounds: ArrayLike<number>;
+  bounds: Numbers;
   crs?: 'degrees' | 'mercator';
   nodata?: number | null;
   /** Nodes' cells a side of the finest tiles: a power of two, 16 to 256. */
@@ -50,6 +50,7 @@ export interface LayerJson {
   /** Rectangles of tiles, level by level. */
   available: { startX: number, startY: number, endX: number, endY: number }[][];
 }
+export interface Tiler extends Disposable {}
 /** Terrain tiles for globes, made as they are asked for, of heights in metres above the ellipsoid. */
 export class Tiler {
   constructor(z: Heights, width: number, height: number, options: TilerOptions);

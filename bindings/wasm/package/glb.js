@@ -2,11 +2,11 @@
 import { ScarpError } from './error.js';
 import { checkFloat32 } from './heights.js';
 import { checkMesh } from './mesh.js';
-import { takeOptions } from './options.js';
+import { kindOf, takeOptions } from './options.js';
 import { encodeAttributes, encodeTriangles, orderForCodec } from './meshopt.js';
 
 const MESHOPT = 'EXT_meshopt_compression';
-const BYTE_KINDS = new Map([[Int16Array, 5122], [Uint16Array, 5123], [Uint32Array, 5125], [Float32Array, 5126]]);
+const BYTE_KINDS = { Int16Array: 5122, Uint16Array: 5123, Uint32Array: 5125, Float32Array: 5126 };
 const ARRAY_BUFFER = 34962, INDEX_BUFFER = 34963;
 const pad4 = size => Math.ceil(size / 4) * 4;
 
@@ -44,7 +44,7 @@ class Builder {
     return { byteOffset, byteLength: bytes.length };
   }
   #addAccessor(array, count, width, more) {
-    this.accessors.push({ bufferView: this.bufferViews.length - 1, componentType: BYTE_KINDS.get(array.constructor), count,
+    this.accessors.push({ bufferView: this.bufferViews.length - 1, componentType: BYTE_KINDS[kindOf(array)], count,
       type: width === 1 ? 'SCALAR' : `VEC${width}`, ...more });
     return this.accessors.length - 1;
   }
@@ -91,35 +91,42 @@ class Builder {
   }
 }
 
-/// The largest step of which an axis' offsets are multiples, at most 65535; null without one. `slack`: what float32 may have
-/// rounded, as a share.
-function findStep(values, axis, low, unit, finest, slack) {
+/// The most that a number of a grid may be: whole numbers of float32 end there.
+const MOST_SHORT = 65535, MOST_WHOLE = 2 ** 24;
+
+/// The largest step of which an axis' offsets are multiples, at most `most`; null without one. `slack`: what a double may have rounded.
+function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   for (let step = unit; step >= finest; step /= 2) {
     let isOnGrid = true;
     for (let k = axis; k < values.length && isOnGrid; k += 3) {
       const number = Math.round((values[k] - low) / step);
-      if (number > 65535) return null;
-      isOnGrid = Math.abs(low + number * step - values[k]) <= slack * Math.abs(values[k]);
+      if (number > most) return null;
+      isOnGrid = Math.abs(low + number * step - values[k]) <= slack;
     }
     if (isOnGrid) return step;
   }
   return null;
 }
 
-/// Positions as 16-bit numbers, y up, that keep their values; null where there is no such grid.
-function findGrid({ positions, cell = [0, 0] }) {
+/// Positions as 16-bit numbers, y up, that keep their values; of float64 positions, where that is too narrow, as whole numbers in float32.
+/// null where there is no such grid.
+function findGrid({ positions, cell = [0, 0], origin }) {
   const { min, max } = bounds(positions);
-  const sides = [Math.abs(cell[0]) || 1, Math.abs(cell[1]) || 1];
-  const [x, y, z] = [0, 1, 2].map(axis => (axis < 2 ? findStep(positions, axis, min[axis], sides[axis], sides[axis] / 256, 2 ** -24)
-                                                    : findStep(positions, axis, min[axis], 1024, 2 ** -40, 0)));
-  if (!(x && y && z)) return null;
-  const numbers = new Uint16Array(positions.length);
+  const areDoubles = kindOf(positions) !== 'Float32Array', most = areDoubles ? MOST_WHOLE : MOST_SHORT;
+  const [x, y] = [0, 1].map(axis => {
+    const unit = Math.abs(cell[axis]) || 1, farthest = Math.abs(origin[axis]) + Math.max(Math.abs(min[axis]), Math.abs(max[axis]));
+    return findStep(positions, axis, min[axis], { unit, finest: unit / 256, most, slack: areDoubles ? farthest * 2 ** -51 : 0 });
+  });
+  const z = findStep(positions, 2, min[2], { unit: 1024, finest: 2 ** -40, most: MOST_SHORT });
+  if (!(x && y && (z || areDoubles))) return null;
+  const isShort = z && (max[0] - min[0]) / x < MOST_SHORT + 0.5 && (max[1] - min[1]) / y < MOST_SHORT + 0.5;
+  const numbers = new (isShort ? Uint16Array : Float32Array)(positions.length);
   for (let k = 0; k < positions.length; k += 3) {
     numbers[k] = Math.round((positions[k] - min[0]) / x);
-    numbers[k + 1] = Math.round((positions[k + 2] - min[2]) / z);
+    numbers[k + 1] = z ? Math.round((positions[k + 2] - min[2]) / z) : positions[k + 2];
     numbers[k + 2] = Math.round((max[1] - positions[k + 1]) / y);
   }
-  return { numbers, shift: [min[0], min[2], 0 - max[1]], scale: [x, z, y] };
+  return { numbers, shift: [min[0], z ? min[2] : 0, 0 - max[1]], scale: [x, z ?? 1, y] };
 }
 
 /// Rounded to 15 bits; a renderer divides normals by the scale of the node.
@@ -139,7 +146,7 @@ function gather(array, width, from) {
   return moved;
 }
 
-/// The attributes and indices, compressed. Positions keep their values; normals and texture coordinates are rounded.
+/// The attributes and indices, compressed. Positions of float32 or on a lattice keep their values; normals and texture coordinates in 0 … 1 are rounded.
 function addCompressed(glb, mesh) {
   const { positions, indices, normals, uvs } = mesh;
   const { corners, from } = orderForCodec(indices, positions.length / 3);
@@ -147,7 +154,11 @@ function addCompressed(glb, mesh) {
   const placed = gather(numbers, 3, from);
   const attributes = { POSITION: glb.addPacked(placed, 3, ARRAY_BUFFER, bounds(placed)) };
   if (normals) attributes.NORMAL = glb.addPacked(gather(packNormals(yUp(normals), scale), 3, from), 3, ARRAY_BUFFER, { normalized: true });
-  if (uvs) attributes.TEXCOORD_0 = glb.addPacked(gather(Uint16Array.from(uvs, value => Math.round(65535 * value)), 2, from), 2, ARRAY_BUFFER, { normalized: true });
+  if (uvs) {
+    const fit = uvs.every(value => value >= 0 && value <= 1);
+    const numbers = fit ? Uint16Array.from(uvs, value => Math.round(65535 * value)) : Float32Array.from(uvs);
+    attributes.TEXCOORD_0 = glb.addPacked(gather(numbers, 2, from), 2, ARRAY_BUFFER, fit ? { normalized: true } : {});
+  }
   const Corner = from.length <= 65535 ? Uint16Array : Uint32Array;
   return { attributes, indices: glb.addPacked(Corner.from(corners), 1, INDEX_BUFFER), shift, scale };
 }
@@ -157,7 +168,7 @@ function addPlain(glb, { positions, indices, normals, uvs }) {
   const attributes = { POSITION: glb.add(turned, 3, ARRAY_BUFFER, bounds(turned)) };
   if (normals) attributes.NORMAL = glb.add(yUp(normals), 3, ARRAY_BUFFER);
   if (uvs) attributes.TEXCOORD_0 = glb.add(Float32Array.from(uvs), 2, ARRAY_BUFFER);
-  const corners = [Uint16Array, Uint32Array].some(Kind => indices instanceof Kind) ? indices : Uint32Array.from(indices);
+  const corners = ['Uint16Array', 'Uint32Array'].includes(kindOf(indices)) ? indices : Uint32Array.from(indices);
   return { attributes, indices: glb.add(corners, 1, INDEX_BUFFER), shift: [0, 0, 0], scale: [1, 1, 1] };
 }
 

@@ -3,7 +3,11 @@ import { ScarpError } from './error.js';
 import { article, kindOf, show } from './options.js';
 
 export const FARTHEST = '3.4028235e38';
-const EXACT = [Float32Array, Int16Array, Uint16Array, Int8Array, Uint8Array, Uint8ClampedArray];
+/// Arrays by their names, which are the same in every realm: those of a frame or of jsdom are no instances of ours.
+const EXACT = ['Float32Array', 'Int16Array', 'Uint16Array', 'Int8Array', 'Uint8Array', 'Uint8ClampedArray'];
+const isFloat32 = values => kindOf(values) === 'Float32Array';
+/// Samples of four bytes that a module's memory holds.
+const MOST_SAMPLES = 2 ** 30;
 
 export function refuse(message) {
   throw new ScarpError('usage', message);
@@ -43,14 +47,14 @@ export function checkArray(name, values, voidOf = undefined) {
 /// The nodata that float32 values may have: NaN, which is none, of one that no such value is.
 function roundNodata(values, nodata = NaN) {
   const near = Math.fround(nodata);
-  return near === nodata || (values instanceof Float32Array && near !== 0) ? near : NaN;
+  return near === nodata || (isFloat32(values) && near !== 0) ? near : NaN;
 }
 
 /// Float32 of the values, their nodata, and the largest rounding among those that are heights. Rounded values have NaN for nodata, which
 /// they are compared with as they were given.
 function round(values, nodata) {
-  if (EXACT.some(Kind => values instanceof Kind))
-    return { samples: values instanceof Float32Array ? values : Float32Array.from(values), nodata: roundNodata(values, nodata), rounding: 0 };
+  if (EXACT.includes(kindOf(values)))
+    return { samples: isFloat32(values) ? values : Float32Array.from(values), nodata: roundNodata(values, nodata), rounding: 0 };
   const samples = Float32Array.from(values);
   let rounding = 0;
   for (let k = 0; k < samples.length; ++k) {
@@ -75,6 +79,10 @@ export function checkFloat32(name, values, nodata = undefined) {
 export function checkHeights(z, width, height, nodata) {
   checkSide('width', width);
   checkSide('height', height);
+  if (width * height > MOST_SAMPLES) {
+    throw new ScarpError('memory', `a raster of ${width} x ${height} has ${width * height} samples, and a module of WebAssembly has memory for fewer ` +
+      `than ${MOST_SAMPLES}: take a smaller raster, or the program scarp`);
+  }
   const given = checkArray('the heights', z, NaN);
   checkLength('the array of heights', given, width * height, `a raster of ${width} x ${height}`);
   return { given, ...round(given, nodata) };
@@ -85,11 +93,18 @@ export function putDoubles(blocks, ...numbers) {
   return blocks.put(Float64Array.from(numbers.flat()));
 }
 
-/// A value for each sample, in float32; undefined without any.
+/// A value for each sample, in float32; undefined without any. Rounded so that no bound grows: tolerances towards 0, weights away from it.
 export function takeBeside(name, values, width, height) {
   if (values === undefined) return undefined;
   checkLength(name, values, width * height, `a raster of ${width} x ${height}`);
-  return Float32Array.from(checkArray(name, values));
+  const given = checkArray(name, values), rounded = Float32Array.from(given);
+  if (EXACT.includes(kindOf(given))) return rounded;
+  const bits = new Int32Array(rounded.buffer), isWeight = name === 'mask';
+  for (let k = 0; k < rounded.length; ++k) {
+    const [near, exact] = [Math.abs(rounded[k]), Math.abs(given[k])];
+    if (isWeight ? near < exact : near > exact) bits[k] += isWeight ? 1 : -1;
+  }
+  return rounded;
 }
 
 /// A Field of the door (door.h), whose samples `blocks` hold.

@@ -1,9 +1,38 @@
+declare global {
+  /** Empty before TypeScript 5.2, or without its library of disposables. */
+  interface Disposable {}
+}
+
+/** Numbers as the package takes them, of any realm. */
+export type Numbers = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array | Int32Array | Uint32Array
+  | readonly number[];
 /**
  * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and every maxError counts
  * the largest rounding. A height beyond float32's range (3.4e38) is refused. null in an array is no height, as NaN is.
  */
-export type Heights = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array
-  | Int32Array | Uint32Array | readonly (number | null)[];
+export type Heights = Numbers | readonly (number | null)[];
+
+/** A compiled WebAssembly.Module, which has nothing to tell it by. */
+export type Compiled = object;
+/** What the package uses of a Response, a URL, an AbortSignal and a Worker, which not every program has types for. */
+export interface Answer {
+  readonly ok: boolean;
+  readonly status: number;
+  readonly url: string;
+  arrayBuffer(): Promise<ArrayBuffer>;
+}
+export interface Address {
+  readonly href: string;
+}
+export interface Signal {
+  readonly aborted: boolean;
+  addEventListener(type: 'abort', listener: () => void): void;
+  removeEventListener(type: 'abort', listener: () => void): void;
+}
+export interface Labourer {
+  postMessage(message: any, transfer: any[]): void;
+  terminate(): unknown;
+}
 
 /** Arrays that the package makes: never in shared memory, which TypeScript tells apart from 5.7 on. */
 export type Bytes = ReturnType<typeof Uint8Array.of>;
@@ -19,12 +48,13 @@ export class ScarpError extends Error {
 }
 
 /**
- * Loads the library, once. The asynchronous functions call it themselves.
+ * Loads the library, once. The asynchronous functions call it themselves. The first source that succeeds stays: later calls change nothing,
+ * whatever theirs is.
  * @param source The bytes of scarp.wasm, their URL or Response, or a compiled module. Default: the file beside the script.
  * @param options warm: runs small rasters, too, in a quarter of a second, so that engines have optimised the library before the
  * first call, which takes up to seven times as long as later ones else. Workers of a pool do so by themselves.
  */
-export function ready(source?: BufferSource | URL | string | Response | WebAssembly.Module, options?: { warm?: boolean }): Promise<void>;
+export function ready(source?: ArrayBuffer | ArrayBufferView | string | Address | Answer | Compiled, options?: { warm?: boolean }): Promise<void>;
 export function isReady(): boolean;
 export function version(): string;
 
@@ -33,7 +63,7 @@ export interface Place {
   /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN and infinities never are. */
   nodata?: number | null;
   /** GDAL's geotransform, of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
-  transform?: ArrayLike<number> | null;
+  transform?: Numbers | null;
   /** The transform is in degrees of WGS 84: the mesh is in metres around the raster's centre. */
   degrees?: boolean;
 }
@@ -67,23 +97,26 @@ export interface Options extends Goals, Place {
   outlineTolerance?: number;
   normals?: boolean;
   uvs?: boolean;
-  /** Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16 bits. */
+  /**
+   * Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16 bits. Positions are
+   * float64, as with doubles: WebGL wants Float32Array.from(mesh.positions), which rounds them.
+   */
   lattice?: boolean;
-  /** Positions are float64. */
+  /** Positions are float64. A GLB without compress rounds them to float32: judge that file, or leave doubles and lattice out. */
   doubles?: boolean;
   /** Edges of the raster depend on their own samples alone: neighbours that share them fit. */
   lockBorder?: boolean;
-  /** A weight for each sample: weight * |error| is bounded. 0: no bound. */
-  mask?: ArrayLike<number> | null;
-  /** A bound of its own for each sample; Infinity: none. */
-  tolerance?: ArrayLike<number> | null;
+  /** A weight for each sample: weight * |error| is bounded. 0: no bound. Held in float32, rounded up. */
+  mask?: Numbers | null;
+  /** A bound of its own for each sample; Infinity: none. Held in float32, rounded down. */
+  tolerance?: Numbers | null;
   /** A few times a second at most; false cancels. */
   onProgress?: (progress: Progress) => boolean | void;
 }
 
 /** What is given is copied at the call: the caller may go on to change it. */
 export interface AsyncOptions {
-  signal?: AbortSignal | null;
+  signal?: Signal | null;
   /** The buffer of Float32Array heights (of points: Float64Array) is moved at the call, not copied. */
   transfer?: boolean;
 }
@@ -119,6 +152,7 @@ export interface Report {
 
 /** x east, y north, z up; vertex v lies at origin + positions[3v .. 3v + 2]. */
 export class Mesh {
+  /** Float32Array; Float64Array with lattice or doubles, and of a Refiner whose transform float32 does not hold. */
   positions: Floats | Doubles;
   /** Counter-clockwise from above. */
   indices: Corners;
@@ -145,7 +179,7 @@ export function simplify(z: Heights, width: number, height: number, options: Opt
 
 /** Judges a mesh by brute force, without knowing how it was made. */
 export function measure(z: Heights, width: number, height: number,
-  mesh: { positions: ArrayLike<number>, indices: ArrayLike<number>, origin?: ArrayLike<number> }, place?: Place): Report;
+  mesh: { positions: Numbers, indices: Numbers, origin?: Numbers }, place?: Place): Report;
 
 export interface PointOptions extends Goals {
   /** Of several points at one place. */
@@ -157,7 +191,7 @@ export interface PoolOptions {
   /** Workers. Default: one less than cores, 4 at most. */
   size?: number;
   /** Makes a worker of the script scarp/worker, where a bundler does not find it. */
-  worker?: (() => Worker) | null;
+  worker?: (() => Labourer) | null;
 }
 export interface Pool {
   readonly size: number;
@@ -168,6 +202,7 @@ export interface Pool {
 }
 export function createPool(options?: PoolOptions): Pool;
 
+export interface Refiner extends Disposable {}
 /** A mesh that grows by one vertex at a time, the worst sample first. */
 export class Refiner {
   constructor(z: Heights, width: number, height: number, place?: Place);
@@ -184,11 +219,11 @@ export class Refiner {
 }
 
 /**
- * A GLB file (glTF 2.0, y up). compress: by meshoptimizer's codec (EXT_meshopt_compression); positions keep their values, and take 16
- * bits each where simplify() was asked for a lattice.
+ * A GLB file (glTF 2.0, y up), whose positions are float32: float64 ones are rounded. compress: by meshoptimizer's codec
+ * (EXT_meshopt_compression); positions of simplify() with lattice keep their values, and take 16 bits each.
  */
-export function encodeGlb(mesh: { positions: Float32Array | Float64Array, indices: ArrayLike<number>, normals?: Float32Array,
-  uvs?: Float32Array, origin?: ArrayLike<number>, cell?: ArrayLike<number> }, options?: { compress?: boolean }): Bytes;
+export function encodeGlb(mesh: { positions: Numbers, indices: Numbers, normals?: Numbers, uvs?: Numbers, origin?: Numbers, cell?: Numbers },
+  options?: { compress?: boolean }): Bytes;
 
 /** Heights in metres of a tile's pixels, four bytes each; NaN where a pixel is transparent. */
 export function decodeTile(rgba: Uint8ClampedArray | Uint8Array, width: number, height: number,

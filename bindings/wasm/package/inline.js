@@ -11,5 +11,6 @@ const workerAddress = () => globalThis.process?.versions?.node
 
 defaults.source ??= decode;
 defaults.worker ??= () => new Worker(workerAddress());
+defaults.workerAdvice ??= 'scarp/inline makes its worker from a Blob: a content policy needs worker-src blob:';
 
 export * from './api.js';

@@ -1,7 +1,9 @@
+import type { Numbers } from './index.js';
+
 /** Others are refused by name; the loader leaves out loaders.gl's tesselator and workerUrl. */
 export interface TerrainOptions {
   /** West, south, east, north of the mesh. Default: pixels. */
-  bounds?: ArrayLike<number> | null;
+  bounds?: Numbers | null;
   meshMaxError?: number;
   elevationDecoder?: { rScaler: number, gScaler: number, bScaler: number, offset: number } | 'terrarium' | 'mapbox';
   /** Height of walls below the edges. */

@@ -48,7 +48,8 @@ export default class Martini {
     this.effort = effort;
   }
   createTile(terrain) {
-    checkLength('the terrain', checkArray('the terrain', terrain, NaN), this.width * this.height, `a grid of ${this.width} x ${this.height}`);
-    return new Tile(terrain, this);
+    const given = checkArray('the terrain', terrain, NaN);
+    checkLength('the terrain', given, this.width * this.height, `a grid of ${this.width} x ${this.height}`);
+    return new Tile(given.slice(), this);
   }
 }

@@ -59,7 +59,7 @@ export function checkMesh(mesh) {
   return { positions, indices, origin, cell, normals, uvs };
 }
 
-/// The mesh of a handle, which is freed. `doubles`: positions are float64.
+/// The mesh of a handle, which is freed. `doubles`: positions are float64, as they are where float32 would move them.
 export function takeMesh(blocks, handle, { doubles = false, rounding = 0 } = {}) {
   try {
     const out = blocks.allocate(8 * (VIEW + REPORT));
@@ -68,8 +68,9 @@ export function takeMesh(blocks, handle, { doubles = false, rounding = 0 } = {})
     const [vertices, triangles, positions, corners, normals, uvs] = numbers;
     const Corner = vertices <= 65535 ? Uint16Array : Uint32Array;
     const report = readReport(numbers.subarray(VIEW), rounding);
+    const places = view(Float64Array, positions, 3 * vertices);
     const mesh = new Mesh({
-      positions: (doubles ? Float64Array : Float32Array).from(view(Float64Array, positions, 3 * vertices)),
+      positions: doubles || places.some(place => Math.fround(place) !== place) ? places.slice() : Float32Array.from(places),
       indices: Corner.from(view(Uint32Array, corners, 3 * triangles)),
       origin: Array.from(numbers.subarray(6, 9)),
       cell: Array.from(numbers.subarray(9, 11)),

@@ -2,7 +2,7 @@
 
 import { ScarpError } from './error.js';
 import { printNumber } from './number.js';
-import { show, translate } from './options.js';
+import { kindOf, show, translate } from './options.js';
 
 const KINDS = ['usage', 'memory', 'input', 'promise', 'output', 'cancelled', 'internal'];
 
@@ -64,7 +64,7 @@ function checkBytes(bytes, where) {
 }
 
 function refuse(error) {
-  const why = error instanceof Error ? error.message : String(error);
+  const why = error?.message ?? String(error);
   return new ScarpError('unsupported', `WebAssembly is refused here: ${why}; it needs WebAssembly with SIMD and exceptions ` +
     `(Chrome 95, Firefox 100, Safari 16.4, Node 18), and a content policy with 'wasm-unsafe-eval'`, { cause: error });
 }
@@ -82,7 +82,7 @@ async function fetchBytes(address) {
     return await readBytes(await fetch(url));
   } catch (error) {
     if (error instanceof ScarpError) throw error;
-    throw new ScarpError('input', `${url} cannot be loaded: ${error.message}; ${ADVICE}`, { cause: error });
+    throw new ScarpError('input', `${url} cannot be loaded: ${error.message}; ${ADVICE}; a content policy needs it in connect-src`, { cause: error });
   }
 }
 
@@ -92,8 +92,8 @@ async function readBytes(response) {
 }
 
 async function takeBytes(source) {
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return checkBytes(source, 'what ready() was given');
-  if (source instanceof Response) return checkBytes(await readBytes(source), source.url || 'the Response');
+  if (kindOf(source) === 'ArrayBuffer' || ArrayBuffer.isView(source)) return checkBytes(source, 'what ready() was given');
+  if (kindOf(source) === 'Response') return checkBytes(await readBytes(source), source.url || 'the Response');
   if (typeof source !== 'string' && typeof source?.href !== 'string')
     throw new ScarpError('usage', `ready() was given ${show(source)}; it takes the module's bytes, their URL or Response, or a WebAssembly.Module`);
   return checkBytes(await fetchBytes(source), source);
@@ -101,7 +101,7 @@ async function takeBytes(source) {
 
 async function instantiate(source) {
   if (typeof WebAssembly === 'undefined') throw refuse('there is none');
-  if (source instanceof WebAssembly.Module) compiled = source;
+  if (kindOf(source) === 'WebAssembly.Module') compiled = source;
   else {
     const bytes = await takeBytes(source);
     try {
@@ -110,6 +110,8 @@ async function instantiate(source) {
       throw refuse(error);
     }
   }
+  if (!WebAssembly.Module.exports(compiled).some(({ name }) => name === 'scarp_version'))
+    throw new ScarpError('input', `what ready() was given is a module of WebAssembly, but not Scarp's; ${ADVICE}`);
   const imports = {};
   for (const { module, name } of WebAssembly.Module.imports(compiled)) {
     (imports[module] ??= {})[name] = IMPORTS[name] ?? (() => {
@@ -173,7 +175,7 @@ export const version = () => text(call('scarp_version', []));
 export class Blocks {
   #addresses = [];
   allocate(bytes) {
-    const address = call('scarp_allocate', [Math.max(bytes, 8)]);
+    const address = bytes < 2 ** 32 && call('scarp_allocate', [Math.max(bytes, 8)]);
     if (!address) {
       throw new ScarpError('memory', `there is no memory for ${bytes} bytes: a module of WebAssembly has 4 GiB at most; ` +
         'take a smaller raster');
@@ -184,7 +186,7 @@ export class Blocks {
   /// A copy of an array.
   put(array) {
     const address = this.allocate(array.byteLength);
-    view(array.constructor, address, array.length).set(array);
+    view(globalThis[kindOf(array)], address, array.length).set(array);
     return address;
   }
   free() {

@@ -3,7 +3,10 @@ import { ScarpError } from './error.js';
 
 const EFFORTS = ['auto', 'fast', 'normal', 'high', 'max'];
 
-const isArray = value => ArrayBuffer.isView(value) ? !(value instanceof DataView) : Array.isArray(value);
+/// Of an object what it is, such as DataView, whichever realm it is of.
+export const kindOf = value => Object.prototype.toString.call(value).slice(8, -1).replace(/^Object$/, 'object');
+
+const isArray = value => ArrayBuffer.isView(value) ? kindOf(value) !== 'DataView' : Array.isArray(value);
 const number = (least = -Infinity, most = Infinity) => ({
   fits: value => Number.isFinite(value) && value >= least && value <= most,
   is: most < Infinity ? `a number, ${least} to ${most}` : least === -Infinity ? 'a finite number' : `a number, at least ${least} and finite`,
@@ -46,12 +49,14 @@ const TABLE = {
 
 const PLACE = ['nodata', 'transform', 'degrees'];
 const GOALS = ['maxError', 'maxTriangles', 'maxVertices'];
-const RUN = ['onProgress', 'signal', 'transfer'];
+const RUN = ['onProgress', 'signal'];
 /// What each entry takes.
+const SIMPLIFY = [...GOALS, 'effort', 'vertices', 'order', 'objective', 'minShape', 'outlineTolerance', 'normals', 'uvs', 'lattice', 'doubles',
+  'lockBorder', 'mask', 'tolerance', ...PLACE, ...RUN];
+const POINTS = [...GOALS, 'duplicates', 'doubles', ...RUN];
 export const ENTRIES = {
-  simplify: [...GOALS, 'effort', 'vertices', 'order', 'objective', 'minShape', 'outlineTolerance', 'normals', 'uvs', 'lattice', 'doubles',
-    'lockBorder', 'mask', 'tolerance', ...PLACE, ...RUN],
-  simplifyPoints: [...GOALS, 'duplicates', 'doubles', ...RUN],
+  simplify: [...SIMPLIFY, 'transfer'], simplifySync: SIMPLIFY,
+  simplifyPoints: [...POINTS, 'transfer'], simplifyPointsSync: POINTS,
   place: PLACE,
   refine: ['maxError', 'maxVertices'],
   pool: ['size', 'worker'],
@@ -66,13 +71,11 @@ export const ENTRIES = {
 const NARROWER = { tiler: { effort: choice('fast', 'normal', 'high') } };
 /// What an entry cannot do without.
 const GOAL = 'give a goal, such as { maxError: 1 }';
-const NEEDS = { simplify: GOAL, simplifyPoints: GOAL, tiler: 'give { bounds: [west, south, east, north] }' };
+const NEEDS = { simplify: GOAL, simplifySync: GOAL, simplifyPoints: GOAL, simplifyPointsSync: GOAL, tiler: 'give { bounds: [west, south, east, north] }' };
 
 /// The number of a choice in the library's list of them.
 export const choose = (name, value) => TABLE[name].list.indexOf(value);
 
-/// Of an object what it is, such as DataView.
-export const kindOf = value => Object.prototype.toString.call(value).slice(8, -1).replace(/^Object$/, 'object');
 export const article = noun => `${/^[aeiou]/i.test(noun) ? 'an' : 'a'} ${noun}`;
 
 /// A value as a sentence shows it.
@@ -110,6 +113,9 @@ export function takeOptions(options, entry) {
   const known = ENTRIES[entry], taken = {};
   for (const [name, value] of Object.entries(options)) {
     if (!known.includes(name)) {
+      const later = entry.replace(/Sync$/, '');
+      if (later !== entry && ENTRIES[later].includes(name))
+        throw new ScarpError('usage', `option ${name} is for workers: leave it out, or take ${later}() in place of ${entry}()`);
       const near = findNear(name, known);
       throw new ScarpError('usage', `option ${name} is unknown${near ? `: did you mean ${near}? Known are` : '; known are'} ${known.join(', ')}`);
     }
@@ -130,6 +136,9 @@ const WORDS = [
   [/\binf\b/g, 'Infinity'],
   [/write OBJ or PLY, whose positions are double/, 'take doubles: true'],
   [/(?:or use|write in) the local or grid frame/, 'leave transform out'],
+  [/\bdomain\.border\b/, 'lockBorder'],
+  [/float32_positions = false/, 'doubles'],
+  [/\b(effort|order|vertices|objective) = (\w+)/g, "$1: '$2'"],
   [/choose the frame 'source'/, 'leave degrees out'],
   [/choose a polar CRS such as EPSG:3413 or EPSG:3031/, 'leave degrees out if the transform is in other units'],
   [/\(gdal_edit -a_ullr, or gdal_edit -a_srs if they are not degrees\)/, "in bounds, or take crs: 'mercator' if they are its metres"],

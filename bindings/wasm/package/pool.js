@@ -2,19 +2,38 @@
 import { watchLock } from './alive.js';
 import { ScarpError } from './error.js';
 import { compiledModule } from './module.js';
-import { defaults, ready } from './ready.js';
+import { defaults, explainAddress, ready } from './ready.js';
 import { Mesh } from './mesh.js';
 import { checkHeights, refuse, takeBeside } from './heights.js';
-import { show, takeOptions } from './options.js';
+import { kindOf, show, takeOptions } from './options.js';
 import { checkPoints, checkSignal } from './simplify.js';
+
+/// Sentences for what no worker can be made of: a page with Trusted Types, and a script without an address.
+function makeHere(make) {
+  try {
+    return make();
+  } catch (cause) {
+    if (!/TrustedScriptURL/.test(cause?.message)) throw explainAddress(cause);
+    throw new ScarpError('unsupported', `the page's policy require-trusted-types-for refuses the worker's address (${cause.message}): give ` +
+      'createPool({ worker: () => new Worker(policy.createScriptURL(address)) }) with a policy of your own', { cause });
+  }
+}
+
+/// Node has its workers elsewhere. Bundlers find `new Worker()` of the global name alone, which is there during the call.
+async function makeInNode(make) {
+  const name = 'node:worker_threads', threads = await import(/* webpackIgnore: true */ /* @vite-ignore */ name);
+  const had = globalThis.Worker;
+  globalThis.Worker = threads.Worker;
+  try {
+    return makeHere(make);
+  } finally {
+    if (had) globalThis.Worker = had; else delete globalThis.Worker;
+  }
+}
 
 /// A worker of the browser or of Node, behind the same two functions.
 async function openWorker(make, onMessage, onFailure) {
-  if (typeof Worker === 'undefined') {
-    const name = 'node:worker_threads';
-    globalThis.Worker ??= (await import(/* webpackIgnore: true */ /* @vite-ignore */ name)).Worker;
-  }
-  const worker = make();
+  const worker = typeof Worker === 'undefined' ? await makeInNode(make) : makeHere(make);
   if (typeof worker?.postMessage !== 'function') throw new ScarpError('usage', `createPool({ worker }) made ${show(worker)}, and no Worker`);
   if (worker.on) {
     worker.on('message', onMessage);
@@ -28,6 +47,8 @@ async function openWorker(make, onMessage, onFailure) {
   return worker;
 }
 
+const WORKER_ADVICE = "its script is scarp/worker, which a bundler may not have found, or a content policy refuses: it needs worker-src 'self'; " +
+  "give createPool({ worker }), or import 'scarp/inline'";
 const mayShare = () => typeof SharedArrayBuffer !== 'undefined' && globalThis.crossOriginIsolated !== false;
 const cancelled = signal => new ScarpError('cancelled', 'the call was cancelled', { cause: signal?.reason });
 
@@ -74,8 +95,7 @@ class Hand {
         watchLock(answer.lock, () => fail(new ScarpError('memory', 'the browser ended a worker, most likely for lack of memory: take a ' +
           'smaller raster or a larger error, or fewer workers by createPool({ size })')));
       }
-    }, cause => fail(new ScarpError('internal', `a worker failed: ${cause.message}; its script is scarp/worker, which a bundler may not ` +
-      "have found: give createPool({ worker }), or import 'scarp/inline'", { cause })));
+    }, cause => fail(new ScarpError('internal', `a worker failed: ${cause.message}; ${defaults.workerAdvice ?? WORKER_ADVICE}`, { cause })));
     if (this.#isOver) return void worker.terminate();
     this.#worker = worker;
     await this.#exchange({ module: compiledModule() }, []);
@@ -123,7 +143,7 @@ class Hand {
 /// The values for a worker: a copy, or the array itself in a buffer that is the caller's no more.
 function take(array, isMoved) {
   if (!isMoved) return array.slice();
-  if (typeof SharedArrayBuffer !== 'undefined' && array.buffer instanceof SharedArrayBuffer)
+  if (kindOf(array.buffer) === 'SharedArrayBuffer')
     refuse('transfer moves the buffer of the heights, and theirs is a SharedArrayBuffer, which cannot be moved: leave transfer out');
   try {
     return globalThis.structuredClone ? structuredClone(array, { transfer: [array.buffer] }) : array;
@@ -219,7 +239,7 @@ class Pool {
     const given = checkPoints(points);
     checkSignal(taken.signal);
     this.#check();
-    const own = given instanceof Float64Array ? take(given, taken.transfer) : Float64Array.from(given);
+    const own = kindOf(given) === 'Float64Array' ? take(given, taken.transfer) : Float64Array.from(given);
     return this.#add('simplifyPoints', [own], [own.buffer], taken);
   }
 

@@ -44,7 +44,7 @@ export class Refiner {
     const { maxError, maxVertices = 0 } = takeOptions(goals, 'refine'), rounding = this.#rounding;
     if (maxError < rounding) {
       throw new ScarpError('promise', `a maxError of ${maxError} cannot be kept: the heights do not fit float32 and are rounded by up to ` +
-        `${rounding}; ask for that or more`);
+        `${rounding}; ask for that or more, or subtract a base from the heights`);
     }
     // A little less, so that the sum is not rounded above.
     const bound = rounding > 0 ? Math.max(0, maxError * (1 - 2 ** -52) - rounding) : maxError;

@@ -20,7 +20,7 @@ export function checkSignal(signal) {
 
 /// Simplifies here and now. `flag`: an Int32Array over shared memory, whose first number cancels.
 export function simplifySync(z, width, height, options = {}, flag = undefined) {
-  const taken = takeOptions(options, 'simplify');
+  const taken = takeOptions(options, 'simplifySync');
   checkSignal(taken.signal);
   const { effort = 'auto', vertices = 'auto', order = 'auto', objective = 'max', minShape = NaN, outlineTolerance = 0,
     normals, uvs, lattice, doubles, lockBorder, mask, tolerance, onProgress } = taken;
@@ -32,24 +32,18 @@ export function simplifySync(z, width, height, options = {}, flag = undefined) {
       choose('objective', objective), minShape, outlineTolerance, Number(Boolean(normals)), Number(Boolean(uvs)),
       Number(Boolean(lattice)), Number(Boolean(doubles)), Number(Boolean(lockBorder)),
       beside('mask', mask), beside('tolerance', tolerance), Number(Boolean(progress)));
-    return takeMesh(blocks, callOrThrow('scarp_simplify', [address, asked], progress), { doubles, rounding });
+    return takeMesh(blocks, callOrThrow('scarp_simplify', [address, asked], progress), { doubles: doubles || lattice, rounding });
   });
 }
 
 /// Judges a mesh by brute force, without knowing how it was made.
 export function measure(z, width, height, mesh, options = {}) {
   const place = takeOptions(options, 'place');
-  const { positions, indices, origin: [x, y, up] } = checkMesh(mesh);
+  const { positions, indices, origin } = checkMesh(mesh);
   return withBlocks(blocks => {
     const { address, rounding } = putField(blocks, z, width, height, place);
-    const absolute = Float64Array.from(positions);
-    for (let k = 0; k < absolute.length; k += 3) {
-      absolute[k] += x;
-      absolute[k + 1] += y;
-      absolute[k + 2] += up;
-    }
     const out = blocks.allocate(8 * REPORT_DOUBLES);
-    callOrThrow('scarp_measure', [address, blocks.put(absolute), positions.length / 3, blocks.put(Uint32Array.from(indices)),
+    callOrThrow('scarp_measure', [address, putDoubles(blocks, Array.from(origin)), blocks.put(Float64Array.from(positions)), positions.length / 3, blocks.put(Uint32Array.from(indices)),
       indices.length / 3, out]);
     return readReport(view(Float64Array, out, REPORT_DOUBLES).slice(), rounding);
   });
@@ -64,7 +58,7 @@ export function checkPoints(points) {
 
 /// Scattered points: x, y, z in turn.
 export function simplifyPointsSync(points, options = {}, flag = undefined) {
-  const taken = takeOptions(options, 'simplifyPoints');
+  const taken = takeOptions(options, 'simplifyPointsSync');
   checkSignal(taken.signal);
   const { duplicates = 'first', doubles, onProgress } = taken;
   const given = checkPoints(points);

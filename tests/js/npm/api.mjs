@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import test from 'node:test';
+import vm from 'node:vm';
 import { Worker } from 'node:worker_threads';
 import * as scarp from 'scarp/full';
 import { ROUNDING, judgeMesh } from './judge.mjs';
@@ -79,6 +80,57 @@ test('measure() finds what simplifySync() told, and a vertex that was moved', ()
   assert.equal(report.samples, width * height);
   mesh.positions[2] += 1000;
   assert.ok(measure(z, width, height, mesh).maxError > 900);
+});
+
+test('what a mesh tells of its error is true of its positions, whatever its cell', () => {
+  let kept = 0;
+  for (const cell of [0.1, 1 / 3, 27.7, 1 / 3600]) {
+    const transform = [4e5, cell, 0, 5e6, 0, -cell], place = { transform };
+    for (const maxError of [0, 1]) {
+      for (const lattice of [false, true]) {
+        let mesh;
+        try {
+          mesh = simplifySync(z, width, height, { maxError, lattice, effort: 'high', transform });
+        } catch ({ code }) {
+          assert.ok(code === 'promise' && !lattice, code);
+          continue;
+        }
+        assert.equal(measure(z, width, height, mesh, place).maxError, mesh.maxError);
+        assert.ok(mesh.maxError <= maxError && mesh.positions.constructor === (lattice ? Float64Array : Float32Array));
+        ++kept;
+        if (lattice) assert.match(new TextDecoder().decode(encodeGlb(mesh, { compress: true })), /"componentType":5123,"count":\d+,"type":"VEC3"/);
+      }
+    }
+    const refiner = new Refiner(z, width, height, place);
+    refiner.run({ maxError: 1 });
+    const mesh = refiner.mesh();
+    assert.ok(measure(z, width, height, mesh, place).maxError === mesh.maxError && mesh.maxError <= 1);
+    refiner.free();
+  }
+  assert.ok(kept >= 12, `${kept}`);
+});
+
+test('texture coordinates beyond 0 and 1 are kept', () => {
+  const quad = { positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]), indices: [0, 1, 2, 2, 1, 3] };
+  const kindOf = uvs => {
+    const file = encodeGlb({ ...quad, uvs: new Float32Array(uvs) }, { compress: true });
+    const { accessors, meshes } = JSON.parse(new TextDecoder().decode(file.subarray(20, 20 + new DataView(file.buffer).getUint32(12, true))));
+    return accessors[meshes[0].primitives[0].attributes.TEXCOORD_0];
+  };
+  assert.deepEqual([[0, 0, 2.5, 0, 0, 1, 1, 1], [0, 0, 1, 0, -0.5, 1, 1, 1], [0, 0, 1, 0, 0, 1, 1, 1]].map(uvs => kindOf(uvs).componentType), [5126, 5126, 5123]);
+  assert.equal(kindOf([0, 0, 2.5, 0, 0, 1, 1, 1]).normalized, undefined);
+});
+
+test('arrays of another realm are arrays', async () => {
+  const marked = z.map((value, k) => (k === 500 ? -9999.1 : value)), options = { maxError: 4, nodata: -9999.1 }, mesh = simplifySync(marked, width, height, options);
+  const [Floats, Corners, View] = ['Float32Array', mesh.indices.constructor.name, 'DataView'].map(name => vm.runInNewContext(name));
+  const theirs = new Floats(marked), foreign = { ...mesh, positions: new Floats(mesh.positions), indices: new Corners(mesh.indices) };
+  assert.ok(!(theirs instanceof Float32Array) && mesh.report.samples === z.length - 1);
+  for (const made of [simplifySync(theirs, width, height, options), await simplify(theirs, width, height, options)])
+    assert.deepEqual([made.report, made.positions], [mesh.report, mesh.positions]);
+  assert.equal(measure(theirs, width, height, foreign, { nodata: -9999.1 }).maxError, mesh.maxError);
+  for (const compress of [false, true]) assert.deepEqual(encodeGlb(foreign, { compress }), encodeGlb(mesh, { compress }));
+  refuses(() => simplifySync(new View(new ArrayBuffer(8)), 2, 2, { maxError: 4 }), 'usage', /a DataView: give a typed array/);
 });
 
 test('arrays of every kind give the same mesh', () => {
@@ -173,6 +225,14 @@ test('weights and tolerances bind each sample', () => {
   const weighted = simplifySync(z, width, height, { maxError: 1, mask });
   assert.ok(judgeMesh(z.map((value, k) => (k % width < 50 ? value : NaN)), width, height, weighted).max <= 1 + ROUNDING * 1000);
   assert.ok(weighted.triangleCount < simplifySync(z, width, height, { maxError: 1 }).triangleCount);
+  // Their nearest float32 are a tolerance above and a weight below, which the height would just keep.
+  const low = new Float32Array(25), near = Math.fround(0.1), exact = Float64Array.from(low);
+  low[12] = near;
+  assert.ok(near > 0.1);
+  assert.ok(simplifySync(low, 5, 5, { tolerance: exact.fill(0.1) }).maxError <= 0.1);
+  const weight = Array.from({ length: 1000 }, (_, k) => (k + 1) / 997).find(one => Math.fround(1 / one) * one > 1 && Math.fround(1 / one) * Math.fround(one) <= 1);
+  low[12] = 1 / weight;
+  assert.ok(simplifySync(low, 5, 5, { maxError: 1, mask: exact.fill(weight) }).maxError * weight <= 1);
 });
 
 test('a transform places the mesh, and degrees become metres', () => {
@@ -288,11 +348,20 @@ test('what is given to a pool may be changed after the call', async () => {
   await rejects(createPool({ size: 1, worker: () => null }).simplify(z, width, height, { maxError: 4 }), 'usage', /made null/);
 });
 
+test('work in workers leaves no global name behind', async () => {
+  const had = Object.getOwnPropertyNames(globalThis);
+  const pool = createPool({ size: 1 });
+  await pool.simplify(z, width, height, { maxError: 4 });
+  pool.terminate();
+  assert.deepEqual(Object.getOwnPropertyNames(globalThis), had);
+});
+
 test('a page of HTML is no module, and the sentence says so', async () => {
   const { start } = await import('./node_modules/scarp/module.js?again');
   const page = new TextEncoder().encode('<!doctype html><title>');
   await assert.rejects(start(page), error => error.code === 'input' &&
     /a page of HTML.*optimizeDeps: { exclude: \['scarp'\] }/.test(error.message) && !/refused/.test(error.message));
+  await assert.rejects(start(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)), { code: 'input', message: /is a module of WebAssembly, but not Scarp's/ });
   await assert.rejects(start(new Uint8Array(9)), { code: 'input', message: /begins with other bytes/ });
 });
 
@@ -356,6 +425,14 @@ test('bad input gets a sentence that names it', () => {
     [() => simplifySync(z, width, height, { maxError: 1, transform: [1, 2] }), 'usage', /transform/],
     [() => simplifySync(z, width, height, { maxError: 1, transform: [0, 0, 0, 0, 0, 0] }), 'usage', /line/],
     [() => simplifySync(z, width, height, { maxError: 1, degrees: true }), 'usage', /transform/],
+    [() => simplifySync(z, width, height, { maxError: 1, transfer: true }), 'usage', /transfer is for workers: leave it out, or take simplify\(\)/],
+    [() => simplifySync(z, width, height, { maxError: 1, lockBorder: true, outlineTolerance: 1 }), 'usage', /^lockBorder cannot be combined with outlineTol/],
+    [() => simplifySync(z, width, height, { maxError: 1, lockBorder: true, maxTriangles: 99, tolerance: z }), 'usage', /^lockBorder .* maxTriangles beside tol/],
+    [() => simplifySync(z, width, height, { maxError: 1, effort: 'fast', vertices: 'free' }), 'usage', /^effort: 'fast' cannot .* with vertices: 'free'/],
+    ...[1e16, 1e20].map(far => [() => simplifySync(z, width, height, { maxError: 1, transform: [far, 1, 0, far, 0, -1] }), 'promise', /move the raster nearer to 0/]),
+    [() => simplifySync(Float64Array.from(z, value => 6e6 + value / 7), width, height, { maxError: 0.1 }), 'promise', /ask for 0.25 or more, or subtract a base/],
+    ...[simplifySync, (...given) => new Refiner(...given.slice(0, 3))]
+      .map(work => [() => work(new Int8Array(4), 33000, 33000, { maxError: 1 }), 'memory', /33000 x 33000 has 1089000000 samples.*smaller raster/]),
     [() => measure(z, width, height, {}), 'usage', /positions/],
     [() => measure(z, width, height, { positions: [0, 0, 0], indices: [0, 1, 2] }), 'input', /./],
     [() => new Refiner(z, 5, 5), 'usage', /25/],
@@ -412,6 +489,28 @@ test('bad input gets a sentence that names it', () => {
       .map(work => [work, 'usage', /options are null/]),
   ];
   for (const [work, code, sentence] of cases) refuses(work, code, sentence);
+});
+
+test('the options that cannot be combined are those of the README', () => {
+  const given = { "mask": { mask: z.map(() => 1) }, "tolerance": { tolerance: z.map(() => 9) }, "outlineTolerance": { outlineTolerance: 1 },
+    "minShape": { minShape: 0.1 }, "maxTriangles": { maxTriangles: 900 }, "maxVertices": { maxVertices: 900 } };
+  for (const name of ['lockBorder', 'lattice', 'doubles', 'normals', 'uvs']) given[name] = { [name]: true };
+  for (const [name, values] of Object.entries({ order: ['greedy', 'dominant'], effort: ['fast', 'normal', 'high'], vertices: ['samples', 'free'], objective: ['rms'] }))
+    for (const value of values) given[`${name}: '${value}'`] = { [name]: value };
+  const refused = [], told = [], sort = pair => pair.sort().join(' and ');
+  const names = Object.keys(given);
+  for (const [k, one] of names.entries()) {
+    for (const other of names.slice(k + 1)) {
+      try {
+        simplifySync(z, width, height, { maxError: 9, ...(/rms/.test(one + other) && { maxTriangles: 900 }), ...given[one], ...given[other] });
+      } catch ({ message }) {
+        if (/cannot be combined/.test(message)) refused.push(sort([one, other]));
+      }
+    }
+  }
+  for (const [, one, others] of fs.readFileSync('node_modules/scarp/README.md', 'utf8').matchAll(/^\| `([^`]*)` \| (`[^|]*`) \|$/gm))
+    for (const [, other] of others.matchAll(/`([^`]*)`/g)) told.push(sort([one, other]));
+  assert.deepEqual(told.sort(), refused.sort());
 });
 
 test('what ran before leaves no memory behind', { skip: !globalThis.gc && 'needs --expose-gc' }, async () => {

@@ -36,6 +36,15 @@ try {
   const strict = await visit(`${server.address}/strict/page.html`);
   console.log('/strict', JSON.stringify(strict));
   if (strict.refused !== 'unsupported' || !/wasm-unsafe-eval/.test(strict.message)) fail('a refusal of WebAssembly has no sentence');
+  const policies = [['whole', /^2 triangles$/], ['deaf', /^input: .*scarp\.wasm cannot be loaded: .*connect-src/], ['lone', /^internal: a worker failed: .*worker-src 'self'/],
+    ['blob', /^2 triangles$/, '?inline'], ['whole', /^internal: a worker failed: .*needs worker-src blob:$/, '?inline'],
+    ['typed', /^unsupported: .*require-trusted-types-for refuses the worker's address.*createScriptURL/]];
+  for (const [policy, sentence, entry = ''] of policies) {
+    await page.goto(`${server.address}/${policy}/policy.html${entry}`);
+    const answer = await page.evaluate(() => window.told);  // waiting for it would need eval()
+    console.log(`/${policy}${entry}`, answer);
+    if (!sentence.test(answer)) fail(`the policy ${policy} with scarp${entry}: ${answer}`);
+  }
   errors.length = 0;
   for (const bundle of bundles) {
     const dev = bundle.startsWith('dev:') ? await open_dev(bundle.slice(4)) : null;

@@ -1,4 +1,5 @@
 // Packs app.mjs as the guides of the bundlers say: bundle.mjs NAME, into the folder NAME.
+import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 
 const [name] = process.argv.slice(2);
@@ -17,6 +18,19 @@ switch (name) {
     const { outputFiles: [script] } = await build({ entryPoints: ['app.mjs'], bundle: true, format: 'esm', minify: true, write: false,
       alias: { scarp: 'scarp/inline' } });
     fs.writeFileSync(`${name}/index.html`, `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>inline</title><script type="module">${script.text.replaceAll('</script', '<\\/script')}</script>\n`);
+    break;
+  }
+  case 'formats': {  // without import.meta.url
+    const { build } = await import('esbuild');
+    for (const format of ['cjs', 'iife']) {
+      for (const [entry, told] of [['scarp', /^FAILED unsupported .*--format=esm, or import 'scarp\/inline'.*ready\(url\)/], ['scarp/inline', /^2 triangles$/]]) {
+        const contents = `import { simplify } from '${entry}';
+          simplify([0, 0, 0, 9], 2, 2, { maxError: 1 }).then(mesh => console.log(mesh.triangleCount + ' triangles'), ({ code, message }) => console.log('FAILED', code, message));`;
+        await build({ stdin: { contents, resolveDir: '.' }, bundle: true, format, platform: 'node', outfile: `${name}/app.cjs`, logLevel: 'error' });
+        const answer = execFileSync(process.execPath, [`${name}/app.cjs`]).toString().trim();
+        if (!told.test(answer)) throw new Error(`${entry} as ${format}: ${answer}`);
+      }
+    }
     break;
   }
   case 'vite': {

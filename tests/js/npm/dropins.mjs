@@ -43,7 +43,9 @@ test('martini: the same names, fewer triangles, and a bound that holds', () => {
   const [of_mine, of_theirs] = [mine, theirs].map(({ vertices, triangles }) => judged(z, side, side, vertices, triangles));
   assert.ok(of_mine.max <= 8 + 1e-9 && of_mine.uncovered === 0 && of_theirs.max > 8);
   assert.ok(mine.triangles.length < theirs.triangles.length / 2);
-  const tile = new Martini(50, { height: 40 }).createTile(hills(50, 40));
+  const given = hills(50, 40), tile = new Martini(50, { height: 40 }).createTile(given), before = tile.getMesh(8);
+  given.fill(0);
+  assert.deepEqual(tile.getMesh(8), before, 'the array is its caller\'s');
   const { vertices, triangles, numVerticesWithoutSkirts } = tile.getMeshWithSkirts(8);
   assert.equal(numVerticesWithoutSkirts, tile.getMesh(8).vertices.length / 2);
   assert.ok(vertices.length / 2 > numVerticesWithoutSkirts && triangles.every(v => v < vertices.length / 2));

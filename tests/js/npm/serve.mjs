@@ -1,12 +1,18 @@
-// Serves a folder on this machine. Paths that begin with /isolated or /strict are the same files with headers of their own.
+// Serves a folder on this machine. Paths that begin with a name of HEADERS are the same files with these headers.
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.json': 'application/json', '.wasm': 'application/wasm' };
+const policy = more => ({ 'Content-Security-Policy': `default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; ${more}` });
 const HEADERS = {
   isolated: { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' },
   strict: { 'Content-Security-Policy': "default-src 'self'" },
+  whole: policy("connect-src 'self'; worker-src 'self'"),
+  deaf: policy("worker-src 'self'"),
+  lone: policy("connect-src 'self'; worker-src 'none'"),
+  blob: policy('worker-src blob:'),
+  typed: policy("connect-src 'self'; worker-src 'self' blob:; require-trusted-types-for 'script'"),
 };
 
 export async function serve(folder) {
