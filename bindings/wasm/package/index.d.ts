@@ -15,21 +15,21 @@ export type Heights = Numbers | readonly (number | null)[];
 /** A compiled WebAssembly.Module, which has nothing to tell it by. */
 export type Compiled = object;
 /** What the package uses of a Response, a URL, an AbortSignal and a Worker, which not every program has types for. */
-export interface Answer {
+export interface ResponseLike {
   readonly ok: boolean;
   readonly status: number;
   readonly url: string;
   arrayBuffer(): Promise<ArrayBuffer>;
 }
-export interface Address {
+export interface UrlLike {
   readonly href: string;
 }
-export interface Signal {
+export interface SignalLike {
   readonly aborted: boolean;
   addEventListener(type: 'abort', listener: () => void): void;
   removeEventListener(type: 'abort', listener: () => void): void;
 }
-export interface Labourer {
+export interface WorkerLike {
   postMessage(message: any, transfer: any[]): void;
   terminate(): unknown;
 }
@@ -54,7 +54,7 @@ export class ScarpError extends Error {
  * @param options warm: runs small rasters, too, in a quarter of a second, so that engines have optimised the library before the
  * first call, which takes up to seven times as long as later ones else. Workers of a pool do so by themselves.
  */
-export function ready(source?: ArrayBuffer | ArrayBufferView | string | Address | Answer | Compiled, options?: { warm?: boolean }): Promise<void>;
+export function ready(source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled, options?: { warm?: boolean }): Promise<void>;
 export function isReady(): boolean;
 export function version(): string;
 
@@ -116,7 +116,7 @@ export interface Options extends Goals, Place {
 
 /** What is given is copied at the call: the caller may go on to change it. */
 export interface AsyncOptions {
-  signal?: Signal | null;
+  signal?: SignalLike | null;
   /** The buffer of Float32Array heights (of points: Float64Array) is moved at the call, not copied. */
   transfer?: boolean;
 }
@@ -191,7 +191,7 @@ export interface PoolOptions {
   /** Workers. Default: one less than cores, 4 at most. */
   size?: number;
   /** Makes a worker of the script scarp/worker, where a bundler does not find it. */
-  worker?: (() => Labourer) | null;
+  worker?: (() => WorkerLike) | null;
 }
 export interface Pool {
   readonly size: number;

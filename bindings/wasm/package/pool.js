@@ -13,7 +13,7 @@ function makeHere(make) {
   try {
     return make();
   } catch (cause) {
-    if (!/TrustedScriptURL/.test(cause?.message)) throw explainAddress(cause);
+    if (!/TrustedScriptURL/.test(cause?.message)) throw make === defaults.worker ? explainAddress(cause) : cause;
     throw new ScarpError('unsupported', `the page's policy require-trusted-types-for refuses the worker's address (${cause.message}): give ` +
       'createPool({ worker: () => new Worker(policy.createScriptURL(address)) }) with a policy of your own', { cause });
   }
