@@ -124,7 +124,7 @@ scarp_status scarp_refiner_mesh(const scarp_refiner* refiner, scarp_mesh** out) 
     *out = nullptr;
     const scarp::Frame& frame = refiner->field.frame;
     auto mesh = std::make_unique<scarp_mesh>();
-    mesh->mesh = refiner->refiner.mesh();
+    mesh->mesh = refiner->refiner.mesh(false);
     const char* crs = frame.kind == scarp::Frame::Kind::kGrid    ? "grid"
                       : frame.kind == scarp::Frame::Kind::kLocal ? "local"
                                                                  : "source";

@@ -196,8 +196,9 @@ if os.path.exists("python.html"):
 
     # A page within a page, as notebooks show it; it writes no address a little later.
     job(within, "notebook.html", [
-        {"until": "!document.querySelector('iframe').contentDocument.body?.classList.contains('empty') && document.querySelector('iframe').contentWindow.scarp_page?.drawn > 0", "read":
-         READ.replace("document.", "document.querySelector('iframe').contentDocument."), "shot": "notebook"},
+        {"until": "(({contentDocument: page, contentWindow: {scarp_page}}) => page.body && !page.body.classList.contains('empty') && "
+                  f"scarp_page?.drawn > 0 && {JUDGED})(document.querySelector('iframe'))",
+         "read": READ.replace("document.", "document.querySelector('iframe').contentDocument."), "shot": "notebook"},
         {"do": "new Promise(done => setTimeout(done, 500))"},
         {"read": "document.querySelector('iframe').contentDocument.getElementById('notice').hidden"}])
 
