@@ -34,7 +34,7 @@ def write_png(name, depth, color, bytes_a_pixel, pixel_of, passes=WHOLE):
 
 
 write_png("terrarium.png", 8, 2, 3, lambda z: struct.pack(">HB", z + 32768, 0))
-write_png("mapbox.png", 8, 6, 4, lambda z: struct.pack(">I", (z + 10000) * 10)[1:] + (b"\0" if z > 690 else b"\xff"))
+write_png("mapbox.png", 8, 6, 4, lambda z: struct.pack(">I", (z + 10000) * 10 + z % 7)[1:] + (b"\0" if z > 690 else b"\xff"))
 open("cut.png", "wb").write(open("terrarium.png", "rb").read()[:900])
 write_png("grey16.png", 16, 0, 2, lambda z: struct.pack(">H", 50 * z))
 write_png("interlaced.png", 16, 0, 2, lambda z: struct.pack(">H", 50 * z), INTERLACED)

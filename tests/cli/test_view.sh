@@ -131,6 +131,8 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   sed -n 1,5p stray.asc > terraces.asc
   for row in 1 2 3 4 5 6 7 8; do echo "0.1 0.1 0.1 0.1 0.7 0.7 0.7 0.7 0.7"; done >> terraces.asc
   succeeds gdal_translate -q -a_srs EPSG:32616 terraces.asc terraces.tif
+  sed '6d; s/-9/-9999/g' stray.asc > unsaid.asc
+  succeeds gdal_translate -q -a_srs EPSG:32616 -a_nodata none unsaid.asc unsaid.tif
   succeeds gdal_translate -q -srcwin 0 0 80 61 -ot Byte -scale 236 1076 0 255 -b 1 -b 1 -b 1 -co PHOTOMETRIC=RGB "$dem" colour.tif
   succeeds gdal_translate -q -srcwin 0 0 80 61 -a_srs EPSG:2264 -a_ullr 1000 9000 1802.5 8390 "$dem" feet.tif
   succeeds gdal_translate -q -srcwin 0 0 3 3 -outsize 4200 4100 -r bilinear -co COMPRESS=DEFLATE -co PROFILE=BASELINE "$dem" thinned.tif

@@ -336,12 +336,13 @@ def runs(command, page):
 
 
 def live(values):
-    (first, coarse), (second, fine), (third, high), (_, left, right), (_, greedy, same), state = [v for v in values if isinstance(v, (list, str))]
+    (first, coarse), (second, fine), (third, high), (_, left, right), (_, greedy, same), state, again = [v for v in values if isinstance(v, (list, str))]
     assert kept(second, fine, "greedy") > kept(first, coarse, "greedy") and second < first, values
     assert kept(third, high, "high") < 0.5 * fine[1] and third == second, values
     assert kept(second, left, "greedy") == fine[1] and kept(second, right, "high") == high[1], values
     assert greedy == left and same[1] <= greedy[1] and same[2] < 0.6 * greedy[2], values
     assert "both=1" in state and "count=1" in state and "error=" in state, state
+    assert "error=" not in again, again
     drag, one, obj, two = (v for v in values if isinstance(v, dict))
     assert drag["command"].endswith(" --effort fast --order greedy"), drag
     for page in (drag, one, obj, two):
@@ -363,6 +364,7 @@ REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged or cut off"), ("head.
 OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrarium.png", "terrarium", "terrarium", True), ("mapbox.png", "mapbox", "mapbox", True),
            ("grey16.png", "Grey levels", "", True), ("interlaced.png", "Grey levels", "", False), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("terraces.tif", "", "", True), ("colour.tif", "red is taken", "", True),
            ("masked.tif", "", "", True), ("doubles.tif", "", "", True),
+           ("unsaid.tif", "25 samples of unsaid.tif are exactly -9999, far below all others (1 to 9)", "", True),
            ("feet.tif", "", "", True), ("thinned.tif", "one of 2 x 2", "", False))
 
 
@@ -436,7 +438,7 @@ def refused(values):
     assert "No mesh" in words and "WebAssembly" in words, words
 
 
-FORMATS, KNOWN_METRES = ("glb", "stl", "obj"), ("dem.tif", "N36W085.hgt", "; touch x $(touch y) 'q' .tif", "stray.tif", "terraces.tif", "colour.tif", "feet.tif")
+FORMATS, KNOWN_METRES = ("glb", "stl", "obj"), ("dem.tif", "N36W085.hgt", "; touch x $(touch y) 'q' .tif", "stray.tif", "terraces.tif", "colour.tif", "feet.tif", "unsaid.tif")
 if os.path.exists("live.html"):
     job(live, "live.html", [
         {"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"do": COMMAND},
@@ -447,7 +449,9 @@ if os.path.exists("live.html"):
         {"keys": ["s"], "until": "scarp_page.shown.length === 2", "read": NOW, "shot": "side_by_side"},
         {"do": "(menu => { menu.value = 'count'; menu.dispatchEvent(new Event('change')); })(document.getElementById('same'))",
          "until": "scarp_page.shown[1].judged.max_error < 0.6 * scarp_page.shown[0].judged.max_error", "read": NOW},
-        {"do": COMMAND}, {"until": "location.hash.includes('count=1')", "read": "location.hash"}], axe=True)
+        {"do": COMMAND}, {"until": "location.hash.includes('count=1')", "read": "location.hash"},
+        {"keys": ["r"], "until": "scarp_page.shown.length === 1 && scarp_page.shown[0] === scarp_page.document.levels[0] && "
+                                 "!location.hash.includes('both=1')", "read": "location.hash"}], axe=True)
     job(restored, "live.html", [{"until": READY + " && scarp_page.shown.length === 2 && " + HIGH, "read": NOW}, {"read": "document.getElementById('same').value"}],
         fragment="#error=50&both=1&count=1", width=500, height=400)
     OPENED = ("({name: document.title, error: scarp_page.shown[0].judged.max_error, most: (f => (f.high - f.low) * 0.02)(scarp_page.document.field),"

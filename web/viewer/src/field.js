@@ -1,8 +1,15 @@
 // The raster that a mesh was made from: samples on a grid, NaN where there is none.
+
+/** In float32 where that holds them all. The engine wants to know what it would round, which its bound then counts. */
+function narrow(samples) {
+  const stay = samples instanceof Float32Array || !samples.every(z => z !== z || Math.fround(z) === z);
+  return stay ? samples : Float32Array.from(samples);
+}
+
 export class Field {
   /** `affine`: from column and row of a sample's centre to x and y of the mesh, in GDAL's order of terms; `decoding`: how the heights lie in colours, null where they do not; `step`: each such sample of the file is here. */
   constructor({ name, cols, rows, affine, samples, unit = '', decoding = null, step = 1 }) {
-    Object.assign(this, { name, cols, rows, affine, samples, unit, decoding, step });
+    Object.assign(this, { name, cols, rows, affine, samples: narrow(samples), unit, decoding, step });
     this.determinant = affine[1] * affine[5] - affine[2] * affine[4];
     this.low = Infinity;
     this.high = -Infinity;

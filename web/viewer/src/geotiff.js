@@ -108,7 +108,7 @@ async function read_heights(name, tiff, image, buffer, step, told) {
   const shows = mask ? new TiffSamples(name, mask, buffer) : source;
   if (shows.cols !== source.cols || shows.rows !== source.rows) throw damaged(name);
   if (alpha !== null) await shows.each(alpha, step, 0, (at, shown) => { if (!(shown >= 0.5)) values[at] = NaN; });
-  return values.every(z => z !== z || Math.fround(z) === z) ? Float32Array.from(values) : values;
+  return values;
 }
 
 export async function read_geotiff(name, buffer, most_samples) {

@@ -15,7 +15,7 @@ export function listen_to_keys(page) {
       n: () => page.change({ smooth: !page.look.smooth }),
       s: () => page.live.toggle_both(),
       m: () => page.measuring.turn(!page.measuring.is_on),
-      r: () => page.scene.reset(),
+      r: () => page.reset(),
       '?': () => document.getElementById('help').click(),
       '+': () => page.live.step(1),
       '=': () => page.live.step(1),

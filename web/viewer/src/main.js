@@ -98,6 +98,12 @@ class Page {
     this.show([terrain]);
   }
 
+  /** The file's mesh again, as it was first seen. */
+  reset() {
+    if (this.live.step_now !== null) this.choose_level(this.level);
+    this.scene.reset();
+  }
+
   /** Makes the controls and the readout agree with the state, and the picture. */
   update(is_drawn = true) {
     const { look, shown, document: { field, unit, levels, place, knows_metres, is_of_tiles } } = this, [terrain] = shown;
@@ -180,7 +186,7 @@ class Page {
     on('level', 'input', () => this.choose_level(Number($('level').value)));
     on('measure', 'click', () => this.measuring.turn(!this.measuring.is_on));
     on('measured-close', 'click', () => this.measuring.turn(false));
-    on('reset', 'click', () => this.scene.reset());
+    on('reset', 'click', () => this.reset());
     on('picture', 'click', () => this.save_picture().catch(complain));
     on('format', 'change', () => this.update());
     on('save', 'click', () => save_mesh(this.shown.at(-1), this.document.name, $('format').value));

@@ -4,6 +4,7 @@ import { grid_frame, local_frame } from './frame.js';
 import { read_geotiff } from './geotiff.js';
 import { read_png } from './png.js';
 import { Sentence } from './sentence.js';
+import { warn_of_undeclared } from './undeclared.js';
 
 const MOST_SAMPLES = 2 ** 24;
 
@@ -46,7 +47,7 @@ const NOTES = { terrarium: 'Colours are taken for heights as of terrarium tiles.
 async function read_png_heights(name, buffer, asked) {
   const image = await read_png(name, new Uint8Array(buffer), MOST_SAMPLES), { width, height, channels, values, missing } = image;
   const is_missing = at => (channels % 2 === 0 && values[at + channels - 1] === 0) || (missing !== null && missing.every((value, k) => values[at + k] === value));
-  const decode = key => Float32Array.from({ length: width * height }, (_, k) => is_missing(channels * k) ? NaN : DECODINGS[key](values[channels * k], values[channels * k + 1], values[channels * k + 2]));
+  const decode = key => Float64Array.from({ length: width * height }, (_, k) => is_missing(channels * k) ? NaN : DECODINGS[key](values[channels * k], values[channels * k + 1], values[channels * k + 2]));
   const is_packed = channels >= 3 && image.depth === 8, key = is_packed ? asked ?? guess_decoding(image, decode) : 'grey';
   const note = channels >= 3 ? NOTES[key] : image.is_palette ? 'The numbers of the palette are taken for heights.' : 'Grey levels are taken for heights.';
   return { cols: width, rows: height, samples: decode(key), frame: grid_frame(height), unit: key === 'grey' ? '' : 'm', notes: [note], decoding: is_packed ? key : null };
@@ -60,5 +61,5 @@ export async function read_raster(file, decoding = null) {
   if (cols < 2 || rows < 2) throw new Sentence(`${name} is ${cols} x ${rows} samples: a mesh needs two of each at least.`);
   const field = new Field({ name, cols, rows, samples: raster.samples, affine: frame.affine, unit, decoding: raster.decoding ?? null, step });
   if (field.low > field.high) throw new Sentence(`${name} holds no height.`);
-  return { field, frame, unit, notes };
+  return { field, frame, unit, notes: [...notes, ...warn_of_undeclared(field)] };
 }
