@@ -10,7 +10,7 @@ DATA ?= $(or $(SCARP_SHARED),../shared)/data
 C_TARGETS = $(if $(filter -DSCARP_BUILD_C=OFF,$(CMAKE_FLAGS)),,scarp_c scarp_c_static)
 export BUILD JOBS DATA
 
-.PHONY: build demo viewer site globe qgis python npm dist check test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo viewer site globe qgis python npm dist check test test-full test-rest soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -19,8 +19,9 @@ build:
 
 demo:
 	@tools/install_packages.sh build run
-	@$(MAKE) --no-print-directory build
-	@tools/install_packages.sh viewer && tools/build_viewer.sh $(BUILD) || echo 'The demonstration goes on without the viewer.'
+	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
+	@cmake --build $(BUILD) -j $(JOBS) --target scarp_program
+	@! command -v npm >/dev/null || tools/build_viewer.sh $(BUILD) || echo 'The demonstration goes on without the viewer.'
 	@tools/demo.sh $(BUILD)/bin/scarp
 
 viewer:
@@ -62,7 +63,15 @@ check:
 
 test:
 	@tools/install_packages.sh build run test
-	@tools/test.sh
+	@tools/test.sh test
+
+test-full:
+	@tools/install_packages.sh build run test full
+	@tools/test.sh full
+
+test-rest:
+	@tools/install_packages.sh build run test full
+	@tools/test.sh rest
 
 qgis: build
 	@python3 bindings/qgis/make_plugin.py $(BUILD)/bin/scarp dist/scarp_processing.zip
@@ -113,7 +122,9 @@ help:
 	@echo 'make npm      the npm package, compiled with Emscripten, into dist/'
 	@echo 'make dist     sources, npm package, wheel, sdist, plugin for QGIS and Debian packages, into dist/ with SHA256SUMS'
 	@echo 'make check    what to run before every commit: the fast tests'
-	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
+	@echo 'make test     all tests of what this tree does on this machine'
+	@echo 'make test-full  make test, and what it leaves out: packages, installs, sanitizers, a short run of the fuzzers'
+	@echo 'make test-rest  what make test-full adds to make test'
 	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'
 	@echo 'make wasm-check  the core compiled with Emscripten, its meshes compared with native ones'
 	@echo 'make bench    the benchmarks; their tables are under version control'

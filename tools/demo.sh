@@ -33,3 +33,4 @@ if [ -e "$page" ]; then
 else
   echo "'make viewer' builds the page that shows it in a browser; it needs node and npm."
 fi
+echo "A raster of your own: ${scarp#"$PWD/"} simplify YOUR.tif out.glb -e 1%"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs the Debian packages of one or more purposes (see tools/packages.txt), if they are missing.
 #
-# usage: tools/install_packages.sh PURPOSE...      PURPOSE: build run viewer test globe wasm bench paper lint dist
+# usage: tools/install_packages.sh PURPOSE...      PURPOSE: build run viewer test full globe wasm bench paper lint dist
 #
 # A machine that has them all is left alone: no network, no rights. Otherwise apt-get runs once, as root or through
 # sudo without a password; where neither is possible, the line to run is printed and the exit code is 1.
@@ -10,7 +10,7 @@ set -euo pipefail
 list=$(dirname "$0")/packages.txt
 
 if [ $# -eq 0 ]; then
-  echo "usage: $0 PURPOSE... (build run viewer test globe wasm bench paper lint dist)" >&2
+  echo "usage: $0 PURPOSE... (build run viewer test full globe wasm bench paper lint dist)" >&2
   exit 1
 fi
 
@@ -28,7 +28,7 @@ for purpose in "$@"; do
     if [ -n "$command" ] && command -v "$command" >/dev/null; then continue; fi
     needed+=("$package")
   done <"$list"
-  [ $known = yes ] || { echo "$0: unknown purpose $purpose (build run viewer test globe wasm bench paper lint dist)" >&2; exit 1; }
+  [ $known = yes ] || { echo "$0: unknown purpose $purpose (build run viewer test full globe wasm bench paper lint dist)" >&2; exit 1; }
 done
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
@@ -52,7 +52,15 @@ else
   echo "  sudo apt-get update && sudo $install" >&2
   exit 1
 fi
-echo "Installing ${missing[*]}"
-"${as_root[@]+"${as_root[@]}"}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 update -q </dev/null
+log=$(mktemp "${TMPDIR:-/tmp}/scarp-packages.XXXXXX")
+echo "Installing ${#missing[@]} packages and what they need: ${missing[*]} (apt's output: $log)"
+# apt COMMAND...: as root, its output in the log.
+apt() {
+  "${as_root[@]+"${as_root[@]}"}" env DEBIAN_FRONTEND=noninteractive "$@" -q </dev/null >>"$log" 2>&1 || {
+    tail -n 20 "$log" >&2
+    exit 1
+  }
+}
+apt apt-get -o DPkg::Lock::Timeout=300 update
 # shellcheck disable=SC2086  # one word for each package
-"${as_root[@]+"${as_root[@]}"}" env DEBIAN_FRONTEND=noninteractive $install -q </dev/null
+apt $install

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Looks for rare faults for a while, from fresh random seeds: the laws with ten times their cases, round after round,
+# Looks for rare faults for a while: each source is compiled alone, then, from fresh random seeds, the laws with ten times their cases, round after round,
 # and then the fuzzers (where clang is); before them every file in DATA goes through info, simplify and measure. What
 # fails is printed with the command that repeats it.
 #
@@ -48,6 +48,8 @@ if [ -d "$data" ]; then
 else
   echo "there is no folder $data: its files are skipped"
 fi
+
+ctest --test-dir "$build" -L soak --output-on-failure || failed=1
 
 rounds=0 end=$((SECONDS + seconds))
 while [ $SECONDS -lt $end ]; do

@@ -1,21 +1,30 @@
 #!/bin/bash
-# Everything that `make test` runs, in four stages; a stage that fails does not hide the next.
+# usage: tools/test.sh test|rest|full
 #
-#   1. Release: all tests: unit tests and laws, then scripts that drive the program.
-#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on; with a quarter of the
-#      random cases, and of the samples of real rasters a share (tests/laws/sanitized.h). One process runs many tests,
-#      since each start costs. With clang this is the build of the fuzzers, so that the library is compiled once.
-#      The C library, called by C (tests/abi/door.c) and, with clang, by Python.
+# test: everything that shows that this tree works on this machine. Release: unit tests, laws with 25 cases each, and the
+#       scripts of labels fast and full: program, Python, npm, viewer.
+# rest: what `make test-full` adds.
+#   1. Release: laws with 100 cases each; scripts of label rest: packages, installs, clients of other languages,
+#      clusters.
+#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests, and laws with 8 cases each, asserts on; of the samples
+#      of real rasters a share (tests/laws/sanitized.h). One process runs many tests, since each start costs. With clang
+#      this is the build of the fuzzers, so that the library is compiled once. The C library, called by C
+#      (tests/abi/door.c) and, with clang, by Python.
 #   3. Fuzzers, SCARP_FUZZ_SECONDS (10) each; needs clang.
 #   4. ThreadSanitizer: the tests that use threads.
+# full: both.
 #
-# Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp, SCARP_FUZZ_SEED; tools/soak.sh takes fresh ones.
+# A stage that fails does not hide the next. Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp,
+# SCARP_FUZZ_SEED; tools/soak.sh takes fresh ones. The CPU seconds of each stage and script go to BUILD/times, which
+# tools/test_times.py prints; above 1,900 s for `test` it fails.
 #
 # Environment: BUILD (build), JOBS (cores). The last line counts the tests of all stages; exit 1 if one failed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}
 jobs=${JOBS:-$(nproc 2>/dev/null || echo 2)}
+what=${1:-full}
+case $what in test | rest | full) ;; *) sed -n '2s/^# //p' "$0" >&2; exit 1 ;; esac
 exec </dev/null
 
 total_passed=0
@@ -29,6 +38,24 @@ add() {
   total_passed=$((total_passed + $1))
   total_failed=$((total_failed + $2))
   total_skipped=$((total_skipped + $3))
+}
+
+# cpu_seconds: CPU time of the finished children so far, in seconds.
+cpu_seconds() {
+  local log=$build/times.log
+  times >"$log"  # of this shell: a pipe would have a shell of its own
+  awk 'NR == 2 { for (k = 1; k <= 2; ++k) { split($k, part, /[ms]/); taken += 60 * part[1] + part[2] } printf "%.2f", taken }' "$log"
+}
+
+# timed STAGE COMMAND...: notes the CPU time of the command in BUILD/times.
+timed() {
+  local stage=$1 before status=0
+  shift
+  mkdir -p "$build/times"
+  before=$(cpu_seconds)
+  "$@" || status=$?
+  awk -v before="$before" -v after="$(cpu_seconds)" 'BEGIN { printf "%.2f\n", after - before }' >"$build/times/$stage"
+  return $status
 }
 
 # build_stage FOLDER PRESET TARGET...: configures and builds; a failure counts as one failed test.
@@ -118,31 +145,58 @@ run_callers() {
   rm -rf "$scratch"
 }
 
-start=$(date +%s)
-announce "1/4 Release: all tests"
-if build_stage "$build" release all; then
-  run_gtest "$build/bin/scarp_tests" 40
-  run_ctest "$build" -E '^(few_cases|all_cases)[.]'  # what has just run
-fi
+# names_of_laws: the laws as a filter of GoogleTest, made of what RC_GTEST_PROP(SUITE, NAME, ...) declares.
+names_of_laws() {
+  cat tests/laws/*.cpp tests/unit/*.cpp | tr '\n' ' ' | grep -o 'RC_GTEST_PROP( *[A-Za-z_0-9]*, *[A-Za-z_0-9]*' |
+    sed 's/.*( *//; s/, */./' | paste -sd:
+}
 
-announce "2/4 address and undefined behaviour sanitizers: unit tests and laws"
-sanitized=asan targets=(scarp_tests scarp_c_caller)
-if command -v clang++ >/dev/null; then sanitized=fuzz targets+=(scarp_c fuzzers); fi
-if build_stage "$build-$sanitized" "$sanitized" "${targets[@]}"; then
-  run_gtest "$build-$sanitized/bin/scarp_tests" 40
-  run_callers "$build-$sanitized" "$build/bin/scarp"
-  announce "3/4 fuzzers"
-  if [ "$sanitized" = fuzz ]; then
-    SCARP_FUZZ_SECONDS=${SCARP_FUZZ_SECONDS:-10} run_ctest "$build-fuzz" -R '^fuzz[.]'
-  else
-    echo "clang++ is missing: the fuzzers are skipped"
-    add 0 0 1
+run_test() {
+  announce "Release: build"
+  rm -rf "$build/times"
+  timed build build_stage "$build" release all || return
+  announce "Release: unit tests, and laws with 25 cases"
+  SCARP_LAW_CASES=25 timed units run_gtest "$build/bin/scarp_tests" 40
+  announce "Release: scripts"
+  run_ctest "$build" -L 'fast|full' -E '^(few_cases|all_cases)[.]'  # what has just run
+}
+
+run_rest() {
+  announce "1/4 Release: laws with 100 cases; packages, installs, clients, clusters"
+  if timed rest_build build_stage "$build" release all; then
+    GTEST_FILTER=$(names_of_laws) timed rest_laws run_gtest "$build/bin/scarp_tests" 40
+    run_ctest "$build" -L rest
   fi
-fi
 
-announce "4/4 thread sanitizer: tests that use threads"
-if build_stage "$build-tsan" tsan scarp_thread_tests; then
-  TSAN_OPTIONS="suppressions=$PWD/tools/tsan.supp ${TSAN_OPTIONS-}" run_gtest "$build-tsan/bin/scarp_thread_tests"
+  announce "2/4 address and undefined behaviour sanitizers: unit tests and laws"
+  local sanitized=asan targets=(scarp_tests scarp_c_caller)
+  if command -v clang++ >/dev/null; then sanitized=fuzz targets+=(scarp_c fuzzers); fi
+  if timed rest_sanitized_build build_stage "$build-$sanitized" "$sanitized" "${targets[@]}"; then
+    SCARP_LAW_CASES=8 timed rest_sanitized run_gtest "$build-$sanitized/bin/scarp_tests" 40
+    timed rest_sanitized_callers run_callers "$build-$sanitized" "$build/bin/scarp"
+    announce "3/4 fuzzers"
+    if [ "$sanitized" = fuzz ]; then
+      SCARP_FUZZ_SECONDS=${SCARP_FUZZ_SECONDS:-10} timed rest_fuzzers run_ctest "$build-fuzz" -R '^fuzz[.]'
+    else
+      echo "clang++ is missing: the fuzzers are skipped"
+      add 0 0 1
+    fi
+  fi
+
+  announce "4/4 thread sanitizer: tests that use threads"
+  if timed rest_threads_build build_stage "$build-tsan" tsan scarp_thread_tests; then
+    TSAN_OPTIONS="suppressions=$PWD/tools/tsan.supp ${TSAN_OPTIONS-}" timed rest_threads run_gtest "$build-tsan/bin/scarp_thread_tests"
+  fi
+}
+
+start=$(date +%s)
+if [ "$what" != rest ]; then
+  run_test
+  tools/test_times.py "$build" --most 1900 && add 1 0 0 || add 0 1 0
+fi
+if [ "$what" != test ]; then
+  run_rest
+  tools/test_times.py "$build" --rest
 fi
 
 printf '\nAll stages, in %d s:\n' $(($(date +%s) - start))

@@ -1,5 +1,6 @@
 #!/bin/bash
-# The floors of docs/design.md hold in this tree, and the script that says so notices planted violations.
+# The floors of docs/design.md hold in this tree, each source includes what it uses, and the scripts that check both notice
+# planted violations.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }
@@ -44,4 +45,20 @@ expect_fault src/io/mesh/stl.cpp '#include "io/no_such.h"' 'there is no src/io/n
 expect_fault src/geom/plane.h "$(printf '// line\\n%.0s' $(seq 600))" 'more than 600'
 mkdir -p "$scratch/empty"
 if "$python" "$check" "$scratch/empty" 2>/dev/null; then echo "an empty tree passed"; exit 1; fi
-echo "floors hold, planted violations are noticed"
+# expect_missing FILE INCLUDE WORDS: a copy of the tree where FILE lacks the line INCLUDE is refused with WORDS.
+"$python" "$source_tree/tools/check_includes.py"
+expect_missing() {
+  rm -rf "$scratch/tree"
+  mkdir "$scratch/tree"
+  cp -r "$source_tree/include" "$source_tree/src" "$source_tree/apps" "$source_tree/bindings" "$source_tree/tools" "$scratch/tree"
+  grep -vxF -- "$2" "$source_tree/$1" >"$scratch/tree/$1"
+  if "$python" "$scratch/tree/tools/check_includes.py" >"$scratch/out"; then
+    echo "not noticed: $1 without $2"
+    exit 1
+  fi
+  grep -qF -- "$3" "$scratch/out" || { echo "wrong sentence for $1 without $2:"; cat "$scratch/out"; exit 1; }
+}
+
+expect_missing src/mesh/half_edges.cpp '#include <algorithm>' 'std::'
+expect_missing src/pieces/freeze.cpp '#include "pieces/offset_map.h"' 'pieces/offset_map.h'
+echo "floors hold, includes are whole, planted violations are noticed"

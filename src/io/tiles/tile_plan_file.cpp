@@ -256,12 +256,12 @@ TileJob parse_job(const Json& json) {
   job.format = value_of(json.at("format"), kFormats);
   if (json.contains("drape"))
     job.drape = {parse_stamps(json["drape"].at("files")), value_of(json["drape"].at("format"), kImageFormats)};
-  job.facts = {.name = json.at("name"),
-               .description = json.at("description"),
-               .attribution = json.at("attribution"),
-               .heights_above = json.at("heights_above"),
-               .body = json.at("body"),
-               .units = json.value("units", "")};
+  job.facts.name = json.at("name");
+  job.facts.description = json.at("description");
+  job.facts.attribution = json.at("attribution");
+  job.facts.heights_above = json.at("heights_above");
+  job.facts.body = json.at("body");
+  job.facts.units = json.value("units", "");
   if (json.contains("plane")) job.facts.plane = parse_plane(json["plane"]);
   job.parts = json.value("parts", "");
   job.costs = json.value("costs", std::vector<std::uint32_t>());
