@@ -12,11 +12,10 @@
 #include "inputs/mesh_place.h"
 #include "options/option_table.h"
 #include "options/output_kind.h"
-#include "scarp/glb.h"
+#include "reports/level_pages.h"
 #include "scarp/io.h"
 #include "scarp/points.h"
 #include "scarp/solid.h"
-#include "scarp/tile_set_mesh.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -39,9 +38,6 @@ Result<void> open_in_browser(const std::string& path) {
               fmt::format("{} is written, but xdg-open cannot open it: open it in a browser", path));
 }
 
-/// Of tiles as they are kept: above this a page takes longer to open than one waits for it.
-constexpr std::uint64_t kMostTileBytes = 8'000'000;
-
 /// A folder of something else is told apart by what is not in it.
 bool is_tile_set(const std::string& path) {
   std::error_code error;
@@ -49,16 +45,6 @@ bool is_tile_set(const std::string& path) {
   return names_tile_set(path) &&
          (!std::filesystem::is_directory(folder, error) || std::filesystem::exists(folder / "layer.json", error) ||
           std::filesystem::exists(folder / "tileset.json", error));
-}
-
-Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
-  std::vector<std::vector<std::uint8_t>> files;
-  for (const LevelTile& tile : level.tiles) {
-    auto glb = encode_glb(tile.mesh, {.compress = can_compress_glb(), .cell = level.cell, .base_color = tile.image});
-    if (!glb) return glb;
-    files.push_back(std::move(*glb));
-  }
-  return join_glbs(files);
 }
 
 /// A mesh for each level that the page holds, the finest first.
@@ -87,13 +73,7 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
     warnings.push_back(fmt::format("{} is not whole: {}{}; 'scarp tile check {}' tells all", path, faults.front(), more,
                                    shell_word(path)));
   }
-  std::vector<PageMesh> meshes;
-  for (const LevelMesh& level : *levels) {
-    auto glb = encode_level(level);
-    if (!glb) return tl::unexpected(glb.error());
-    meshes.push_back({fmt::format("{}, level {}", without_slash(path), level.z), level.tile_bytes, std::move(*glb)});
-  }
-  return meshes;
+  return encode_levels(without_slash(path), *levels);
 }
 
 }  // namespace
