@@ -60,9 +60,10 @@ ROOMS = {
 RESERVED = [
     (r"(gdal|ogr|cpl|osr|vrt)[a-z_0-9]*\.h$|gdal/.*", [r"src/io/gdal/"], "GDAL is known to src/io/gdal only"),
     (r"(thread|mutex|shared_mutex|condition_variable|future|semaphore|latch|barrier|stop_token)$",
-     [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/spool\.cpp$", r"apps/scarp/serve/(answer_queue|preparation)\.(h|cpp)$"],
+     [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/spool\.cpp$", r"apps/scarp/serve/(answer_queue|preparation|served_set)\.(h|cpp)$"],
      "threads belong to src/base/parallel, locks besides to src/io/gdal where a transform serves several threads, "
-     "to src/io/spool.cpp, whose input all threads share, and to what makes the answers of scarp serve, or prepares them"),
+     "to src/io/spool.cpp, whose input all threads share, and to what makes the answers of scarp serve, prepares them, or "
+     "holds the set that they are of"),
     (r"atomic$",
      [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/temporary_file\.cpp$", r"apps/"],
      "atomics belong to src/base/parallel, src/io/gdal and what a signal handler reads (src/io/temporary_file.cpp, apps)"),

@@ -69,12 +69,18 @@ assert head.status == 200 and head.data == b"" and int(head.getheader("Content-L
 
 layer = ask("/layer.json")
 assert layer.data == (folder / "layer.json").read_bytes() and layer.getheader("Content-Type") == "application/json"
-assert b"/layer.json\n" in ask("/").data
+assert b"/layer.json\n" in ask("/index.txt").data
+page = ask("/")
+assert page.getheader("Content-Type") == "text/html; charset=utf-8" and page.data.startswith(b"<!"), page.data[:60]
+assert b'id="scarp-data"' in page.data or b"<svg" in page.data
+assert ask("/", If_None_Match=page.getheader("ETag")).status == 304
+assert layer.getheader("Date").endswith(" GMT")
 
 # A browser asks before it asks.
 answer = ask("/" + name, "OPTIONS", Origin="http://example.org", Access_Control_Request_Method="GET")
 assert answer.status == 204 and "GET" in answer.getheader("Access-Control-Allow-Methods")
 assert ask("/" + name, "POST").status == 405 and ask("/" + name, "DELETE").status == 405
+assert ask("/" + name, "PURGE").status == 501
 
 # Not there, with a reason; nothing outside the set.
 answer = ask("/3/0/0.terrain")
@@ -105,24 +111,48 @@ if archive:
     for header in ("bytes=9-5", "lines=1-2", "bytes=0-1,5-6", "bytes=x", "bytes=-"):
         assert ask(url, Range=header).data == whole, header
 
-# What is no request.
-assert raw(b"nonsense\r\n\r\n").startswith(b"HTTP/1.1 400 ")
-assert raw(b"GET http://elsewhere/ HTTP/1.1\r\n\r\n").startswith(b"HTTP/1.1 400 ")
-assert raw(b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\nhello").startswith(b"HTTP/1.1 400 ")
-assert raw(b"GET / HTTP/1.1\r\nX: " + b"y" * 40000 + b"\r\n").startswith(b"HTTP/1.1 431 ")
-assert raw(b"GET / HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 200 ")
-# Two requests at once get two answers, in order.
-two = raw(f"GET /{name} HTTP/1.1\r\nAccept-Encoding: gzip\r\n\r\nGET /nothing HTTP/1.1\r\nConnection: close\r\n\r\n".encode())
+# What is no request, and what could be read in two ways: one answer, and the connection ends, whatever stands behind.
+behind = b"GET /nothing HTTP/1.1\r\nHost: x\r\n\r\n"
+for broken, status in (
+        (b"nonsense\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nHost: y\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nX: \0\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nX: a\rb\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nX: a\r\n b\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\nHost: x\n\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nContent-Length : 40\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding : chunked\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nContent-Length: 6\r\n\r\nhello!", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n-1\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: foo\r\n\r\n", 501),
+        (b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 999999\r\n\r\n", 413),
+        (b"GET / HTTP/9.9\r\nHost: x\r\n\r\n", 505),
+        (b"GET /" + b"y" * 40000 + b" HTTP/1.1\r\n", 414),
+        (b"GET / HTTP/1.1\r\nX: " + b"y" * 40000 + b"\r\n", 431)):
+    answer = raw(broken + behind)
+    assert answer.startswith(b"HTTP/1.1 %d " % status) and answer.count(b"\nDate: ") == 1, (broken[:80], answer[:200])
+    assert b"Connection: close" in answer
+assert raw(b"GET /layer.json HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 200 ")
+assert raw(b"GET http://elsewhere/layer.json HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 200 ")
+# Two requests at once get two answers, in order; a body is no request.
+last = b"GET /nothing HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+two = raw(f"GET /{name} HTTP/1.1\r\nHost: x\r\nAccept-Encoding: gzip\r\n\r\n".encode() + last)
 assert two.index(b"HTTP/1.1 200") == 0 and two.rindex(b"HTTP/1.1 404") > len(kept[name])
+for first in (b"Content-Length: %d\r\n\r\n%s" % (len(behind), behind),
+              b"Transfer-Encoding: chunked\r\n\r\n%x\r\n%s\r\n0\r\n\r\n" % (len(behind), behind)):
+    two = raw(b"GET /layer.json HTTP/1.1\r\nHost: x\r\n" + first + last)
+    assert two.startswith(b"HTTP/1.1 200") and two.count(b"\nDate: ") == 2 and two.count(b"HTTP/1.1 404") == 1, first
 
-# Those who dawdle hold up nobody, and are dropped; no more than 256 are let in.
+# Those who dawdle hold up nobody, and are dropped.
 idle = [socket.create_connection(("127.0.0.1", port), timeout=40) for _ in range(200)]
 slow = socket.create_connection(("127.0.0.1", port), timeout=40)
 
 
 def trickle():
     try:
-        for letter in b"GET / HTTP/1.1\r\nX: " + b"y" * 100:
+        for letter in b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"y" * 100:
             slow.sendall(bytes([letter]))
             time.sleep(0.3)
     except OSError:

@@ -151,11 +151,11 @@ for k in range(count(300)):
 # and who send no requests, or want what is outside the set.
 for broken in (b"\0" * 100 + b"\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\xff\xfe / HTTP/1.1\r\nConnection: close\r\n\r\n",
                b"GET / HTTP/1.1\r\nno colon\r\n\r\n", b"GET /%00 HTTP/1.1\r\n\r\n", b"\x16\x03\x01\x02\x00\x01\r\n\r\n",
-               b"GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n", b"PUT /x HTTP/1.1\r\nContent-Length: 99\r\n\r\n"):
+               b"GET / HTTP/1.1\r\nTransfer-Encoding : chunked\r\n\r\n", b"PUT /x HTTP/1.1\r\nContent-Length: 99\r\n\r\n"):
     for _ in range(count(30)):
         one = connect()
         one.sendall(broken)
-        assert re.match(rb"HTTP/1.1 40[05] ", drain(one)), broken
+        assert re.match(rb"HTTP/1.1 (400|405|505) ", drain(one)), broken
 for path in ("/../secret", "/..%2fsecret", "/%2e%2e/%2e%2e/etc/passwd", "/layer.json/../../secret", "//etc/passwd", "/.//../secret",
              "/0/0/../../../secret", "/%2e%2e%5csecret", "/..\\secret", "/%252e%252e/secret", "/" + "../" * 500 + "etc/passwd"):
     one = connect()
@@ -164,7 +164,7 @@ for path in ("/../secret", "/..%2fsecret", "/%2e%2e/%2e%2e/etc/passwd", "/layer.
     assert re.match(rb"HTTP/1.1 40[04] ", answer) and b"mine" not in answer and b"root:" not in answer, path
 check_health(50)
 
-# More than there is room for: those who have asked nothing for the longest go, and who asks is answered.
+# More than an address has room for: those who have made no progress for the longest go, and who asks is answered.
 crowd = [connect() for _ in range(count(2400))]
 check_health(50)
 for k in range(0, count(2400), 8):

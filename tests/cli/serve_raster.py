@@ -101,13 +101,13 @@ def stroll(seed):
 
 slow = [socket.create_connection(("127.0.0.1", port), timeout=60) for _ in range(100)]
 for one in slow:
-    one.sendall(b"GET /" + names[-1].encode() + b" HTTP/1.1\r\nX: ")
+    one.sendall(b"GET /" + names[-1].encode() + b" HTTP/1.1\r\nHost: x\r\nX: ")
 strollers = [threading.Thread(target=stroll, args=(k,)) for k in range(50)]
 for one in strollers:
     one.start()
 for k in range(1500):
     with socket.create_connection(("127.0.0.1", port), timeout=60) as one:
-        one.sendall((b"GET /" + names[k % len(names)].encode() + b" HTTP/1.1\r\n\r\n", b"GET /", b"\0\xff\r\n\r\n")[k % 3])
+        one.sendall((b"GET /" + names[k % len(names)].encode() + b" HTTP/1.1\r\nHost: x\r\n\r\n", b"GET /", b"\0\xff\r\n\r\n")[k % 3])
 for one in strollers:
     one.join()
 assert not wrong, wrong[:3]

@@ -54,6 +54,56 @@ for archive in world.pmtiles world.mbtiles; do
   stop TERM
 done
 
+# A set that another takes the place of, in a folder and in one file, is served from then on.
+old=(--vertical ellipsoid --zoom 4 --effort fast -q)
+new=(--vertical ellipsoid --zoom 3 --background 7 --effort fast -q)
+replaced=$SCARP_SOURCE/tests/cli/serve_replaced.py
+succeeds "$scarp" tile "$dem" old "${old[@]}"
+succeeds "$scarp" tile "$dem" new "${new[@]}"
+for set in set set.pmtiles set.mbtiles set.3tz; do
+  succeeds "$scarp" tile "$dem" $set "${old[@]}"
+  start $set
+  succeeds python3 "$replaced" "$port" old new "$scarp" tile "$dem" $set "${new[@]}" --overwrite
+  stop INT
+done
+
+# Without the viewer's page beside the program, a map of the tiles is shown.
+mkdir -p alone/bin
+cp "$scarp" alone/bin/scarp
+if alone/bin/scarp --version > /dev/null 2>&1; then
+  scarp=alone/bin/scarp start old
+  succeeds python3 -c "import sys, urllib.request; print(urllib.request.urlopen('http://127.0.0.1:$port/').read().decode())"
+  [ "$(grep -o '<rect ' "$logs/out" | wc -l)" = "$(ls old/4/*/*.terrain | wc -l)" ] || fail "the map has other tiles: $(cat "$logs/out")"
+  stop INT
+fi
+
+# Files that are put into the folder later have the types of their endings; a page of the folder goes first.
+start linked
+mkdir -p linked/Assets/Images
+succeeds python3 - "$port" << 'END'
+import pathlib, sys, urllib.request
+
+
+def fetch(path):
+    with urllib.request.urlopen(f"http://127.0.0.1:{sys.argv[1]}{path}") as answer:
+        return answer.headers["Content-Type"], answer.read()
+
+
+assert b"<!" in fetch("/")[1]
+for name, kind in {"icon.svg": "image/svg+xml", "logo.png": "image/png", "draco.wasm": "application/wasm",
+                   "a.mjs": "text/javascript; charset=utf-8", "photo.webp": "image/webp", "a.geojson": "application/geo+json",
+                   "unknown.xyz": "application/octet-stream", "large.bin": "application/octet-stream"}.items():
+    bytes = name.encode() * (1000000 if name == "large.bin" else 1)
+    pathlib.Path("linked/Assets/Images", name).write_bytes(bytes)
+    assert fetch("/Assets/Images/" + name) == (kind, bytes), name
+pathlib.Path("linked/index.html").write_text("<p>mine")
+assert fetch("/") == ("text/html; charset=utf-8", b"<p>mine")
+part = urllib.request.Request(f"http://127.0.0.1:{sys.argv[1]}/index.html", headers={"Range": "bytes=3-"})
+assert urllib.request.urlopen(part).read() == b"mine"
+assert b"\n/layer.json\n" in fetch("/index.txt")[1]
+END
+stop INT
+
 # A user's mistakes.
 refuses 2 "no such file" "$scarp" serve missing.pmtiles
 refuses 1 "nobody says what the heights" "$scarp" serve "$dem"

@@ -84,7 +84,7 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
   if (!is_plan && names_tile_set(path)) {
     auto answers = TileAnswers::open(path);
     if (!answers) return tl::unexpected(answers.error());
-    served.answers = std::make_unique<TileAnswers>(std::move(*answers));
+    served.answers = std::move(*answers);
     return served;
   }
   const Result<std::uint64_t> memory = parse_bytes("--memory", memory_.value_or(kMemory));
@@ -108,7 +108,7 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
   if (!set) return tl::unexpected(set.error());
   display.finish();
   served.live = set->get();
-  served.answers = std::make_unique<TileAnswers>(std::move(*set));
+  served.answers = std::make_unique<TileAnswers>(std::move(*set), base_name(path));
   return served;
 }
 
@@ -126,7 +126,7 @@ Result<void> ServeCommand::run() const {
   if (!quiet_) {
     if (served->job.raster) print_warnings(warnings_of_raster(*served->job.raster));
     print_warnings(served->job.warnings);
-    auto printed = print_summary(describe(tiles_.raster.path(), answers.set(), served->live,
+    auto printed = print_summary(describe(tiles_.raster.path(), *answers.set(), served->live,
                                           served->job.job.facts.heights_above, server->url()));
     if (!printed) return printed;
   }

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,7 +13,7 @@ namespace scarp::cli {
 
 struct Request {
   std::string method;
-  std::string path;                            ///< decoded, from the first slash on
+  std::string path;                            ///< decoded, from the first slash on; "*" or empty of the whole server
   std::string query;                           ///< behind the question mark, as it is
   std::map<std::string, std::string> headers;  ///< names in small letters
   bool keeps_alive = true;
@@ -22,9 +22,22 @@ struct Request {
   std::string header(const std::string& name) const;
 };
 
+/// Closed when nobody sends from it any more.
+class OpenFile {
+ public:
+  explicit OpenFile(int fd) : fd_(fd) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile();
+  int fd() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
 /// A part of a file, in place of a body.
 struct FilePart {
-  int fd = -1;
+  std::shared_ptr<const OpenFile> file;
   std::uint64_t offset = 0, length = 0;
 };
 
@@ -32,17 +45,18 @@ struct Response {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::vector<std::uint8_t> body;
-  FilePart file;  ///< in place of the body where fd is one
+  FilePart file;  ///< in place of the body where it has a file
 
-  std::uint64_t length() const { return file.fd >= 0 ? file.length : body.size(); }
+  std::uint64_t length() const { return file.file ? file.length : body.size(); }
 };
 
-/// The end of the first request in the bytes, or nothing if it is not complete.
-std::optional<std::size_t> find_request_end(std::string_view bytes);
-/// Nothing for what is no request, and for one that has a body.
-std::optional<Request> parse_request(std::string_view head);
+std::string lowered(std::string_view text);
+/// Without the spaces and tabs around it.
+std::string_view trimmed(std::string_view text);
+/// What stands before the separator, or all; both are removed from the text.
+std::string_view take_until(std::string_view& text, char separator);
 
-/// Status and headers, Content-Length and Connection included.
+/// Status and headers, Date, Content-Length and Connection included.
 std::string write_head(const Response& response, bool keeps_alive);
 
 /// A sentence for people.

@@ -16,40 +16,66 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "serve/answer_queue.h"
+#include "serve/request_parser.h"
 #include "terminal/clock.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
 
-constexpr std::size_t kMostConnections = 4096, kLeastConnections = 16, kLongestHead = 8192, kChunk = 1 << 16;
+constexpr std::size_t kLeastConnections = 16, kChunk = 1 << 16;
+/// An address may have one place of these many.
+constexpr std::size_t kShareOfAddress = 2;
+/// Chunks that one client gets before the others have their turn, and clients that are accepted in one.
+constexpr int kMostChunksAtOnce = 16, kMostAcceptedAtOnce = 64;
+/// What the system keeps of an answer that it cannot send yet: progress is seen as often as the client takes this.
+constexpr int kMostUnsent = 1 << 17;
 constexpr std::size_t kMostWaitingBytes = 64'000'000;
-constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2};
+constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2}, kCredit{5};
 constexpr std::uint64_t kLeastPerSecond = 10000;  // bytes
 constexpr int kPollMilliseconds = 400;
 
 bool would_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
 /// Half of the files that the process may have open, for which it raises its own limit as far as it may.
-std::size_t most_connections() {
+std::size_t find_places() {
+  constexpr std::size_t kMost = HttpServer::kMostConnections;
   rlimit files{};
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return kLeastConnections;
-  if (files.rlim_cur < 2 * kMostConnections) {
-    const rlimit more{std::min<rlim_t>(files.rlim_max, 2 * kMostConnections), files.rlim_max};
+  if (files.rlim_cur < 2 * kMost) {
+    const rlimit more{std::min<rlim_t>(files.rlim_max, 2 * kMost), files.rlim_max};
     if (::setrlimit(RLIMIT_NOFILE, &more) == 0) files = more;
   }
-  return std::clamp<std::size_t>(files.rlim_cur / 2, kLeastConnections, kMostConnections);
+  return std::clamp<std::size_t>(files.rlim_cur / 2, kLeastConnections, kMost);
+}
+
+/// Whom a connection counts for: an address of IPv4, or a network of 64 bits of IPv6, which one household has.
+std::string client_of(const sockaddr_storage& address) {
+  const void* const bytes = &address;
+  if (address.ss_family == AF_INET) {
+    const in_addr& one = static_cast<const sockaddr_in*>(bytes)->sin_addr;
+    return {reinterpret_cast<const char*>(&one), sizeof one};
+  }
+  const in6_addr& one = static_cast<const sockaddr_in6*>(bytes)->sin6_addr;
+  const bool holds_ipv4 = IN6_IS_ADDR_V4MAPPED(&one);
+  return std::string(reinterpret_cast<const char*>(one.s6_addr) + (holds_ipv4 ? 12 : 0), holds_ipv4 ? 4 : 8);
 }
 
 /// One client: it asks, waits, takes the answer, and asks again.
 class Connection {
  public:
-  Connection(int fd, std::uint64_t number, AnswerQueue& queue)
-      : fd_(fd), number_(number), queue_(queue), since_(Clock::now()), deadline_(since_ + kToAsk) {}
+  Connection(int fd, std::uint64_t number, std::string client, AnswerQueue& queue)
+      : fd_(fd),
+        number_(number),
+        client_(std::move(client)),
+        queue_(queue),
+        moved_(Clock::now()),
+        deadline_(moved_ + kToAsk) {}
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
@@ -59,12 +85,17 @@ class Connection {
 
   int fd() const { return fd_; }
   std::uint64_t number() const { return number_; }
+  const std::string& client() const { return client_; }
   short events() const { return waits_ ? 0 : is_answering() ? POLLOUT : POLLIN; }
   bool is_late(Clock::time_point now) const { return !waits_ && now > deadline_; }
-  /// No request of its is being answered.
-  bool is_idle() const { return !waits_ && !is_answering(); }
-  /// Its last answer was made, or taken, or it came.
-  Clock::time_point since() const { return since_; }
+  /// The server works for it: that it makes no progress is not its fault.
+  bool waits() const { return waits_; }
+  /// When a byte last moved in either direction. A client that has taken more of an answer than buffers hold gets some
+  /// seconds besides, for its system may take the next bytes only when half of its buffer is free: else those who come
+  /// again and again would end a slow download.
+  Clock::time_point last_progress() const {
+    return is_answering() && taken_ > 2 * kMostUnsent ? moved_ + kCredit : moved_;
+  }
   /// Bytes that it keeps the server from forgetting.
   std::size_t waiting_bytes() const { return waiting_.size(); }
 
@@ -75,6 +106,7 @@ class Connection {
     if (got < 0) return would_wait(errno);
     if (got == 0) return false;
     if (lingers_) return true;
+    moved_ = Clock::now();
     asked_.append(bytes.data(), static_cast<std::size_t>(got));
     ask_next();
     return true;
@@ -84,22 +116,25 @@ class Connection {
     begin(done.request, std::move(done.response));
   }
   bool send() {
-    while (is_answering()) {
+    for (int chunks = 0; is_answering(); ++chunks) {
+      if (chunks == kMostChunksAtOnce) return true;
       if (sent_ == waiting_.size() && !refill()) return false;
       const ssize_t sent = ::send(fd_, waiting_.data() + sent_, waiting_.size() - sent_, MSG_NOSIGNAL);
       if (sent < 0) return would_wait(errno);
       sent_ += static_cast<std::size_t>(sent);
+      taken_ += static_cast<std::uint64_t>(sent);
+      moved_ = Clock::now();
     }
     waiting_ = {};
     sent_ = 0;
-    since_ = Clock::now();
+    file_ = {};
     if (closes_) {
       // Closed with something unread, the answer could be lost on its way: the client closes first.
       lingers_ = true;
-      deadline_ = since_ + kToClose;
+      deadline_ = moved_ + kToClose;
       return ::shutdown(fd_, SHUT_WR) == 0;
     }
-    deadline_ = since_ + kToAsk;
+    deadline_ = moved_ + kToAsk;
     ask_next();
     return true;
   }
@@ -108,19 +143,15 @@ class Connection {
   bool is_answering() const { return sent_ < waiting_.size() || file_.length > 0; }
 
   void ask_next() {
-    const auto end = find_request_end(asked_);
-    if (!end) {
-      if (asked_.size() > kLongestHead) begin({}, text_response(431, "the request is too long"));
+    ParsedRequest parsed = parse_request(asked_);
+    if (parsed.state == ParsedRequest::State::kIncomplete) return;
+    if (parsed.state == ParsedRequest::State::kRefused) {
+      begin({}, text_response(parsed.refusal.status, std::string(parsed.refusal.sentence)));
       return;
     }
-    auto request = parse_request(std::string_view(asked_).substr(0, *end));
-    asked_.erase(0, *end);
-    if (!request) {
-      begin({}, text_response(400, "this is no request that this server understands"));
-      return;
-    }
+    asked_.erase(0, parsed.length);
     waits_ = true;
-    queue_.ask(number_, std::move(*request));
+    queue_.ask(number_, std::move(parsed.request));
   }
 
   /// Without a request the connection ends after the answer.
@@ -131,18 +162,19 @@ class Connection {
     sent_ = 0;
     file_ = {};
     const std::uint64_t length = response.length();
-    since_ = Clock::now();
-    deadline_ = since_ + kToTake + std::chrono::seconds(length / kLeastPerSecond);
+    moved_ = Clock::now();
+    taken_ = 0;
+    deadline_ = moved_ + kToTake + std::chrono::seconds(length / kLeastPerSecond);
     if (request && request->method == "HEAD") return;
     waiting_.insert(waiting_.end(), response.body.begin(), response.body.end());
-    if (response.file.fd >= 0) file_ = response.file;
+    file_ = std::move(response.file);
   }
 
   /// The next bytes of the file; false where it has become shorter.
   bool refill() {
     waiting_.resize(std::min<std::uint64_t>(kChunk, file_.length));
     sent_ = 0;
-    const ssize_t got = ::pread(file_.fd, waiting_.data(), waiting_.size(), static_cast<off_t>(file_.offset));
+    const ssize_t got = ::pread(file_.file->fd(), waiting_.data(), waiting_.size(), static_cast<off_t>(file_.offset));
     if (got <= 0) return false;
     waiting_.resize(static_cast<std::size_t>(got));
     file_.offset += static_cast<std::uint64_t>(got);
@@ -152,27 +184,38 @@ class Connection {
 
   int fd_;
   std::uint64_t number_;
+  std::string client_;
   AnswerQueue& queue_;
-  Clock::time_point since_, deadline_;
+  Clock::time_point moved_, deadline_;
   std::string asked_;
   std::vector<std::uint8_t> waiting_;
   std::size_t sent_ = 0;
+  std::uint64_t taken_ = 0;  ///< bytes of the answer that the system has taken
   FilePart file_;
   bool waits_ = false, closes_ = false, lingers_ = false;
 };
 
 using Connections = std::vector<std::unique_ptr<Connection>>;
 
-/// Closes the one of a kind for which nothing has happened for the longest; false if there is none.
+/// Closes the one of a kind that has made no progress for the longest; false if there is none.
 template <class IsOfKind>
-bool close_oldest(Connections& connections, const IsOfKind& is_of_kind) {
-  auto oldest = connections.end();
+bool close_stuck(Connections& connections, const IsOfKind& is_of_kind) {
+  auto stuck = connections.end();
   for (auto one = connections.begin(); one != connections.end(); ++one) {
-    if (is_of_kind(**one) && (oldest == connections.end() || (*one)->since() < (*oldest)->since())) oldest = one;
+    const bool counts = !(*one)->waits() && is_of_kind(**one);
+    if (counts && (stuck == connections.end() || (*one)->last_progress() < (*stuck)->last_progress())) stuck = one;
   }
-  if (oldest == connections.end()) return false;
-  connections.erase(oldest);
+  if (stuck == connections.end()) return false;
+  connections.erase(stuck);
   return true;
+}
+
+/// Makes a place for one more of a client; false where the server works for all who could go.
+bool make_place(Connections& connections, std::size_t places, const std::string& client) {
+  const auto is_of_client = [&](const Connection& one) { return one.client() == client; };
+  const auto taken = std::ranges::count_if(connections, [&](const auto& one) { return is_of_client(*one); });
+  if (static_cast<std::size_t>(taken) >= places / kShareOfAddress) return close_stuck(connections, is_of_client);
+  return connections.size() < places || close_stuck(connections, [](const Connection&) { return true; });
 }
 
 /// Those who do not take their answers may not fill the memory.
@@ -181,7 +224,7 @@ void limit_waiting_bytes(Connections& connections) {
   while (true) {
     std::size_t waiting = 0;
     for (const auto& one : connections) waiting += one->waiting_bytes();
-    if (waiting <= kMostWaitingBytes || !close_oldest(connections, waits)) return;
+    if (waiting <= kMostWaitingBytes || !close_stuck(connections, waits)) return;
   }
 }
 
@@ -239,11 +282,12 @@ HttpServer::~HttpServer() {
 Result<void> HttpServer::run(const std::function<Response(const Request&)>& answer, int threads,
                              const std::function<bool()>& is_over) {
   AnswerQueue queue(threads, answer);
-  const std::size_t most = most_connections();
-  const auto is_idle = [](const Connection& one) { return one.is_idle(); };
+  const std::size_t places = find_places();
+  const auto is_any = [](const Connection&) { return true; };
   Connections connections;
-  const auto has_idle = [&] {
-    return std::ranges::any_of(connections, [](const auto& one) { return one->is_idle(); });
+  const auto has_room = [&] {
+    return connections.size() < places ||
+           std::ranges::any_of(connections, [](const auto& one) { return !one->waits(); });
   };
   std::vector<pollfd> watched;
   std::uint64_t accepted = 0;
@@ -251,8 +295,8 @@ Result<void> HttpServer::run(const std::function<Response(const Request&)>& answ
     watched.clear();
     for (const auto& connection : connections) watched.push_back({connection->fd(), connection->events(), 0});
     watched.push_back({queue.wake_fd(), POLLIN, 0});
-    const bool has_room = connections.size() < most || has_idle();
-    if (has_room) watched.push_back({fd_, POLLIN, 0});
+    const bool accepts = has_room();
+    if (accepts) watched.push_back({fd_, POLLIN, 0});
     if (::poll(watched.data(), watched.size(), kPollMilliseconds) < 0) {
       if (errno == EINTR) continue;
       return fail(ErrorKind::kOutput, fmt::format("cannot wait for requests: {}", std::strerror(errno)));
@@ -276,18 +320,25 @@ Result<void> HttpServer::run(const std::function<Response(const Request&)>& answ
       if (found != connections.end() && (*found)->number() == done.client) (*found)->take(std::move(done));
     }
     limit_waiting_bytes(connections);
-    if (!has_room || (watched.back().revents & POLLIN) == 0) continue;
-    while (connections.size() < most || has_idle()) {
-      const int fd = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (!accepts || (watched.back().revents & POLLIN) == 0) continue;
+    for (int k = 0; k < kMostAcceptedAtOnce && has_room(); ++k) {
+      sockaddr_storage address{};
+      socklen_t size = sizeof address;
+      const int fd = ::accept4(fd_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
       if (fd < 0) {
         // The process has no file left.
-        if (errno == EMFILE || errno == ENFILE) close_oldest(connections, is_idle);
+        if (errno == EMFILE || errno == ENFILE) close_stuck(connections, is_any);
         break;
       }
-      if (connections.size() == most) close_oldest(connections, is_idle);
+      std::string client = client_of(address);
+      if (!make_place(connections, places, client)) {
+        ::close(fd);
+        continue;
+      }
       const int on = 1;
       ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-      connections.push_back(std::make_unique<Connection>(fd, ++accepted, queue));
+      ::setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMostUnsent, sizeof kMostUnsent);
+      connections.push_back(std::make_unique<Connection>(fd, ++accepted, std::move(client), queue));
     }
   }
   return {};

@@ -1,6 +1,7 @@
 // A small server: one thread for many connections, and a few that make answers. No client can hold up the others.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -19,11 +20,14 @@ class HttpServer {
 
   /// "http://127.0.0.1:8080/"
   const std::string& url() const { return url_; }
+  /// Most connections that are open at a time, where the process may have twice as many files.
+  static constexpr std::size_t kMostConnections = 4096;
   /// Serves until is_over(), which is asked at least twice a second. `answer` is called on `threads` threads, for one
-  /// path on one of them at a time. At most 4096 connections are open, or half as many as the process may have files,
-  /// each with one request. Where all are taken, the one that has asked nothing for the longest goes. A request has
-  /// 8 kB, and 10 seconds to come; an answer 30 seconds, and one more for each 10 kB, to be taken. Where answers of
-  /// more than 64 MB wait to be taken, those go that have waited the longest. Fails with kOutput.
+  /// path on one of them at a time. At most kMostConnections are open, or half as many as the process may have files,
+  /// each with one request; half of them for one address. Where all are taken, the one goes that has moved no byte for
+  /// the longest; requests that the server works at do not count. A request has kLongestHead and kLongestBody bytes,
+  /// and 10 seconds to come; an answer 30 seconds, and one more for each 10 kB, to be taken. Where answers of more than
+  /// 64 MB wait to be taken, those go first that make no progress. Fails with kOutput.
   Result<void> run(const std::function<Response(const Request&)>& answer, int threads,
                    const std::function<bool()>& is_over);
 

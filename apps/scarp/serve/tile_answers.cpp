@@ -1,17 +1,17 @@
 #include "serve/tile_answers.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string_view>
 #include <utility>
 
 #include "scarp/gzip.h"
+#include "serve/media_types.h"
+#include "serve/set_page.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -24,17 +24,9 @@ std::size_t hash_of(std::span<const std::uint8_t> bytes) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-std::string media_type_of(const std::string& name) {
-  const std::string ending = std::filesystem::path(name).extension().string();
-  if (ending == ".terrain") return "application/vnd.quantized-mesh";
-  if (ending == ".glb") return "model/gltf-binary";
-  if (ending == ".json") return "application/json";
-  // A page that is kept beside the tiles.
-  if (ending == ".html") return "text/html; charset=utf-8";
-  if (ending == ".js") return "text/javascript; charset=utf-8";
-  if (ending == ".css") return "text/css; charset=utf-8";
-  return "application/octet-stream";
-}
+/// Larger files beside the tiles are sent from where they lie.
+constexpr std::uint64_t kMostKept = 1 << 22;
+constexpr const char* kList = "index.txt";
 
 Response add_common(Response response) {
   response.headers.push_back({"Access-Control-Allow-Origin", "*"});
@@ -43,38 +35,85 @@ Response add_common(Response response) {
   return response;
 }
 
+bool is_tile(const TileSetReader& set, TileId id) {
+  const auto& levels = set.tiles();
+  const auto z = static_cast<std::size_t>(id.z);
+  return z < levels.size() && std::ranges::binary_search(levels[z], std::uint64_t{id.y} << 32 | id.x);
+}
+
+Response answer_bytes(const Request& request, const std::string& name, std::vector<std::uint8_t> bytes) {
+  Response response;
+  const std::string_view type = media_type_of(name);
+  const bool is_packed = is_gzip(bytes) && type != "application/gzip";
+  const bool sends_packed = is_packed && accepts_gzip(request.header("accept-encoding"));
+  const std::string tag = fmt::format("\"{:016x}{}\"", hash_of(bytes), is_packed && !sends_packed ? "-i" : "");
+  response.headers.push_back({"ETag", tag});
+  if (is_packed) response.headers.push_back({"Vary", "Accept-Encoding"});
+  // With a version in its URL a tile never changes.
+  const bool has_version = request.query.rfind("v=", 0) == 0 || request.query.find("&v=") != std::string::npos;
+  response.headers.push_back({"Cache-Control", has_version ? "public, max-age=31536000, immutable" : "no-cache"});
+  if (matches_tag(request.header("if-none-match"), tag)) {
+    response.status = 304;
+    return response;
+  }
+  response.headers.push_back({"Content-Type", std::string(type)});
+  if (is_packed && !sends_packed) {
+    auto whole = decompress_gzip(bytes, kMostUnpacked);
+    if (!whole) return text_response(500, fmt::format("{} is damaged: {}", name, whole.error().message));
+    bytes = std::move(*whole);
+  }
+  if (sends_packed) response.headers.push_back({"Content-Encoding", "gzip"});
+  response.body = std::move(bytes);
+  return response;
+}
+
+/// The file, or a range of it.
+Response answer_file(const Request& request, const std::string& name, const std::shared_ptr<const OpenFile>& file) {
+  Response response;
+  const FileStamp stamp = stamp_of(*file);
+  const std::string tag = "\"" + stamp.text + "\"";
+  response.headers = {{"ETag", tag},
+                      {"Accept-Ranges", "bytes"},
+                      {"Cache-Control", "no-cache"},
+                      {"Content-Type", std::string(media_type_of(name))}};
+  if (matches_tag(request.header("if-none-match"), tag)) {
+    response.status = 304;
+    return response;
+  }
+  ByteRange range{0, stamp.size - 1};
+  const std::string if_range = request.header("if-range");
+  const RangeKind kind =
+      if_range.empty() || if_range == tag ? parse_range(request.header("range"), stamp.size, range) : RangeKind::kWhole;
+  if (kind == RangeKind::kOutOfReach) {
+    response = text_response(416, fmt::format("the file has {} bytes", stamp.size));
+    response.headers.push_back({"Content-Range", fmt::format("bytes */{}", stamp.size)});
+    return response;
+  }
+  if (kind == RangeKind::kPart) {
+    response.status = 206;
+    response.headers.push_back({"Content-Range", fmt::format("bytes {}-{}/{}", range.first, range.last, stamp.size)});
+  }
+  response.file = {file, range.first, range.last - range.first + 1};
+  return response;
+}
+
 }  // namespace
 
-TileAnswers::OpenFile::OpenFile(OpenFile&& other) noexcept { *this = std::move(other); }
-TileAnswers::OpenFile& TileAnswers::OpenFile::operator=(OpenFile&& other) noexcept {
-  std::swap(fd, other.fd);
-  std::swap(size, other.size);
-  std::swap(tag, other.tag);
-  return *this;
-}
-TileAnswers::OpenFile::~OpenFile() {
-  if (fd >= 0) ::close(fd);
+TileAnswers::TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name)
+    : live_(set.get()), name_(std::move(name)) {
+  set_ = std::make_unique<ServedSet>(std::move(set));
 }
 
-TileAnswers::~TileAnswers() = default;
-
-TileAnswers::TileAnswers(std::unique_ptr<LiveTileSet> set) : live_(set.get()) { reader_ = std::move(set); }
-
-Result<TileAnswers> TileAnswers::open(const std::string& path) {
-  TileAnswers answers;
-  auto reader = open_tile_set(path);
-  if (!reader) return tl::unexpected(reader.error());
-  answers.reader_ = std::move(*reader);
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return answers;
-  struct stat status {};
-  answers.file_.fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (answers.file_.fd < 0 || ::fstat(answers.file_.fd, &status) != 0)
-    return fail(ErrorKind::kInput, fmt::format("cannot read {}", path));
-  answers.name_ = base_name(path);
-  answers.file_.size = static_cast<std::uint64_t>(status.st_size);
-  answers.file_.tag =
-      fmt::format("\"{:x}-{:x}-{:x}\"", answers.file_.size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+Result<std::unique_ptr<TileAnswers>> TileAnswers::open(const std::string& path) {
+  auto set = ServedSet::open(path);
+  if (!set) return tl::unexpected(set.error());
+  std::unique_ptr<TileAnswers> answers(new TileAnswers);
+  answers->is_file_ = (*set)->now()->file != nullptr;
+  answers->set_ = std::move(*set);
+  std::string whole = path;
+  while (whole.size() > 1 && whole.back() == '/') whole.pop_back();
+  answers->name_ = base_name(whole);
+  if (!answers->is_file_) answers->folder_ = whole;
   return answers;
 }
 
@@ -89,105 +128,78 @@ Response TileAnswers::answer(const Request& request) const {
     return add_common(std::move(response));
   }
   if (request.method != "GET" && request.method != "HEAD") {
-    Response response = text_response(405, "this server answers GET and HEAD");
+    constexpr std::array kKnown{"POST", "PUT", "DELETE", "CONNECT", "TRACE", "PATCH"};
+    const int status = std::ranges::count(kKnown, request.method) > 0 ? 405 : 501;
+    Response response = text_response(status, "this server answers GET and HEAD");
     response.headers.push_back({"Allow", "GET, HEAD, OPTIONS"});
     return add_common(std::move(response));
   }
-  if (request.path == "/") return add_common(answer_root());
-  if (!name_.empty() && request.path == file_url()) return add_common(answer_file(request));
+  return add_common(answer_path(request));
+}
+
+Response TileAnswers::answer_path(const Request& request) const {
   const std::string name = request.path.substr(1);
-  const auto id = find_tile_id(reader_->format(), name);
-  // Names are looked up among those of the set, so that no path leads out of it.
-  bool is_there = false;
-  if (id) {
-    const auto& levels = reader_->tiles();
-    const auto z = static_cast<std::size_t>(id->z);
-    is_there =
-        z < levels.size() && std::binary_search(levels[z].begin(), levels[z].end(), std::uint64_t{id->y} << 32 | id->x);
-    if (!is_there)
-      return add_common(text_response(
-          404, fmt::format("this set has no tile {}: clients make it from its parent's, or it lies outside", name)));
+  Response response;
+  if (!folder_.empty()) {
+    response = answer_in_folder(request, name);
   } else {
-    const std::vector<std::string> files = reader_->files();
-    is_there = std::binary_search(files.begin(), files.end(), name);
-    if (!is_there) return add_common(text_response(404, "this set has no such file; its list is at /"));
+    std::shared_ptr<const OpenedSet> opened = set_->now(), before;
+    response = answer_in_set(request, name, *opened);
+    before = std::exchange(opened, set_->now());
+    if (response.status == 500 && opened != before) response = answer_in_set(request, name, *opened);
   }
-  if (id && live_ != nullptr) return add_common(answer_live(request, name, *id));
-  auto bytes = id ? reader_->read_tile(*id) : reader_->read_file(name);
-  if (!bytes) return add_common(text_response(500, bytes.error().message));
-  return add_common(answer_kept(request, name, std::move(*bytes)));
-}
-
-Response TileAnswers::answer_root() const {
-  std::string text = "scarp serve\n";
-  for (const std::string& name : reader_->files()) {
-    if (name.rfind("subtrees/", 0) != 0) text += "/" + name + "\n";
+  if (response.status != 404) return response;
+  if (name.empty()) {
+    const std::shared_ptr<const OpenedSet> opened = set_->now();
+    return answer_bytes(request, "index.html", opened->page([&] { return make_page(*opened); }));
   }
-  text += reader_->format() == TileFormat::kGlb ? "/{root}/{z}/{x}/{y}.glb\n" : "/{z}/{x}/{y}.terrain\n";
-  text += file_url();
-  return text_response(200, text);
-}
-
-Response TileAnswers::answer_live(const Request& request, const std::string& name, TileId id) const {
-  const auto tile = live_->make(id);
-  if (!tile) return text_response(500, tile.error().message);
-  Response response = answer_kept(request, name, (*tile)->bytes);
-  const std::optional<double> bound = (*tile)->bound;
-  response.headers.push_back({"X-Scarp-Bound", bound ? fmt::format("{:.4g}", *bound) : "estimated"});
+  if (name == kList) return text_response(200, list_set(*set(), file_url()));
   return response;
 }
 
-Response TileAnswers::answer_kept(const Request& request, const std::string& name,
-                                  std::vector<std::uint8_t> bytes) const {
-  Response response;
-  const bool is_packed = is_gzip(bytes), sends_packed = is_packed && accepts_gzip(request.header("accept-encoding"));
-  const std::string tag = fmt::format("\"{:016x}{}\"", hash_of(bytes), is_packed && !sends_packed ? "-i" : "");
-  response.headers.push_back({"ETag", tag});
-  if (is_packed) response.headers.push_back({"Vary", "Accept-Encoding"});
-  // With a version in its URL a tile never changes.
-  const bool has_version = request.query.rfind("v=", 0) == 0 || request.query.find("&v=") != std::string::npos;
-  response.headers.push_back({"Cache-Control", has_version ? "public, max-age=31536000, immutable" : "no-cache"});
-  if (matches_tag(request.header("if-none-match"), tag)) {
-    response.status = 304;
-    return response;
-  }
-  response.headers.push_back({"Content-Type", media_type_of(name)});
-  if (is_packed && !sends_packed) {
-    auto whole = decompress_gzip(bytes, kMostUnpacked);
-    if (!whole) return text_response(500, fmt::format("{} is damaged: {}", name, whole.error().message));
-    bytes = std::move(*whole);
-  }
-  if (sends_packed) response.headers.push_back({"Content-Encoding", "gzip"});
-  response.body = std::move(bytes);
-  return response;
+std::vector<std::uint8_t> TileAnswers::make_page(const OpenedSet& opened) const {
+  return make_set_page(name_, *opened.reader, live_ != nullptr);
 }
 
-Response TileAnswers::answer_file(const Request& request) const {
-  Response response;
-  response.headers = {{"ETag", file_.tag},
-                      {"Accept-Ranges", "bytes"},
-                      {"Cache-Control", "no-cache"},
-                      {"Content-Type", "application/octet-stream"}};
-  if (matches_tag(request.header("if-none-match"), file_.tag)) {
-    response.status = 304;
+Response TileAnswers::answer_missing(const std::string& name) const {
+  if (find_tile_id(set()->format(), name))
+    return text_response(
+        404, fmt::format("this set has no tile {}: clients make it from its parent's, or it lies outside", name));
+  return text_response(404, fmt::format("this set has no such file; its list is at /{}", kList));
+}
+
+Response TileAnswers::answer_in_folder(const Request& request, std::string name) const {
+  if (name.empty() || name.back() == '/') name += "index.html";
+  auto file = open_in_folder(folder_, name);
+  // A set that another takes the place of just now is deleted file by file.
+  if (!file) file = open_in_folder(folder_, name);
+  if (!file) return answer_missing(name);
+  const bool is_any_tile = find_tile_id(TileFormat::kQuantizedMesh, name) || find_tile_id(TileFormat::kGlb, name);
+  const bool is_large = stamp_of(*file).size > kMostKept || !request.header("range").empty();
+  if (!is_any_tile && is_large) return answer_file(request, name, file);
+  auto bytes = read_all(*file);
+  if (!bytes) return text_response(500, bytes.error().message);
+  return answer_bytes(request, name, std::move(*bytes));
+}
+
+Response TileAnswers::answer_in_set(const Request& request, const std::string& name, const OpenedSet& opened) const {
+  // Names are looked up among those of the set, so that no path leads out of it.
+  if (opened.file && name == name_) return answer_file(request, name, opened.file);
+  const TileSetReader& set = *opened.reader;
+  const auto id = find_tile_id(set.format(), name);
+  const std::vector<std::string> files = id ? std::vector<std::string>() : set.files();
+  if (id ? !is_tile(set, *id) : !std::ranges::binary_search(files, name)) return answer_missing(name);
+  if (id && live_ != nullptr) {
+    const auto tile = live_->make(*id);
+    if (!tile) return text_response(500, tile.error().message);
+    Response response = answer_bytes(request, name, (*tile)->bytes);
+    const std::optional<double> bound = (*tile)->bound;
+    response.headers.push_back({"X-Scarp-Bound", bound ? fmt::format("{:.4g}", *bound) : "estimated"});
     return response;
   }
-  ByteRange range{0, file_.size - 1};
-  const std::string if_range = request.header("if-range");
-  const RangeKind kind = if_range.empty() || if_range == file_.tag
-                             ? parse_range(request.header("range"), file_.size, range)
-                             : RangeKind::kWhole;
-  if (kind == RangeKind::kOutOfReach) {
-    response = text_response(416, fmt::format("the file has {} bytes", file_.size));
-    response.headers.push_back({"Content-Range", fmt::format("bytes */{}", file_.size)});
-    return response;
-  }
-  if (kind == RangeKind::kPart) {
-    response.status = 206;
-    response.headers.push_back({"Content-Range", fmt::format("bytes {}-{}/{}", range.first, range.last, file_.size)});
-  }
-  response.file = {file_.fd, range.first, range.last - range.first + 1};
-  return response;
+  auto bytes = id ? set.read_tile(*id) : set.read_file(name);
+  if (!bytes) return text_response(500, bytes.error().message);
+  return answer_bytes(request, name, std::move(*bytes));
 }
 
 }  // namespace scarp::cli

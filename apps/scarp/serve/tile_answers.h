@@ -7,46 +7,38 @@
 #include "scarp/live_tiles.h"
 #include "scarp/tile_set.h"
 #include "serve/http_message.h"
+#include "serve/served_set.h"
 
 namespace scarp::cli {
 
 class TileAnswers {
  public:
-  /// Fails as open_tile_set() does.
-  static Result<TileAnswers> open(const std::string& path);
-  /// Of tiles that are made when they are asked for.
-  explicit TileAnswers(std::unique_ptr<LiveTileSet> set);
-  TileAnswers(TileAnswers&&) = default;
-  TileAnswers& operator=(TileAnswers&&) = default;
-  ~TileAnswers();
+  /// Fails as open_tile_set() does. A set that takes its place is served from then on, and so are files that are put
+  /// into a folder.
+  static Result<std::unique_ptr<TileAnswers>> open(const std::string& path);
+  /// Of tiles that are made when they are asked for. `name` is what the set is called.
+  TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name);
 
-  const TileSetReader& set() const { return *reader_; }
-  /// The URL's path of the set itself, where it is one file; else empty.
-  std::string file_url() const { return name_.empty() ? "" : "/" + name_; }
+  /// As it is now.
+  std::shared_ptr<const TileSetReader> set() const { return set_->now()->reader; }
   /// Several threads may call it at once.
   Response answer(const Request& request) const;
 
  private:
-  struct OpenFile {
-    int fd = -1;
-    std::uint64_t size = 0;
-    std::string tag;
-    OpenFile() = default;
-    OpenFile(OpenFile&& other) noexcept;
-    OpenFile& operator=(OpenFile&& other) noexcept;
-    ~OpenFile();
-  };
-
   TileAnswers() = default;
-  Response answer_root() const;
-  Response answer_live(const Request& request, const std::string& name, TileId id) const;
-  Response answer_kept(const Request& request, const std::string& name, std::vector<std::uint8_t> bytes) const;
-  Response answer_file(const Request& request) const;
+  Response answer_path(const Request& request) const;
+  Response answer_missing(const std::string& name) const;
+  /// Both return status 404 for what is not there.
+  Response answer_in_folder(const Request& request, std::string name) const;
+  Response answer_in_set(const Request& request, const std::string& name, const OpenedSet& opened) const;
+  std::vector<std::uint8_t> make_page(const OpenedSet& opened) const;
+  /// The URL's path of the set itself, where it is one file; else empty.
+  std::string file_url() const { return is_file_ ? "/" + name_ : ""; }
 
-  std::unique_ptr<TileSetReader> reader_;
+  std::unique_ptr<ServedSet> set_;
   const LiveTileSet* live_ = nullptr;  ///< the same, where it makes its tiles
-  std::string name_;                   ///< of the set, where it is one file
-  OpenFile file_;
+  std::string name_, folder_;          ///< the folder is empty where the set is none
+  bool is_file_ = false;
 };
 
 }  // namespace scarp::cli
