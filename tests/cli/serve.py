@@ -111,7 +111,7 @@ if archive:
     for header in ("bytes=9-5", "lines=1-2", "bytes=0-1,5-6", "bytes=x", "bytes=-"):
         assert ask(url, Range=header).data == whole, header
 
-# What is no request, and what could be read in two ways: one answer, and the connection ends, whatever stands behind.
+# No requests, and bytes that two programs could read in two ways: one answer, and the connection ends, whatever follows.
 behind = b"GET /nothing HTTP/1.1\r\nHost: x\r\n\r\n"
 for broken, status in (
         (b"nonsense\r\n\r\n", 400),

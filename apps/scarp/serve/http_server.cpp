@@ -33,8 +33,10 @@ constexpr std::size_t kLeastConnections = 16, kChunk = 1 << 16;
 constexpr std::size_t kShareOfAddress = 2;
 /// Chunks that one client gets before the others have their turn, and clients that are accepted in one.
 constexpr int kMostChunksAtOnce = 16, kMostAcceptedAtOnce = 64;
-/// What the system keeps of an answer that it cannot send yet: progress is seen as often as the client takes this.
-constexpr int kMostUnsent = 1 << 17;
+/// Bytes of an answer that the system queues: progress is seen as often as the client takes so many.
+constexpr int kMostUnsent = 1 << 16;
+/// More than the buffers of a client that never reads hold.
+constexpr std::uint64_t kSurelyTaken = 1 << 18;
 constexpr std::size_t kMostWaitingBytes = 64'000'000;
 constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2}, kCredit{5};
 constexpr std::uint64_t kLeastPerSecond = 10000;  // bytes
@@ -54,7 +56,7 @@ std::size_t find_places() {
   return std::clamp<std::size_t>(files.rlim_cur / 2, kLeastConnections, kMost);
 }
 
-/// Whom a connection counts for: an address of IPv4, or a network of 64 bits of IPv6, which one household has.
+/// The client that a connection counts for: an IPv4 address, or an IPv6 network of 64 bits, which one household has.
 std::string client_of(const sockaddr_storage& address) {
   const void* const bytes = &address;
   if (address.ss_family == AF_INET) {
@@ -94,7 +96,7 @@ class Connection {
   /// seconds besides, for its system may take the next bytes only when half of its buffer is free: else those who come
   /// again and again would end a slow download.
   Clock::time_point last_progress() const {
-    return is_answering() && taken_ > 2 * kMostUnsent ? moved_ + kCredit : moved_;
+    return is_answering() && taken_ > kSurelyTaken ? moved_ + kCredit : moved_;
   }
   /// Bytes that it keeps the server from forgetting.
   std::size_t waiting_bytes() const { return waiting_.size(); }
@@ -210,12 +212,15 @@ bool close_stuck(Connections& connections, const IsOfKind& is_of_kind) {
   return true;
 }
 
-/// Makes a place for one more of a client; false where the server works for all who could go.
+/// Makes a place for one more of a client; false where the server works for all who could go, or they just took bytes.
 bool make_place(Connections& connections, std::size_t places, const std::string& client) {
+  const Clock::time_point now = Clock::now();
   const auto is_of_client = [&](const Connection& one) { return one.client() == client; };
+  const auto is_stuck = [&](const Connection& one) { return one.last_progress() <= now; };
   const auto taken = std::ranges::count_if(connections, [&](const auto& one) { return is_of_client(*one); });
-  if (static_cast<std::size_t>(taken) >= places / kShareOfAddress) return close_stuck(connections, is_of_client);
-  return connections.size() < places || close_stuck(connections, [](const Connection&) { return true; });
+  if (static_cast<std::size_t>(taken) >= places / kShareOfAddress)
+    return close_stuck(connections, [&](const Connection& one) { return is_of_client(one) && is_stuck(one); });
+  return connections.size() < places || close_stuck(connections, is_stuck);
 }
 
 /// Those who do not take their answers may not fill the memory.

@@ -104,7 +104,7 @@ bool is_host(std::string_view text) {
   return text.empty() || (text.front() == ':' && is_port(text.substr(1)));
 }
 
-/// What stands behind a chunk's size: *( BWS ";" BWS name [ BWS "=" BWS ( token / quoted-string ) ] ).
+/// The text behind a chunk's size: *( BWS ";" BWS name [ BWS "=" BWS ( token / quoted-string ) ] ).
 bool are_chunk_extensions(std::string_view text) {
   const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size())); };
   const auto skip_token = [&] {

@@ -87,7 +87,7 @@ std::shared_ptr<const OpenedSet> ServedSet::now() const {
   std::string stamp = stamp_of_set(path_);
   if (stamp == opened_->stamp || stamp == stamp_tried_ || stamp_of(path_).text.empty()) return opened_;
   stamp_tried_ = std::move(stamp);
-  // What is no set, or not yet a whole one, takes the place of none.
+  // A file that is no set, or not yet a whole one, replaces none.
   if (auto opened = open_whole(path_)) opened_ = std::move(*opened);
   return opened_;
 }

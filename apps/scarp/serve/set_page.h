@@ -14,7 +14,7 @@ namespace scarp::cli {
 /// page has one coarse level. `name` is what the set is called.
 std::vector<std::uint8_t> make_set_page(const std::string& name, const TileSetReader& set, bool makes_tiles);
 
-/// What a set holds, one URL's path a line.
+/// The files of a set, one URL's path a line.
 std::string list_set(const TileSetReader& set, const std::string& file_url);
 
 }  // namespace scarp::cli
