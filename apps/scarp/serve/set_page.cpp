@@ -52,6 +52,7 @@ std::string escape_html(const std::string& text) {
 
 /// A map of the tiles of a level.
 std::string draw_tiles(const TileSetReader& set, std::size_t z) {
+  if (z >= set.tiles().size()) return "";
   const TileGrid grid = find_grid(set);
   std::optional<DegreeBox> all;
   std::string tiles;
