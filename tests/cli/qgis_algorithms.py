@@ -3,6 +3,7 @@
 import filecmp
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -66,6 +67,7 @@ def refused(algorithm, parameters, *words, feedback=None):
     except QgsProcessingException as error:
         for word in words:
             assert word in str(error), f"{algorithm} says: {error}"
+        assert not re.search(r"(^|\W)--[a-z]|^scarp:", str(error)), f"{algorithm} names options of a command line: {error}"
         return
     raise AssertionError(f"{algorithm} takes {parameters}")
 
@@ -154,7 +156,10 @@ assert part["TRIANGLES"] < bare["TRIANGLES"]
 
 # The program's sentences come out, and nothing is left behind.
 refused("scarp:rastertomesh", {"INPUT": DEM, "MAX_ERROR": 20, "OUTPUT": "x.abc"}, "x.abc", ".glb")
-refused("scarp:rastertomesh", {"INPUT": DEM, "OUTPUT": "x.2dm"}, "no goal is given")
+# In the words of the dialog.
+refused("scarp:rastertomesh", {"INPUT": DEM, "OUTPUT": "x.2dm"}, "no goal is given", '"Max error" 1', '"Max triangles" or')
+refused("scarp:rastertomesh", {"INPUT": DEM, "MAX_ERROR": 20, "FILL_DISTANCE": 3, "OUTPUT": "x.2dm"},
+        '"Fill distance" needs "Nodata policy" fill')
 refused("scarp:rastertomesh", {"INPUT": DEM, "MAX_ERROR": "much", "OUTPUT": "x.2dm"}, "much")
 refused("scarp:rastertomesh", {"INPUT": DEM, "MAX_ERROR": -1, "OUTPUT": "x.2dm"}, "-1")
 refused("scarp:measuremesh", {"INPUT": DEM, "MESH": "utm.2dm", "FAIL_ABOVE": "1"}, "1")

@@ -17,6 +17,23 @@ succeeds "$with_qgis" "$pack" "$scarp" again.zip
 cmp dist/scarp_processing.zip again.zip || fail "two packings differ"
 mkdir plugins && (cd plugins && unzip -q ../dist/scarp_processing.zip)
 grep -q '^version=[0-9]' plugins/scarp_processing/metadata.txt || fail "metadata.txt tells no version"
+for key in name description version qgisMinimumVersion author email about tracker repository homepage icon; do
+  grep -qE "^$key=.+" plugins/scarp_processing/metadata.txt || fail "metadata.txt has no $key, which the plugin site wants"
+done
+[ "$(head -c 8 plugins/scarp_processing/icon.png | od -An -c | tr -d ' ')" = '211PNG\r\n032\n' ] || fail "the icon is no PNG"
+wants() {  # WORDS OPTION...: no plugin is packed without its publisher
+  local words=$1
+  shift
+  try "$with_qgis" "$pack" "$scarp" x.zip "$@"
+  [ "$code" = 1 ] && grep -qF "$words" "$logs/err" && [ ! -e x.zip ] || fail "no sentence about $words"
+}
+wants 'set SCARP_PLUGIN_EMAIL' --publish
+SCARP_PLUGIN_EMAIL=nobody wants "SCARP_PLUGIN_EMAIL is 'nobody'"
+SCARP_PLUGIN_EMAIL=me@home.net wants 'set SCARP_PLUGIN_URL' --publish
+SCARP_PLUGIN_EMAIL=me@home.net SCARP_PLUGIN_URL=https://home.net/scarp succeeds "$with_qgis" "$pack" "$scarp" x.zip --publish
+unzip -p x.zip scarp_processing/metadata.txt > published.txt
+grep -qx 'tracker=https://home.net/scarp/issues' published.txt && grep -qx 'email=me@home.net' published.txt && rm x.zip ||
+  fail "the publisher's addresses are not in metadata.txt"
 succeeds "$with_qgis" "$SCARP_SOURCE/tests/cli/qgis_algorithms.py" plugins "$data" "$scarp"
 grep -q "do what they say" "$logs/out" || fail "the algorithms did not run to their end: $(tail -n 3 "$logs/out")"
 

@@ -168,7 +168,7 @@ class RasterToMesh(MeshMaker):
 
     def processAlgorithm(self, parameters, context, feedback):
         layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
-        return self.make(path_of_raster(layer, "INPUT"), parameters, context, feedback, layer.crs())
+        return self.make(path_of_raster(self, layer, "INPUT"), parameters, context, feedback, layer.crs())
 
 
 class PointsToMesh(MeshMaker):
@@ -192,7 +192,7 @@ class PointsToMesh(MeshMaker):
 
     def processAlgorithm(self, parameters, context, feedback):
         layer = self.parameterAsVectorLayer(parameters, "INPUT", context)
-        path = path_of_vector(layer, "INPUT", context)
+        path = path_of_vector(self, layer, "INPUT", context)
         more = ["--points"]
         file, inside = split_layer(path)
         if inside and not parameters.get("LAYER"):
@@ -231,7 +231,7 @@ class MeasureMesh(ScarpAlgorithm):
     def processAlgorithm(self, parameters, context, feedback):
         layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
         arguments = [
-            "measure", path_of_raster(layer, "INPUT"), self.parameterAsFile(parameters, "MESH", context),
+            "measure", path_of_raster(self, layer, "INPUT"), self.parameterAsFile(parameters, "MESH", context),
             *self.option_arguments(parameters, context, layer.crs()), "--overwrite"
         ]
         report = self.run_with_report(arguments, feedback, by_output=True)
@@ -273,11 +273,11 @@ class MakeTiles(ScarpAlgorithm):
     def processAlgorithm(self, parameters, context, feedback):
         layers = self.parameterAsLayerList(parameters, "INPUT", context)
         if not layers:
-            raise QgsProcessingException("INPUT: choose a raster")
+            raise QgsProcessingException("Rasters of heights: choose a raster")
         folder = self.parameterAsString(parameters, "OUTPUT", context)
         output = os.path.join(folder, "terrain")
         arguments = [
-            "tile", *(path_of_raster(layer, "INPUT") for layer in layers), output,
+            "tile", *(path_of_raster(self, layer, "INPUT") for layer in layers), output,
             *self.option_arguments(parameters, context, layers[0].crs()), "--overwrite"
         ]
         os.makedirs(folder, exist_ok=True)

@@ -5,8 +5,13 @@ from qgis.core import QgsProcessingException, QgsProcessingUtils, QgsProviderReg
 from . import options
 
 
-def path_of_raster(layer, what):
+def label_of(algorithm, name):
+    return algorithm.parameterDefinition(name).description()
+
+
+def path_of_raster(algorithm, layer, name):
     """The name under which GDAL opens a raster layer, which is what the program does too."""
+    what = label_of(algorithm, name)
     if layer is None or not layer.isValid():
         raise QgsProcessingException(f"{what}: the layer cannot be read")
     provider = layer.dataProvider().name()
@@ -17,10 +22,11 @@ def path_of_raster(layer, what):
     return layer.source()
 
 
-def path_of_vector(layer, name, context):
+def path_of_vector(algorithm, layer, name, context):
     """FILE or FILE:LAYER; a layer without a file, such as one in memory, is saved to a temporary one."""
+    what = label_of(algorithm, name)
     if layer is None or not layer.isValid():
-        raise QgsProcessingException(f"{name}: the layer cannot be read")
+        raise QgsProcessingException(f"{what}: the layer cannot be read")
     known = QgsProviderRegistry.instance().decodeUri(layer.providerType(), layer.source())
     if layer.providerType() == "ogr" and known.get("path") and not layer.subsetString():
         inside = known.get("layerName") or ""
@@ -32,7 +38,7 @@ def path_of_vector(layer, name, context):
         layer, path, context.transformContext(), settings
     )
     if code != QgsVectorFileWriter.NoError:
-        raise QgsProcessingException(f"{name}: {layer.name()} cannot be saved for the program: {message}")
+        raise QgsProcessingException(f"{what}: {layer.name()} cannot be saved for the program: {message}")
     return path
 
 
@@ -71,14 +77,14 @@ def arguments_of(row, algorithm, parameters, context, crs):
         )
         return [
             part for layer in layers
-            for part in (option, path_of_vector(layer, name, context))
+            for part in (option, path_of_vector(algorithm, layer, name, context))
         ]
     if options.is_raster(row):
         layers = (
             algorithm.parameterAsLayerList(parameters, name, context) if row["repeatable"]
             else [algorithm.parameterAsRasterLayer(parameters, name, context)]
         )
-        return [part for layer in layers for part in (option, path_of_raster(layer, name))]
+        return [part for layer in layers for part in (option, path_of_raster(algorithm, layer, name))]
     if row["type"] == "file":
         if row["repeatable"]:
             lines = algorithm.parameterAsString(parameters, name, context).splitlines()

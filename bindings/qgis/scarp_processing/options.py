@@ -7,6 +7,7 @@ QGIS offers what the program takes; nothing here names an option, but for those 
 import html
 import json
 import os
+import re
 
 from qgis.core import (
     QgsProcessing,
@@ -30,7 +31,7 @@ NOT_OFFERED = {
     "--points",
 }
 COORDINATES = "COORDINATES"
-TITLES = {"--te": "Extent", "--of": "Format", "--roi": "Regions of interest", "--num-threads": "Threads"}
+TITLES = {"--crs": "Coordinates of the mesh", "--te": "Extent", "--of": "Format", "--roi": "Regions of interest", "--num-threads": "Threads"}
 RASTERS = {"IMAGE"}
 RASTER_OPTIONS = {"--mask", "--tolerance", "--texture"}
 
@@ -41,6 +42,7 @@ def read_table():
 
 
 TABLE = read_table()
+NAMES = {name: row for row in TABLE["options"] if row["name"] not in NOT_OFFERED for name in (row["name"], row["short"]) if name}
 
 
 def rows_of(command, without=()):
@@ -63,6 +65,14 @@ def parameter_name(row):
 def title_of(row):
     """The option's name as words: --max-error is "Max error"."""
     return TITLES.get(row["name"]) or row["name"].lstrip("-").replace("-", " ").capitalize()
+
+
+def in_words(sentence):
+    """A sentence of the program, in which options are called as the dialogs call them."""
+    def replace(match):
+        row = NAMES.get(match[0])
+        return match[0] if row is None else f'"{title_of(row)}"'
+    return re.sub(r"(?<![\w-])--?[A-Za-z][\w-]*(?![\w-]|\.\w)", replace, sentence)
 
 
 def label_of(row):
@@ -116,7 +126,7 @@ def make_parameters(row):
     kind.setUsesStaticStrings(True)
     kind.setHelp(row["help"])
     kind.setFlags(kind.flags() | QgsProcessingParameterDefinition.FlagAdvanced)
-    crs = QgsProcessingParameterCrs(parameter_name(row), "Coordinates of the mesh: a CRS", optional=True)
+    crs = QgsProcessingParameterCrs(parameter_name(row), title_of(row) + ": a CRS", optional=True)
     crs.setHelp(row["help"])
     return [crs, kind]
 

@@ -10,8 +10,11 @@ import threading
 from processing.core.ProcessingConfig import ProcessingConfig
 from qgis.core import QgsProcessingException
 
+from .options import in_words
+
 SETTING = "SCARP_PROGRAM"
-WARNING = "scarp: warning: "
+NAME = "scarp: "
+WARNING = NAME + "warning: "
 
 
 def find_program():
@@ -93,9 +96,9 @@ def hear(lines, process, feedback):
                 feedback.setProgressText(last)
             feedback.setProgress(100 * step["fraction"])
         elif line.startswith(WARNING):
-            feedback.pushWarning(line[len(WARNING):])
+            feedback.pushWarning(in_words(line[len(WARNING):]))
         elif line:
-            sentences.append(line)
+            sentences.append(in_words(line[len(NAME):] if line.startswith(NAME) else line))
 
 
 def parse_step(line):

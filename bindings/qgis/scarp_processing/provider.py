@@ -1,7 +1,10 @@
 """The provider: Scarp's algorithms, and the setting that tells where the program is."""
 
+import os
+
 from processing.core.ProcessingConfig import ProcessingConfig, Setting
 from qgis.core import QgsProcessingProvider
+from qgis.PyQt.QtGui import QIcon
 
 from .algorithms import MakeTiles, MeasureMesh, PointsToMesh, RasterToMesh
 from .program import SETTING
@@ -16,6 +19,9 @@ class ScarpProvider(QgsProcessingProvider):
 
     def longName(self):
         return "Scarp: terrain meshes with a proven error"
+
+    def icon(self):
+        return QIcon(os.path.join(os.path.dirname(__file__), "icon.png"))
 
     def load(self):
         ProcessingConfig.addSetting(
