@@ -1,5 +1,8 @@
 #include "refine/tile.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "geom/scan_kernels.h"
 #include "grid/window.h"
 
@@ -26,7 +29,16 @@ float* Tile::resize(std::int32_t cols, std::int32_t rows) {
   return samples_.data();
 }
 
+void Tile::fill_padding() {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  float* const samples = samples_.data();
+  for (std::ptrdiff_t y = 0; y < view_.rows; ++y)
+    std::fill(samples + y * view_.stride + view_.cols, samples + (y + 1) * view_.stride, kNan);
+  std::fill_n(samples + view_.rows * view_.stride, kTilePadding * view_.stride, kNan);
+}
+
 void Tile::fill_blocks() {
+  fill_padding();
   nodata_ = 0;
   largest_height_ = scan_kernels().fill_blocks(view_, low_.data(), high_.data(), nodata_);
 }

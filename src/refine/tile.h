@@ -29,6 +29,7 @@ class Tile {
 
  private:
   float* resize(std::int32_t cols, std::int32_t rows);
+  void fill_padding();
   void fill_blocks();
 
   Array<float> samples_, low_, high_;
