@@ -52,6 +52,12 @@ PATH=$PWD/tools:$PATH succeeds "$scarp" view plain.glb -o opened.html --open
 printf '#!/bin/sh\nexit 3\n' > tools/xdg-open
 PATH=$PWD/tools:$PATH try "$scarp" view plain.glb -o opened.html --open --overwrite
 [ "$code" = 4 ] && grep -q 'open it in a browser' "$logs/err" || fail "a browser that does not open is not told"
+# A raster elsewhere: measure's own sentence, and no page.
+succeeds gdal_translate -q -a_ullr 10 50 10.5 49.6 "$dem" elsewhere.tif
+try "$scarp" measure elsewhere.tif plain.glb
+[ "$code" = 3 ] && cp "$logs/err" measured.txt || fail "measure takes a raster elsewhere"
+refuses 3 'plain.glb: it covers no sample of elsewhere.tif' "$scarp" view plain.glb elsewhere.tif -o x.html
+diff <(sed 's/^[^:]*: //' measured.txt) <(sed 's/^[^:]*: //' "$logs/err") || fail "view and measure differ in their sentence"
 refuses 1 '(--band 2), and no RASTER' "$scarp" view plain.glb --band 2 -o x.html
 refuses 2 'no_such.glb' "$scarp" view no_such.glb
 refuses 2 'no_such.tif' "$scarp" view plain.glb no_such.tif -o x.html
@@ -99,9 +105,16 @@ if grep -qF '<!--<script>' name.html; then fail "a name begins a script"; fi
 library=$SCARP_BUILD/bindings/c/libscarp_c.so
 if [ -e "$library" ] && /usr/bin/python3 -c 'import numpy, rasterio' 2> /dev/null; then
   PATH=$SCARP_BUILD/bin:$PATH PYTHONPATH=$SCARP_SOURCE/bindings/python/src PYTHONDONTWRITEBYTECODE=1 SCARP_LIBRARY=$library succeeds /usr/bin/python3 -c '
-import scarp, sys
-page = scarp.simplify(sys.argv[1], 20).view(sys.argv[1], "python.html", open=False)
+import numpy, os, scarp, sys
+mesh = scarp.simplify(sys.argv[1], 20)
+page = mesh.view(sys.argv[1], "python.html", open=False)
 assert page == "python.html", page
+try:
+    mesh.view(numpy.ones((9, 9)), "x.html", open=False, transform=(5e6, 30, 0, 4e6, 0, -30))
+    raise SystemExit("a raster elsewhere is shown")
+except scarp.PromiseError as error:
+    assert "it covers no sample" in str(error) and "--" not in str(error), error
+    assert not os.path.exists("x.html")
 open("notebook.html", "w").write("<!doctype html><meta charset=utf-8><title>notebook</title>" + page._repr_html_())' "$dem"
 else
   echo "left out: Mesh.view() of Python (needs the C library, numpy and rasterio)"

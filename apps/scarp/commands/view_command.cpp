@@ -14,6 +14,7 @@
 #include "options/output_kind.h"
 #include "reports/level_pages.h"
 #include "scarp/io.h"
+#include "scarp/measure.h"
 #include "scarp/points.h"
 #include "scarp/solid.h"
 #include "terminal/text.h"
@@ -137,6 +138,14 @@ Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<
   return field;
 }
 
+Result<void> ViewCommand::check_place(const Mesh& mesh, const OwnedHeightField& field) const {
+  const auto measured = measure(field.view(), mesh, {.topology = false});
+  if (!measured) return tl::unexpected(measured.error());
+  if (measured->samples > 0) return {};
+  return fail(ErrorKind::kPromise,
+              mesh_ + ": " + describe_elsewhere(extent_of(mesh), extent_of(field.view()), raster_.path()));
+}
+
 Result<void> ViewCommand::run() const {
   if (raster_.paths.empty() && !raster_.canonical().empty()) {
     return fail(ErrorKind::kUsage,
@@ -174,6 +183,7 @@ Result<void> ViewCommand::run() const {
     auto read = read_raster(mesh, warnings);
     if (!read) return tl::unexpected(std::move(read.error()));
     field = std::move(*read);
+    if (auto lies = check_place(mesh, *field); !lies) return lies;
   }
   const auto page = make_view_page(*page_template, without_slash(mesh_), *meshes, field ? &*field : nullptr);
   if (!page) return tl::unexpected(page.error());

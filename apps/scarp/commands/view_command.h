@@ -27,6 +27,8 @@ class ViewCommand {
   Result<std::vector<PageMesh>> read_meshes(bool is_y_up, Mesh& first) const;
   /// In the coordinates of the mesh.
   Result<OwnedHeightField> read_raster(const Mesh& mesh, std::vector<std::string>& warnings) const;
+  /// kPromise where the mesh covers no sample, as measure has it.
+  Result<void> check_place(const Mesh& mesh, const OwnedHeightField& field) const;
 
   CLI::App* command_;
   RasterArguments raster_;

@@ -42,7 +42,7 @@ void fit_frame(const Mesh& mesh, OwnedHeightField& field);
 /// rasters without georeference, and where both frames are the same.
 std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field);
 
-/// Why nothing can be judged: "no sample of RASTER is covered: …".
+/// Why nothing can be judged: "it covers no sample of RASTER: …".
 std::string describe_elsewhere(const Extent& mesh, const Extent& reference, const std::string& what);
 
 }  // namespace scarp::cli

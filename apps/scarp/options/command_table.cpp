@@ -36,7 +36,7 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp view hills.glb dem.tif -o page.html --open     and opens it\n"
      "  scarp view hills_lod0.glb dem.tif                    all levels of --lods\n"
      "  scarp view globe.pmtiles                             the finest levels of a set of tiles\n"
-     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 70 internal error.\n"},
+     "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 70 internal error.\n"},
     {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh or 3D Tiles, for CesiumJS and others",
      "INPUT OUTPUT [OPTIONS]",
      "Tiles of neighbours have the same edges, and each tells its error bound, the earth's curve included.\n"

@@ -69,6 +69,7 @@ def make_page(mesh: Mesh, source: Any, options: dict[str, Any]) -> str:
                             "meshes": [{"name": "mesh", "bytes": len(glb), "glb": base64.b64encode(glb).decode()}]}
     if source is not None:
         given = _inputs.read(source, wants_array=True, **options)
+        _abi.check(_abi.lib.scarp_measure(ctypes.byref(given.field), mesh._handle, None, ctypes.byref(_abi.new_report())))
         told = mesh.metadata("to_source")
         data["field"] = _describe(given.field, json.loads(told) if told else None)
     script = '<script type="application/json" id="scarp-data">%s</script>' % json.dumps(data).replace("<", "\\u003c")
