@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "options/option_table.h"
 #include "scarp/version.h"
+#include "settings.h"
 #include "terminal/clock.h"
 #include "terminal/text.h"
 #include "terminal/time_left.h"
@@ -21,7 +24,36 @@ std::string& last_sentence() {
   return sentence;
 }
 
-bool is_option(const std::string& name) { return cli::find_option(cli::kEveryCommand, name) != nullptr; }
+/// How sentences name options whose name is another here; written before other calls.
+std::map<cli::OptionId, std::string>& names_here() {
+  static std::map<cli::OptionId, std::string> names{{cli::OptionId::kThreads, "threads"}};
+  return names;
+}
+
+bool is_of_name(char letter) {
+  return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-' || letter == '_';
+}
+
+/// The option that begins at a dash, "--max-error" or "-e", and the end of its name; null where none does. Letters
+/// after the name of another program are that program's.
+const cli::OptionRow* option_at(const std::string& sentence, std::size_t at, std::size_t& end) {
+  if (sentence[at] != '-' || (at > 0 && is_of_name(sentence[at - 1]))) return nullptr;
+  end = at;
+  while (end < sentence.size() && is_of_name(sentence[end])) ++end;
+  if (end == at + 2 && end + 1 < sentence.size() && sentence[end] == '.' && is_of_name(sentence[end + 1]))
+    return nullptr;
+  const std::string clause = sentence.substr(0, at);
+  if (end == at + 2 && clause.find("gdal", clause.find_last_of("('") + 1) != std::string::npos) return nullptr;
+  return cli::find_option(cli::kEveryCommand, sentence.substr(at, end - at));
+}
+
+std::string name_here(const cli::OptionRow& row) {
+  const auto named = names_here().find(row.id);
+  if (named != names_here().end()) return named->second;
+  std::string name = std::string(row.name).substr(2);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
 
 template <class T>
 void init(T* out, std::uint32_t size, T all) {
@@ -34,20 +66,30 @@ void init(T* out, std::uint32_t size, T all) {
 
 std::string in_words_of_door(const std::string& sentence) {
   std::string text;
-  for (std::size_t at = 0; at < sentence.size();) {
-    std::size_t end = at;
-    if (sentence.compare(at, 2, "--") == 0 && (at == 0 || sentence[at - 1] != '-'))
-      end = std::min(sentence.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at + 2), sentence.size());
-    if (end > at + 2 && is_option(sentence.substr(at, end - at))) {
-      std::string name = sentence.substr(at + 2, end - at - 2);
-      std::replace(name.begin(), name.end(), '-', '_');
-      text += name;
+  for (std::size_t at = 0, end = 0; at < sentence.size();) {
+    if (const cli::OptionRow* const row = option_at(sentence, at, end)) {
+      text += name_here(*row);
       at = end;
     } else {
       text += sentence[at++];
     }
   }
   return text;
+}
+
+Result<void> name_option(const std::string& name, const std::string& shown) {
+  const cli::OptionRow* const row = cli::find_option(cli::kEveryCommand, name);
+  if (row == nullptr) return fail(ErrorKind::kUsage, "no option is called " + name);
+  names_here()[row->id] = shown;
+  return {};
+}
+
+std::string find_named_here(const std::string& name) {
+  const auto named =
+      std::find_if(names_here().begin(), names_here().end(), [&](const auto& entry) { return entry.second == name; });
+  if (named == names_here().end()) return "";
+  const auto rows = cli::rows_of(cli::kEveryCommand);
+  return (*std::find_if(rows.begin(), rows.end(), [&](const auto* row) { return row->id == named->first; }))->name;
 }
 
 scarp_status report(const Error& error) {
@@ -64,6 +106,8 @@ scarp_status report(ErrorKind kind, const std::string& sentence) { return report
 scarp_status report_exception() {
   try {
     throw;
+  } catch (const Refused& refused) {
+    return report(refused.error);
   } catch (const std::bad_alloc&) {
     last_sentence() = kNoMemory;
     return SCARP_INPUT;
@@ -107,6 +151,15 @@ extern "C" {
 uint32_t scarp_abi_version(void) { return SCARP_ABI_VERSION; }
 const char* scarp_version(void) { return scarp::version(); }
 const char* scarp_last_error(void) { return scarp::door::last_sentence().c_str(); }
+
+scarp_status scarp_name_option(const char* name, const char* shown) {
+  return scarp::door::guarded([&]() -> scarp_status {
+    if (name == nullptr || shown == nullptr)
+      return scarp::door::report(scarp::ErrorKind::kUsage, "a name of the option is a null pointer");
+    auto named = scarp::door::name_option(scarp::door::name_in_program(name), shown);
+    return named ? SCARP_OK : scarp::door::report(named.error());
+  });
+}
 
 void scarp_field_init(scarp_field* field, uint32_t struct_size) {
   scarp_field all{};

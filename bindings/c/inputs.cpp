@@ -1,9 +1,13 @@
 #include "inputs.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "door.h"
+#include "mesh.h"
 
 namespace scarp::door {
 namespace {
@@ -16,9 +20,40 @@ LentRaster raster_of(const scarp_field& field) {
   if (!std::isnan(field.nodata)) raster.nodata = static_cast<float>(field.nodata);
   if (field.frame != SCARP_FRAME_GRID) raster.geotransform.emplace(std::to_array(field.geotransform));
   if (field.crs != nullptr) raster.crs = field.crs;
+  if (field.unit != nullptr) raster.unit = field.unit;
   raster.is_geographic = field.frame == SCARP_FRAME_DEGREES;
   raster.sample_rounding = field.sample_rounding;
   return raster;
+}
+
+constexpr std::uint64_t kLargestArray = std::numeric_limits<std::ptrdiff_t>::max();  // bytes
+
+/// Why no memory can hold what the struct says; empty where it can.
+std::string find_fault(const scarp_field& field) {
+  if (field.samples == nullptr) return "the pointer to the samples is null";
+  if (field.frame < SCARP_FRAME_GRID || field.frame > SCARP_FRAME_DEGREES)
+    return fmt::format(
+        "the field's frame is {}: it is SCARP_FRAME_GRID (0), SCARP_FRAME_SOURCE (1) or "
+        "SCARP_FRAME_DEGREES (2)",
+        field.frame);
+  if (!(field.sample_rounding >= 0) || std::isinf(field.sample_rounding))
+    return "the field's sample_rounding must be a finite number of at least 0";
+  const auto cols = static_cast<std::uint64_t>(std::max(field.cols, 0)),
+             rows = static_cast<std::uint64_t>(std::max(field.rows, 0));
+  if (cols * rows > kLargestArray / sizeof(float))
+    return fmt::format("the field has {} x {} samples: no array is so large", field.cols, field.rows);
+  return "";
+}
+
+std::string find_fault(const scarp_points& points) {
+  if (points.x == nullptr || points.y == nullptr || points.z == nullptr) return "a pointer to the coordinates is null";
+  if (points.stride == 0)
+    return "the points' stride is 0: it is 1 for arrays of x, of y and of z, and 3 for points in turn";
+  if (points.count > kMostVertices)
+    return fmt::format("the points' count is {}: at most {} are possible", points.count, kMostVertices);
+  if (points.count > 1 && points.stride > kLargestArray / sizeof(double) / points.count)
+    return fmt::format("the points' stride is {}: no array is so large", points.stride);
+  return "";
 }
 
 /// Values on the grid of the field.
@@ -35,8 +70,7 @@ LentRaster beside(const LentRaster& raster, const float* values) {
 LentInputs::LentInputs(const scarp_field* given, const scarp_options& asked) {
   const scarp_field field = known(given, scarp_field_init);
   name_ = field.name != nullptr && *field.name != '\0' ? field.name : "heights";
-  if (given == nullptr) missing_ = "the field";
-  if (given != nullptr && field.samples == nullptr) missing_ = "the pointer to the samples";
+  unfit_ = given == nullptr ? "the field is null" : find_fault(field);
   raster_ = raster_of(field);
   lent_.emplace(name_, raster_);
   if (asked.mask != nullptr) {
@@ -52,28 +86,21 @@ LentInputs::LentInputs(const scarp_field* given, const scarp_options& asked) {
 LentInputs::LentInputs(const scarp_points* given) {
   const scarp_points points = known(given, scarp_points_init);
   name_ = points.name != nullptr && *points.name != '\0' ? points.name : "points";
-  if (given == nullptr) missing_ = "the points";
-  if (given != nullptr && (points.x == nullptr || points.y == nullptr || points.z == nullptr))
-    missing_ = "a pointer to the coordinates";
+  unfit_ = given == nullptr ? "the points are null" : find_fault(points);
   points_.path = name_;
   points_.format = "memory";
   if (points.crs != nullptr) points_.crs = points.crs;
   points_.description = points_.crs.empty() ? "coordinates as given" : "coordinates in " + points_.crs;
-  const std::size_t stride = points.stride == 0 ? 1 : points.stride;
-  if (missing_ == nullptr) {
-    for (std::size_t k = 0; k < points.count; ++k) {
-      points_.x.push_back(points.x[k * stride]);
-      points_.y.push_back(points.y[k * stride]);
-      points_.z.push_back(points.z[k * stride]);
-    }
+  for (std::size_t k = 0; unfit_.empty() && k < points.count; ++k) {
+    points_.x.push_back(points.x[k * points.stride]);
+    points_.y.push_back(points.y[k * points.stride]);
+    points_.z.push_back(points.z[k * points.stride]);
   }
   lent_.emplace(name_, points_);
 }
 
 Result<void> LentInputs::check() const {
-  if (missing_ != nullptr) return fail(ErrorKind::kUsage, std::string(missing_) + " is null");
-  if (!(raster_.sample_rounding >= 0) || std::isinf(raster_.sample_rounding))
-    return fail(ErrorKind::kUsage, "the field's sample_rounding must be a finite number of at least 0");
+  if (!unfit_.empty()) return fail(ErrorKind::kUsage, unfit_);
   return {};
 }
 

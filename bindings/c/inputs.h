@@ -21,7 +21,7 @@ class LentInputs {
 
  private:
   std::string name_;
-  const char* missing_ = nullptr;
+  std::string unfit_;  ///< why the struct cannot be read; empty where it can
   LentRaster raster_, mask_, tolerance_;
   PointSet points_;
   std::optional<Lent> lent_, lent_mask_, lent_tolerance_;

@@ -27,7 +27,7 @@ std::string describe_all() {
              "scarp_field", sizeof(scarp_field),
              {AT(scarp_field, struct_size), AT(scarp_field, cols), AT(scarp_field, rows), AT(scarp_field, frame),
               AT(scarp_field, samples), AT(scarp_field, nodata), AT(scarp_field, geotransform),
-              AT(scarp_field, sample_rounding), AT(scarp_field, crs), AT(scarp_field, name)}) +
+              AT(scarp_field, sample_rounding), AT(scarp_field, crs), AT(scarp_field, name), AT(scarp_field, unit)}) +
          describe_struct("scarp_points", sizeof(scarp_points),
                          {AT(scarp_points, struct_size), AT(scarp_points, reserved), AT(scarp_points, x),
                           AT(scarp_points, y), AT(scarp_points, z), AT(scarp_points, count), AT(scarp_points, stride),

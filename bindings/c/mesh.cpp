@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -65,9 +67,20 @@ Result<Mesh> mesh_of(const double* positions, std::uint64_t vertices, const std:
                      std::uint64_t count) {
   if (positions == nullptr || triangles == nullptr)
     return tl::unexpected(refuse_null("the array of positions, or of triangles,"));
+  for (const auto& [what, number] : {std::pair{"vertices", vertices}, {"triangles", count}}) {
+    if (number > kMostVertices)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} {} are given: a mesh has at most {}", number, what, kMostVertices));
+  }
   Mesh mesh;
   mesh.positions.assign(positions, positions + 3 * vertices);
   mesh.triangles.assign(triangles, triangles + 3 * count);
+  const auto odd =
+      std::find_if(mesh.positions.begin(), mesh.positions.end(), [](double x) { return !std::isfinite(x); });
+  if (odd != mesh.positions.end()) {
+    return fail(ErrorKind::kInput, fmt::format("a coordinate of the vertex {} is {}: all must be finite",
+                                               (odd - mesh.positions.begin()) / 3, *odd));
+  }
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     if (mesh.triangles[k] >= vertices) {
       return fail(ErrorKind::kInput,
@@ -200,7 +213,7 @@ scarp_status scarp_mesh_report(const scarp_mesh* mesh, scarp_report* out) {
   return guarded([&]() -> scarp_status {
     if (mesh == nullptr || out == nullptr) return report(refuse_null("the mesh, or the place for its report,"));
     if (!mesh->report)
-      return report(ErrorKind::kUsage, "nobody has measured this mesh yet: scarp_measure() does, against a field");
+      return report(ErrorKind::kUsage, "nobody has measured this mesh yet: scarp_measure() does, against the heights");
     hand_out(*mesh->report, out);
     return SCARP_OK;
   });

@@ -37,6 +37,9 @@ struct scarp_mesh {
 
 namespace scarp::door {
 
+/// Triangles name vertices by 32 bits, of which one number stands for none.
+constexpr std::uint64_t kMostVertices = 0xfffffffe;
+
 scarp_report describe_measurement(const Measurement& measured);
 scarp_report describe_run(const Simplified& simplified);
 std::string join_lines(const std::vector<std::string>& sentences);

@@ -32,7 +32,9 @@ scarp_status scarp_raster_read(const char* path, const scarp_options* options, s
     auto read = given.raster.parse();
     if (!read) return report(read.error());
     read->run.progress = progress_of(asked);
-    read->run.threads = asked.threads;
+    const auto threads = scarp::cli::parse_threads(given.threads);
+    if (!threads) return report(threads.error());
+    read->run.threads = *threads;
     auto field = scarp::read_height_field(path, *read);
     if (!field) return report(field.error());
     *out = new scarp_raster{std::move(*field)};
@@ -41,6 +43,7 @@ scarp_status scarp_raster_read(const char* path, const scarp_options* options, s
 }
 
 void scarp_raster_field(const scarp_raster* raster, scarp_field* out) {
+  if (out == nullptr || out->struct_size < 2 * sizeof(uint32_t)) return;
   scarp_field all;
   scarp_field_init(&all, sizeof all);
   const scarp::OwnedHeightField& field = raster->field;
@@ -53,6 +56,7 @@ void scarp_raster_field(const scarp_raster* raster, scarp_field* out) {
   std::copy(info.geotransform.begin(), info.geotransform.end(), all.geotransform);
   all.crs = info.crs.empty() ? nullptr : info.crs.c_str();
   all.name = info.path.c_str();
+  all.unit = info.unit.empty() ? nullptr : info.unit.c_str();
   hand_out(all, out);
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -35,6 +37,10 @@ double share_of(const Refiner& steps, double first_error, double max_error, std:
 
 scarp_status go_on(scarp_refiner& refiner, double max_error, std::uint64_t max_vertices,
                    const ProgressCallback& progress, std::uint64_t& inserted) {
+  if (!(max_error >= 0))
+    return report(ErrorKind::kUsage, fmt::format("max_error {} is {}: it must be at least 0, and 0 reproduces every "
+                                                 "sample",
+                                                 max_error, max_error < 0 ? "negative" : "no number"));
   Refiner& steps = refiner.refiner;
   const double first_error = steps.max_error();
   const std::uint64_t first = steps.vertex_count();

@@ -87,6 +87,7 @@ typedef struct scarp_field {
       sample_rounding; /* largest |value - float32 sample| where values were rounded; a promise keeps it in reserve */
   const char* crs;     /* "EPSG:32611", WKT; DEFAULT: NULL. A library without GDAL takes it for a name. */
   const char* name;    /* for sentences and the mesh's metadata. DEFAULT: NULL, "heights". */
+  const char* unit;    /* of the heights: "m", "ft"; for errors such as "1m" and "3ft". DEFAULT: NULL, not known. */
 } scarp_field;
 
 /* Scattered points: z over x, y. */
@@ -95,7 +96,7 @@ typedef struct scarp_points {
   int32_t reserved;
   const double *x, *y, *z;
   uint64_t count;
-  uint64_t stride;  /* doubles from one x to the next; 3 where points are x, y, z in turn. DEFAULT: 1. */
+  uint64_t stride;  /* doubles from one x to the next, at least 1; 3 where points are x, y, z in turn. DEFAULT: 1. */
   const char* crs;  /* DEFAULT: NULL */
   const char* name; /* DEFAULT: NULL, "points" */
 } scarp_points;
@@ -140,6 +141,9 @@ int32_t scarp_has_gdal(void); /* 1: reads what GDAL reads, and knows CRSs; 0: PG
 const char* scarp_abi_layout(void);
 /* The sentence of this thread's last call that failed; valid until its next call. */
 const char* scarp_last_error(void);
+/* For bindings that name an option otherwise ("crs", "frame"): callers may set it, and sentences name it, by that name.
+ * Holds for the whole process; call it before all else. SCARP_USAGE if there is no such option. */
+scarp_status scarp_name_option(const char* name, const char* shown);
 
 /* Rounds heights to float32 samples, for a field. Returns the largest |value - sample|, its sample_rounding; NaN stays
  * NaN, and what float32 cannot hold becomes infinite. */
@@ -174,7 +178,7 @@ scarp_status scarp_measure_file(const char* path, const scarp_mesh* mesh, const 
 scarp_status scarp_measure_points(const scarp_points* points, const scarp_mesh* mesh, const scarp_options* options,
                                   scarp_report* out);
 
-/* Meshes. Vertex v lies at origin + positions[3v .. 3v + 2], x east, y north, z up. */
+/* Meshes. Vertex v lies at origin + positions[3v .. 3v + 2], x east, y north, z up. At most 2^32 - 2 of each. */
 scarp_status scarp_mesh_from_arrays(const double* positions, uint64_t vertices, const uint32_t* triangles,
                                     uint64_t triangle_count, scarp_mesh** out);
 scarp_status scarp_mesh_read(const char* path, scarp_mesh** out);
@@ -198,6 +202,9 @@ scarp_status scarp_mesh_add_base(const scarp_mesh* mesh, double z, scarp_mesh** 
 scarp_status scarp_mesh_encode(const scarp_mesh* mesh, const char* format, scarp_bytes** out);
 /* The same into a file, by the ending of its name: a temporary name first, then renamed. */
 scarp_status scarp_mesh_write(const scarp_mesh* mesh, const char* path, int32_t overwrite);
+/* All of a mesh as bytes, and back: for another process with the same version of the library. */
+scarp_status scarp_mesh_pack(const scarp_mesh* mesh, scarp_bytes** out);
+scarp_status scarp_mesh_unpack(const uint8_t* bytes, uint64_t size, scarp_mesh** out);
 void scarp_mesh_free(scarp_mesh* mesh);
 
 const uint8_t* scarp_bytes_data(const scarp_bytes* bytes);

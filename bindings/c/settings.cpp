@@ -31,14 +31,6 @@ bool is_of_program(const OptionRow& row) {
          std::find(std::begin(kOfProgram), std::end(kOfProgram), row.id) != std::end(kOfProgram);
 }
 
-/// "max_error", "max-error" and "--max-error" are one.
-std::string name_in_program(const char* name) {
-  std::string text(name);
-  text.erase(0, std::min(text.find_first_not_of('-'), text.size()));
-  std::replace(text.begin(), text.end(), '_', '-');
-  return "--" + text;
-}
-
 std::string without_dashes(std::string name) {
   name.erase(0, 2);
   std::replace(name.begin(), name.end(), '-', '_');
@@ -51,7 +43,7 @@ Result<void> check_name(const std::string& name) {
   if (row != nullptr) {
     return fail(ErrorKind::kUsage, fmt::format("option {} is the program's alone: it is about its terminal, its files, "
                                                "or several meshes",
-                                               without_dashes(name)));
+                                               name));
   }
   CLI::App program;
   for (const Commands command : {cli::kSimplify, cli::kMeasure, cli::kTile}) {
@@ -112,6 +104,13 @@ std::vector<std::pair<std::string, std::string>> common_settings(const scarp_opt
 
 }  // namespace
 
+std::string name_in_program(const std::string& name) {
+  if (std::string named = find_named_here(name); !named.empty()) return named;
+  std::string text = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  std::replace(text.begin(), text.end(), '_', '-');
+  return "--" + text;
+}
+
 bool has_setting(const scarp_options& asked, const char* name) {
   if (asked.named == nullptr) return false;
   const auto& values = asked.named->values;
@@ -125,8 +124,8 @@ Result<std::vector<std::string>> words_of(Commands command, const std::vector<st
   const auto add = [&](const std::string& name, const std::string& value) -> Result<void> {
     const OptionRow* const row = cli::find_option(command, name);
     if (row == nullptr)
-      return fail(ErrorKind::kUsage, fmt::format("option {} has no meaning here: no such option of 'scarp {}'",
-                                                 without_dashes(name), words.front()));
+      return fail(ErrorKind::kUsage,
+                  fmt::format("option {} has no meaning here: no such option of 'scarp {}'", name, words.front()));
     return add_words(*row, value, words);
   };
   for (const auto& [name, value] : common_settings(asked)) {
@@ -170,8 +169,9 @@ scarp_status scarp_options_set(scarp_options* options, const char* name, const c
   return guarded([&]() -> scarp_status {
     if (options == nullptr || name == nullptr)
       return report(scarp::ErrorKind::kUsage, "the options, or the name of one, are a null pointer");
+    check_size(options);
     if (options->struct_size < offsetof(scarp_options, named) + sizeof options->named)
-      return report(scarp::ErrorKind::kUsage, "the options are not initialised: call scarp_options_init() first");
+      return report(scarp::ErrorKind::kUsage, "the scarp_options end before named: set struct_size to their size");
     const std::string word = name_in_program(name);
     if (auto checked = check_name(word); !checked) return report(checked.error());
     if (options->named == nullptr) options->named = new scarp_settings;

@@ -17,6 +17,9 @@ struct scarp_settings {
 
 namespace scarp::door {
 
+/// "max_error", "max-error" and "--max-error" are one: the name in the program's table.
+std::string name_in_program(const std::string& name);
+
 /// An option of a call.
 bool has_setting(const scarp_options& asked, const char* name);
 

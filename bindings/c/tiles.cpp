@@ -95,7 +95,8 @@ scarp_status make_all_tiles(const std::vector<std::string>& inputs, const scarp_
   if (out == nullptr) return SCARP_OK;
   cli::Json json{{"input", inputs}};
   cli::add_tiles(json, made->opened.job, output, made->report);
-  json["warnings"] = made->warnings;
+  json["warnings"] = cli::Json::array();
+  for (const std::string& warning : made->warnings) json["warnings"].push_back(in_words_of_door(warning));
   const std::string text = cli::to_text(json);
   *out = new scarp_bytes{{text.begin(), text.end()}};
   return SCARP_OK;

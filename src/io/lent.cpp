@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid/local_frame.h"
+#include "io/raster/crs_description.h"
 #include "io/raster/raster_finish.h"
 
 namespace scarp {
@@ -85,6 +86,7 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
   field.info.format = "memory";
   field.info.sample_type = "Float32";
   field.info.crs = raster.crs;
+  field.info.unit = raster.unit;
   field.info.is_geographic = raster.is_geographic;
   field.info.nodata = options.nodata;
   LentRaster read = raster;
@@ -98,6 +100,13 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
     field.info.cell_y = std::sqrt(gt[2] * gt[2] + gt[5] * gt[5]);
     if (is_degenerate(gt))
       return fail(ErrorKind::kInput, name + ": its transform maps the samples to a line or to infinity");
+    if (!raster.is_geographic && options.crs != "grid" && looks_like_degrees(gt, raster.cols, raster.rows) &&
+        !describe_crs(raster.crs)) {
+      field.info.warnings.push_back(
+          name +
+          " has no CRS that is known here, but its coordinates look like degrees, which do not mix with heights: if "
+          "so, give their CRS, such as EPSG:4326");
+    }
   }
   auto frame = raster.geotransform ? place_lent_raster(raster, options, field.info)
                                    : ungeoreferenced_frame(name, raster.cols, raster.rows, options);

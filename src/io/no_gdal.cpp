@@ -76,6 +76,10 @@ Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& opt
     const LocalUnit unit = raster.crs.empty() ? LocalUnit{"units", ""} : LocalUnit{};
     return local_frame(samples, {1, 1}, cols, rows, raster.crs.empty() ? "no CRS" : raster.crs, unit);
   }
+  if (info.is_geographic) {
+    info.warnings.push_back(
+        "x and y are degrees while z is a length: the mesh is no shape in space; the frame 'local' is in metres");
+  }
   Frame frame;
   frame.kind = Frame::Kind::kSource;
   frame.affine = samples;

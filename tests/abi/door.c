@@ -233,6 +233,141 @@ static void try_errors(void) {
   scarp_tiles_free(NULL);
 }
 
+/* Numbers that no memory can hold, and structs that nobody has made. */
+static void try_lies(void) {
+  const uint32_t corners[3] = {0, 1, 2};
+  const double flat[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, odd[9] = {0, 0, 0, 1, 0, NAN, 0, 1, 0};
+  scarp_mesh* mesh = NULL;
+  const uint64_t counts[4] = {UINT64_C(1) << 62, UINT64_C(1) << 61, UINT64_MAX, UINT64_C(1) << 32};
+  for (int k = 0; k < 4; ++k) {
+    EXPECT(scarp_mesh_from_arrays(flat, counts[k], corners, 1, &mesh) == SCARP_USAGE && mesh == NULL);
+    EXPECT_SAYS("vertices are given: a mesh has at most 4294967294");
+    EXPECT(scarp_mesh_from_arrays(flat, 3, corners, counts[k], &mesh) == SCARP_USAGE && mesh == NULL);
+    EXPECT_SAYS("triangles are given");
+  }
+  EXPECT(scarp_mesh_from_arrays(odd, 3, corners, 1, &mesh) == SCARP_INPUT);
+  EXPECT_SAYS("the vertex 1 is nan");
+
+  scarp_options options = make_options(1);
+  scarp_field field = make_field();
+  const int32_t frames[3] = {99, -1, 3};
+  for (int k = 0; k < 3; ++k) {
+    field.frame = frames[k];
+    EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+    EXPECT_SAYS("the field's frame is");
+  }
+  field = make_field();
+  field.cols = field.rows = INT32_MAX;
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("2147483647 x 2147483647 samples");
+  field = make_field();
+  field.struct_size = 0;
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("should be sizeof(scarp_field)");
+  field = make_field();
+  options.struct_size = 0;
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("should be sizeof(scarp_options)");
+  EXPECT(scarp_options_set(&options, "effort", "high") == SCARP_USAGE);
+  options = make_options(1);
+  const int32_t threads[2] = {-5, 5000};
+  for (int k = 0; k < 2; ++k) {
+    options.threads = threads[k];
+    EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+    EXPECT(strncmp(scarp_last_error(), "threads ", 8) == 0);
+  }
+  options.threads = 0;
+  EXPECT(scarp_options_set(&options, "threads", "-5") == SCARP_OK);
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("threads -5");
+  scarp_options_clear(&options);
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_OK);
+  scarp_report report;
+  report.struct_size = 0;
+  EXPECT(scarp_mesh_report(mesh, &report) == SCARP_USAGE);
+  EXPECT_SAYS("should be sizeof(scarp_report)");
+  scarp_mesh* solid = NULL;
+  EXPECT(scarp_mesh_add_base(mesh, NAN, &solid) == SCARP_USAGE && solid == NULL);
+
+  const double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 3};
+  scarp_points points;
+  scarp_points_init(&points, sizeof points);
+  points.x = xyz;
+  points.y = xyz + 1;
+  points.z = xyz + 2;
+  points.count = 4;
+  points.stride = 0;
+  scarp_mesh* of_points = NULL;
+  EXPECT(scarp_simplify_points(&points, &options, &of_points) == SCARP_USAGE);
+  EXPECT_SAYS("stride is 0");
+  const uint64_t strides[3] = {(uint64_t)-1, (uint64_t)-3, UINT64_C(1) << 60};
+  for (int k = 0; k < 3; ++k) {
+    points.stride = strides[k];
+    EXPECT(scarp_simplify_points(&points, &options, &of_points) == SCARP_USAGE);
+    EXPECT_SAYS("no array is so large");
+    report.struct_size = sizeof report;
+    EXPECT(scarp_measure_points(&points, mesh, NULL, &report) == SCARP_USAGE);
+  }
+  points.stride = 3;
+  points.count = UINT64_C(1) << 63;
+  EXPECT(scarp_simplify_points(&points, &options, &of_points) == SCARP_USAGE);
+  EXPECT_SAYS("count is 9223372036854775808");
+
+  scarp_refiner* refiner = NULL;
+  EXPECT(scarp_refiner_create(&field, &refiner) == SCARP_OK);
+  EXPECT(scarp_refiner_run(refiner, -1, 0) == -1);
+  EXPECT_SAYS("max_error -1 is negative");
+  EXPECT(scarp_refiner_run(refiner, NAN, 0) == -1);
+  EXPECT_SAYS("max_error nan is no number");
+#ifdef IS_NEWEST
+  uint64_t inserted = 7;
+  options = make_options(-0.5);
+  EXPECT(scarp_refiner_go_on(refiner, &options, &inserted) == SCARP_USAGE && inserted == 0);
+#endif
+  scarp_refiner_free(refiner);
+  scarp_mesh_free(mesh);
+}
+
+#ifdef IS_NEWEST
+/* A mesh as bytes and back, and words of the caller's own. */
+static void try_newest(void) {
+  scarp_field field = make_field();
+  field.unit = "ft";
+  scarp_options options = make_options(NAN);
+  EXPECT(scarp_options_set(&options, "max_error", "3ft") == SCARP_OK);
+  EXPECT(scarp_options_set(&options, "normals", "true") == SCARP_OK);
+  scarp_mesh *mesh = NULL, *again = NULL;
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_OK);
+  scarp_options_clear(&options);
+  scarp_report report, other;
+  report.struct_size = other.struct_size = sizeof report;
+  EXPECT(scarp_mesh_report(mesh, &report) == SCARP_OK && report.max_error > 1 && report.max_error <= 3);
+  scarp_bytes* packed = NULL;
+  EXPECT(scarp_mesh_pack(mesh, &packed) == SCARP_OK);
+  EXPECT(scarp_mesh_unpack(scarp_bytes_data(packed), scarp_bytes_size(packed), &again) == SCARP_OK);
+  EXPECT(is_same(mesh, again) && memcmp(scarp_mesh_origin(mesh), scarp_mesh_origin(again), 24) == 0);
+  EXPECT(memcmp(scarp_mesh_normals(mesh), scarp_mesh_normals(again), (size_t)scarp_mesh_vertex_count(mesh) * 12) == 0);
+  EXPECT(strcmp(scarp_mesh_metadata(mesh, "error"), scarp_mesh_metadata(again, "error")) == 0);
+  EXPECT(scarp_mesh_report(again, &other) == SCARP_OK && memcmp(&report, &other, sizeof report) == 0);
+  scarp_mesh_free(again);
+  for (uint64_t size = 0; size < scarp_bytes_size(packed); size += 1 + size / 7) {
+    EXPECT(scarp_mesh_unpack(scarp_bytes_data(packed), size, &again) == SCARP_INPUT && again == NULL);
+  }
+  scarp_bytes_free(packed);
+  scarp_mesh_free(mesh);
+
+  EXPECT(scarp_name_option("max_error", "tolerable") == SCARP_OK && scarp_name_option("epsilon", "x") == SCARP_USAGE);
+  options = make_options(-1);
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("tolerable -1 is negative");
+  EXPECT(scarp_options_set(&options, "tolerable", "2") == SCARP_OK);
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_OK);
+  scarp_options_clear(&options);
+  scarp_mesh_free(mesh);
+  EXPECT(scarp_name_option("max_error", "max_error") == SCARP_OK);
+}
+#endif
+
 static void try_refiner(void) {
   scarp_field field = make_field();
   scarp_refiner* refiner = NULL;
@@ -363,6 +498,10 @@ int main(int argc, char** argv) {
   EXPECT(strstr(scarp_abi_layout(), "scarp_field ") != NULL);
   try_field();
   try_errors();
+  try_lies();
+#ifdef IS_NEWEST
+  try_newest();
+#endif
   try_refiner();
   try_points();
   if (argc == 5) try_file(argv[1], argv[2], argv[3], argv[4]);

@@ -30,6 +30,15 @@ for header in "$SCARP_SOURCE/bindings/c" old; do
 done
 echo '#include <scarp_c.h>' > twice.cpp
 echo '#include <scarp_c.h>' >> twice.cpp
+# The padding of tiles is written before it is read, and nothing is lost: a client under memcheck prints no error.
+if command -v valgrind > /dev/null; then
+  succeeds cc "$SCARP_SOURCE/tests/abi/door.c" -o door "-I$SCARP_SOURCE/bindings/c" -DIS_NEWEST "${flags[@]}"
+  try valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite ./door
+  [ "$code" = 0 ] || fail "memcheck of a caller complains"
+  [ ! -s "$logs/err" ] || fail "memcheck prints something"
+else
+  echo "memcheck: skipped, needs valgrind"
+fi
 succeeds c++ -std=c++11 -Wall -Wextra -Werror -fsyntax-only "-I$SCARP_SOURCE/bindings/c" twice.cpp
 
 # 3. The library without GDAL: no GDAL in it, and sentences where it would be needed.

@@ -103,7 +103,8 @@ std::vector<const OptionRow*> rows_of(Commands command) {
 
 const OptionRow* find_option(Commands commands, std::string_view name) {
   for (const OptionRow* row : all_rows()) {
-    if ((row->commands & commands) != 0 && row->name == name) return row;
+    if ((row->commands & commands) != 0 && (row->name == name || (!name.empty() && row->short_name == name)))
+      return row;
   }
   return nullptr;
 }

@@ -192,8 +192,8 @@ enum class OptionType {
 /// Commands as bits, so that a row can belong to several.
 using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
-                          kVersionCommand = 64, kTile = 128, kServe = 256, kTilePlan = 512, kTileRun = 1024, kTileFinish = 2048,
-                          kTileCheck = 4096, kView = 8192;
+                          kVersionCommand = 64, kTile = 128, kServe = 256, kTilePlan = 512, kTileRun = 1024,
+                          kTileFinish = 2048, kTileCheck = 4096, kView = 8192;
 inline constexpr Commands kEveryCommand = 16383;
 
 struct OptionRow {
@@ -237,7 +237,7 @@ std::span<const CommandRow> command_rows();
 std::span<const GroupRow> group_rows();
 /// Every row that the command has, in the order in which help lists them.
 std::vector<const OptionRow*> rows_of(Commands command);
-/// The row of the option ("--max-error") if one of the commands has it; else null.
+/// The row of the option ("--max-error", "-e") if one of the commands has it; else null.
 const OptionRow* find_option(Commands commands, std::string_view name);
 /// Null if there is no such command.
 const CommandRow* find_command(std::string_view name);

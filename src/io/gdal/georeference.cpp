@@ -149,15 +149,6 @@ Result<Frame> projected_frame(const Georeference& geo, const std::string& wanted
   return frame;
 }
 
-/// No CRS, but a geotransform that a world in degrees would have.
-bool looks_like_degrees(const Georeference& geo) {
-  const auto& gt = geo.pixels;
-  if (!geo.located || geo.crs || std::hypot(gt[1], gt[4]) > 0.1) return false;
-  const double x = gt[0] + gt[1] * geo.cols, y = gt[3] + gt[5] * geo.rows;
-  return std::abs(gt[0]) <= 360 && std::abs(x) <= 360 && std::abs(gt[3]) <= 90.1 && std::abs(y) <= 90.1 && gt[0] != 0 &&
-         gt[3] != 0;
-}
-
 }  // namespace
 
 std::array<double, 2> Georeference::centre() const {
@@ -235,7 +226,7 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
                                        " has a georeference, which says how wide its cells are: leave the cell size "
                                        "out, or ask for the frame 'grid'");
   }
-  if (looks_like_degrees(geo)) {
+  if (geo.located && !geo.crs && info.format != "memory" && looks_like_degrees(geo.pixels, geo.cols, geo.rows)) {
     info.warnings.push_back(
         "the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if so, "
         "say so with gdal_edit -a_srs EPSG:4326");

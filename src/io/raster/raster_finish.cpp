@@ -132,6 +132,13 @@ void scale_values(const ReadOptions& options, OwnedHeightField& field) {
   }
 }
 
+bool looks_like_degrees(const std::array<double, 6>& gt, int cols, int rows) {
+  if (std::hypot(gt[1], gt[4]) > 0.1) return false;
+  const double x = gt[0] + gt[1] * cols, y = gt[3] + gt[5] * rows;
+  return std::abs(gt[0]) <= 360 && std::abs(x) <= 360 && std::abs(gt[3]) <= 90.1 && std::abs(y) <= 90.1 && gt[0] != 0 &&
+         gt[3] != 0;
+}
+
 Result<Frame> grid_or_cells(const std::string& name, int cols, int rows, const ReadOptions& options) {
   if (!options.cell_size && options.crs != "local") return grid_frame(rows);
   auto frame = cell_frame(options.cell_size.value_or(1), cols, rows);

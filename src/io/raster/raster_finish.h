@@ -1,6 +1,7 @@
 // What every raster reader does before and after it reads samples.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -46,6 +47,9 @@ Result<Frame> ungeoreferenced_frame(const std::string& name, int cols, int rows,
 /// ask for another band or for packed colours.
 Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int cols, int rows,
                               const ReadOptions& options);
+
+/// GDAL's geotransform as a world in degrees would have it.
+bool looks_like_degrees(const std::array<double, 6>& geotransform, int cols, int rows);
 
 /// "1.5 GiB", "37.0 MiB".
 std::string format_memory(double bytes);

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes as C
 import os
+import re
 import sys
 
 from .errors import OF_STATUS, InternalError
@@ -42,7 +43,7 @@ ProgressFn = C.CFUNCTYPE(C.c_int32, C.c_void_p)  # the address of a Progress; `u
 class Field(C.Structure):
     _fields_ = [("struct_size", C.c_uint32), ("cols", C.c_int32), ("rows", C.c_int32), ("frame", C.c_int32),
                 ("samples", C.c_void_p), ("nodata", C.c_double), ("geotransform", C.c_double * 6),
-                ("sample_rounding", C.c_double), ("crs", C.c_char_p), ("name", C.c_char_p)]
+                ("sample_rounding", C.c_double), ("crs", C.c_char_p), ("name", C.c_char_p), ("unit", C.c_char_p)]
 
 
 class Points(C.Structure):
@@ -101,6 +102,8 @@ _FUNCTIONS = {
     "scarp_mesh_add_base": (_I, [_P, _D, _P]),
     "scarp_mesh_encode": (_I, [_P, _S, _P]),
     "scarp_mesh_write": (_I, [_P, _S, _I]),
+    "scarp_mesh_pack": (_I, [_P, _P]),
+    "scarp_mesh_unpack": (_I, [_S, _U, _P]),
     "scarp_mesh_free": (None, [_P]),
     "scarp_bytes_data": (_P, [_P]),
     "scarp_bytes_size": (_U, [_P]),
@@ -130,9 +133,19 @@ for _name, (_result, _arguments) in _FUNCTIONS.items():
     _function.argtypes = _arguments
 
 
+# In Python x and y of the mesh are `frame`; `crs` is what the transform is in.
+lib.scarp_name_option(b"crs", b"frame")
+
+
+def in_words(sentence: bytes) -> str:
+    """A sentence of the library: its functions by their names here."""
+    text = sentence.decode("utf-8", "replace")
+    return re.sub(r"\bscarp_(\w+)\(\)", r"scarp.\1()", text) if "scarp_" in text else text
+
+
 def last_error() -> str:
     text: bytes = lib.scarp_last_error()
-    return text.decode("utf-8", "replace")
+    return in_words(text)
 
 
 def check(status: int) -> None:
