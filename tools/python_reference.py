@@ -12,7 +12,8 @@ PUBLIC = [("__init__", ["simplify", "simplify_points", "measure"]), ("mesh", ["r
           ("refiner", ["Refiner"]), ("tiles", ["tile", "Tiles"]), ("_call", ["Progress"]),
           ("errors", ["ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled",
                       "InternalError", "ScarpWarning"]),
-          ("compat/pydelatin", ["Delatin"])]
+          ("compat/pydelatin/__init__", ["Delatin"]),
+          ("compat/pydelatin/util", ["decode_ele", "rescale_positions", "latitude_adjustment"])]
 
 
 def text_of(node):

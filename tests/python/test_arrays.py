@@ -235,7 +235,22 @@ class Arrays(unittest.TestCase):
         self.assertLessEqual(mesh.max_error, 1.5)
         self.assertLess(mesh.vertex_count, 500)
         self.assertTrue({tuple(v) for v in np.round(mesh.vertices, 2)} <= {tuple(p) for p in np.round(points, 2)})
-        self.assertEqual(scarp.measure(points, mesh, points=True).samples, 2000)
+        # As its help has it: rows of three are points, unless something says that they are a raster.
+        proof = mesh.report
+        for given in (points, points.tolist(), np.asfortranarray(points)):
+            report = scarp.measure(given, mesh)
+            self.assertEqual((report.samples, report.max_error, report.uncovered), (2000, proof.max_error, 0))
+        self.assertEqual(mesh.measure(points, points=True)._replace(seconds=0), report._replace(seconds=0))
+        narrow = hills(40, 3)
+        raster = scarp.simplify(narrow, 2)
+        place = (-0.5, 1, 0, 39.5, 0, -1)
+        for more in ({"points": False}, {"transform": place}, {"nodata": -9999}, {"mask": np.ones((40, 3))}):
+            self.assertEqual(scarp.measure(narrow, raster, **more).samples, 120)
+        for more in ({"points": True, "nodata": 0}, {"points": True, "transform": place}):
+            with self.assertRaisesRegex(scarp.UsageError, "is for rasters"):
+                scarp.measure(points, mesh, **more)
+        with self.assertRaisesRegex(scarp.UsageError, "a file holds"):
+            scarp.measure("survey.csv", mesh, points=True)
         masked = np.ma.MaskedArray(points)
         masked[::2, 2] = np.ma.masked
         masked.data[::2, 2] = 1e6
@@ -284,9 +299,38 @@ class Arrays(unittest.TestCase):
             with self.assertRaises(scarp.OutputError):
                 mesh.write(path, overwrite=False)
             mesh.write(path, overwrite=np.bool_(True))
+
+    def test_a_mesh_is_copied_and_sent_whole(self):
+        import copy
+        import pickle
+        z = hills()
+        for options in ({}, {"normals": True, "uvs": True, "of": "obj"}, {"base": -100}, {"of": "glb", "compress": True}):
+            mesh = scarp.simplify(z, 2, transform=(500000, 30, 0, 4000000, 0, -30), crs="EPSG:32611", **options)
+            copies = [copy.copy(mesh), copy.deepcopy(mesh), *(pickle.loads(pickle.dumps(mesh, k)) for k in range(2, 6))]
+            for other in copies:
+                self.assertTrue(is_same(other, mesh) and other.origin == mesh.origin)
+                self.assertEqual((other.report, other.encode(), other.crs), (mesh.report, mesh.encode(), mesh.crs))
+                self.assertEqual(other.normals is None, mesh.normals is None)
+        bare = scarp.Mesh.from_arrays(mesh.vertices, mesh.triangles)
+        self.assertTrue(is_same(pickle.loads(pickle.dumps(bare)), bare))
+        with self.assertRaises(scarp.UsageError):
+            pickle.loads(pickle.dumps(bare)).report
+        unpack, (packed, place) = mesh.__reduce__()
+        for damaged in (b"", b"scarp", packed[:-1], packed + b"1", packed[:200]):
+            with self.assertRaises(scarp.InputError):
+                unpack(damaged, place)
+        for other in (scarp.Refiner(z), pickle):
             with self.assertRaises(TypeError):
-                import pickle
-                pickle.dumps(mesh)
+                pickle.dumps(other)
+
+    def test_other_processes_send_meshes(self):
+        from concurrent.futures import ProcessPoolExecutor
+        import multiprocessing
+        bounds = [2, 3, 5]
+        with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as pool:
+            meshes = list(pool.map(scarp.simplify, [hills()] * 3, bounds))
+        self.assertTrue(all(is_same(mesh, scarp.simplify(hills(), bound)) for mesh, bound in zip(meshes, bounds)))
+        self.assertEqual([mesh.max_error <= bound for mesh, bound in zip(meshes, bounds)], [True] * 3)
 
     def test_delatin(self):
         from scarp.compat.pydelatin import Delatin
@@ -303,6 +347,57 @@ class Arrays(unittest.TestCase):
         self.assertLessEqual(Delatin(z, level=True, invert=True, max_error=0.05).vertices[:, 2].max(), 1)
         with self.assertRaises(NotImplementedError):
             Delatin(z, blur=2)
+        with self.assertRaisesRegex(ValueError, "give height and width"):
+            Delatin(z.ravel())
+        # As scripts use it: no warning, and arrays that are the caller's own.
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            steep = Delatin(100 * z, max_error=200)
+        steep.vertices[:, 2] += 1
+        steep.triangles[:] = steep.triangles[:, ::-1]
+
+    def test_delatin_s_helpers(self):
+        from scarp.compat.pydelatin import Delatin
+        from scarp.compat.pydelatin.util import decode_ele, latitude_adjustment, rescale_positions
+        z = np.round(hills(), 1).astype("f8")
+        for encoding, steps in (("mapbox", np.round((z + 10000) * 10)), ("terrarium", np.round((z + 32768) * 256))):
+            number = steps.astype("u4")
+            png = np.stack([number >> 16, number >> 8 & 255, number & 255, 0 * number + 255], axis=-1).astype("u1")
+            for given in (png, png[..., :3], np.moveaxis(png, -1, 0)):
+                self.assertLess(abs(decode_ele(given, encoding) - z).max(), 0.002)
+        with self.assertRaisesRegex(ValueError, "mapbox, terrarium"):
+            decode_ele(png, "geotiff")
+        tin = Delatin(z, max_error=2)
+        placed = rescale_positions(tin.vertices, (10, 20, 30, 50))
+        self.assertEqual((placed.min(axis=0)[:2].tolist(), placed.max(axis=0)[:2].tolist()), ([10, 20], [30, 50]))
+        self.assertTrue(np.array_equal(placed[:, 2], tin.vertices[:, 2]))
+        turned = rescale_positions(tin.vertices, (10, 20, 30, 50), flip_y=True)
+        self.assertTrue(np.allclose(turned[:, 1], 70 - placed[:, 1], atol=1e-4))
+        self.assertAlmostEqual(latitude_adjustment(60), 0.5)
+
+    @need("PIL")
+    def test_a_script_for_pydelatin_needs_its_import_changed_only(self):
+        from PIL import Image
+        script = """
+from sys import argv
+import numpy as np
+from PIL import Image
+from pydelatin import Delatin
+from pydelatin.util import decode_ele
+terrain = decode_ele(np.asarray(Image.open(argv[1])), 'mapbox')
+for error in (30, 10, 5):
+    tin = Delatin(terrain, max_error=error)
+    assert tin.error <= error
+    print(error, tin.vertices.shape[0], tin.triangles.shape[0])
+"""
+        number = np.round((hills() * 10 + 10000) * 10).astype("u4")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "tile.png")
+            Image.fromarray(np.stack([number >> 16, number >> 8 & 255, number & 255], axis=-1).astype("u1")).save(path)
+            done = subprocess.run([sys.executable, "-W", "error", "-c", script.replace("from pydelatin", "from scarp.compat.pydelatin"), path],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(done.stderr, b"")
+        self.assertEqual(len(done.stdout.splitlines()), 3)
 
     @need("meshio")
     def test_to_meshio(self):

@@ -39,6 +39,26 @@ class Files(unittest.TestCase):
             scarp.simplify(dataset, 5)
         self.assertTrue(is_same(mesh, scarp.simplify(DEM, 5)))
 
+    @need("rasterio")
+    def test_scale_offset_unit_and_mask_of_a_dataset_count(self):
+        import rasterio
+        with rasterio.open(DEM) as dataset:
+            z, profile = dataset.read(1), dataset.profile
+        void = z > 1000
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "packed.tif")
+            with rasterio.Env(GDAL_TIFF_INTERNAL_MASK=True), rasterio.open(path, "w", **{**profile, "nodata": None}) as other:
+                other.write(z, 1)
+                other.write_mask(~void)
+                other.scales, other.offsets, other.units = (0.25,), (100.0,), ("m",)
+            expected = scarp.simplify(np.where(void, np.nan, z * 0.25 + 100), 5, transform=profile["transform"], crs=profile["crs"])
+            with rasterio.open(path) as other:
+                mesh = scarp.simplify(other, 5)
+                self.assertTrue(is_same(scarp.simplify(other, "5m"), mesh))
+            self.assertTrue(is_same(mesh, expected))
+            self.assertEqual(mesh.report.samples, int((~void).sum()))
+            self.assertTrue(is_same(scarp.simplify(path, 5), mesh))
+
     @need("rioxarray", "rasterio")
     def test_rioxarray_tells_the_place_the_crs_and_the_voids(self):
         import rasterio

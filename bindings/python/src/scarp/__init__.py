@@ -10,7 +10,8 @@
 What the functions take as `source`:
   - an array (rows, columns), the first row in the north. float32 is not copied. float64 and integers are rounded to
     float32, and the promise is about the values that were given. NaN, infinities and masked samples are voids.
-  - an xarray.DataArray, with its transform, CRS and nodata (rioxarray), or its regular coordinates x and y
+  - an xarray.DataArray, or a Dataset of one variable: its evenly spaced coordinates, its CRS and nodata as CF and
+    rioxarray have them; degrees without a CRS are WGS 84. Uneven coordinates are refused.
   - a rasterio dataset that is open
   - the path of a raster or of points
 """
@@ -43,8 +44,8 @@ __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Repor
 _MOST = 2**63  # as good as no limit
 
 
-def _finish(handle: Any) -> Mesh:
-    mesh = Mesh(handle)
+def _finish(handle: Any, place: Any = None) -> Mesh:
+    mesh = Mesh(handle, place)
     _call.warn(handle, 3)
     return mesh
 
@@ -71,7 +72,7 @@ def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance:
             continue
         if source.field is None:
             raise UsageError("%s is an array, and the heights are a file: give both as arrays, or both as files" % name)
-        array = _inputs.grid_values(values, source.field.rows, source.field.cols, name)
+        array = _inputs.grid_values(values, source, name)
         settings.keep.append(array)
         setattr(settings.struct, name, array.ctypes.data)
 
@@ -137,7 +138,7 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
             _call.run(settings, progress, _abi.lib.scarp_simplify_file, read.path, settings.pointer, C.byref(out))
         else:
             _call.run(settings, progress, _abi.lib.scarp_simplify, C.byref(read.field), settings.pointer, C.byref(out))
-    return _finish(out.value)
+    return _finish(out.value, read.place())
 
 
 def simplify_points(points: Any, max_error: float | str | None = None, *, max_triangles: Optional[int] = None,
@@ -159,15 +160,13 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
             _call.run(settings, progress, lib.scarp_simplify_file, _values.path_of(points), settings.pointer,
                       C.byref(out))
         else:
-            struct, array = _points_of(points)
+            struct, array = _points_of(points, crs)
             settings.keep.append(array)
-            if crs is not None:
-                struct.crs = _values.text_of("crs", _inputs.crs_text(crs))
             _call.run(settings, progress, lib.scarp_simplify_points, C.byref(struct), settings.pointer, C.byref(out))
     return _finish(out.value)
 
 
-def _points_of(points: Any) -> tuple[Any, Any]:
+def _points_of(points: Any, crs: Any) -> tuple[Any, Any]:
     import numpy as np
     try:
         given = np.asarray(points)
@@ -186,17 +185,30 @@ def _points_of(points: Any) -> tuple[Any, Any]:
     base = array.ctypes.data
     struct.x, struct.y, struct.z = base, base + 8, base + 16
     struct.count, struct.stride = len(array), 3
+    if crs is not None:
+        struct.crs = _values.text_of("crs", _inputs.crs_text(crs))
     return struct, array
+
+
+def _are_points(source: Any) -> bool:
+    """Rows of three numbers; what knows its own place is a raster."""
+    if isinstance(source, (str, bytes, os.PathLike)) or hasattr(source, "coords") or hasattr(source, "read"):
+        return False
+    shape = getattr(source, "shape", None)
+    if shape is None and isinstance(source, (list, tuple)):
+        shape = (len(source), len(source[0]) if source and hasattr(source[0], "__len__") else 0)
+    return shape is not None and len(shape) == 2 and shape[1] == 3
 
 
 def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, transform: Any = None, crs: Any = None,
             nodata: Optional[float] = None, frame: str = "auto", mask: Any = None, tolerance: Any = None,
-            threads: int = 0, progress: ProgressArgument = None, **options: Any) -> Report:
+            points: Optional[bool] = None, threads: int = 0, progress: ProgressArgument = None, **options: Any) -> Report:
     """Judges a mesh against every sample, by brute force, without knowing how it was made.
 
-    `source` and what places it: as in simplify(), (N, 3) points included. `mesh`: a Mesh, or (N, 3) vertices beside
-    (M, 3) triangles. `fail_above=1.5` raises PromiseError where a sample is farther off. Other options as those of
-    `scarp measure`: `cutline`, `script` ... Returns a Report.
+    `source` and what places it: as in simplify(), or points as in simplify_points(). An array of (N, 3) is N points,
+    unless transform, nodata, mask or tolerance say that it is a raster of three columns; `points`, True or False,
+    decides otherwise. `mesh`: a Mesh, or (N, 3) vertices beside (M, 3) triangles. `fail_above=1.5` raises PromiseError
+    where a sample is farther off. Other options as those of `scarp measure`: `cutline`, `script` ... Returns a Report.
     """
     if triangles is not None:
         mesh = Mesh.from_arrays(mesh, triangles)
@@ -204,10 +216,15 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
         raise UsageError("a Mesh, or vertices and triangles, not %s" % type(mesh).__name__)
     lib = _abi.lib
     struct = _abi.new_report()
-    is_points = getattr(source, "ndim", 0) == 2 and getattr(source, "shape", (0, 0))[1] == 3 and transform is None \
-        and source.shape[0] > 3 and options.pop("points", False)
+    of_rasters = {"transform": transform, "nodata": nodata, "mask": mask, "tolerance": tolerance}
+    given = [name for name, value in of_rasters.items() if value is not None]
+    is_points = _are_points(source) and not given if points is None else bool(points)
     if is_points:
-        field, keep = _points_of(source)
+        if given:
+            raise UsageError("%s is for rasters, and the source is points: leave it out" % given[0])
+        if isinstance(source, (str, bytes, os.PathLike)):
+            raise UsageError("points is for arrays: what a file holds, it says itself")
+        field, keep = _points_of(source, crs)
         read = _inputs.Input(None, field, keep)
     else:
         read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
@@ -217,7 +234,7 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
         if not is_points:
             _lend(settings, read, mask, tolerance, options)
         judge = lib.scarp_measure_points if is_points else lib.scarp_measure
-        given = C.byref(read.field) if read.path is None else read.path
-        _call.run(settings, progress, judge if read.path is None else lib.scarp_measure_file, given, mesh._handle,
+        what = C.byref(read.field) if read.path is None else read.path
+        _call.run(settings, progress, judge if read.path is None else lib.scarp_measure_file, what, mesh._handle,
                   settings.pointer, C.byref(struct))
-    return report_of(struct)
+    return report_of(struct, None if is_points else read.place())

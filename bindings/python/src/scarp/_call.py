@@ -197,5 +197,5 @@ def run(settings: Settings, progress: ProgressArgument, function: Callable[..., 
 def warn(handle: int, stacklevel: int) -> None:
     """Says what the library says of a mesh."""
     text: bytes = _abi.lib.scarp_mesh_warnings(handle)
-    for sentence in text.decode().splitlines() if text else ():
+    for sentence in _abi.in_words(text).splitlines() if text else ():
         warnings.warn(sentence, ScarpWarning, stacklevel=stacklevel + 1)

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes as C
+import functools
 import os
 from typing import Any, NamedTuple, Optional
 
@@ -13,27 +14,63 @@ _LARGEST_SIDE = 2**31 - 1
 _SMALL = 2**14  # samples
 
 
+class Turn(NamedTuple):
+    """How a source's array became rows from north to south, and columns from west to east."""
+
+    source: Any = None  #: a DataArray of (y, x), as it was
+    is_transposed: bool = False
+    flips_rows: bool = False
+    flips_cols: bool = False
+
+    def flip(self, rows: Any) -> Any:
+        return rows[::-1 if self.flips_rows else 1, ::-1 if self.flips_cols else 1]
+
+    def apply(self, values: Any) -> Any:
+        """The same with an array beside it."""
+        return self.flip(values.T if self.is_transposed else values)
+
+    def place(self, rows: int, cols: int, at: Optional[tuple[int, int]]) -> Optional[tuple[int, int]]:
+        """A sample's row and column in the source."""
+        if at is None:
+            return None
+        row, col = rows - 1 - at[0] if self.flips_rows else at[0], cols - 1 - at[1] if self.flips_cols else at[1]
+        return (col, row) if self.is_transposed else (row, col)
+
+
+AS_GIVEN = Turn()
+
+
 class Input(NamedTuple):
     """What a call reads: a path, or a struct with what it points to."""
 
     path: Optional[bytes]
     field: Any
     keep: Any
+    turn: Turn = AS_GIVEN
+
+    def place(self) -> Any:
+        """What takes a sample's row and column to those in the source; None where they are the same."""
+        if self.turn[1:] == AS_GIVEN[1:]:
+            return None
+        return functools.partial(self.turn._replace(source=None).place, self.field.rows, self.field.cols)
 
     def is_small(self) -> bool:
         """Takes less than some 0.1 s unless the options say otherwise."""
         return self.path is None and bool(self.field.rows * self.field.cols <= _SMALL)
 
 
-class _Raster(NamedTuple):
+class Raster(NamedTuple):
     samples: Any = None
     transform: Any = None
     crs: Any = None
     nodata: Optional[float] = None
     name: Optional[str] = None
+    unit: Optional[str] = None
+    turn: Turn = AS_GIVEN
+    is_in_degrees: bool = False  #: as the coordinates say themselves
 
 
-_NO_PLACE = _Raster()
+_NO_PLACE = Raster()
 
 _loaded_numpy: Any = None
 
@@ -60,7 +97,18 @@ def _has_file_reader(path: str) -> bool:
     return bool(_abi.lib.scarp_has_gdal()) or path.lower().endswith(own)
 
 
-def _read_dataset(dataset: Any, band: int, name: str) -> _Raster:
+def unpack(values: Any, voids: Any, scale: Any, offset: Any) -> tuple[Any, Optional[float]]:
+    """Heights of packed values, and the value that is still to be taken for none."""
+    np = _numpy()
+    scale, offset = float(1 if scale is None else scale), float(0 if offset is None else offset)
+    voids = {float(void) for one in voids if one is not None for void in np.ravel(one) if void == void}
+    if (scale, offset) == (1, 0) and len(voids) <= 1:
+        return values, next(iter(voids), None)
+    is_void = np.isin(np.ma.getdata(values), list(voids)) | np.ma.getmaskarray(values)
+    return np.where(is_void, np.nan, np.ma.getdata(values).astype(np.float64) * scale + offset), None
+
+
+def _read_dataset(dataset: Any, band: int, name: str, nodata: Optional[float]) -> Raster:
     """A rasterio dataset."""
     if getattr(dataset, "closed", False):
         raise InputError("the dataset %s is closed: open it again, or simplify within its `with`" % name)
@@ -70,13 +118,16 @@ def _read_dataset(dataset: Any, band: int, name: str) -> _Raster:
                          % (name, dataset.count, "" if dataset.count == 1 else "s", band))
     transform = dataset.transform
     located = dataset.crs is not None or not getattr(transform, "is_identity", False)
+    flags = [flag.name for flag in dataset.mask_flag_enums[band - 1]]
     try:
-        samples = dataset.read(band)
+        samples = dataset.read(band, masked="nodata" not in flags and "all_valid" not in flags)
     except Exception as error:  # opened for writing, or damaged
         if not isinstance(error, OSError) and not type(error).__module__.startswith("rasterio"):
             raise
         raise InputError("the dataset %s cannot be read: %s" % (name, error)) from error
-    return _Raster(samples, transform if located else None, dataset.crs, dataset.nodatavals[band - 1], name)
+    samples, nodata = unpack(samples, [dataset.nodatavals[band - 1] if nodata is None else nodata],
+                             dataset.scales[band - 1], dataset.offsets[band - 1])
+    return Raster(samples, transform if located else None, dataset.crs, nodata, name, dataset.units[band - 1])
 
 
 def _refuse(path: str, error: Exception) -> InputError:
@@ -84,7 +135,7 @@ def _refuse(path: str, error: Exception) -> InputError:
     return InputError(sentence if path and sentence.startswith(path) else "%s: %s" % (path, sentence))
 
 
-def _read_path(path: str, band: int) -> _Raster:
+def _read_path(path: str, band: int, nodata: Optional[float]) -> Raster:
     """By rasterio, else by GDAL's own Python."""
     try:
         import rasterio
@@ -93,7 +144,7 @@ def _read_path(path: str, band: int) -> _Raster:
     else:
         try:
             with rasterio.open(path) as dataset:
-                return _read_dataset(dataset, band, os.path.basename(path))
+                return _read_dataset(dataset, band, os.path.basename(path), nodata)
         except (rasterio.errors.RasterioError, OSError, UnicodeError) as error:
             raise _refuse(path, error) from error
     try:
@@ -106,42 +157,12 @@ def _read_path(path: str, band: int) -> _Raster:
         dataset = gdal.Open(path)
         gdal_band = dataset.GetRasterBand(band)
         transform = dataset.GetGeoTransform(can_return_null=True)
-        return _Raster(gdal_band.ReadAsArray(), transform, dataset.GetProjection() or None,
-                       gdal_band.GetNoDataValue(), os.path.basename(path))
+        samples, nodata = unpack(gdal_band.ReadAsArray(), [gdal_band.GetNoDataValue() if nodata is None else nodata],
+                                 gdal_band.GetScale(), gdal_band.GetOffset())
+        return Raster(samples, transform, dataset.GetProjection() or None, nodata, os.path.basename(path),
+                      gdal_band.GetUnitType())
     except RuntimeError as error:
         raise _refuse(path, error) from error
-
-
-def _read_xarray(array: Any) -> _Raster:
-    """A DataArray: by rioxarray's accessor where it is there, else by regular coordinates x and y."""
-    values = array
-    if values.ndim == 3 and values.shape[0] == 1:
-        values = values[0]
-    if values.ndim != 2:
-        raise UsageError("the DataArray has %d dimensions %s: pick one band, as in array.isel(band=0)"
-                         % (array.ndim, array.dims))
-    name = str(array.name) if array.name is not None else "heights"
-    transform = crs = nodata = None
-    rio = getattr(array, "rio", None)
-    if rio is not None:
-        crs, nodata = rio.crs, rio.nodata
-    y_name, x_name = values.dims
-    if x_name in values.coords and y_name in values.coords and min(values.shape) >= 2:
-        x, y = values.coords[x_name].values, values.coords[y_name].values
-        dx, dy = (x[-1] - x[0]) / (len(x) - 1), (y[-1] - y[0]) / (len(y) - 1)
-        if abs(x[0] + dx * (len(x) // 2) - x[len(x) // 2]) > 1e-3 * abs(dx) or \
-                abs(y[0] + dy * (len(y) // 2) - y[len(y) // 2]) > 1e-3 * abs(dy):
-            raise InputError("the coordinates of %s are not regular: Scarp's rasters have cells of one size" % name)
-        transform = (x[0] - dx / 2, dx, 0.0, y[0] - dy / 2, 0.0, dy)
-        if rio is not None and rio.transform() is not None:
-            transform = rio.transform()
-    samples = values.values
-    if transform is not None and _geotransform(transform)[5] > 0:
-        # Rows from south to north: Scarp's first row is the northernmost.
-        gt = _geotransform(transform)
-        samples = samples[::-1]
-        transform = (gt[0] + gt[2] * len(samples), gt[1], -gt[2], gt[3] + gt[5] * len(samples), gt[4], -gt[5])
-    return _Raster(samples, transform, crs, nodata, name)
 
 
 def _geotransform(transform: Any) -> tuple[float, ...]:
@@ -160,7 +181,8 @@ def _geotransform(transform: Any) -> tuple[float, ...]:
     return tuple(_values.number_of("each of the six numbers of transform", number) for number in numbers)
 
 
-def _is_geographic(crs: Any) -> bool:
+def _is_geographic(crs: Any) -> Optional[bool]:
+    """None: it is not known."""
     if hasattr(crs, "is_geographic"):
         return bool(crs.is_geographic)
     text = crs_text(crs)
@@ -168,6 +190,8 @@ def _is_geographic(crs: Any) -> bool:
         return True
     if text.upper() in ("EPSG:4326", "EPSG:4258", "EPSG:4269", "OGC:CRS84", "WGS84"):
         return True
+    if text.startswith(("PROJCS", "PROJCRS")):
+        return False
     for module, maker in (("rasterio.crs", "from_user_input"), ("pyproj", "from_user_input")):
         try:
             crs_class = getattr(__import__(module, fromlist=["CRS"]), "CRS")
@@ -176,7 +200,7 @@ def _is_geographic(crs: Any) -> bool:
             continue
         except (ValueError, RuntimeError) as error:
             raise UsageError("the CRS %s: %s" % (text, error)) from error
-    return False
+    return None
 
 
 def crs_text(crs: Any) -> str:
@@ -252,53 +276,69 @@ def _from_buffer(z: Any) -> tuple[int, int, int, Any]:
     return view.shape[0], view.shape[1], C.addressof(keep), keep
 
 
-def grid_values(values: Any, rows: int, cols: int, name: str) -> Any:
+def grid_values(values: Any, source: Input, name: str) -> Any:
     """A mask or tolerances on the grid of the heights, as float32."""
-    np = _numpy()
+    np, turn = _numpy(), source.turn
     if np is None:
         raise UsageError("%s needs numpy" % name)
+    if turn.source is not None and _is_of_xarray(values):
+        from . import _xarray
+        values, turn = _xarray.align(values, turn.source, name), turn._replace(is_transposed=False)
     if isinstance(values, np.ma.MaskedArray):
         values = values.astype(np.float32).filled(np.nan)
     try:
         array = np.ascontiguousarray(values, dtype=np.float32)
     except (TypeError, ValueError):
         raise UsageError("%s is an array of numbers, (rows, columns)" % name) from None
-    if array.shape != (rows, cols):
-        raise UsageError("%s has the shape %s, and the heights have (%d, %d)" % (name, array.shape, rows, cols))
-    return array
+    rows, cols = source.field.rows, source.field.cols
+    expected = (cols, rows) if turn.is_transposed else (rows, cols)
+    if array.shape != expected:
+        raise UsageError("%s has the shape %s, and the heights have %s" % (name, array.shape, expected))
+    return np.ascontiguousarray(turn.apply(array))
+
+
+def _is_of_xarray(source: Any) -> bool:
+    """A DataArray or a Dataset."""
+    return all(hasattr(source, name) for name in ("dims", "coords")) and \
+        any(hasattr(source, name) for name in ("values", "data_vars"))
 
 
 def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
          wants_array: bool = False) -> Input:
     """The source as the library takes it. Arguments go before what the source says of itself."""
     np = _numpy()
+    nodata = None if nodata is None else _values.number_of("nodata", nodata)
     if np is not None and type(source) is np.ndarray:  # the most frequent first
         raster = _NO_PLACE
     elif _is_path(source):
         path = _values.path_of(source)
         if _has_file_reader(os.fsdecode(path)) and not wants_array and transform is None and crs is None:
             return Input(path, None, None)
-        raster = _read_path(os.fsdecode(path), band)
+        raster = _read_path(os.fsdecode(path), band, nodata)
     elif hasattr(source, "read") and hasattr(source, "transform") and hasattr(source, "crs"):
-        raster = _read_dataset(source, band, os.path.basename(str(getattr(source, "name", "dataset"))))
-    elif hasattr(source, "dims") and hasattr(source, "coords") and hasattr(source, "values"):
-        raster = _read_xarray(source)
+        raster = _read_dataset(source, band, os.path.basename(str(getattr(source, "name", "dataset"))), nodata)
+    elif _is_of_xarray(source):
+        from . import _xarray
+        raster = _xarray.read(source, transform is not None, nodata)
     else:
         raster = _NO_PLACE
     field, keep = _field_of(np, source if raster is _NO_PLACE else raster.samples)
-    if nodata is None:
+    if raster is not _NO_PLACE:
         nodata = raster.nodata
     if nodata is not None:
-        field.nodata = _values.number_of("nodata", nodata)
+        field.nodata = nodata
     if raster.name is not None:
         field.name = _values.text_of("the name", raster.name)
+    if raster.unit:
+        field.unit = _values.text_of("the unit", raster.unit)
+    is_in_degrees = transform is None and raster.is_in_degrees
     if transform is None:
         transform = raster.transform
     if transform is not None:
-        _place(field, transform, raster.crs if crs is None else crs)
+        _place(field, transform, raster.crs if crs is None else crs, is_in_degrees)
     elif crs is not None:
         raise UsageError("crs says what x and y of the transform are, and there is no transform")
-    return Input(None, field, keep)
+    return Input(None, field, keep, raster.turn)
 
 
 def _field_of(np: Any, samples: Any) -> tuple[Any, Any]:
@@ -335,11 +375,15 @@ def _as_array(np: Any, samples: Any) -> Any:
     return samples
 
 
-def _place(field: Any, transform: Any, crs: Any) -> None:
+def _place(field: Any, transform: Any, crs: Any, is_in_degrees: bool) -> None:
     """Where the samples lie."""
     field.geotransform[:] = _geotransform(transform)
     field.frame = _SOURCE
     if crs is not None:
         field.crs = _values.text_of("crs", crs_text(crs))
-        if not _abi.lib.scarp_has_gdal() and _is_geographic(crs):
+        is_geographic = _is_geographic(crs) if is_in_degrees or not _abi.lib.scarp_has_gdal() else None
+        if is_in_degrees and is_geographic is False:
+            raise InputError("the coordinates are in degrees, and the CRS %s is projected: give the one that they are in, "
+                             "as in crs='EPSG:4326'" % crs_text(crs))
+        if not _abi.lib.scarp_has_gdal() and (is_geographic or is_in_degrees):
             field.frame = _DEGREES

@@ -40,9 +40,11 @@ class Report(NamedTuple):
     seconds: float
 
 
-def report_of(struct: Any) -> Report:
+def report_of(struct: Any, place: Any = None) -> Report:
+    """`place` says which sample of the source is one of the library's."""
     made = struct.effort in _EFFORTS
     at = (struct.max_error_row, struct.max_error_col) if struct.max_error_row >= 0 else None
+    at = place(at) if place else at
     return Report(struct.max_error, at, struct.rmse, struct.mean_error, struct.mean_abs_error, struct.p50, struct.p95,
                   struct.p99, struct.vertices, struct.triangles, struct.samples, struct.uncovered, struct.stray,
                   struct.over, _STOPS[struct.stop] if made else None, _EFFORTS.get(struct.effort),
@@ -63,14 +65,15 @@ class _Memory:
 class Mesh:
     """A triangle mesh with its proven error. Made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()."""
 
-    __slots__ = ("_handle", "_vertices", "__weakref__")
+    __slots__ = ("_handle", "_vertices", "_place", "__weakref__")
 
-    def __init__(self, handle: int) -> None:
+    def __init__(self, handle: int, place: Any = None) -> None:
         """Takes a handle of the library; for this package alone."""
         if not isinstance(handle, int):
             raise TypeError("meshes are made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()")
         self._handle = handle
         self._vertices: Any = None
+        self._place = place  # report_of()'s
 
     def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
         if hasattr(self, "_handle"):
@@ -174,7 +177,7 @@ class Mesh:
     @property
     def report(self) -> Report:
         """The proof that the mesh was made with. UsageError for a mesh that nobody has measured: see measure()."""
-        return report_of(self._measured())
+        return report_of(self._measured(), self._place)
 
     @property
     def max_error(self) -> float:
@@ -225,7 +228,7 @@ class Mesh:
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_mesh_add_base(self._handle, _values.number_of("the base", z), C.byref(out)))
         assert out.value is not None
-        return Mesh(out.value)
+        return Mesh(out.value, self._place)
 
     def to_trimesh(self, **options: Any) -> Any:
         """A trimesh.Trimesh with the same vertices and triangles."""
@@ -272,7 +275,8 @@ class Mesh:
         """Writes a page that shows the mesh in a browser, and opens it: one HTML file, to a temporary folder unless
         `path` says where. With the `source` that the mesh was made of (and its options `transform`, `nodata` ...) the
         page shows the error of every sample. Returns the path, which a notebook shows as the page itself; `open=False`
-        opens no browser besides. InputError where the page's template is not there."""
+        opens no browser besides. InputError where the page's template is not there, PromiseError where the mesh covers no
+        sample of the source."""
         import tempfile
         import webbrowser
         from pathlib import Path
@@ -285,7 +289,10 @@ class Mesh:
         return Page(file)
 
     def __reduce__(self) -> Any:
-        raise TypeError("a scarp.Mesh is not pickled: send its vertices and triangles, or encode()")
+        """All of it, for copies, other processes and the same version of Scarp; files are what write() makes."""
+        out = C.c_void_p()
+        _abi.check(_abi.lib.scarp_mesh_pack(self._handle, C.byref(out)))
+        return _unpack, (_abi.take_bytes(out.value), self._place)
 
     def __repr__(self) -> str:
         counts = "%d vertices, %d triangles" % (self.vertex_count, self.triangle_count)
@@ -300,6 +307,13 @@ class Mesh:
         text = self.metadata("error")
         facts: dict[str, Any] = json.loads(text) if text else {}
         return facts
+
+
+def _unpack(packed: bytes, place: Any) -> Mesh:
+    out = C.c_void_p()
+    _abi.check(_abi.lib.scarp_mesh_unpack(packed, len(packed), C.byref(out)))
+    assert out.value is not None
+    return Mesh(out.value, place)
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:

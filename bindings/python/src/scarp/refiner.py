@@ -92,4 +92,4 @@ class Refiner:
         return Mesh(out.value)
 
     def __reduce__(self) -> Any:
-        raise TypeError("a scarp.Refiner is not pickled")
+        raise TypeError("a scarp.Refiner is neither pickled nor copied: send its mesh(), or make another of the heights")

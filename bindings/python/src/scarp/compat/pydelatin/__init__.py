@@ -1,6 +1,7 @@
 """pydelatin's interface: change the import, keep the code.
 
     from scarp.compat.pydelatin import Delatin
+    from scarp.compat.pydelatin.util import decode_ele, rescale_positions
 
 Its algorithm is the one of delatin: the worst sample first. `Delatin.effort = "normal"` has about 0.57 of the triangles
 for the same error.
@@ -9,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Optional
 
-from .. import simplify
+from ... import simplify
 
 if TYPE_CHECKING:
     from numpy import float32, uint32
@@ -38,7 +39,10 @@ class Delatin:
                 raise NotImplementedError("%s changes the heights before they are meshed: change the array first, "
                                           "with scipy.ndimage or numpy" % name)
         heights = np.asarray(arr, dtype=np.float32)
-        if heights.ndim == 1 and height and width:
+        if heights.ndim != 2:
+            if height is None or width is None:
+                raise ValueError("arr has %d dimensions: give height and width, or an array of (rows, columns)"
+                                 % heights.ndim)
             heights = heights.reshape(height, width)
         if level:
             low, high = float(np.nanmin(heights)), float(np.nanmax(heights))
@@ -46,7 +50,9 @@ class Delatin:
         if invert:
             heights = np.float32(1) - heights
         greedy: dict[str, Any] = {"order": "greedy"} if self.effort == "fast" else {}
-        mesh = simplify(heights, max_error, max_triangles=max_triangles or None, max_points=max_points or None,
+        # A place in samples: these are not taken for metres, whose relief Scarp would warn of.
+        corners = (-0.5, 1, 0, heights.shape[0] - 0.5, 0, -1)
+        mesh = simplify(heights, max_error, transform=corners, max_triangles=max_triangles or None, max_points=max_points or None,
                         effort=self.effort, **greedy)
         #: Largest |mesh - sample|, in the units of arr.
         self.error: float = mesh.max_error
@@ -54,4 +60,4 @@ class Delatin:
             mesh = mesh.add_base(-float(base_height))
         scale = np.array([1, 1, z_scale * z_exag])
         self.vertices: NDArray[float32] = (mesh.vertices * scale).astype(np.float32)
-        self.triangles: NDArray[uint32] = mesh.triangles
+        self.triangles: NDArray[uint32] = mesh.triangles.copy()
