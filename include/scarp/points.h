@@ -32,8 +32,10 @@ struct PointSet {
   std::string format;            ///< "CSV", "GPKG", …
   std::string crs;               ///< of x and y: "EPSG:32611", WKT, or empty
   std::string description;       ///< one line for reports: what x and y are, and in which unit
-  bool is_local = false;        ///< x and y are metres around the middle of the points
+  bool is_local = false;         ///< x and y are metres around the middle of the points
   std::vector<std::string> warnings;
+  std::string columns;               ///< one line for reports: how each column was read, or where heights come from
+  std::uint64_t without_height = 0;  ///< left out, as ReadPointsOptions::nodata asks for
 
   std::size_t size() const { return x.size(); }
 };
@@ -43,23 +45,35 @@ enum class DuplicatePolicy { kFirst, kLast, kHighest, kLowest, kMean };
 
 struct ReadPointsOptions {
   std::string layer = {};  ///< of a vector file. DEFAULT: the first one with points, else with lines.
-  std::string z_field =
-      {};  ///< column or attribute with the height. DEFAULT: the third coordinate; else z, height, elevation, elev, h.
+  /// Column or attribute with the height. DEFAULT: the third coordinate, unless it is 0 everywhere and an attribute has
+  /// one of the names z, height, elevation, elev, h, alt, ele, hoehe …; where there is none, that attribute.
+  std::string z_field = {};
   std::string crs =
       {};  ///< as ReadOptions::crs, "source" and "local" and a CRS; DEFAULT: local metres for degrees, else source
   ProgressCallback progress = {};
+  /// What the columns of a text hold: "number,northing,easting,height,code", or as letters "pnezd"; - for one that is
+  /// not read. DEFAULT: what the header says, else what the columns hold.
+  std::string columns = {};
+  /// Points of this height have none, nor have those whose height is empty or no finite number: they are left out and
+  /// counted. NaN: only the latter. DEFAULT: the call fails where a height is missing.
+  std::optional<double> nodata = {};
 };
 
-/// Reads points: text of columns (CSV, XYZ: separated by commas, semicolons, tabs or blanks; a header line names them,
-/// else the first three are x, y, z; lines that begin with # are comments), by a reader of our own; all else
-/// (GeoPackage, GeoJSON, Shapefile, …) by GDAL. The vertices of lines are points, too, and PointSet::lines has their
-/// order: contours with the height as an attribute or as third coordinate. Curves become chords of 4 degrees at most.
-/// Fails with kInput: missing, empty, a line without three numbers, a value that is not finite, a feature without a
-/// height (names the line or feature), polygons, neither points nor lines in the layer.
+/// Reads points: text of columns (CSV, XYZ: separated by commas, semicolons, tabs or blanks; decimal commas where
+/// commas do not separate; a header line names them, else the first three are x, y, z, without a first one that counts;
+/// lines that begin with #, % or // are comments), by a reader of our own; all else (GeoPackage, GeoJSON, Shapefile, …)
+/// by GDAL. Where a text does not say which column is the northing, and its values do not either, the call fails and
+/// names `columns`. The vertices of lines are points, too, and PointSet::lines has their order: contours with the
+/// height as an attribute or as third coordinate. Curves become chords of 4 degrees at most. Fails with kInput:
+/// missing, empty, a line without three numbers, a value that is not finite, a feature without a height (names the line
+/// or feature), polygons, neither points nor lines in the layer.
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
 
 /// True if `path` names points rather than a raster: by its end (.csv .tsv .xyz .geojson .geojsonl .shp .fgb .gml .kml
-/// .parquet; .txt and .dat unless they begin as an ASCII grid does; .gpkg unless it holds a raster), in any case.
+/// .parquet; .txt and .dat unless they begin as an ASCII grid does; .gpkg unless it holds a raster), in any case. Text
+/// of columns is a raster where its points are the nodes of one, in any order, with or without some missing: none lies
+/// beside the lattice or on another, two of three have one next to them in both directions, and they are a twentieth of
+/// all nodes at least.
 bool is_point_file(const std::string& path);
 
 /// The middle of the points' extent, rounded so coarsely that offsets from it are exact: the origin of a local frame.

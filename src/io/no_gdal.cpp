@@ -118,6 +118,8 @@ Result<std::vector<Line>> inset_polygons(std::span<const Line>, double, const st
 
 bool opens_as_raster(const std::string&) { return false; }
 
+bool is_text_grid(const std::string&) { return false; }
+
 std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths) {
   std::vector<std::vector<std::string>> alone;
   for (const std::string& path : paths) alone.push_back({path});

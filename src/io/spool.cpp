@@ -44,6 +44,11 @@ int write_chunk(int fd, const char* bytes, std::size_t size) {
   return 0;
 }
 
+tl::unexpected<Error> refuse_room(const std::string& what, int error) {
+  return fail(ErrorKind::kOutput, fmt::format("cannot keep {} in a file in {}, the folder for temporary files: {}",
+                                              what, std::filesystem::temp_directory_path().string(), reason_of(error)));
+}
+
 Result<std::string> copy(const std::string& path) {
   const std::string what = path == kStandardInput ? "standard input" : path;
   const int from = path == kStandardInput ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -63,11 +68,25 @@ Result<std::string> copy(const std::string& path) {
   if (error == 0) return fmt::format("/proc/self/fd/{}", to);
   if (to >= 0) ::close(to);
   if (!is_ours) return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", what, reason_of(error)));
-  return fail(ErrorKind::kOutput, fmt::format("cannot keep {} in a file in {}, the folder for temporary files: {}",
-                                              what, std::filesystem::temp_directory_path().string(), reason_of(error)));
+  return refuse_room(what, error);
 }
 
 }  // namespace
+
+Result<std::string> spool_bytes(std::span<const std::uint8_t> bytes) {
+  static std::mutex mutex;
+  static int file = -1;
+  static std::uint64_t end = 0;
+  const std::lock_guard lock(mutex);
+  if (file < 0) file = open_nameless();
+  if (file < 0) return refuse_room("a raster", errno);
+  if (::lseek(file, static_cast<off_t>(end), SEEK_SET) < 0) return refuse_room("a raster", errno);
+  if (const int error = write_chunk(file, reinterpret_cast<const char*>(bytes.data()), bytes.size()); error != 0)
+    return refuse_room("a raster", error);
+  const std::uint64_t begin = end;
+  end += bytes.size();
+  return fmt::format("/vsisubfile/{}_{},/proc/self/fd/{}", begin, bytes.size(), file);
+}
 
 Result<std::string> readable_name(const std::string& path) {
   if (path != kStandardInput && !is_pipe(path)) return path;

@@ -29,9 +29,9 @@ PY
 # Heights of the geometry, and of another attribute.
 succeeds "$scarp" simplify solid.shp solid.ply -e 10 -q
 succeeds "$scarp" measure contours.gpkg solid.ply --fail-above 10 -q
-ogr2ogr -f GPKG named.gpkg contours.gpkg -sql "SELECT geom, ELEV AS hoehe FROM contour"
+ogr2ogr -f GPKG named.gpkg contours.gpkg -sql "SELECT geom, ELEV AS niveau FROM contour"
 refuses 2 "have no third coordinate, and no attribute z, height" "$scarp" simplify named.gpkg x.glb -e 5
-succeeds "$scarp" simplify named.gpkg named.obj -e 5 --z-field hoehe -q
+succeeds "$scarp" simplify named.gpkg named.obj -e 5 --z-field niveau -q
 cmp <(grep -v '^#' named.obj) <(grep -v '^#' mesh5.obj) || fail "the attribute's name changes the mesh"
 refuses 2 "no attribute 'Z_M'" "$scarp" simplify contours.gpkg x.glb -e 5 --z-field Z_M
 succeeds "$scarp" info contours.gpkg
@@ -52,7 +52,7 @@ refuses 2 "feature 0 has no number as its height: its attribute ELEV is 'high'" 
 collection "$(line 10 '[[0,0,250],[900,0,260],[900,900,270]]'),$(line 20 '[[0,100,300],[800,100],[800,800,340]]')" >flat.geojson
 sed 's/"properties":{[^}]*}/"properties":{}/g' flat.geojson > partly.geojson
 succeeds "$scarp" info partly.geojson --crs source
-grep -q 'warning: partly.geojson: 1 point has exactly the height 0, far below all others (250 to 340): if it has none, correct or leave out that point' \
+grep -q 'warning: partly.geojson: 1 point has exactly the height 0, far below all others (250 to 340): if it has none, --nodata 0 leaves it out' \
   "$logs/err" || fail "a height that is not there is taken for 0 without a word"
 collection "$(line 10 '[[0,0],[1,1]]'),{\"type\":\"Feature\",\"properties\":{\"ELEV\":4},\"geometry\":null},$(line 20 '[[0,3],[1,4]]')" >none.geojson
 succeeds "$scarp" info none.geojson --z-field ELEV --crs source

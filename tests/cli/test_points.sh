@@ -106,7 +106,7 @@ printf 'x,y,depth\n1,2,3\n' >names.csv
 printf '1,1,3\n2,2,3\n5,5,9\n9,9,1\n' >line.csv
 printf '1,1,3\n2,2,3\n1,1,9\n' >two.csv
 head -c 3000 "$dem" >binary.csv
-printf '1,5;2,5;3\n2;3;4\n' >comma.csv
+printf '1,2,3\n1,5 2,5 3\n2,3,4\n' >comma.csv
 printf 'x,y,z\n0,0,0\n1e9,0,1\n0,1e9,2\n0.001,0.001,900\n0.002,0.001,-900\n' >wide.csv
 { cat survey.csv; echo '-9999999999,4649000,0'; } >far.csv
 refuses 2 "empty.csv: the file is empty" "$scarp" simplify empty.csv x.glb -e 1
@@ -123,11 +123,11 @@ refuses 2 "wide.csv: points 0 and 3 (counted from 0), at (0, 0) and (0.001, 0.00
 refuses 2 "wide.csv: points 0 and 3 (counted from 0)" "$scarp" measure wide.csv hills.glb --fail-above 0.5
 refuses 2 "; point 3002 (counted from 0) at (-9999999999, 4649000) lies far from all others" \
   "$scarp" simplify far.csv x.ply -e 0.5
-refuses 2 "comma.csv: line 1: '1,5' has a decimal comma" "$scarp" simplify comma.csv x.ply -e 0.5
+refuses 2 "comma.csv: line 2: '1,5' has a decimal comma" "$scarp" simplify comma.csv x.ply -e 0.5
 refuses 2 "none.csv: no such file" "$scarp" simplify none.csv x.glb -e 1
 refuses 2 "nan.csv: line 2" "$scarp" measure nan.csv hills.glb
 refuses 1 "no goal" "$scarp" simplify survey.csv x.glb
-refuses 1 "--nodata is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --nodata 0
+refuses 1 "--band is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --band 1
 refuses 1 "--preview is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --preview p.png
 refuses 1 "--normals is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --normals
 refuses 1 "--map is for rasters" "$scarp" measure survey.csv hills.glb --map p.png

@@ -45,6 +45,7 @@ InfoCommand::InfoCommand(CLI::App& program) : command_(add_command(program, kInf
   add_flag(*command_, OptionId::kPoints, points_);
   add_option(*command_, OptionId::kLayer, layer_);
   add_option(*command_, OptionId::kZField, z_field_);
+  add_option(*command_, OptionId::kColumns, columns_);
   add_flag(*command_, OptionId::kNoSuggest, no_suggest_);
   add_flag(*command_, OptionId::kJson, json_);
   add_flag(*command_, OptionId::kQuiet, quiet_);
@@ -53,7 +54,8 @@ InfoCommand::InfoCommand(CLI::App& program) : command_(add_command(program, kInf
 
 Result<void> InfoCommand::run(const std::string& command_line) const {
   const bool is_one = raster_.paths.size() == 1;
-  if (points_ || (is_one && !raster_.path().empty() && is_point_file(raster_.path()))) return run_points(command_line);
+  if (points_ || columns_ || (is_one && !raster_.path().empty() && is_point_file(raster_.path())))
+    return run_points(command_line);
   for (const auto& [name, value] : {std::pair{"--layer", &layer_}, std::pair{"--z-field", &z_field_}}) {
     if (*value) return fail(ErrorKind::kUsage, fmt::format("{} is for points: leave it out, or say --points", name));
   }
@@ -86,7 +88,7 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
 
 Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
   const std::pair<const char*, bool> given[] = {{"--band", raster_.band.has_value()},
-                                                {"--nodata", raster_.nodata.has_value()},
+                                                {"--nodata", raster_.nodata.has_value() && !takes_crs},
                                                 {"--decode", raster_.decode.has_value()},
                                                 {"--z-scale", raster_.z_scale.has_value()},
                                                 {"--z-offset", raster_.z_offset.has_value()},
@@ -105,10 +107,14 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
 Result<void> InfoCommand::run_points(const std::string& command_line) const {
   if (auto fits = refuse("points", true); !fits) return fits;
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  const auto nodata = parse_nodata(raster_.nodata);
+  if (!nodata) return tl::unexpected(nodata.error());
   const Result<PointSet> points = read_points(raster_.path(), {.layer = layer_.value_or(""),
-                                                             .z_field = z_field_.value_or(""),
-                                                             .crs = raster_.crs.value_or(""),
-                                                             .progress = display.callback()});
+                                                               .z_field = z_field_.value_or(""),
+                                                               .crs = raster_.crs.value_or(""),
+                                                               .progress = display.callback(),
+                                                               .columns = columns_.value_or(""),
+                                                               .nodata = *nodata});
   if (!points) return tl::unexpected(points.error());
   display.finish();
   if (!quiet_) print_warnings(points->warnings);

@@ -21,7 +21,7 @@ class InfoCommand {
  private:
   CLI::App* command_;
   RasterArguments raster_;
-  Given layer_, z_field_;
+  Given layer_, z_field_, columns_;
   bool points_ = false, no_suggest_ = false, json_ = false, quiet_ = false, json_progress_ = false;
 
   Result<void> run_points(const std::string& command_line) const;

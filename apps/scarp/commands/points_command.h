@@ -16,11 +16,11 @@ namespace scarp::cli {
 /// The options of every command that reads points.
 struct PointsArguments {
   bool points = false;
-  Given duplicates, layer, z_field;
+  Given duplicates, layer, z_field, columns;
 
   void add_to(CLI::App& command);
   /// True if the input is to be read as points: it was asked for, or its name says so.
-  bool are_meant(const std::string& path) const { return points || is_point_file(path); }
+  bool are_meant(const std::string& path) const { return points || columns || is_point_file(path); }
   /// Fails if one of several inputs holds points, which make no mosaic.
   Result<void> check_single(const std::vector<std::string>& paths) const;
   /// Fails if an option for points was given, for an input that is a raster.
@@ -30,7 +30,7 @@ struct PointsArguments {
 /// What `scarp measure` was asked to do with points.
 struct MeasurePointsArguments {
   std::string path, mesh;
-  Given crs, fail_above, threads;
+  Given crs, nodata, fail_above, threads;
   bool json = false, quiet = false, json_progress = false;
 };
 

@@ -21,10 +21,11 @@ namespace {
 
 /// Points have no use for many of the command's options; silence would be a lie.
 Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
-  constexpr std::array<std::string_view, 20> kMeant{
-      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",    "--up",
-      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",   "--double",
-      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",   "--compress"};
+  constexpr std::array<std::string_view, 22> kMeant{
+      "--max-error", "--max-triangles", "--max-points",    "--crs",         "--of",      "--base",
+      "--up",        "--report",        "--overwrite",     "--num-threads", "--quiet",   "--points",
+      "--layer",     "--double",        "--json-progress", "--duplicates",  "--z-field", "--fail-above",
+      "--json",      "--compress",      "--columns",       "--nodata"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
@@ -36,16 +37,19 @@ Result<void> refuse_raster_options(const CLI::App& command, const std::string& p
 }
 
 Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const Given& crs,
-                      const ProgressCallback& progress) {
+                      std::optional<double> nodata, const ProgressCallback& progress) {
   if (path.empty()) return fail(ErrorKind::kUsage, "the name of the points is empty");
   for (const auto& [name, value] :
-       {std::pair{"--crs", &crs}, std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field}}) {
+       {std::pair{"--crs", &crs}, std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field},
+        std::pair{"--columns", &arguments.columns}}) {
     if (*value && (*value)->empty()) return fail(ErrorKind::kUsage, fmt::format("{} is empty: leave it out", name));
   }
   return read_points(path, {.layer = arguments.layer.value_or(""),
                             .z_field = arguments.z_field.value_or(""),
                             .crs = crs.value_or(""),
-                            .progress = progress});
+                            .progress = progress,
+                            .columns = arguments.columns.value_or(""),
+                            .nodata = nodata});
 }
 
 /// As --crs; empty: local for degrees, else the points' own.
@@ -57,7 +61,7 @@ std::string crs_option(const SimplifyPlan& plan) {
 std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
   return plan.canonical_command + (arguments.points ? " --points" : "") +
          canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
-         canonical_option("--z-field", arguments.z_field);
+         canonical_option("--z-field", arguments.z_field) + canonical_option("--columns", arguments.columns);
 }
 
 void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
@@ -97,6 +101,8 @@ void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Po
     mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
   }
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
+  if (arguments.columns) mesh.metadata["columns"] = *arguments.columns;
+  if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
   const Measurement& measured = outcome.simplified.measurement;
   const Json error{{"asked", or_null(outcome.asked)},
                    {"max_error", measured.max_error},
@@ -150,7 +156,8 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
 
   outcome.policy = *policy;
   const std::string crs = crs_option(plan);
-  Result<PointSet> points = read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), runner.progress);
+  Result<PointSet> points =
+      read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), plan.read.nodata, runner.progress);
   if (!points) return tl::unexpected(std::move(points.error()));
   outcome.points = std::move(*points);
   if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
@@ -239,7 +246,11 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
   judged.policy = *policy;
   Given crs = remembered(given.crs, "crs_option");
   if (!given.crs && crs == Given("local") && way_to_source(judged.mesh)) crs = "source";
-  Result<PointSet> points = read(given.path, arguments, crs, runner.progress);
+  PointsArguments asked = arguments;
+  asked.columns = remembered(arguments.columns, "columns");
+  const auto nodata = parse_nodata(remembered(given.nodata, "nodata"));
+  if (!nodata) return tl::unexpected(nodata.error());
+  Result<PointSet> points = read(given.path, asked, crs, *nodata, runner.progress);
   if (!points && !given.crs && crs)
     return tl::unexpected(explain_frame(std::move(points.error()), *crs, given.mesh, given.path));
   if (!points) return tl::unexpected(std::move(points.error()));

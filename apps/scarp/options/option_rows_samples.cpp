@@ -16,7 +16,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "V",
      .by_default = "what the file declares",
      .range = "a number or nan",
-     .help = "Value that marks missing samples.",
+     .help = "Value that marks missing samples, or points without a height, which are left out.",
      .brief = "Value that marks missing samples"},
     {.id = kNodataPolicy,
      .name = "--nodata-policy",
@@ -225,6 +225,16 @@ constexpr OptionRow kSampleRows[] = {
      .value = "NAME",
      .by_default = "the third coordinate, else z, height, elevation, elev or h",
      .help = "Column or attribute with the heights: of points, or of lines such as contours (ELEV)."},
+    {.id = kColumns,
+     .name = "--columns",
+     .commands = kSimplify | kMeasure | kInfo,
+     .group = OptionGroup::kPoints,
+     .type = kText,
+     .value = "NAMES",
+     .by_default = "what the header says, else what they hold",
+     .help =
+         "What the columns of a text hold, such as number,northing,easting,height,code, or pnezd. - is for one that "
+         "is not read."},
 };
 
 }  // namespace

@@ -107,6 +107,7 @@ enum class OptionId {
   kDuplicates,
   kLayer,
   kZField,
+  kColumns,
   kImportance,
   kOnePass,
   kOrder,

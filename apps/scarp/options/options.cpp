@@ -91,6 +91,14 @@ Result<double> parse_non_negative(std::string_view option, const std::string& te
   return value;
 }
 
+Result<std::optional<double>> parse_nodata(const Given& nodata) {
+  if (!nodata) return std::optional<double>();
+  const std::optional<double> value = find_number(*nodata);
+  if (auto fits = check_size("--nodata", *nodata, value); !fits) return tl::unexpected(fits.error());
+  if (!value) return fail(ErrorKind::kUsage, fmt::format("--nodata {} is not a number or nan", shell_word(*nodata)));
+  return value;
+}
+
 Result<double> parse_fill_distance(const Given& text, bool is_filled) {
   if (!text) return is_filled ? 100.0 : 0.0;
   if (!is_filled) return fail(ErrorKind::kUsage, "--fill-distance needs --nodata-policy fill");
@@ -265,14 +273,9 @@ Result<ReadOptions> RasterArguments::parse() const {
     }
     options.band = static_cast<int>(*number);
   }
-  if (nodata) {
-    const std::optional<double> value = find_number(*nodata);
-    if (auto fits = check_size("--nodata", *nodata, value); !fits) return tl::unexpected(fits.error());
-    if (!value) {
-      return fail(ErrorKind::kUsage, fmt::format("--nodata {} is not a number or nan", shell_word(*nodata)));
-    }
-    options.nodata = *value;
-  }
+  const auto value = parse_nodata(nodata);
+  if (!value) return tl::unexpected(value.error());
+  options.nodata = *value;
   if (decode) {
     if (*decode == "terrarium") {
       options.decode = Decode::kTerrarium;

@@ -28,6 +28,9 @@ using Given = std::optional<std::string>;
 Result<double> parse_number(std::string_view option, const std::string& text);
 /// A finite number that is at least 0.
 Result<double> parse_non_negative(std::string_view option, const std::string& text);
+/// --nodata: a number or NaN, nothing where it is not given. Fails with kUsage for another word.
+Result<std::optional<double>> parse_nodata(const Given& nodata);
+
 /// --fill-distance in samples; without it 100 if nodata is filled, else 0. Fails with kUsage where nothing is filled.
 Result<double> parse_fill_distance(const Given& text, bool is_filled);
 /// A whole number that is at least `least`.

@@ -12,6 +12,7 @@ void PointsArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kDuplicates, duplicates);
   add_option(command, OptionId::kLayer, layer);
   add_option(command, OptionId::kZField, z_field);
+  add_option(command, OptionId::kColumns, columns);
 }
 
 Result<void> PointsArguments::check_single(const std::vector<std::string>& paths) const {

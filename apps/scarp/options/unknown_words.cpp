@@ -50,6 +50,7 @@ constexpr Foreign kForeign[] = {
     {"b", "--band", ""},
     {"l", "--layer", ""},
     {"zfield z-column", "--z-field", ""},
+    {"column fields format order pnezd", "--columns", ""},
     {"clip cutlines crop-to-cutline csql cl", "--cutline", ""},
     {"lakes", "--water", ""},
     {"bl breakline", "--breaklines", ""},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reports/place.h"
+#include "reports/points_report.h"
 #include "scarp/solid.h"
 #include "scarp/version.h"
 #include "terminal/text.h"
@@ -162,7 +163,8 @@ std::string points_facts(const PointSet& points) {
   const Box box = box_of(points);
   std::string text = points.path + "\n";
   text += fact_line("format", points.format);
-  text += fact_line("points", format_count(points.size()));
+  text += fact_line("points", format_count(points.size()) + without_height(points));
+  if (!points.columns.empty()) text += fact_line("read as", points.columns);
   if (!points.lines.empty()) text += fact_line("lines", format_count(points.lines.size()));
   text += range_line("x", box, 0) + range_line("y", box, 1);
   text += fact_line("heights", fmt::format("{} to {}, relief {}", format_number(box.low[2]), format_number(box.high[2]),
@@ -173,9 +175,10 @@ std::string points_facts(const PointSet& points) {
 
 Json points_facts_report(const PointSet& points, const std::string& command_line) {
   Json report{{"scarp", version()}, {"command", command_line}};
-  report["points"] =
-      Json{{"path", points.path}, {"format", points.format},     {"count", points.size()},
-           {"crs", points.crs},   {"frame", points.description}, {"bounds", describe_box(box_of(points))}};
+  report["points"] = Json{{"path", points.path},         {"format", points.format},
+                          {"count", points.size()},      {"crs", points.crs},
+                          {"frame", points.description}, {"bounds", describe_box(box_of(points))},
+                          {"columns", points.columns},   {"without_height", points.without_height}};
   report["warnings"] = points.warnings;
   return report;
 }

@@ -27,9 +27,17 @@ std::string describe_place(const PointSet& points, const Measurement& measured) 
 
 Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
   const HeightRange heights = height_range(points);
-  return Json{{"path", points.path},          {"format", points.format},  {"points", points.size()},
-              {"lines", points.lines.size()}, {"duplicates", duplicates}, {"duplicate_policy", policy_name(policy)},
-              {"min", heights.min},           {"max", heights.max},       {"crs", points.crs}};
+  return Json{{"path", points.path},
+              {"format", points.format},
+              {"points", points.size()},
+              {"lines", points.lines.size()},
+              {"duplicates", duplicates},
+              {"duplicate_policy", policy_name(policy)},
+              {"min", heights.min},
+              {"max", heights.max},
+              {"crs", points.crs},
+              {"columns", points.columns},
+              {"without_height", points.without_height}};
 }
 
 Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
@@ -59,6 +67,12 @@ Result<DuplicatePolicy> parse_policy(const Given& text) {
   }
   return fail(ErrorKind::kUsage, fmt::format("--duplicates {} is unknown: choose first, last, highest, lowest or mean",
                                              shell_word(*text)));
+}
+
+std::string without_height(const PointSet& points) {
+  return points.without_height == 0
+             ? ""
+             : fmt::format(" ({} without a height left out)", format_count(points.without_height));
 }
 
 HeightRange height_range(const PointSet& points) {
@@ -118,8 +132,10 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   const Measurement& measured = outcome.simplified.measurement;
   const HeightRange heights = height_range(outcome.points);
   std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
-  text += summary_line("points", fmt::format("{}, heights {} to {}", format_count(outcome.points.size()),
-                                             format_number(heights.min), format_number(heights.max)));
+  text += summary_line(
+      "points", fmt::format("{}{}, heights {} to {}", format_count(outcome.points.size()),
+                            without_height(outcome.points), format_number(heights.min), format_number(heights.max)));
+  if (!outcome.points.columns.empty()) text += summary_line("read as", outcome.points.columns);
   if (!outcome.points.lines.empty())
     text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");
   text += summary_line("duplicates", outcome.duplicates == 0

@@ -16,6 +16,8 @@ namespace scarp::cli {
 Result<DuplicatePolicy> parse_policy(const Given& text);
 const char* policy_name(DuplicatePolicy policy);
 
+/// " (12 without a height left out)", or nothing.
+std::string without_height(const PointSet& points);
 HeightRange height_range(const PointSet& points);
 
 /// As find_broken_promise(), with a point's place.

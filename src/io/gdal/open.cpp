@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/gdal/text_grid.h"
 #include "io/spool.h"
 
 namespace scarp::gdal {
@@ -193,7 +194,9 @@ GDALDriverH identify_driver(const std::string& vsi, unsigned kind) {
 Result<Dataset> open_raster(Session& session, const std::string& path) {
   const auto name = readable_name(path);
   if (!name) return tl::unexpected(name.error());
-  const std::string vsi = vsi_path(*name);
+  const auto grid = find_text_grid(path);
+  if (!grid) return tl::unexpected(grid.error());
+  const std::string vsi = grid->empty() ? vsi_path(*name) : *grid;
   session.clear();
   Dataset dataset = open_quietly(vsi, GDAL_OF_RASTER);
   if (!dataset && ends_with(vsi, ".zip")) {

@@ -11,6 +11,7 @@
 #include "grid/local_frame.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/vector.h"
+#include "io/points/column_names.h"
 #include "io/points/point_source.h"
 
 namespace scarp::gdal {
@@ -21,7 +22,7 @@ bool may_hold_points(OGRLayerH layer) {
   return type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown || type == wkbGeometryCollection;
 }
 
-bool may_hold_lines(OGRLayerH layer) {
+bool is_layer_of_lines(OGRLayerH layer) {
   const OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
   return OGR_GT_IsSubClassOf(type, wkbCurve) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0;
 }
@@ -31,7 +32,7 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
   for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
     OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
     if (wanted.empty() ? may_hold_points(layer) : wanted == OGR_L_GetName(layer)) return layer;
-    if (first_of_lines == nullptr && may_hold_lines(layer)) first_of_lines = layer;
+    if (first_of_lines == nullptr && is_layer_of_lines(layer)) first_of_lines = layer;
   }
   if (wanted.empty() && first_of_lines != nullptr) return first_of_lines;
   if (wanted.empty())
@@ -40,37 +41,96 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
   return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, layer_names(dataset)));
 }
 
-/// Where heights come from: an attribute, or the third coordinate.
-Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& path, const std::string& wanted) {
-  if (!wanted.empty()) {
-    const auto index = find_field(layer, path, wanted);
-    if (!index) return tl::unexpected(index.error());
-    return *index;
-  }
-  // The type of a layer may be silent on the third coordinate; the first point is not.
+/// What the third coordinates of a layer are. Its type may be silent on them; its features are not.
+enum class ThirdCoordinates { kNone, kAllZero, kHeights };
+
+ThirdCoordinates look_at_third_coordinates(OGRLayerH layer) {
+  ThirdCoordinates found = ThirdCoordinates::kNone;
   OGR_L_ResetReading(layer);
   while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
     if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) continue;
-    if (OGR_G_Is3D(geometry) != 0) return std::nullopt;
-    break;
+    if (OGR_G_Is3D(geometry) == 0) return found;
+    found = ThirdCoordinates::kAllZero;
+    OGREnvelope3D box{};
+    OGR_G_GetEnvelope3D(geometry, &box);
+    if (!(box.MinZ == 0 && box.MaxZ == 0)) return ThirdCoordinates::kHeights;
   }
+  return found;
+}
+
+std::string list_of_fields(OGRLayerH layer, bool heights_only, int without = -1) {
   OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
-  for (const char* name : {"z", "height", "elevation", "elev", "h"}) {
-    const int index = OGR_FD_GetFieldIndex(definition, name);
-    if (index >= 0) return index;
+  std::string list;
+  for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i) {
+    const char* name = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
+    if (i != without && (!heights_only || role_of(name) == ColumnRole::kHeight))
+      list += (list.empty() ? "" : ", ") + std::string(name);
   }
-  return fail(ErrorKind::kInput,
-              fmt::format("{}: the features of the layer {} have no third coordinate, and no attribute z, height, "
-                          "elevation, elev or h: name the one that holds heights with --z-field",
-                          path, OGR_L_GetName(layer)));
+  return list;
+}
+
+/// The attribute whose name says most clearly that it holds heights.
+std::optional<int> find_named_height(OGRLayerH layer) {
+  OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
+  std::optional<int> best;
+  std::size_t least = 0;
+  for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i) {
+    const char* name = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
+    if (role_of(name) != ColumnRole::kHeight || (best && rank_of(name) >= least)) continue;
+    best = i;
+    least = rank_of(name);
+  }
+  return best;
+}
+
+/// Where heights come from: an attribute, or the third coordinate. `points` is told.
+Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& wanted, PointSet& points) {
+  const std::string& path = points.path;
+  const auto name_of = [&](int index) {
+    return std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer), index)));
+  };
+  if (!wanted.empty()) {
+    const auto index = find_field(layer, path, wanted);
+    if (!index) return tl::unexpected(index.error());
+    points.columns = "height: attribute " + name_of(*index);
+    return *index;
+  }
+  const ThirdCoordinates third = look_at_third_coordinates(layer);
+  points.columns = "height: third coordinate";
+  if (third == ThirdCoordinates::kHeights) return std::nullopt;
+  const std::optional<int> named = find_named_height(layer);
+  if (!named && third == ThirdCoordinates::kNone)
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the features of the layer {} have no third coordinate, and no attribute z, height, "
+                            "elevation, elev or h: name the one that holds heights with --z-field",
+                            path, OGR_L_GetName(layer)));
+  if (!named) {
+    const std::string fields = list_of_fields(layer, false);
+    points.warnings.push_back(fmt::format(
+        "{}: all heights are 0{}", path,
+        fields.empty() ? std::string() : ": if an attribute holds them, name it with --z-field (" + fields + ")"));
+    return std::nullopt;
+  }
+  points.columns = "height: attribute " + name_of(*named);
+  if (third == ThirdCoordinates::kAllZero)
+    points.warnings.push_back(
+        fmt::format("{}: the third coordinate is 0 everywhere, so the heights are those of the "
+                    "attribute {}: --z-field names another",
+                    path, name_of(*named)));
+  if (const std::string others = list_of_fields(layer, true, *named); !others.empty())
+    points.warnings.push_back(
+        fmt::format("{}: the heights are those of the attribute {}, not of {}: --z-field names another", path,
+                    name_of(*named), others));
+  return named;
 }
 
 /// Collects the points of features.
 class PointCollector {
  public:
-  PointCollector(const std::string& path, std::optional<int> height_field, PointSet& points)
-      : path_(path), height_field_(height_field), points_(points) {}
+  PointCollector(const std::string& path, std::optional<int> height_field, std::optional<double> nodata,
+                 PointSet& points)
+      : path_(path), height_field_(height_field), nodata_(nodata), points_(points) {}
 
   Result<void> add(OGRFeatureH feature) {
     id_ = OGR_F_GetFID(feature);
@@ -81,18 +141,9 @@ class PointCollector {
     }
     std::optional<double> height;
     if (height_field_) {
-      if (OGR_F_IsFieldSetAndNotNull(feature, *height_field_) == 0)
-        return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no height: its attribute {} is empty; fill it "
-                                                   "in, leave the feature out, or name another with --z-field",
-                                                   path_, id_, field_name(feature)));
-      const char* text = OGR_F_GetFieldAsString(feature, *height_field_);
-      char* end = nullptr;
-      CPLStrtod(text, &end);
-      if (end == text || *end != '\0')
-        return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no number as its height: its attribute {} is "
-                                                   "'{}'; correct it, or name another with --z-field",
-                                                   path_, id_, field_name(feature), text));
-      height = OGR_F_GetFieldAsDouble(feature, *height_field_);
+      auto read = read_height(feature);
+      if (!read) return tl::unexpected(read.error());
+      height = *read;
     }
     if (OGR_GT_IsNonLinear(OGR_G_GetGeometryType(geometry)) == 0 && OGR_G_HasCurveGeometry(geometry, 0) == 0)
       return add_geometry(geometry, height);
@@ -108,6 +159,25 @@ class PointCollector {
  private:
   const char* field_name(OGRFeatureH feature) const {
     return OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, *height_field_));
+  }
+
+  /// The attribute; NaN where it holds no number and --nodata leaves such points out.
+  Result<double> read_height(OGRFeatureH feature) const {
+    const bool is_set = OGR_F_IsFieldSetAndNotNull(feature, *height_field_) != 0;
+    const char* text = is_set ? OGR_F_GetFieldAsString(feature, *height_field_) : "";
+    char* end = nullptr;
+    CPLStrtod(text, &end);
+    if (end != text && *end == '\0') return OGR_F_GetFieldAsDouble(feature, *height_field_);
+    if (nodata_) return std::nan("");
+    if (!is_set)
+      return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no height: its attribute {} is empty; fill it in, "
+                                                 "leave such features out with --nodata nan, or name another with "
+                                                 "--z-field",
+                                                 path_, id_, field_name(feature)));
+    return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no number as its height: its attribute {} is '{}'; "
+                                               "correct it, leave such features out with --nodata nan, or name "
+                                               "another with --z-field",
+                                               path_, id_, field_name(feature), text));
   }
 
   Result<void> add_geometry(OGRGeometryH geometry, std::optional<double> height) {
@@ -145,6 +215,7 @@ class PointCollector {
     for (int i = 0; i < OGR_G_GetPointCount(geometry); ++i) {
       const auto here = static_cast<std::uint32_t>(points_.size());
       if (auto added = add_point(geometry, i, height); !added) return added;
+      if (points_.size() == here) continue;  // left out
       const bool is_repeated = !line.points.empty() && is_same(here, line.points.back()),
                  is_closed = !is_repeated && here > first && is_same(here, first);
       if (is_repeated || is_closed) remove_last();
@@ -170,10 +241,15 @@ class PointCollector {
   Result<void> add_point(OGRGeometryH geometry, int i, std::optional<double> height) {
     const double x = OGR_G_GetX(geometry, i), y = OGR_G_GetY(geometry, i);
     const double z = height ? *height : OGR_G_GetZ(geometry, i);
+    if (nodata_ && (!std::isfinite(z) || z == *nodata_)) {
+      ++points_.without_height;
+      return {};
+    }
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
       return fail(ErrorKind::kInput,
-                  fmt::format("{}: feature {} has x {}, y {}, height {}, which are not all finite: remove that point",
-                              path_, id_, x, y, z));
+                  fmt::format("{}: feature {} has x {}, y {}, height {}, which are not all finite: remove that point{}",
+                              path_, id_, x, y, z,
+                              std::isfinite(z) ? "" : ", or leave out all points without a height with --nodata nan"));
     points_.x.push_back(x);
     points_.y.push_back(y);
     points_.z.push_back(z);
@@ -182,6 +258,7 @@ class PointCollector {
 
   const std::string& path_;
   std::optional<int> height_field_;
+  std::optional<double> nodata_;
   PointSet& points_;
   GIntBig id_ = 0;
   std::uint64_t without_geometry_ = 0, without_extent_ = 0;
@@ -267,22 +344,27 @@ Result<void> place(const Crs& crs, const std::string& wanted, PointSet& points) 
 }
 
 Result<PointSet> read(const std::string& path, const ReadPointsOptions& options) {
+  if (!options.columns.empty())
+    return fail(ErrorKind::kUsage,
+                path + ": --columns names the columns of a text, and this is none: --z-field names an attribute");
   Session session(is_remote(path));
   const auto dataset =
       open_vector(session, path, "points", "neither text of columns nor vector data that GDAL can read");
   if (!dataset) return tl::unexpected(dataset.error());
   const auto layer = find_layer(dataset->get(), path, options.layer);
   if (!layer) return tl::unexpected(layer.error());
-  const auto height_field = find_height_field(*layer, path, options.z_field);
-  if (!height_field) return tl::unexpected(height_field.error());
-
   PointSet points;
   points.path = path;
+  const auto height_field = find_height_field(*layer, options.z_field, points);
+  if (!height_field) return tl::unexpected(height_field.error());
+
   points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
-  PointCollector collector(path, *height_field, points);
+  PointCollector collector(path, *height_field, options.nodata, points);
   const auto collected = each_feature(session, *layer, path, options.progress,
                                       [&](OGRFeatureH feature) { return collector.add(feature); });
   if (!collected) return tl::unexpected(collected.error());
+  if (points.size() == 0 && points.without_height > 0)
+    return fail(ErrorKind::kInput, path + ": no point has a height other than that of --nodata");
   if (points.size() == 0)
     return fail(ErrorKind::kInput,
                 fmt::format("{}: the layer {} holds no points or lines", path, OGR_L_GetName(*layer)));

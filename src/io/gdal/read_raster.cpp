@@ -13,6 +13,7 @@
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
 #include "io/gdal/read_samples.h"
+#include "io/gdal/text_grid.h"
 #include "io/gdal/view.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
@@ -71,7 +72,8 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
   if (!dataset) return tl::unexpected(dataset.error());
   plan.dataset = std::move(*dataset);
   plan.info.path = path;
-  plan.info.format = GDALGetDriverShortName(GDALGetDatasetDriver(plan.dataset.get()));
+  const bool is_text = GDALGetMetadataItem(plan.dataset.get(), kTextGridKey, nullptr) != nullptr;
+  plan.info.format = is_text ? "XYZ" : GDALGetDriverShortName(GDALGetDatasetDriver(plan.dataset.get()));
   if (options.decode == Decode::kNone) {
     auto band = plan_band(plan.dataset.get(), path, options, plan.info);
     if (!band) return tl::unexpected(band.error());

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "io/gdal/mosaic.h"
+#include "io/gdal/text_grid.h"
 
 namespace scarp::gdal {
 namespace {
@@ -177,6 +178,8 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
   auto whole = is_mosaic ? open_mosaic(session, *paths) : open_raster(session, paths->front());
   if (!whole) return whole;
   if (is_mosaic) words = fmt::format("mosaic of {} rasters", paths->size());
+  if (const char* nodes = GDALGetMetadataItem(whole->get(), kTextGridKey, nullptr); !is_mosaic && nodes != nullptr)
+    words = fmt::format("raster of {} (--points: as scattered points)", nodes);
   if (!left_out.empty())
     words += fmt::format("{}, without what Scarp made: {}", is_mosaic ? "" : paths->front(), fmt::join(left_out, ", "));
   if (!view.extent && !view.resolution) return whole;

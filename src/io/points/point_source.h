@@ -12,6 +12,15 @@ namespace scarp {
 /// True if the bytes may be text of columns that begins with numbers.
 bool looks_like_columns(std::span<const std::uint8_t> head);
 
+/// True for a file of plain text that may hold columns of numbers: by the end of its name, else by its first line.
+bool is_text_of_columns(const std::string& path);
+
+/// True if the file begins with text that is neither JSON nor XML.
+bool holds_plain_text(const std::string& path);
+
+/// An ESRI or a Surfer ASCII grid.
+bool begins_as_grid(const std::string& path);
+
 /// Text of columns; see read_points().
 Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::string& name,
                                 const ReadPointsOptions& options);
@@ -20,7 +29,11 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
 /// fails with kInput and says so.
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options);
 
-/// True if GDAL's raster drivers open the path, and not as text of columns; false in a build without GDAL.
+/// True if the path is a raster: GDAL's drivers open it, or its points are the nodes of one. False in a build without
+/// GDAL.
 bool opens_as_raster(const std::string& path);
+
+/// True if the path is text of columns whose points are the nodes of a raster. False in a build without GDAL.
+bool is_text_grid(const std::string& path);
 
 }  // namespace scarp

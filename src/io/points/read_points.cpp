@@ -51,6 +51,8 @@ bool is_plain_text(std::span<const std::uint8_t> head) {
   return first != head.end() && *first != '{' && *first != '<' && std::all_of(head.begin(), head.end(), is_word);
 }
 
+}  // namespace
+
 bool is_text_of_columns(const std::string& path) {
   std::error_code ignored;
   const auto name = readable_name(path);
@@ -59,12 +61,14 @@ bool is_text_of_columns(const std::string& path) {
   if (!fs::is_regular_file(status)) return true;  // a device cannot be looked into and then read by another
   constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
   const std::vector<std::uint8_t> head = read_head(path);
-  if (is_one_of(extension_of(path), kText) || looks_like_columns(head)) return true;
+  if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && looks_like_columns(head))) return true;
   const bool is_copy = name && *name != path;  // of a pipe, whose name says nothing
   return is_copy && is_plain_text(head);
 }
 
 /// An ESRI or a Surfer ASCII grid.
+bool holds_plain_text(const std::string& path) { return is_plain_text(read_head(path)); }
+
 bool begins_as_grid(const std::string& path) {
   std::string word;
   for (const std::uint8_t c : read_head(path)) {
@@ -75,14 +79,14 @@ bool begins_as_grid(const std::string& path) {
   return word == "ncols" || word == "nrows" || word == "dsaa";
 }
 
-}  // namespace
-
 bool is_point_file(const std::string& path) {
-  constexpr std::array<std::string_view, 10> kPoints{".csv", ".tsv", ".xyz", ".geojson", ".geojsonl",
-                                                     ".shp", ".fgb", ".gml", ".kml",     ".parquet"};
+  constexpr std::array<std::string_view, 7> kPoints{".geojson", ".geojsonl", ".shp",    ".fgb",
+                                                    ".gml",     ".kml",      ".parquet"};
   const std::string extension = extension_of(path);
-  if (extension == ".txt" || extension == ".dat") return !begins_as_grid(path) && !opens_as_raster(path);
-  return is_one_of(extension, kPoints) || (extension == ".gpkg" && !opens_as_raster(path));
+  constexpr std::array<std::string_view, 3> kText{".csv", ".tsv", ".xyz"}, kEither{".txt", ".dat", ".gpkg"};
+  if (is_one_of(extension, kText)) return !is_text_grid(path);
+  if (is_one_of(extension, kEither)) return !begins_as_grid(path) && !opens_as_raster(path);
+  return is_one_of(extension, kPoints);
 }
 
 namespace {
@@ -104,10 +108,10 @@ void warn_of_missing_heights(PointSet& points) {
   for (const UndeclaredNodata& missing : find_undeclared_nodata(range_of(heights))) {
     const bool is_one = missing.of.samples == 1;
     points.warnings.push_back(fmt::format(
-        "{}: {} exactly the height {}, far {} all others ({:.6g} to {:.6g}): if {} none, correct or leave out {}",
+        "{}: {} exactly the height {}, far {} all others ({:.6g} to {:.6g}): if {} none, --nodata {} leaves {} out",
         points.path, is_one ? "1 point has" : fmt::format("{} points have", missing.of.samples),
         static_cast<float>(missing.of.height), missing.is_high ? "above" : "below", missing.min, missing.max,
-        is_one ? "it has" : "they have", is_one ? "that point" : "those points"));
+        is_one ? "it has" : "they have", static_cast<float>(missing.of.height), is_one ? "it" : "them"));
   }
 }
 

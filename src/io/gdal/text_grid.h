@@ -1,0 +1,18 @@
+// Rasters that are written as text of columns, a node on each line.
+#pragma once
+
+#include <string>
+
+#include "scarp/result.h"
+
+namespace scarp::gdal {
+
+/// The item of a raster's metadata that tells how many nodes its text has.
+inline constexpr const char* kTextGridKey = "SCARP_NODES";
+
+/// Empty for a file that is no text of columns, or whose points lie scattered; else the name of a GeoTIFF of the same
+/// nodes, made on the first call and kept for the process. GDAL's driver for XYZ takes only rows in order, and its
+/// nodata value depends on the file. Fails with kOutput where the copy has no room.
+Result<std::string> find_text_grid(const std::string& path);
+
+}  // namespace scarp::gdal

@@ -1,0 +1,301 @@
+// A text of columns seldom says what they hold. A header line does. Without one the columns are x, y and height, unless
+// labels stand in front of them: then they may as well be northing, easting and height, as surveyors write them. The
+// two are told apart only where the values do it; else the user is asked, since a mirrored mesh looks like land, too.
+#include "io/points/point_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_set>
+
+#include "io/mesh/mesh_file_text.h"
+#include "io/points/column_names.h"
+#include "io/points/text_lines.h"
+
+namespace scarp {
+namespace {
+
+constexpr std::size_t kMostColumns = 16, kMostRows = 1 << 16;
+constexpr std::array<ColumnRole, 3> kAxes{ColumnRole::kX, ColumnRole::kY, ColumnRole::kHeight};
+
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  while (const auto field = take_field(line, separator)) fields.push_back(*field);
+  return fields;
+}
+
+std::size_t count_numbers(std::string_view line, char separator) {
+  std::size_t numbers = 0;
+  while (const auto field = take_field(line, separator)) numbers += parse_field(*field, separator != ',') ? 1 : 0;
+  return numbers;
+}
+
+/// What the rows show of one column.
+struct ColumnFacts {
+  std::uint64_t filled = 0, numbers = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low, first = 0, last = 0, step = 0;
+  bool are_whole = true, has_even_steps = true;
+
+  void add(std::string_view field, bool has_decimal_comma) {
+    filled += field.empty() ? 0 : 1;
+    const auto value = parse_field(field, has_decimal_comma);
+    if (!value || !std::isfinite(*value)) return;
+    if (numbers == 0) first = *value;
+    if (numbers == 1) step = *value - first;
+    if (numbers >= 1) has_even_steps = has_even_steps && std::abs(*value - last - step) <= 1e-6 * std::abs(step);
+    are_whole = are_whole && field.find_first_of(".,eE") == std::string_view::npos;
+    low = std::min(low, *value);
+    high = std::max(high, *value);
+    last = *value;
+    ++numbers;
+  }
+  bool lies_in(double from, double to) const { return low >= from && high < to; }
+  double extent() const { return high - low; }
+};
+
+struct Rows {
+  std::vector<ColumnFacts> columns;
+  std::uint64_t count = 0;
+  bool are_labels_unique = true;  ///< of the first column
+
+  bool holds_numbers(std::size_t column) const {
+    return columns[column].numbers > 0 && columns[column].numbers * 2 >= count;
+  }
+  /// The columns of numbers from the left, without the first one where it counts.
+  std::vector<std::size_t> coordinates() const {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (holds_numbers(k)) list.push_back(k);
+    }
+    if (list.size() >= 4 && list[0] == 0 && first_counts(list)) list.erase(list.begin());
+    return list;
+  }
+
+ private:
+  /// Numbers of points are whole and unlike, while x and y have decimals; or they go up evenly, as neither x nor y
+  /// does.
+  bool first_counts(const std::vector<std::size_t>& list) const {
+    const ColumnFacts &number = columns[0], &a = columns[list[1]], &b = columns[list[2]];
+    if (number.are_whole && !a.are_whole && !b.are_whole) return true;
+    const bool is_even = count >= 3 && number.has_even_steps && number.step != 0;
+    const bool is_transect = a.has_even_steps || b.has_even_steps;
+    return !is_transect && (is_even || (number.are_whole && are_labels_unique && is_map_pair(a, b)));
+  }
+
+ public:
+  /// Coordinates of UTM and of most national grids: one of the two lies beyond a million.
+  static bool is_northing(const ColumnFacts& facts) { return facts.lies_in(1e6, 1.1e7); }
+  static bool is_easting(const ColumnFacts& facts) { return facts.lies_in(1e5, 1e6); }
+  static bool is_map_pair(const ColumnFacts& a, const ColumnFacts& b) {
+    return (is_northing(a) && is_easting(b)) || (is_easting(a) && is_northing(b));
+  }
+};
+
+Rows look_at_rows(TextLines lines, std::string_view line, const PointColumns& columns) {
+  Rows rows;
+  std::unordered_set<std::string_view> labels;
+  bool more = !columns.has_header || lines.next(line);
+  for (; more && rows.count < kMostRows; more = lines.next(line)) {
+    ++rows.count;
+    std::size_t k = 0;
+    while (const auto field = take_field(line, columns.separator)) {
+      if (k == kMostColumns) break;
+      if (k == rows.columns.size()) rows.columns.emplace_back();
+      rows.columns[k].add(*field, columns.has_decimal_comma());
+      if (k == 0) rows.are_labels_unique = labels.insert(*field).second && rows.are_labels_unique;
+      ++k;
+    }
+  }
+  while (!rows.columns.empty() && rows.columns.back().filled == 0) rows.columns.pop_back();  // trailing separators
+  return rows;
+}
+
+std::string describe(const PointColumns& columns, std::size_t count) {
+  std::string words;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto axis = std::find(columns.at.begin(), columns.at.end(), k);
+    const std::string name = k < columns.names.size() ? " " + in_quotes(columns.names[k]) : "";
+    const char* role =
+        axis == columns.at.end() ? "not read" : role_name(kAxes[static_cast<std::size_t>(axis - columns.at.begin())]);
+    words += fmt::format("{}{} {}{}", words.empty() ? "" : ", ", k + 1, role, name);
+  }
+  return words;
+}
+
+/// Puts the columns of x, y and height in place by the names of a header; false where one is missing.
+bool read_names(const std::string& z_field, PointColumns& columns, std::size_t& missing) {
+  for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
+    std::optional<std::size_t> best;
+    const bool is_named = axis == 2 && !z_field.empty();
+    for (std::size_t k = 0; k < columns.names.size(); ++k) {
+      const std::string& name = columns.names[k];
+      if (is_named ? lowered(name) != lowered(z_field) : role_of(name) != kAxes[axis]) continue;
+      if (!best || (!is_named && rank_of(name) < rank_of(columns.names[*best]))) best = k;
+      if (axis == 2 && !is_named) columns.heights.push_back(k);
+    }
+    missing = axis;
+    if (!best) return false;
+    columns.at[axis] = *best;
+    if (axis < 2) columns.in_degrees = columns.in_degrees || names_degrees(columns.names[*best]);
+  }
+  std::erase(columns.heights, columns.at[2]);
+  return true;
+}
+
+void take_names(std::string_view line, char separator, PointColumns& columns) {
+  columns.names.clear();
+  columns.heights.clear();
+  for (const std::string_view field : fields_of(line, separator)) columns.names.emplace_back(field);
+}
+
+/// Headers that say x and y where geodesists write the northing first.
+void warn_of_turned_names(const Rows& rows, PointColumns& columns) {
+  if (std::max(columns.at[0], columns.at[1]) >= rows.columns.size()) return;
+  const bool are_turned =
+      Rows::is_northing(rows.columns[columns.at[0]]) && Rows::is_easting(rows.columns[columns.at[1]]);
+  const auto is = [&](std::size_t axis, const char* word) { return lowered(columns.names[columns.at[axis]]) == word; };
+  if (!are_turned || !is(0, "x") || !is(1, "y")) return;
+  columns.warnings.push_back(fmt::format(
+      "x lies at {:.6g} and y at {:.6g}, as northing and easting do on most grids: if x is the northing here, name the "
+      "columns with --columns",
+      rows.columns[columns.at[0]].low, rows.columns[columns.at[1]].low));
+}
+
+/// The option's value for columns that have these places.
+std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool has_number) {
+  std::string text(std::min(count, kMostColumns), '-');
+  text.resize(*std::max_element(at.begin(), at.end()) + 1);
+  for (std::size_t axis = 0; axis < at.size(); ++axis) text[at[axis]] = "enz"[axis];
+  if (has_number && text[0] == '-') text[0] = 'p';
+  return text;
+}
+
+bool are_degrees(const ColumnFacts& a, const ColumnFacts& b, const ColumnFacts& height) {
+  const double extent = std::max(a.extent(), b.extent());
+  return a.lies_in(-180, 180.1) && b.lies_in(-180, 180.1) && !a.are_whole && !b.are_whole && extent < 10 &&
+         height.extent() > 10 * extent;
+}
+
+/// Which of the two columns before the height is the northing.
+Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, const std::string& name,
+                        PointColumns& columns) {
+  const ColumnFacts &a = rows.columns[list[0]], &b = rows.columns[list[1]], &height = rows.columns[list[2]];
+  const bool has_labels = list[0] > 0;
+  columns.at = {list[0], list[1], list[2]};
+  const std::array<std::size_t, 3> turned{list[1], list[0], list[2]};
+  const std::string straight_option = option_for(rows.columns.size(), columns.at, has_labels),
+                    turned_option = option_for(rows.columns.size(), turned, has_labels);
+  const std::string options = fmt::format("--columns {} or --columns {}", straight_option, turned_option);
+  constexpr double kHighest = 1e5;  // the highest summit has 29,032 feet
+  if (height.low > kHighest || height.high < -kHighest)
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: column {} would be the height, and reaches from {:.9g} to {:.9g}: no header names the "
+                            "columns, so name them with --columns, such as --columns number,easting,northing,height",
+                            name, list[2] + 1, height.low, height.high));
+  if (are_degrees(a, b, height)) {
+    const bool is_lat_first = a.lies_in(-90, 90.1) && !b.lies_in(-90, 90.1),
+               is_lon_first = b.lies_in(-90, 90.1) && !a.lies_in(-90, 90.1);
+    if (is_lat_first == is_lon_first)
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: columns {} and {} look like degrees, and no header says which is the longitude: "
+                              "give {}",
+                              name, list[0] + 1, list[1] + 1, options));
+    if (is_lat_first) columns.at = turned;
+    return {};
+  }
+  const bool is_north_first = Rows::is_northing(a) && Rows::is_easting(b),
+             is_east_first = Rows::is_easting(a) && Rows::is_northing(b);
+  if (is_east_first || (!has_labels && !is_north_first)) return {};
+  if (!has_labels || !is_north_first)
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: no header says which of the columns {} and {} is the easting: give {}", name,
+                            list[0] + 1, list[1] + 1, options));
+  columns.at = turned;
+  columns.warnings.push_back(fmt::format(
+      "column {} ({:.9g} ...) is taken for the northing and column {} ({:.9g} ...) for the easting, by their "
+      "size, since no header names them: --columns {} reads them the other way round",
+      list[0] + 1, a.first, list[1] + 1, b.first, straight_option));
+  return {};
+}
+
+Result<void> read_header(std::string_view line, const std::string& name, std::uint64_t number,
+                         const ReadPointsOptions& options, PointColumns& columns) {
+  take_names(line, columns.separator, columns);
+  std::size_t missing = 0;
+  if (read_names(options.z_field, columns, missing)) return {};
+  constexpr const char* kUsual[] = {"x, easting, east, e, lon, rechtswert", "y, northing, north, n, lat, hochwert",
+                                    "z, height, elevation, h, alt, hoehe"};
+  const bool is_named = missing == 2 && !options.z_field.empty();
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: line {} names no column {}: {} has none of the names {}; {}--columns names columns by "
+                          "their order, such as --columns number,easting,northing,height",
+                          name, number, std::string_view("xyz").substr(missing, 1), in_quotes(line),
+                          is_named ? options.z_field : kUsual[missing],
+                          missing == 2 && !is_named ? "--z-field names another, and " : ""));
+}
+
+}  // namespace
+
+char find_separator(std::string_view line) {
+  if (line.find(';') != std::string_view::npos) return ';';
+  for (const char separator : {'\t', ' ', ','}) {
+    const bool is_there = line.find(separator) != std::string_view::npos;
+    if (is_there && count_numbers(line, separator) >= 2) return separator;
+  }
+  for (const char separator : {'\t', ','}) {
+    if (line.find(separator) != std::string_view::npos) return separator;
+  }
+  return ' ';
+}
+
+bool is_header(std::string_view line, char separator) {
+  std::string_view rest = line;
+  const auto first = take_field(rest, separator);
+  return !(first && parse_field(*first, separator != ',')) && count_numbers(line, separator) < 2;
+}
+
+Result<PointColumns> find_columns(std::string_view text, const std::string& name, const ReadPointsOptions& options) {
+  PointColumns columns;
+  TextLines lines(text);
+  std::string_view line;
+  if (!lines.next(line)) return fail(ErrorKind::kInternal, name + ": there is no line");
+  columns.separator = find_separator(line);
+  columns.has_header = is_header(line, columns.separator);
+  if (!options.columns.empty()) {
+    if (!options.z_field.empty())
+      return fail(ErrorKind::kUsage, "--columns and --z-field both name the height: leave one out");
+    const auto at = parse_columns(options.columns, columns.words);
+    if (!at) return tl::unexpected(at.error());
+    columns.at = *at;
+    return columns;
+  }
+  const Rows rows = look_at_rows(lines, line, columns);
+  std::size_t missing = 0;
+  if (columns.has_header) {
+    if (auto read = read_header(line, name, lines.number(), options, columns); !read)
+      return tl::unexpected(read.error());
+    warn_of_turned_names(rows, columns);
+  } else if (const std::string_view comment = lines.comment(); !comment.empty()) {
+    take_names(comment, find_separator(comment), columns);
+    const bool is_whole = columns.names.size() == rows.columns.size();
+    if (!is_whole || !read_names(options.z_field, columns, missing)) take_names({}, ',', columns);
+  }
+  if (columns.names.empty()) {
+    if (!options.z_field.empty())
+      return fail(ErrorKind::kInput, fmt::format("{}: there is no column {}, for no header line names the columns: put "
+                                                 "one in front, such as x,y,{}, or name them with --columns",
+                                                 name, in_quotes(options.z_field), options.z_field));
+    const std::vector<std::size_t> list = rows.coordinates();
+    columns.in_degrees = false;
+    if (list.size() >= 3) {
+      if (auto told = tell_apart(rows, list, name, columns); !told) return tl::unexpected(told.error());
+    }
+  }
+  columns.words = describe(columns, rows.columns.size());
+  return columns;
+}
+
+}  // namespace scarp

@@ -1,0 +1,37 @@
+// Which columns of a text hold x, y and the height.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/points.h"
+
+namespace scarp {
+
+struct PointColumns {
+  char separator = ',';
+  std::array<std::size_t, 3> at{0, 1, 2};  ///< of x, y and height, from 0
+  bool has_header = false;
+  bool in_degrees = false;             ///< by the names in the header
+  std::vector<std::size_t> heights{};  ///< other columns whose names say that they hold heights
+  std::vector<std::string> names{};    ///< of the header; may be empty
+  std::string words{};                 ///< "1 number, 2 y, 3 x, 4 height"
+  std::vector<std::string> warnings{};
+
+  bool has_decimal_comma() const { return separator != ','; }
+};
+
+/// The separator of fields: that of numbers where the line has two, else of words.
+char find_separator(std::string_view line);
+
+/// True for a line of words, which names columns.
+bool is_header(std::string_view line, char separator);
+
+/// By ReadPointsOptions::columns, else by a header line (or by a comment in its place), else by what the columns hold:
+/// a first column that counts is a number. Fails with kInput, in a sentence with --columns in it, where northing and
+/// easting cannot be told apart. REQUIRES: a line that is no comment.
+Result<PointColumns> find_columns(std::string_view text, const std::string& name, const ReadPointsOptions& options);
+
+}  // namespace scarp

@@ -1,0 +1,23 @@
+// Points that are the nodes of a raster.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scarp/points.h"
+
+namespace scarp {
+
+struct PointGrid {
+  int cols = 0, rows = 0;
+  double west = 0, north = 0;  ///< of the first node
+  double dx = 0, dy = 0;       ///< steps, above 0
+  std::size_t missing = 0;
+  std::vector<double> heights;  ///< by rows from the north; NaN where a node is missing
+};
+
+/// The raster whose nodes the points are, in whatever order; nothing where they lie scattered. See is_point_file() for
+/// the rule. Cost: two sorts.
+std::optional<PointGrid> find_grid(const PointSet& points);
+
+}  // namespace scarp
