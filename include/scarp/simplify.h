@@ -86,6 +86,13 @@ enum class WhyFast {
 /// Which goal ended the run.
 enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 
+/// The breakline that lies farthest above or below the raster, at one of its vertices as given.
+struct FarthestLine {
+  std::string name;         ///< empty: none has heights
+  double distance = 0;      ///< in z units
+  bool is_at_zero = false;  ///< all its heights are 0
+};
+
 struct Simplified {
   Mesh mesh;
   StopReason stop = StopReason::kMaxError;
@@ -114,6 +121,7 @@ struct Simplified {
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   FittedFeatures features;                        ///< the lines of the mesh
   std::uint64_t lines_inserted = 0;               ///< breaklines of which some part lies in the raster
+  FarthestLine farthest_line;                     ///< of the breaklines with heights of their own
   /// The max error that lines were inserted for, given or found; without one, tolerance_factor times the largest
   /// tolerance that is finite.
   double lines_for = 0;

@@ -312,6 +312,26 @@ std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follo
   return followed;
 }
 
+/// Of breaklines with heights, before the raster takes them.
+FarthestLine find_farthest(std::span<const Line> lines, const std::array<double, 6>& affine,
+                           const LineSamples& samples) {
+  const MapToSamples to_samples(affine);
+  FarthestLine farthest;
+  for (const Line& line : lines) {
+    if (line.kind != LineKind::kBreakline) continue;
+    double distance = -1;
+    bool is_at_zero = true;
+    for (const auto& [x, y, z] : line.points) {
+      const double way = std::abs(z - surface_at(samples, to_samples.position(x, y)));
+      if (way > distance) distance = way;  // NaN: a soft line, or beside the surface
+      is_at_zero = is_at_zero && z == 0;
+    }
+    if (distance < 0 || (!farthest.name.empty() && distance <= farthest.distance)) continue;
+    farthest = {line.name, distance, is_at_zero};
+  }
+  return farthest;
+}
+
 /// In a raster that is not in memory.
 Result<FieldLines> prepare_from_source(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                        double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
@@ -336,6 +356,7 @@ Result<FieldLines> prepare_from_source(const HeightField& field, const LineConst
   const auto placed = place_breaklines(followed, affine, *samples, rigid, lines.conflict, is_cut);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
+  result.farthest = find_farthest(lines.lines, affine, *samples);
   result.edits = edit_samples(*placed, [&](Point p, float after) { return samples->change(p, after); });
   if (auto taken = take_graph(*placed, followed, breaklines, is_cut, field.cols, field.rows, result); !taken)
     return tl::unexpected(taken.error());
@@ -393,6 +414,7 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
   const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
+  result.farthest = find_farthest(lines.lines, affine, samples);
   if (is_cut || std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
     result.samples.assign(raster.samples, raster.row(raster.rows));
     result.edits = edit_samples(*placed, [&](Point p, float after) {

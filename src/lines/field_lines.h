@@ -23,8 +23,9 @@ struct FieldLines {
   /// Instead, where the field has one and samples are edited; nothing of it is cut.
   std::shared_ptr<const SampleSource> source;
   std::vector<SampleEdit> edits;  ///< of these samples
-  std::uint64_t inserted = 0;     ///< breaklines with some part in the raster, except those inserted first
-  std::uint64_t valid = 0;        ///< samples, before the cut; 0: not known
+  FarthestLine farthest;
+  std::uint64_t inserted = 0;  ///< breaklines with some part in the raster, except those inserted first
+  std::uint64_t valid = 0;     ///< samples, before the cut; 0: not known
 
   /// `field` with these samples, which stay here.
   HeightField apply(const HeightField& field) const;

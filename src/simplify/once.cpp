@@ -52,6 +52,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, Request& option
   result->passes.insert(result->passes.begin(), Pass{"arrange", seconds + work.seconds()});
   result->edits = std::move(lines->edits);
   result->lines_inserted = lines->inserted;
+  result->farthest_line = std::move(lines->farthest);
   const Measurement& measured = result->measurement;
   // Where the field has a source, what lies beyond a cut is nodata to refinement only.
   const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;

@@ -2,7 +2,7 @@
 # --breaklines: every line is a chain of edges of the mesh, hard ones at their own heights, and the bound holds against
 # the raster as the lines left it.
 source "$(dirname "$0")/lib.sh"
-need python3
+need python3 gdal_translate
 
 succeeds "$scarp" generate smooth 160 120 hills.tif --seed 3 -q
 python3 - <<'PYTHON'
@@ -46,6 +46,27 @@ succeeds "$scarp" measure hills.tif ring.glb --fail-above 12
 succeeds "$scarp" simplify hills.tif level.obj -e 12 --up z --breaklines soft.geojson --breakline-z level --line-conflict mean
 succeeds "$scarp" simplify hills.tif both.glb -e 12 --breaklines soft.geojson --breaklines ring.geojson --report r.json --overwrite
 [ "$(json r.json breaklines laid)" = 4 ] || fail "not all lines of two files are inserted"
+
+# Lines that nobody gave heights: told in numbers, with a way out that works.
+python3 - <<'PYTHON'
+import json
+def line(points): return {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": points}}
+json.dump({"type": "FeatureCollection", "features": [line([[10.3, 10.2, 2000], [50.1, 50.7, 2000]]),
+    line([[70.4, 20.3, 0], [120.6, 80.2, 0]])]}, open("zero.geojson", "w"))
+PYTHON
+succeeds gdal_translate -q -a_scale 1 -a_offset 660 hills.tif high.tif
+for limit in "" "--memory 100M"; do
+  succeeds "$scarp" simplify high.tif zero.obj -e 12 --breaklines zero.geojson --report zero.json --overwrite $limit
+  grep -Eq "warning: --breaklines: zero.geojson feature 1 lies up to [0-9.]+ from the raster, and all its heights are 0: .*--soft-breaklines" \
+    "$logs/err" || fail "a line at height 0 cuts a trench without a word"
+  [ "$(json zero.json breaklines farthest_is_at_zero)" = true ] || fail "the report does not tell lines at 0"
+  holds "$(json zero.json breaklines farthest) > 660"
+  python3 -c 'import json; assert any("all its heights are 0" in w for w in json.load(open("zero.json"))["warnings"])' ||
+    fail "the report does not warn of lines at 0"
+done
+succeeds "$scarp" simplify high.tif zero.obj -e 12 --breaklines zero.geojson --soft-breaklines --overwrite
+! grep -q "from the raster" "$logs/err" || fail "a line on the raster is warned of"
+succeeds "$scarp" measure high.tif zero.obj --fail-above 12 -q
 
 # What cannot be is refused, by name.
 refuses 2 "cross.geojson" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson

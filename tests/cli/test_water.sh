@@ -122,3 +122,20 @@ refuses 1 "--vertices free" "$scarp" simplify "$dem" x.glb -e 20 --effort high -
 refuses 1 "--water-percentile" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --water-percentile 101
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water-percentile 10
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --water nothing.gpkg
+
+# The stream of the examples follows its valley; a line over a spur is told, with a way out that works.
+succeeds "$scarp" simplify "$dem" stream.glb -e 20 --rivers "$data/examples/streams.geojson" --report stream.json
+! grep -q "below the raster, for" "$logs/err" || fail "the stream of the examples crosses higher ground"
+python3 -c 'import json; assert max(r["deepest_cut"] for r in json.load(open("stream.json"))["rivers"]) < 20' ||
+  fail "the stream of the examples cuts into the raster"
+cmp "$data/examples/streams.geojson" <(python3 "$SCARP_SOURCE/tools/make_example_stream.py") || fail "the stream is another"
+python3 - <<'PYTHON'
+import json
+json.dump({"type": "Feature", "properties": {}, "geometry": {"type": "LineString",
+    "coordinates": [[-84.24667, 36.3625], [-84.2825, 36.385], [-84.25917, 36.34833]]}}, open("spur.geojson", "w"))
+PYTHON
+succeeds "$scarp" simplify "$dem" spur.obj -e 5 --rivers spur.geojson
+grep -Eq "warning: --rivers: spur.geojson feature 0 runs up to [0-9.]+ below the raster, for it crosses higher ground" "$logs/err" ||
+  fail "a river through a spur is not told"
+succeeds "$scarp" simplify "$dem" spur.obj -e 5 --breaklines spur.geojson --soft-breaklines --overwrite
+[ ! -s "$logs/err" ] || fail "a line on the raster is warned of"

@@ -357,6 +357,7 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
     for (std::string& sentence : warn_of_undeclared_nodata(outcome.as_read, outcome.field))
       outcome.warnings.push_back(std::move(sentence));
   }
+  warn_of_far_lines(outcome.simplified, outcome.asked.value_or(outcome.simplified.lines_for), outcome.warnings);
   warn_of_missing_walls(given.cliff, fitted.walls, outcome.warnings);
   warn_of_missing_ridges(given.ridges, fitted.ridges, outcome.warnings);
   if (fitted.given_lines() > 0 && outcome.simplified.lines_inserted == 0) {

@@ -128,14 +128,39 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   return constraints;
 }
 
-Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t inserted,
-                    const std::vector<SampleEdit>& edits) {
+Json describe_lines(const LineArguments& given, const Simplified& simplified) {
   if (given.breaklines.empty()) return nullptr;
+  const FarthestLine& farthest = simplified.farthest_line;
   return Json{{"files", given.breaklines},
-              {"lines", lines},
-              {"laid", inserted},
-              {"edited_samples", edits.size()},
-              {"largest_edit", largest_edit(edits)}};
+              {"lines", simplified.features.given_lines()},
+              {"laid", simplified.lines_inserted},
+              {"edited_samples", simplified.edits.size()},
+              {"largest_edit", largest_edit(simplified.edits)},
+              {"farthest", farthest.distance},
+              {"farthest_line", farthest.name},
+              {"farthest_is_at_zero", farthest.is_at_zero}};
+}
+
+void warn_of_far_lines(const Simplified& simplified, double error, std::vector<std::string>& warnings) {
+  constexpr double kMostErrors = 10;
+  const FarthestLine& line = simplified.farthest_line;
+  if (line.distance > kMostErrors * error) {
+    warnings.push_back(fmt::format(
+        "--breaklines: {} lies up to {} from the raster{}: {}--soft-breaklines takes the "
+        "heights of lines from the raster",
+        line.name, format_number(line.distance), line.is_at_zero ? ", and all its heights are 0" : "",
+        line.is_at_zero ? "--breakline-z names an attribute with heights, and " : "if its heights are wrong, "));
+  }
+  const std::vector<River>& rivers = simplified.features.rivers;
+  const auto deepest = std::max_element(rivers.begin(), rivers.end(),
+                                        [](const River& a, const River& b) { return a.deepest_cut < b.deepest_cut; });
+  if (deepest != rivers.end() && deepest->deepest_cut > kMostErrors * error) {
+    warnings.push_back(
+        fmt::format("--rivers: {} runs up to {} below the raster, for it crosses higher ground: draw it "
+                    "along the valley, or give its file to --breaklines, with --soft-breaklines, which "
+                    "cuts nothing",
+                    deepest->name, format_number(deepest->deepest_cut)));
+  }
 }
 
 std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits) {

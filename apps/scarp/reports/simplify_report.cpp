@@ -201,8 +201,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   }
   report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
-  report["breaklines"] = describe_lines(plan.lines, outcome.simplified.features.given_lines(),
-                                        outcome.simplified.lines_inserted, outcome.simplified.edits);
+  report["breaklines"] = describe_lines(plan.lines, outcome.simplified);
   report["water"] = describe_lakes(outcome.features.lakes);
   report["rivers"] = describe_rivers(outcome.simplified.features.rivers);
   report["cliffs"] = describe_cliffs(plan.cliff, outcome.simplified.features.walls);
