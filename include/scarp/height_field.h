@@ -80,8 +80,18 @@ struct HeightCount {
 /// A height that most likely stands for nodata, though the raster does not say so: see find_undeclared_nodata().
 struct UndeclaredNodata {
   HeightCount of;
+  double value = 0;         ///< of the file, which that height is made of
   bool is_high = false;     ///< above all others, not below
   double min = 0, max = 0;  ///< of the others
+};
+
+/// What speaks against heights that were packed into colours, and the colours then changed or taken for others.
+struct PackedDoubts {
+  /// Samples that lie off both neighbours in their row, which are close together, by a quarter to one and a half of
+  /// what the next colour counts, where that changes: as many as interpolation or lossy compression leaves, else 0.
+  std::uint64_t torn = 0;
+  double torn_by = 0;      ///< the farthest of them
+  std::string seems = {};  ///< the other encoding, where most heights are none on earth as they are, and are by that
 };
 
 /// Metadata of a raster that was read.
@@ -97,6 +107,7 @@ struct RasterInfo {
   std::string crs_with_heights;  ///< WKT of the CRS where `vertical` is set; else empty
   std::string unit;              ///< of z where the file says so; else empty
   double z_scale = 1, z_offset = 0;  ///< those of ReadOptions: heights are z_scale · value + z_offset
+  double scale = 1, offset = 0;      ///< the file's own: such a value is scale · (what it stores) + offset
   std::optional<double> nodata;      ///< the nodata value used, of the file's values
   std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
   bool has_georeference = false;
@@ -108,6 +119,7 @@ struct RasterInfo {
   std::vector<UndeclaredNodata> undeclared_nodata;  ///< among them, if has_range
   std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
   std::string view = {};  ///< what ReadOptions::view made of the files, in words; empty for one raster as it is
+  PackedDoubts packed = {};  ///< of heights packed into colours
 };
 
 /// A height field that owns its samples, or their source. nodata samples are NaN.
@@ -152,16 +164,18 @@ struct HeightRange {
 };
 HeightRange height_range(const HeightField& field, int threads = 1);
 
+/// `scale`, `offset`: a height is scale · value + offset, and signs are values.
 /// The heights at either end of the range that most likely stand for nodata. A height does where it is far from all
 /// others within:
-/// - a usual sign for nodata (-999, -32768; 9999, 99999, 999999, 32767, 65535 and 1e20 or more, below 0 or above), by a
+/// - a usual sign for nodata (-999, -10000, -32768; 9999, 99999, 999999, 32767, 65535 and 1e20 or more, below 0 or
+///   above), by a
 ///   fifth of the others' range;
 /// - 0, by a twentieth of it and by at least 10, where a thousandth of the samples has it: a sea that honestly lies at
 /// 0
 ///   has a shore that is not much higher;
 /// - any other, by 50 times their range, where at most a hundredth of the samples has it.
 /// The others must differ, and more heights than HeightRange::kEnds − 1 at one end are not seen through. Cost: O(1).
-std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range);
+std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale = 1, double offset = 0);
 
 /// Fills nodata by interpolation: each nodata sample within `max_distance` samples (Euclidean, along the eight compass
 /// directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by inverse

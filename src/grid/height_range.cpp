@@ -159,7 +159,8 @@ void set_range(const HeightRange& range, RasterInfo& info) {
   info.valid = range.valid;
   info.min = range.min;
   info.max = range.max;
-  info.undeclared_nodata = find_undeclared_nodata(range);
+  info.undeclared_nodata =
+      find_undeclared_nodata(range, info.z_scale * info.scale, info.z_scale * info.offset + info.z_offset);
 }
 
 HeightRange height_range(const HeightField& field, int threads) {

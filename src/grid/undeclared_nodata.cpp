@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "scarp/height_field.h"
 
@@ -13,32 +14,47 @@ constexpr std::size_t kEnds = HeightRange::kEnds;
 using Ends = std::array<HeightCount, kEnds>;
 
 /// What software writes where it knows nothing.
-bool is_usual_sign(double height) {
-  constexpr double kHuge = 1e20;
-  constexpr std::array kEither{9999.0, 99999.0, 999999.0, 32767.0, 65535.0};
-  if (std::abs(height) >= kHuge || height == -999 || height == -32768) return true;
-  return std::find(kEither.begin(), kEither.end(), std::abs(height)) != kEither.end();
+constexpr std::array kSigns{-999.0,   -10000.0, -32768.0, -9999.0,  -99999.0, -999999.0, -32767.0,
+                            -65535.0, 9999.0,   99999.0,  999999.0, 32767.0,  65535.0,   0.0};
+
+/// From values of a file to heights.
+struct Scale {
+  double scale = 1, offset = 0;
+
+  /// The value of a height, which was rounded to a float32: a usual sign if it may be one.
+  double value_of(double height) const {
+    if (scale == 1 && offset == 0) return height;
+    const double value = (height - offset) / scale;
+    const double off = 2 * std::abs(height) * std::numeric_limits<float>::epsilon() / std::abs(scale);
+    const auto sign = std::find_if(kSigns.begin(), kSigns.end(), [&](double s) { return std::abs(value - s) <= off; });
+    return sign == kSigns.end() ? value : *sign;
+  }
+};
+
+bool is_usual_sign(double value) {
+  constexpr double kBeyond = 1e20;
+  return std::abs(value) >= kBeyond || (value != 0 && std::find(kSigns.begin(), kSigns.end(), value) != kSigns.end());
 }
 
 /// From the others, which begin `gap` away and have that range.
-bool is_far(const HeightCount& here, double gap, double range, std::uint64_t valid) {
+bool is_far(const HeightCount& here, double value, double gap, double range, std::uint64_t valid) {
   constexpr double kOfSigns = 0.2, kOfZero = 0.05, kLeastOfZero = 10, kOfAny = 50;
   constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100;
-  if (is_usual_sign(here.height) && gap >= kOfSigns * range) return true;
+  if (is_usual_sign(value) && gap >= kOfSigns * range) return true;
   if (range == 0) return false;  // two heights, of which neither is odd
-  if (here.height == 0 && gap >= kLeastOfZero && gap >= kOfZero * range && here.samples >= valid / kShareOfZero)
-    return true;
+  if (value == 0 && gap >= kLeastOfZero && gap >= kOfZero * range && here.samples >= valid / kShareOfZero) return true;
   return gap >= kOfAny * range && here.samples <= valid / kShareOfAny;
 }
 
 /// How many of the heights at one end, from the outermost inwards, are far from all others, which reach to `other`.
-std::size_t count_far(const Ends& ends, std::size_t first, double other, std::uint64_t valid) {
+std::size_t count_far(const Ends& ends, std::size_t first, double other, std::uint64_t valid, const Scale& scale) {
   for (std::size_t next = first + 1; next < kEnds && ends[next].samples > 0; ++next) {
     const double range = std::abs(other - ends[next].height);
     const auto far = [&](const HeightCount& here) {
-      return is_far(here, std::abs(ends[next].height - here.height), range, valid);
+      return is_far(here, scale.value_of(here.height), std::abs(ends[next].height - here.height), range, valid);
     };
-    const bool may_tell = range > 0 || !is_usual_sign(ends[next].height);  // all others may be one height
+    const bool may_tell =
+        range > 0 || !is_usual_sign(scale.value_of(ends[next].height));  // all others may be one height
     if (may_tell && std::all_of(ends.begin() + static_cast<std::ptrdiff_t>(first),
                                 ends.begin() + static_cast<std::ptrdiff_t>(next), far))
       return next;
@@ -48,19 +64,22 @@ std::size_t count_far(const Ends& ends, std::size_t first, double other, std::ui
 
 }  // namespace
 
-std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range) {
+std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale, double offset) {
+  const Scale of_values{scale, offset};
   std::size_t low = 0, high = 0;
   // What is far at one end may hide behind what is far at the other.
   for (std::size_t look = 0; look < kEnds; ++look) {
     const std::size_t before = low + high;
-    low = count_far(range.lowest, low, range.highest[high].height, range.valid);
-    high = count_far(range.highest, high, range.lowest[low].height, range.valid);
+    low = count_far(range.lowest, low, range.highest[high].height, range.valid, of_values);
+    high = count_far(range.highest, high, range.lowest[low].height, range.valid, of_values);
     if (low + high == before) break;
   }
   std::vector<UndeclaredNodata> found;
   const double min = range.lowest[low].height, max = range.highest[high].height;
-  for (std::size_t k = 0; k < low; ++k) found.push_back({range.lowest[k], false, min, max});
-  for (std::size_t k = 0; k < high; ++k) found.push_back({range.highest[k], true, min, max});
+  for (std::size_t k = 0; k < low; ++k)
+    found.push_back({range.lowest[k], of_values.value_of(range.lowest[k].height), false, min, max});
+  for (std::size_t k = 0; k < high; ++k)
+    found.push_back({range.highest[k], of_values.value_of(range.highest[k].height), true, min, max});
   return found;
 }
 

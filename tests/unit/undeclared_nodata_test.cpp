@@ -1,6 +1,7 @@
 // Heights that stand for nodata without being declared, and those that only look so.
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "scarp/height_field.h"
@@ -25,13 +26,28 @@ std::vector<float> land_beside(float value, int count, float lowest = 0, float s
 }
 
 TEST(undeclared_nodata, usual_signs_are_found_at_either_end_and_counted) {
-  for (const float value : {-9999.0F, -32768.0F, -32767.0F, -999.0F, 32767.0F, 65535.0F, -3.4028235e38F, 1e20F}) {
+  for (const float value : {-9999.0F, -10000.0F, -32768.0F, -32767.0F, -999.0F, 32767.0F, 65535.0F, -3.4028235e38F, 1e20F}) {
     const auto found = find(land_beside(value, 6));
     ASSERT_EQ(found.size(), 1U) << value;
     EXPECT_EQ(found[0].of.height, value);
     EXPECT_EQ(found[0].of.samples, 6U);
     EXPECT_EQ(found[0].is_high, value > 0);
     EXPECT_EQ(found[0].min, 0);
+  }
+}
+
+TEST(undeclared_nodata, signs_are_values_of_the_file_whatever_heights_are_made_of_them) {
+  for (const auto& [scale, offset] : {std::pair{0.3048, 0.0}, {0.1, 0.0}, {3.28084, -20.0}, {-1.0, 100.0}}) {
+    auto samples = land_beside(-9999, 6);
+    for (float& z : samples) z = static_cast<float>(scale * double{z} + offset);
+    HeightField field;
+    field.samples = samples.data();
+    field.cols = static_cast<int>(samples.size() / 2);
+    field.rows = 2;
+    const auto found = find_undeclared_nodata(height_range(field), scale, offset);
+    ASSERT_EQ(found.size(), 1U) << scale;
+    EXPECT_EQ(found[0].value, -9999);
+    EXPECT_EQ(found[0].of.height, static_cast<float>(scale * -9999 + offset));
   }
 }
 

@@ -26,12 +26,13 @@ std::vector<std::string> warn_of_undeclared_nodata(const RasterInfo& info, const
   std::string kept = has_kept ? fmt::format("{}", *info.nodata) : "";
   for (const UndeclaredNodata& nodata : info.undeclared_nodata) {
     // As short as it can be without becoming another float32.
-    const std::string value = fmt::format("{}", static_cast<float>(nodata.of.height));
+    const std::string height = fmt::format("{}", static_cast<float>(nodata.of.height));
+    const std::string value = fmt::format("{}", static_cast<float>(nodata.value));
     const std::string remedy = remedy_of(value, kept, info.path);
     if (kept.empty()) kept = value;
     sentences.push_back(
         fmt::format("{} exactly {}, far {} all others ({} to {}): if {} nodata, {}",
-                    nodata.of.samples == 1 ? "1 sample is" : format_count(nodata.of.samples) + " samples are", value,
+                    nodata.of.samples == 1 ? "1 sample is" : format_count(nodata.of.samples) + " samples are", height,
                     nodata.is_high ? "above" : "below", format_number(nodata.min), format_number(nodata.max),
                     nodata.of.samples == 1 ? "it means" : "they mean", remedy));
   }

@@ -171,7 +171,8 @@ void complete_info(const HeightRange& judged, RasterInfo& info) {
   info.valid = judged.valid;
   info.min = judged.min;
   info.max = judged.max;
-  info.undeclared_nodata = find_undeclared_nodata(judged);
+  info.undeclared_nodata =
+      find_undeclared_nodata(judged, info.z_scale * info.scale, info.z_scale * info.offset + info.z_offset);
 }
 
 void complete_info(const RasterInfo& now, RasterInfo& info) {

@@ -19,7 +19,7 @@ function outermost(samples, is_beyond) {
   return ends;
 }
 
-const is_sign = z => Math.abs(z) >= HUGE || z === -999 || z === -32768 || SIGNS.includes(Math.abs(z));
+const is_sign = z => Math.abs(z) >= HUGE || z === -999 || z === -10000 || z === -32768 || SIGNS.includes(Math.abs(z));
 
 function is_far({ height, samples }, gap, range, valid) {
   if (is_sign(height) && gap >= 0.2 * range) return true;
