@@ -30,8 +30,9 @@ enum class DefaultFrame {
 /// Several rasters, a part or a coarser version of one, read as a raster.
 struct RasterView {
   /// Rasters that make one mosaic with the first. Where several have a value, that of the last one counts; where none
-  /// has, the sample is missing. They have one CRS, one number of bands, one sample type, nodata value, scale and
-  /// offset, and lie on one grid.
+  /// has, the sample is missing. They have one CRS and vertical datum, one number of bands and unit, and lie on one
+  /// grid; each has its own sample type, nodata value, mask, scale and offset. Those on both sides of the 180th
+  /// meridian lie side by side.
   std::vector<std::string> more = {};
   /// xmin, ymin, xmax, ymax in the units of the raster's CRS: only the cells that overlap this rectangle.
   std::optional<std::array<double, 4>> extent = std::nullopt;

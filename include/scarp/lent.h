@@ -25,6 +25,7 @@ struct LentRaster {
   std::string unit = {};       ///< of the heights: "m", "ft". DEFAULT: not known.
   bool is_geographic = false;  ///< without a CRS that GDAL knows: x and y are degrees on WGS 84. DEFAULT: false.
   double sample_rounding = 0;  ///< as HeightField::sample_rounding. DEFAULT: 0.
+  std::string unit = {};       ///< of the samples, as RasterInfo::unit. DEFAULT: it is not known.
 };
 
 /// While it lives, `name` is the name of the thing for every reader that this thread calls: read_height_field() and

@@ -56,8 +56,10 @@ gdal_translate -q -outsize 50% 50% tiles/b.tif coarse.tif
 gdal_translate -q -a_ullr 506015 4010320 512105 4005820 tiles/b.tif shifted.tif
 refuses 2 "zone.tif is in EPSG:32616, and tiles/a.tif in EPSG:32617: bring it there first (gdalwarp -t_srs EPSG:32617" \
   "$scarp" simplify tiles/a.tif zone.tif o.stl -e 20
-refuses 2 "float.tif holds Float32, and tiles/a.tif Int16" "$scarp" simplify tiles/a.tif float.tif o.stl -e 20
-refuses 2 "nodata.tif has the nodata value -9999, and tiles/a.tif has no nodata value" "$scarp" simplify tiles/a.tif nodata.tif o.stl -e 20
+for other in float.tif nodata.tif; do # of another type, and with another nodata value, of which there is none
+  succeeds "$scarp" simplify tiles/a.tif $other tiles/c.tif other.stl -e 20 --overwrite
+  same whole.stl other.stl
+done
 refuses 2 "coarse.tif has cells of 60.2970297 x 60" "$scarp" info tiles/a.tif coarse.tif
 refuses 2 "shifted.tif lies 0.5 of a cell beside the grid of tiles/a.tif" "$scarp" simplify tiles/a.tif shifted.tif o.stl -e 20
 eval "$(sed -n 's/.*(\(gdalwarp .*\)).*/\1/p' "$logs/err") -q" || fail "the way out is no command"

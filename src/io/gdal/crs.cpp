@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/gdal/cf_axes.h"
 #include "io/gdal/session.h"
 #include "io/raster/crs_description.h"
 #include "io/raster/raster_source.h"
@@ -31,21 +32,31 @@ class MapTransform final : public PointTransform {
 
 }  // namespace
 
-Crs crs_of(GDALDatasetH dataset) { return copy_crs(GDALGetSpatialRef(dataset)); }
+Crs declared_crs(GDALDatasetH dataset) {
+  if (const OGRSpatialReferenceH borrowed = GDALGetSpatialRef(dataset)) return Crs(OSRClone(borrowed));
+  return is_in_degrees(dataset) ? find_crs("EPSG:4326") : nullptr;
+}
+
+Crs crs_of(GDALDatasetH dataset) { return copy_crs(declared_crs(dataset).get()); }
 
 Crs copy_crs(OGRSpatialReferenceH borrowed) {
   if (borrowed == nullptr || OSRGetName(borrowed) == nullptr) return nullptr;
   return flattened(OSRClone(borrowed));
 }
 
-Crs find_crs(const std::string& definition) {
+Crs find_declared_crs(const std::string& definition) {
   const bool is_code = !definition.empty() && definition.find_first_not_of("0123456789") == std::string::npos;
   OGRSpatialReferenceH crs = OSRNewSpatialReference(nullptr);
   if (OSRSetFromUserInput(crs, ((is_code ? "EPSG:" : "") + definition).c_str()) != OGRERR_NONE) {
     OSRDestroySpatialReference(crs);
     return nullptr;
   }
-  return flattened(crs);
+  return Crs(crs);
+}
+
+Crs find_crs(const std::string& definition) {
+  Crs crs = find_declared_crs(definition);
+  return crs ? flattened(crs.release()) : nullptr;
 }
 
 std::string crs_name(const Crs& crs) {
@@ -69,6 +80,18 @@ std::string wkt_with_heights(const Crs& crs) {
   if (crs && OSRExportToWktEx(crs.get(), &wkt, options) == OGRERR_NONE && wkt != nullptr) text = wkt;
   CPLFree(wkt);
   return text;
+}
+
+std::string name_with_heights(const Crs& crs) {
+  if (!crs) return {};
+  const auto code_of = [&](const char* part) {
+    const char* authority = OSRGetAuthorityName(crs.get(), part);
+    const char* code = OSRGetAuthorityCode(crs.get(), part);
+    return authority != nullptr && EQUAL(authority, "EPSG") && code != nullptr ? std::string(code) : std::string();
+  };
+  if (OSRIsCompound(crs.get()) == 0) return code_of(nullptr).empty() ? "" : "EPSG:" + code_of(nullptr);
+  const std::string map = code_of(OSRIsProjected(crs.get()) != 0 ? "PROJCS" : "GEOGCS"), heights = code_of("VERT_CS");
+  return map.empty() || heights.empty() ? "" : "EPSG:" + map + "+" + heights;
 }
 
 std::string short_name(const Crs& crs) {

@@ -22,11 +22,16 @@ struct DestroyCrs {
 /// Always two-dimensional, x (east, longitude) before y (north, latitude).
 using Crs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyCrs>;
 
+/// As the raster says it, with a vertical datum and in its own order of axes; null if it has none. Coordinates of CF
+/// files in degrees without more are those of WGS 84.
+Crs declared_crs(GDALDatasetH dataset);
 /// The raster's CRS; null if it has none.
 Crs crs_of(GDALDatasetH dataset);
 /// Null for null and for a CRS without a name.
 Crs copy_crs(OGRSpatialReferenceH borrowed);
 
+/// As find_crs(), with a vertical datum and the order of axes as they are.
+Crs find_declared_crs(const std::string& definition);
 /// From an option: "EPSG:32611", "32611", WKT, a PROJ string. Null if GDAL does not know it.
 Crs find_crs(const std::string& definition);
 
@@ -34,6 +39,8 @@ Crs find_crs(const std::string& definition);
 std::string crs_name(const Crs& crs);
 /// WKT of 2019, which knows vertical datums. Empty for null.
 std::string wkt_with_heights(const Crs& crs);
+/// "EPSG:26917+5703" where both parts of a compound CRS are known, "EPSG:4979" for one of three dimensions; else empty.
+std::string name_with_heights(const Crs& crs);
 /// "EPSG:32611", or the name in the WKT: short enough for a sentence.
 std::string short_name(const Crs& crs);
 

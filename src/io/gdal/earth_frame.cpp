@@ -223,8 +223,8 @@ void warn_of_heights(const SpaceCrs& crs, bool is_applied, RasterInfo& info) {
 
 }  // namespace
 
-SpaceCrs space_crs_of(GDALDatasetH dataset) {
-  const OGRSpatialReferenceH borrowed = GDALGetSpatialRef(dataset);
+SpaceCrs space_crs_of(const Crs& declared) {
+  const OGRSpatialReferenceH borrowed = declared.get();
   SpaceCrs space;
   if (borrowed == nullptr || OSRGetName(borrowed) == nullptr) return space;
   space.crs.reset(OSRClone(borrowed));

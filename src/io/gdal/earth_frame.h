@@ -16,7 +16,7 @@ struct SpaceCrs {
   std::string vertical;         ///< what its heights are above, such as "EGM96 height"; empty: nobody says
   bool is_ellipsoidal = false;  ///< they are above the ellipsoid
 };
-SpaceCrs space_crs_of(GDALDatasetH dataset);
+SpaceCrs space_crs_of(const Crs& declared);
 
 /// The frame in space that `wanted` names. REQUIRES: is_in_space().
 /// Warnings go to `info`. kUsage if there is no way from the raster's CRS, and for

@@ -183,7 +183,7 @@ Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& 
   std::optional<std::array<double, 6>> pixels(std::in_place);
   if (GDALGetGeoTransform(dataset, pixels->data()) != CE_None) pixels.reset();
   Georeference geo = make_georeference(GDALGetRasterXSize(dataset), GDALGetRasterYSize(dataset), pixels,
-                                       crs_of(dataset), space_crs_of(dataset));
+                                       crs_of(dataset), space_crs_of(declared_crs(dataset)));
   if (geo.located && is_degenerate(geo.samples)) {
     return fail(ErrorKind::kInput, path +
                                        ": its geotransform maps the raster to a line or to infinity; repair it with "

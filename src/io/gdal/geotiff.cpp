@@ -86,7 +86,8 @@ Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int col
   if (driver == nullptr) return refuse_geotiff("this GDAL has no GTiff driver");
   gdal::Crs crs;
   if (like != nullptr && !like->crs.empty()) {
-    crs = gdal::find_crs(like->crs);
+    const bool keeps_heights = like->z_scale == 1 && like->z_offset == 0 && !like->crs_with_heights.empty();
+    crs = keeps_heights ? gdal::find_declared_crs(like->crs_with_heights) : gdal::find_crs(like->crs);
     if (!crs) return refuse_geotiff(fmt::format("'{}' is no CRS that GDAL knows", like->crs));
   }
   const char* options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3",      "TILED=YES",

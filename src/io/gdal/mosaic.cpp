@@ -3,18 +3,20 @@
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
-#include <gdal_utils.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
-#include <memory>
+#include <numbers>
 #include <optional>
-#include <set>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "io/gdal/crs.h"
 #include "io/gdal/earth_frame.h"
+#include "io/gdal/join.h"
 #include "scarp/tile_job.h"
 
 namespace scarp::gdal {
@@ -22,35 +24,22 @@ namespace {
 
 constexpr double kMostOffGrid = 1e-3;  // of a cell
 
-/// What rasters of one mosaic have in common, and where each lies.
-struct Tile {
-  std::string path, name;
-  Crs crs;
-  std::array<double, 6> gt{};
-  int cols = 0, rows = 0, bands = 0;
-  GDALDataType type = GDT_Unknown;
-  std::string nodata, scale;  // words, to compare and to say
-  std::string heights;        // what they are above, as the CRS says
-  bool has_holes = false;     // an alpha band, a mask or a nodata value tells where it has no value
-};
-
+/// A command that makes new.tif of the raster. Cells beside it hold no value rather than 0.
 std::string gdalwarp(const std::string& options, const Tile& tile) {
-  return fmt::format("(gdalwarp {} {} {}.tif)", options, tile.path, "new");
+  const BandFacts& band = tile.bands.front();
+  const bool tells = band.nodata || tile.has_mask(false) || tile.has_alpha() || tile.bands.size() > 1;
+  const char* wide = band.type == GDT_Int32 || band.type == GDT_UInt32 ? " -ot Float64" : " -ot Float32";
+  return fmt::format("(gdalwarp {}{} {} new.tif)", options,
+                     tells ? "" : std::string(GDALDataTypeIsFloating(band.type) ? "" : wide) + " -dstnodata nan",
+                     tile.path);
 }
 
 Result<Tile> look_at(Session& session, const std::string& path) {
   const auto dataset = open_raster(session, path);
   if (!dataset) return tl::unexpected(dataset.error());
   GDALDatasetH raster = dataset->get();
-  Tile tile;
-  tile.path = path;
-  tile.name = GDALGetDescription(raster);
-  tile.crs = crs_of(raster);
-  const SpaceCrs space = space_crs_of(raster);
-  tile.heights = space.is_ellipsoidal ? "the ellipsoid" : space.vertical;
-  tile.cols = GDALGetRasterXSize(raster);
-  tile.rows = GDALGetRasterYSize(raster);
-  tile.bands = GDALGetRasterCount(raster);
+  Tile tile = describe_raster(raster, path);
+  tile.gap = find_wide_gap(raster);
   if (GDALGetGeoTransform(raster, tile.gt.data()) != CE_None) {
     return fail(ErrorKind::kInput,
                 path + ": has no georeference, so that it has no place in a mosaic: name the other rasters one by one");
@@ -59,16 +48,76 @@ Result<Tile> look_at(Session& session, const std::string& path) {
     return fail(ErrorKind::kInput, fmt::format("{}: is rotated, so that it has no place in a mosaic: turn it first {}",
                                                path, gdalwarp("-r bilinear", tile)));
   }
-  GDALRasterBandH band = GDALGetRasterBand(raster, 1);
-  tile.type = GDALGetRasterDataType(band);
-  int has_nodata = 0;
-  const double nodata = GDALGetRasterNoDataValue(band, &has_nodata);
-  if (has_nodata != 0) tile.nodata = fmt::format("{:.17g}", nodata);
-  tile.has_holes = GDALGetMaskFlags(band) != GMF_ALL_VALID;
-  tile.scale = fmt::format("scale {:.17g} and offset {:.17g}", GDALGetRasterScale(band, nullptr),
-                           GDALGetRasterOffset(band, nullptr));
   return tile;
 }
+
+/// Metres in a unit of heights; 0: another one, or none.
+double metres_in(const std::string& unit) {
+  std::string word;
+  for (const char c : unit) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* metre : {"m", "metre", "metres", "meter", "meters"}) {
+    if (word == metre) return 1;
+  }
+  const auto has = [&](const char* part) { return word.find(part) != std::string::npos; };
+  if (!has("ft") && !has("foot") && !has("feet")) return 0;
+  return has("us") || has("survey") ? 1200.0 / 3937 : 0.3048;
+}
+
+/// Who names no unit means metres.
+bool same_unit(const std::string& a, const std::string& b) {
+  const auto metres = [](const std::string& unit) { return unit.empty() ? 1 : metres_in(unit); };
+  return a == b || (metres(a) == metres(b) && metres(a) != 0);
+}
+
+std::string describe_unit_difference(const Tile& first, const Tile& tile, std::size_t k) {
+  const BandFacts &a = first.bands[k], &b = tile.bands[k];
+  if (a.unit.empty() || b.unit.empty()) {
+    const Tile& without = b.unit.empty() ? tile : first;
+    const std::string &named = b.unit.empty() ? a.unit : b.unit, says = "heights in " + named;
+    return fmt::format("has {}, and {} {}: if {} has the same unit, declare it first (gdal_edit.py -units \"{}\" {})",
+                       b.unit.empty() ? "no unit" : says, first.path, a.unit.empty() ? "no unit" : says, without.path,
+                       named, without.path);
+  }
+  const double ratio = metres_in(a.unit) == 0 ? 0 : metres_in(b.unit) / metres_in(a.unit);
+  const std::string way =
+      ratio == 0 ? "give rasters of one unit"
+                 : fmt::format(
+                       "bring it to one unit first (gdal_translate {} new.tif && gdal_edit.py -scale {:.17g} "
+                       "-offset {:.17g} -units \"{}\" new.tif)",
+                       tile.path, b.scale * ratio, b.offset * ratio, a.unit);
+  return fmt::format("has heights in {}, and {} in {}: {}", b.unit, first.path, a.unit, way);
+}
+
+/// What heights are above, as the CRS says.
+std::string heights_of(const Tile& tile) { return tile.space.is_ellipsoidal ? "the ellipsoid" : tile.space.vertical; }
+
+std::string describe_datum_difference(const Tile& first, const Tile& tile) {
+  const std::string a = heights_of(first), b = heights_of(tile);
+  const auto say = [](const std::string& datum) {
+    return datum.empty() ? "no vertical datum" : "heights above " + datum;
+  };
+  const Tile& named = a.empty() ? tile : first;
+  const Tile& other = a.empty() ? first : tile;
+  const std::string crs = name_with_heights(named.space.crs);
+  std::string way = "give rasters of one vertical datum";
+  if (!crs.empty()) {
+    way = a.empty() || b.empty() ? fmt::format("if {} has the same, declare it first (gdal_edit.py -a_srs {} {})",
+                                               other.path, crs, other.path)
+                                 : "bring it there first " + gdalwarp(fmt::format("-t_srs {} -r bilinear", crs), tile);
+  }
+  return fmt::format("has {}, and {} {}: {}", say(b), first.path, say(a), way);
+}
+
+/// A whole turn around the earth in x; 0 where x does not come back.
+double turn_of(const Crs& crs) {
+  if (!crs) return 0;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  if (OSRIsGeographic(crs.get()) != 0) return kTurn / OSRGetAngularUnits(crs.get(), nullptr);
+  return crs_name(crs) == "EPSG:3857" ? kTurn * OSRGetSemiMajor(crs.get(), nullptr) : 0;
+}
+
+/// How far from a whole number.
+double off_whole(double number) { return std::abs(number - std::round(number)); }
 
 /// "" or the second half of a sentence: how it differs, and the way out.
 std::string find_difference(const Tile& first, const Tile& tile) {
@@ -83,27 +132,37 @@ std::string find_difference(const Tile& first, const Tile& tile) {
     return fmt::format("is in {}, and {} in {}: bring it there first {}", name(tile), first.path, name(first),
                        gdalwarp(fmt::format("-t_srs {} -r bilinear", name(first)), tile));
   }
-  if (tile.bands != first.bands)
-    return fmt::format("has {} bands, and {} has {}: give rasters of one kind", tile.bands, first.path, first.bands);
-  if (tile.type != first.type)
-    return fmt::format("holds {}, and {} {}: give it the same type first (gdal_translate -ot {} {} new.tif)",
-                       GDALGetDataTypeName(tile.type), first.path, GDALGetDataTypeName(first.type),
-                       GDALGetDataTypeName(first.type), tile.path);
-  if (tile.nodata != first.nodata) {
-    const auto say = [](const std::string& of) { return of.empty() ? "no nodata value" : "the nodata value " + of; };
-    return fmt::format("has {}, and {} has {}: give both the same first {}", say(tile.nodata), first.path,
-                       say(first.nodata),
-                       gdalwarp("-dstnodata " + (first.nodata.empty() ? tile.nodata : first.nodata),
-                                first.nodata.empty() ? first : tile));
+  if (heights_of(first) != heights_of(tile)) return describe_datum_difference(first, tile);
+  if (tile.bands.size() != first.bands.size()) {
+    return fmt::format("has {} bands, and {} has {}: give rasters of one kind", tile.bands.size(), first.path,
+                       first.bands.size());
   }
-  if (tile.scale != first.scale)
-    return fmt::format("has {}, and {} has {}: apply them first (gdal_translate -unscale -ot Float32 {} new.tif)",
-                       tile.scale, first.path, first.scale, tile.path);
+  for (std::size_t k = 0; k < tile.bands.size(); ++k) {
+    const BandFacts &a = first.bands[k], &b = tile.bands[k];
+    const Tile& hard = can_join(b.type) ? first : tile;
+    if (!can_join(hard.bands[k].type))
+      return fmt::format(
+          "and {} make no mosaic, since {} holds {}: give it another type first (gdal_translate -ot "
+          "Float64 {} new.tif)",
+          first.path, hard.path, GDALGetDataTypeName(hard.bands[k].type), hard.path);
+    if (a.is_alpha != b.is_alpha) {
+      return fmt::format(
+          "and {} make no mosaic, since band {} is transparency in one of them alone: give rasters of one "
+          "kind",
+          first.path, k + 1);
+    }
+    if (!same_unit(a.unit, b.unit)) return describe_unit_difference(first, tile, k);
+  }
   const double dx = first.gt[1], dy = first.gt[5];
+  if (dx * tile.gt[1] < 0 || dy * tile.gt[5] < 0) {
+    const Tile& turned = tile.gt[1] < 0 || tile.gt[5] > 0 ? tile : first;
+    return fmt::format("and {} begin at different sides: make {} north up first {}", first.path, turned.path,
+                       fmt::format("(gdalwarp {} new.tif)", turned.path));
+  }
   const double size = std::max(std::abs(tile.gt[1] - dx) * std::max(tile.cols, first.cols) / std::abs(dx),
                                std::abs(tile.gt[5] - dy) * std::max(tile.rows, first.rows) / std::abs(dy));
   const double col = (tile.gt[0] - first.gt[0]) / dx, row = (tile.gt[3] - first.gt[3]) / dy;
-  const double off = std::max(std::abs(col - std::round(col)), std::abs(row - std::round(row)));
+  const double off = std::max(off_whole(col), off_whole(row));
   if (size <= kMostOffGrid && off <= kMostOffGrid) return "";
   const double west = first.gt[0] + std::floor(col + kMostOffGrid) * dx;
   const double north = first.gt[3] + std::floor(row + kMostOffGrid) * dy;
@@ -121,36 +180,103 @@ std::string find_difference(const Tile& first, const Tile& tile) {
                      to_grid);
 }
 
-/// True if every cell of the rectangle around all tiles lies in one of them.
-bool leave_no_gap(const std::vector<Tile>& tiles) {
-  struct Box {
-    std::int64_t left, top, right, bottom;
-  };
-  std::vector<Box> boxes;
-  std::set<std::int64_t> xs, ys;
-  for (const Tile& tile : tiles) {
-    const auto left = std::llround((tile.gt[0] - tiles[0].gt[0]) / tiles[0].gt[1]);
-    const auto top = std::llround((tile.gt[3] - tiles[0].gt[3]) / tiles[0].gt[5]);
-    boxes.push_back({left, top, left + tile.cols, top + tile.rows});
-    xs.insert({left, left + tile.cols});
-    ys.insert({top, top + tile.rows});
-  }
-  const std::vector<std::int64_t> x(xs.begin(), xs.end()), y(ys.begin(), ys.end());
-  const auto place = [](const std::vector<std::int64_t>& of, std::int64_t value) {
-    return static_cast<std::size_t>(std::lower_bound(of.begin(), of.end(), value) - of.begin());
-  };
-  std::vector<bool> is_covered((x.size() - 1) * (y.size() - 1));
-  for (const Box& box : boxes) {
-    for (std::size_t j = place(y, box.top); j < place(y, box.bottom); ++j) {
-      for (std::size_t i = place(x, box.left); i < place(x, box.right); ++i) is_covered[j * (x.size() - 1) + i] = true;
-    }
-  }
-  return std::find(is_covered.begin(), is_covered.end(), false) == is_covered.end();
+/// Stacks of rasters keep those apart that store heights in another way: each is interpolated alone.
+bool hold_alike(const Tile& first, const Tile& tile) {
+  return std::equal(first.bands.begin(), first.bands.end(), tile.bands.begin(), tile.bands.end(),
+                    [](const BandFacts& a, const BandFacts& b) {
+                      const bool both_nan = a.nodata && b.nodata && std::isnan(*a.nodata) && std::isnan(*b.nodata);
+                      return a.type == b.type && a.scale == b.scale && a.offset == b.offset &&
+                             (a.nodata == b.nodata || both_nan);
+                    });
 }
 
-struct FreeOptions {
-  void operator()(GDALBuildVRTOptions* options) const { GDALBuildVRTOptionsFree(options); }
+/// The widest gap on a circle between arcs, each with its beginning on [0, turn) and its length.
+struct Gap {
+  double end = 0, width = 0;
 };
+Gap find_gap(std::vector<std::pair<double, double>> arcs, double turn) {
+  std::sort(arcs.begin(), arcs.end());
+  Gap gap;
+  double before = -HUGE_VAL;  // what is behind all others reaches to there
+  for (const auto& [from, length] : arcs) before = std::max(before, from + length - turn);
+  for (const auto& [from, length] : arcs) {
+    if (from - before > gap.width) gap = {from, from - before};
+    before = std::max(before, from + length);
+  }
+  return gap;
+}
+
+/// Finds the cells of each tile, counted from the first one's. Where x comes back after a turn around the earth, tiles
+/// on both sides of its end are put side by side. True if one was moved.
+Result<bool> place_tiles(std::vector<Tile>& tiles) {
+  constexpr double kCloser = 0.75;
+  const std::array<double, 6>& gt = tiles.front().gt;
+  const double turn = turn_of(tiles.front().crs) / std::abs(gt[1]);
+  std::vector<double> cols;
+  std::vector<std::pair<double, double>> arcs;
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (Tile& tile : tiles) {
+    const double col = (tile.gt[0] - gt[0]) / gt[1];
+    cols.push_back(col);
+    low = std::min(low, col);
+    high = std::max(high, col + tile.cols);
+    if (turn > 0) arcs.emplace_back(col - turn * std::floor(col / turn), tile.cols);
+    tile.col = std::llround(col);
+    tile.row = std::llround((tile.gt[3] - gt[3]) / gt[5]);
+  }
+  const Gap gap = turn > 0 ? find_gap(std::move(arcs), turn) : Gap{};
+  if (gap.width <= 0 || turn - gap.width > kCloser * (high - low)) return false;
+  const double west = gt[0] + gap.end * gt[1], around = turn * gt[1];  // begins within half a turn of x = 0
+  const double begin = gap.end - turn * std::floor((west + around / 2) / around + kMostOffGrid / turn);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    Tile& tile = tiles[k];
+    const double moved = cols[k] - turn * std::floor((cols[k] - begin + 0.5) / turn);
+    if (off_whole(moved) > kMostOffGrid) {
+      const double x = gt[0] + std::round(moved) * gt[1];
+      return fail(
+          ErrorKind::kInput,
+          fmt::format("{} lies on the other side of the end of x, and once around the earth {:.3g} of a cell beside "
+                      "the grid: move it first (gdal_translate -a_ullr {:.17g} {:.17g} {:.17g} {:.17g} {} new.tif)",
+                      tile.path, off_whole(moved), x, tile.gt[3], x + tile.cols * tile.gt[1],
+                      tile.gt[3] + tile.rows * tile.gt[5], tile.path));
+    }
+    tile.col = std::llround(moved);
+  }
+  return true;
+}
+
+Tile part_of(const Tile& tile, int from, int to) {
+  Tile part;
+  part.path = tile.path;
+  part.name = tile.name;
+  part.crs.reset(tile.crs ? OSRClone(tile.crs.get()) : nullptr);
+  part.gt = tile.gt;
+  part.gt[0] += from * tile.gt[1];
+  part.cols = to - from;
+  part.rows = tile.rows;
+  part.block_cols = tile.block_cols;
+  part.block_rows = tile.block_rows;
+  part.from_col = from;
+  part.all_cols = tile.all_cols;
+  part.all_rows = tile.all_rows;
+  part.bands = tile.bands;
+  part.mask_flags = tile.mask_flags;
+  return part;
+}
+
+/// Replaces rasters that hold nothing between their two sides by these.
+void split_at_gaps(std::vector<Tile>& tiles) {
+  std::vector<Tile> parts;
+  for (Tile& tile : tiles) {
+    if (!tile.gap) {
+      parts.push_back(std::move(tile));
+      continue;
+    }
+    parts.push_back(part_of(tile, 0, tile.gap->first));
+    parts.push_back(part_of(tile, tile.gap->second, tile.cols));
+  }
+  tiles = std::move(parts);
+}
 
 constexpr const char *kMadeKey = "SCARP_ROLE", *kMade = "derived";
 /// Of sets of tiles in MBTiles, which GDAL takes for rasters.
@@ -210,7 +336,38 @@ Result<std::vector<std::string>> expand_folders(Session& session, const std::vec
   return all;
 }
 
-Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& paths) {
+std::optional<std::pair<int, int>> find_wide_gap(GDALDatasetH raster) {
+  constexpr int kStrips = 64, kLeast = kStrips / 4;
+  std::array<double, 6> gt{};
+  const int cols = GDALGetRasterXSize(raster), rows = GDALGetRasterYSize(raster);
+  if (cols < kStrips || GDALGetGeoTransform(raster, gt.data()) != CE_None || gt[2] != 0 || gt[4] != 0) return {};
+  const double turn = turn_of(crs_of(raster)) / std::abs(gt[1]);
+  if (turn == 0 || cols < 0.75 * turn || cols > turn + 1) return {};
+  GDALRasterBandH band = GDALGetRasterBand(raster, 1);
+  const auto is_empty = [&](int from, int to) {
+    return GDALGetDataCoverageStatus(band, from, 0, to - from, rows, 0, nullptr) == GDAL_DATA_COVERAGE_STATUS_EMPTY;
+  };
+  const auto start = [&](int strip) { return static_cast<int>(std::int64_t{cols} * strip / kStrips); };
+  int first = 0, end = 0;
+  for (int strip = 0, begin = 0; strip < kStrips; ++strip) {
+    if (!is_empty(start(strip), start(strip + 1))) begin = strip + 1;
+    if (strip + 1 - begin > end - first) std::tie(first, end) = std::pair{begin, strip + 1};
+  }
+  if (end - first < kLeast || first == 0 || end == kStrips) return {};
+  int low = start(first - 1), left = start(first), right = start(end), high = start(end + 1);
+  for (int middle = 0; left - low > 1;) {
+    middle = (low + left) / 2;
+    (is_empty(middle, left) ? left : low) = middle;
+  }
+  for (int middle = 0; high - right > 1;) {
+    middle = (right + high) / 2;
+    (is_empty(right, middle) ? right : high) = middle;
+  }
+  return std::pair{left, right};
+}
+
+Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& paths, std::optional<double> nodata,
+                            std::string& words) {
   std::vector<Tile> tiles;
   for (const std::string& path : paths) {
     auto tile = look_at(session, path);
@@ -219,25 +376,12 @@ Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& pa
     const std::string difference = find_difference(tiles.front(), tiles.back());
     if (!difference.empty()) return fail(ErrorKind::kInput, fmt::format("{} {}", path, difference));
   }
-  const bool tells_holes = std::all_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.has_holes; });
-  const std::array<double, 6>& gt = tiles.front().gt;
-  CPLStringList words;
-  const std::string dx = fmt::format("{:.17g}", std::abs(gt[1])), dy = fmt::format("{:.17g}", std::abs(gt[5]));
-  for (const char* word :
-       {"-strict", "-allow_projection_difference", "-resolution", "user", "-tr", dx.c_str(), dy.c_str()})
-    words.AddString(word);
-  if (!tells_holes && !leave_no_gap(tiles)) words.AddString("-addalpha");
-  const std::unique_ptr<GDALBuildVRTOptions, FreeOptions> options(GDALBuildVRTOptionsNew(words.List(), nullptr));
-  CPLStringList names;
-  for (const Tile& tile : tiles) names.AddString(tile.name.c_str());
-  session.clear();
-  int failed = 0;
-  const Dataset built(GDALBuildVRT("", names.size(), nullptr, names.List(), options.get(), &failed));
-  if (!built || failed != 0) {
-    return fail(ErrorKind::kInput,
-                fmt::format("{} and {} more make no mosaic: {}", paths.front(), paths.size() - 1, session.reason()));
-  }
-  return open_virtual(session, built.get(), paths.front());
+  split_at_gaps(tiles);
+  const auto is_moved = place_tiles(tiles);
+  if (!is_moved) return tl::unexpected(is_moved.error());
+  if (paths.size() > 1) words = fmt::format("mosaic of {} rasters", paths.size());
+  if (*is_moved) words += fmt::format("{}both ends of x side by side", words.empty() ? "" : ", ");
+  return join_tiles(session, tiles, nodata);
 }
 
 }  // namespace scarp::gdal
@@ -254,7 +398,7 @@ std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string
   std::optional<gdal::Tile> first;  // of the last mosaic
   for (const std::string& path : *rasters) {
     auto tile = gdal::look_at(session, path);
-    if (first && tile && first->heights == tile->heights && gdal::find_difference(*first, *tile).empty()) {
+    if (first && tile && gdal::hold_alike(*first, *tile) && gdal::find_difference(*first, *tile).empty()) {
       mosaics.back().push_back(path);
       continue;
     }

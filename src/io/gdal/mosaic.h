@@ -1,7 +1,9 @@
 // Several rasters of one grid as one.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/gdal/open.h"
@@ -16,7 +18,13 @@ bool mark_derived(GDALDatasetH raster);
 Result<std::vector<std::string>> expand_folders(Session& session, const std::vector<std::string>& paths,
                                                 std::vector<std::string>& left_out);
 
-/// A virtual raster of all of them; see RasterView::more. REQUIRES: at least two.
-Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& paths);
+/// The columns, first and end, between the two sides of a raster that goes around most of the earth and holds nothing
+/// there, as its file says: a virtual raster of some on both sides of the 180th meridian.
+std::optional<std::pair<int, int>> find_wide_gap(GDALDatasetH raster);
+
+/// A virtual raster of all of them; see RasterView::more. `nodata`: as of open_view(). `words` tells what was made.
+/// REQUIRES: at least one.
+Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& paths, std::optional<double> nodata,
+                            std::string& words);
 
 }  // namespace scarp::gdal

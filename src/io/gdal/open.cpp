@@ -4,12 +4,15 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "io/gdal/cf_axes.h"
+#include "io/gdal/crs.h"
 #include "io/gdal/text_grid.h"
 #include "io/spool.h"
 
@@ -178,11 +181,32 @@ bool is_remote(const std::string& path) {
   return false;
 }
 
+void repeat_said(GDALDatasetH from, GDALDatasetH to) {
+  constexpr const char *kPoint = "AREA_OR_POINT", *kSigned = "PIXELTYPE", *kStructure = "IMAGE_STRUCTURE";
+  GDALSetSpatialRef(to, declared_crs(from).get());
+  GDALSetMetadataItem(to, kPoint, GDALGetMetadataItem(from, kPoint, nullptr), nullptr);
+  for (int k = 1; k <= std::min(GDALGetRasterCount(from), GDALGetRasterCount(to)); ++k) {
+    GDALRasterBandH said = GDALGetRasterBand(from, k), band = GDALGetRasterBand(to, k);
+    GDALSetDescription(band, GDALGetDescription(said));
+    GDALSetRasterUnitType(band, GDALGetRasterUnitType(said));
+    int is_given = 0;
+    if (const double scale = GDALGetRasterScale(said, &is_given); is_given != 0) GDALSetRasterScale(band, scale);
+    if (const double offset = GDALGetRasterOffset(said, &is_given); is_given != 0) GDALSetRasterOffset(band, offset);
+    GDALSetRasterColorInterpretation(band, GDALGetRasterColorInterpretation(said));
+    if (GDALColorTableH colours = GDALGetRasterColorTable(said)) GDALSetRasterColorTable(band, colours);
+    if (GDALGetRasterDataType(band) == GDALGetRasterDataType(said))
+      GDALSetMetadataItem(band, kSigned, GDALGetMetadataItem(said, kSigned, kStructure), kStructure);
+  }
+}
+
 Result<Dataset> open_virtual(Session& session, GDALDatasetH made, const std::string& path) {
   CSLConstList xml = GDALGetMetadata(made, "xml:VRT");
+  return open_xml(session, xml != nullptr && *xml != nullptr ? *xml : "", path);
+}
+
+Result<Dataset> open_xml(Session& session, const std::string& xml, const std::string& path) {
   session.clear();
-  if (Dataset dataset = xml != nullptr && *xml != nullptr ? open_quietly(*xml, GDAL_OF_RASTER) : nullptr)
-    return dataset;
+  if (Dataset dataset = xml.empty() ? nullptr : open_quietly(xml, GDAL_OF_RASTER)) return dataset;
   return fail(ErrorKind::kInput, fmt::format("{}: cannot be read as one raster: {}", path, session.reason()));
 }
 
@@ -214,6 +238,7 @@ Result<Dataset> open_raster(Session& session, const std::string& path) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: holds {} rasters; name one of them: {}", path, parts.size(), join(parts, 4)));
   }
+  if (auto verified = verify_axes(dataset.get(), path); !verified) return tl::unexpected(verified.error());
   if (is_misread_png(dataset.get())) {
     return fail(
         ErrorKind::kInput,

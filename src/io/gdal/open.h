@@ -31,6 +31,14 @@ std::string vsi_path(const std::string& path);
 /// not a raster.
 Result<Dataset> open_raster(Session& session, const std::string& path);
 
+/// Opens a virtual raster that `xml` describes. `path` is for the sentence.
+Result<Dataset> open_xml(Session& session, const std::string& xml, const std::string& path);
+
+/// Has a virtual raster `to` say what `from`, of as many bands or more, says besides samples, nodata and place: the CRS
+/// with its vertical datum, whether a value is that of an area or a point, and for each band unit, scale and offset,
+/// description, meaning and colours.
+void repeat_said(GDALDatasetH from, GDALDatasetH to);
+
 /// Opens a virtual raster anew by its XML, which then needs neither a file nor the rasters that it was made from to be
 /// open. `path` is for the sentence.
 Result<Dataset> open_virtual(Session& session, GDALDatasetH made, const std::string& path);

@@ -48,7 +48,7 @@ Result<OpenedLayer> open(Session& session, const std::string& path) {
   return OpenedLayer{std::move(*dataset), path, {}};
 }
 
-bool may_hold_lines(OGRLayerH layer) {
+bool may_be_lines(OGRLayerH layer) {
   const OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
   return type != wkbNone && type != wkbPoint && type != wkbMultiPoint;
 }
@@ -59,7 +59,7 @@ Result<OGRLayerH> find_layer(const OpenedLayer& opened) {
   std::vector<OGRLayerH> fitting;
   for (int i = 0; i < count; ++i) {
     OGRLayerH layer = GDALDatasetGetLayer(opened.dataset.get(), i);
-    if (opened.layer.empty() ? may_hold_lines(layer) : opened.layer == OGR_L_GetName(layer)) fitting.push_back(layer);
+    if (opened.layer.empty() ? may_be_lines(layer) : opened.layer == OGR_L_GetName(layer)) fitting.push_back(layer);
   }
   if (!fitting.empty() && (fitting.size() == 1 || !opened.layer.empty())) return fitting.front();
   if (!fitting.empty())

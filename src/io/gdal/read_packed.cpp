@@ -2,12 +2,17 @@
 //
 //   terrarium:  R·256 + G + B/256 − 32768            steps of 1/256 m: exact in float32
 //   mapbox:     −10000 + (R·65536 + G·256 + B)·0.1   steps of 0.1 m: rounded to float32, the rounding recorded
+//
+// Both make a height of one whole number, 24 bits in three colours. Where a colour reaches its end it begins anew, and
+// the one before it counts one more: colours that are interpolated, or changed a little by lossy compression, jump
+// there.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "io/gdal/read_samples.h"
@@ -18,6 +23,32 @@ namespace {
 double decode_height(Decode decode, const std::uint8_t* rgb) {
   if (decode == Decode::kTerrarium) return rgb[0] * 256 + rgb[1] + rgb[2] / 256.0 - 32768;
   return -10000 + (rgb[0] * 65536 + rgb[1] * 256 + rgb[2]) * 0.1;
+}
+
+Decode other_than(Decode decode) { return decode == Decode::kTerrarium ? Decode::kMapbox : Decode::kTerrarium; }
+
+/// Land and the bottom of the sea.
+bool is_on_earth(double height) { return height >= -11500 && height <= 9500; }
+
+constexpr std::uint32_t kNoNumber = ~std::uint32_t{0};
+constexpr std::array kColourBits{8, 16};
+
+std::uint32_t number_of(const std::uint8_t* rgb) {
+  return static_cast<std::uint32_t>(rgb[0]) << 16 | static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
+}
+
+/// Counts the middle one of three neighbours where it lies off both others, which are close together. On land as it is,
+/// spikes of that size change the colour in somewhat more than half of all cases.
+void count_torn(std::uint32_t a, std::uint32_t b, std::uint32_t c, Findings::Colours& colours) {
+  const auto [low, high] = std::minmax(a, c);
+  const std::uint32_t off = b < low ? low - b : b > high ? b - high : 0;
+  for (std::size_t k = 0; off > 0 && k < kColourBits.size(); ++k) {
+    const std::uint32_t step = std::uint32_t{1} << kColourBits[k];
+    if (off < step / 4 || off >= step + step / 2 || high - low >= step / 4) continue;
+    const bool changes = (a ^ b) >= step || (b ^ c) >= step;
+    ++(changes ? colours.torn : colours.whole)[k];
+    if (changes) colours.most[k] = std::max(colours.most[k], off);
+  }
 }
 
 /// A colour that stands for nodata: every band's declared value.
@@ -63,12 +94,26 @@ class PackedReader : public WindowReader {
     for (std::size_t k = 0; k < count; ++k) {
       const auto row = static_cast<std::ptrdiff_t>(k / static_cast<std::size_t>(w.cols));
       const auto col = static_cast<std::ptrdiff_t>(k % static_cast<std::size_t>(w.cols));
-      out[row * stride + col] = height_of(pixels_.data() + k * depth, masked_ && mask_[k] == 0);
+      const std::uint8_t* rgb = pixels_.data() + k * depth;
+      const float height = height_of(rgb, masked_ && mask_[k] == 0);
+      out[row * stride + col] = height;
+      if (col == 0) before_ = here_ = kNoNumber;
+      look_at_colour(rgb, std::isnan(height) ? kNoNumber : number_of(rgb));
     }
     return true;
   }
 
  private:
+  void look_at_colour(const std::uint8_t* rgb, std::uint32_t number) {
+    Findings::Colours& colours = findings_.colours;
+    if (before_ != kNoNumber && here_ != kNoNumber && number != kNoNumber) count_torn(before_, here_, number, colours);
+    before_ = std::exchange(here_, number);
+    if (number == kNoNumber || number == 0) return;
+    ++colours.valid;
+    colours.on_earth += is_on_earth(decode_height(decode_, rgb)) ? 1 : 0;
+    colours.on_earth_otherwise += is_on_earth(decode_height(other_than(decode_), rgb)) ? 1 : 0;
+  }
+
   float height_of(const std::uint8_t* rgb, bool is_masked) {
     const double height = decode_height(decode_, rgb);
     const bool is_nodata = (bands_ == 4 && rgb[3] == 0) || is_masked ||
@@ -90,9 +135,38 @@ class PackedReader : public WindowReader {
   bool masked_;
   std::optional<std::array<std::uint8_t, 3>> nodata_colour_;
   std::vector<std::uint8_t> pixels_, mask_;
+  std::uint32_t before_ = kNoNumber, here_ = kNoNumber;  // the last two in the row
 };
 
 }  // namespace
+
+void doubt_colours(const Findings& findings, Decode decode, RasterInfo& info) {
+  constexpr std::uint64_t kLeastTorn = 24, kTimesWhole = 12;
+  const Findings::Colours& colours = findings.colours;
+  if (decode == Decode::kNone) return;
+  const auto name = [](Decode d) { return d == Decode::kTerrarium ? "terrarium" : "mapbox"; };
+  if (2 * colours.on_earth < colours.valid && 2 * colours.on_earth_otherwise > colours.valid) {
+    info.packed.seems = name(other_than(decode));
+    info.warnings.push_back(fmt::format(
+        "decoded as {}, {} of {} heights are none on earth, and as {} they are: give "
+        "--decode {} if these are such tiles",
+        name(decode), colours.valid - colours.on_earth, colours.valid, info.packed.seems, info.packed.seems));
+    return;
+  }
+  // Steps of the middle colour are 1 m in terrarium, and heights in whole metres do nothing else.
+  for (std::size_t k = decode == Decode::kTerrarium ? 1 : 0; k < kColourBits.size(); ++k) {
+    if (colours.torn[k] <= kLeastTorn + kTimesWhole * colours.whole[k]) continue;
+    const double step = decode == Decode::kTerrarium ? 1.0 / 256 : 0.1;
+    info.packed.torn += colours.torn[k];
+    info.packed.torn_by = std::max(info.packed.torn_by, step * colours.most[k]);
+  }
+  if (info.packed.torn == 0) return;
+  info.warnings.push_back(fmt::format(
+      "{} samples jump by up to {:.6g} m and back where a colour begins anew, as colours do that were "
+      "interpolated or compressed with a loss: take tiles as they were made (PNG, lossless WebP), and resample "
+      "their heights, not their colours (gdalwarp -r near)",
+      info.packed.torn, info.packed.torn_by));
+}
 
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path) {
   const int count = GDALGetRasterCount(dataset);

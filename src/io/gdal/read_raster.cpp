@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string_view>
@@ -78,7 +79,13 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
     auto band = plan_band(plan.dataset.get(), path, options, plan.info);
     if (!band) return tl::unexpected(band.error());
     plan.band = *band;
+    plan.info.scale = band->scale;
+    plan.info.offset = band->offset;
     plan.band.means = means;
+    if (means.have_holes) {
+      plan.band.nodata = std::numeric_limits<double>::quiet_NaN();
+      plan.info.nodata = means.nodata;
+    }
     warn_of_colours(plan.dataset.get(), plan.band, options.as_values, plan.info);
   } else {
     if (auto packed = verify_packed(plan.dataset.get(), path); !packed) return tl::unexpected(packed.error());
@@ -165,10 +172,11 @@ Result<OpenedRaster> open(Session& session, const std::string& path, const ReadO
 /// Heights that a float32 does not hold are no missing ones.
 Result<void> refuse_beyond(const Findings& findings, const std::string& path, const ReadOptions& options) {
   if (!findings.beyond || options.as_values) return {};
-  return fail(ErrorKind::kInput,
-              fmt::format("{}: the value {:.6g} at column {}, row {} is beyond what a float32 holds (3.4e38): if it means "
-                          "nodata, give it as such, else scale the values first (gdal_translate -ot Float32 -scale)",
-                          path, findings.beyond->value, findings.beyond->col, findings.beyond->row));
+  return fail(
+      ErrorKind::kInput,
+      fmt::format("{}: the value {:.6g} at column {}, row {} is beyond what a float32 holds (3.4e38): if it means "
+                  "nodata, give it as such, else scale the values first (gdal_translate -ot Float32 -scale)",
+                  path, findings.beyond->value, findings.beyond->col, findings.beyond->row));
 }
 
 Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, const ReadOptions& options) {
@@ -180,6 +188,7 @@ Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, con
   const auto found = read_windows(session, opened.first_band(options), *reader, opened.again(options), options, field);
   if (!found) return tl::unexpected(found.error());
   add_gdal_warnings(session, field.info);
+  doubt_colours(*found, options.decode, field.info);
   if (auto done = finish_raster(field, found->infinities, options); !done) return tl::unexpected(done.error());
   if (auto held = refuse_beyond(*found, path, options); !held) return tl::unexpected(held.error());
   return std::move(field);
@@ -234,6 +243,7 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
   if (auto done = for_each_window(session, band, extent, options.run.progress, look); !done) return done;
   set_range(range, info);
   field.sample_rounding = reader.findings().rounding;
+  doubt_colours(reader.findings(), options.decode, info);
   if (auto finished = finish_info(field, reader.findings().infinities, options); !finished) return finished;
   return refuse_beyond(reader.findings(), info.path, options);
 }
@@ -246,9 +256,8 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
   OwnedHeightField& field = opened.field;
   field.info.has_range = false;
   auto reader = opened.make_reader(options);
-  const bool may_round = options.decode == Decode::kNone ? !is_float32(opened.plan.band)
-                                                         : options.decode == Decode::kMapbox || scales_heights(options);
-  if (options.with_range || may_round || opened.plan.band.means.cells > 1) {
+  const bool may_surprise = options.decode != Decode::kNone || !is_float32(opened.plan.band);
+  if (options.with_range || may_surprise || opened.plan.band.means.cells > 1) {
     auto seen = survey(session, opened.first_band(options), *reader, options, field);
     if (!seen) return tl::unexpected(seen.error());
   }

@@ -4,6 +4,7 @@
 #include <gdal.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -50,10 +51,25 @@ struct Findings {
     int col = 0, row = 0;
   };
   std::optional<Beyond> beyond;  ///< the first value that is finite, and beyond float32
+  /// Of colours that are taken for heights.
+  struct Colours {
+    std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< but for black; by the other encoding
+    /// Samples off both neighbours: where the colour that counts 2^8 or 2^16 changes, and where it does not.
+    std::array<std::uint64_t, 2> torn{}, whole{};
+    std::array<std::uint32_t, 2> most{};  ///< how far off the torn ones are
+  } colours;
 
   /// Of windows further on.
   void add(const Findings& further) {
     infinities += further.infinities;
+    colours.valid += further.colours.valid;
+    colours.on_earth += further.colours.on_earth;
+    colours.on_earth_otherwise += further.colours.on_earth_otherwise;
+    for (std::size_t k = 0; k < colours.torn.size(); ++k) {
+      colours.torn[k] += further.colours.torn[k];
+      colours.whole[k] += further.colours.whole[k];
+      colours.most[k] = std::max(colours.most[k], further.colours.most[k]);
+    }
     rounding = std::max(rounding, further.rounding);
     if (!beyond) beyond = further.beyond;
   }
@@ -105,6 +121,9 @@ bool has_codes(const BandPlan& plan);
 /// infinities. Fails as read_windows(), and with kInput if the machine refuses the memory.
 Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
                         std::uint64_t& infinities);
+
+/// Adds what speaks against heights that were read from colours.
+void doubt_colours(const Findings& findings, Decode decode, RasterInfo& info);
 
 /// kInput unless the dataset has 3 or 4 bands of unsigned bytes.
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path);

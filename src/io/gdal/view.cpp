@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "io/gdal/join.h"
 #include "io/gdal/mosaic.h"
 #include "io/gdal/text_grid.h"
 
@@ -78,58 +79,17 @@ const char* mean_type(GDALDataType type, bool keeps_type) {
   return is_wide ? "Float64" : "Float32";
 }
 
-/// What a cell must hold to have no part in a mean: the value that was asked for, or declared; empty: all cells count.
-Result<std::string> find_nodata(GDALDatasetH whole, const std::string& path, std::optional<double> asked) {
-  if (asked) return fmt::format("{:.17g}", *asked);
-  const GDALRasterBandH band = GDALGetRasterBand(whole, 1);
-  int has_nodata = 0;
-  const double declared = GDALGetRasterNoDataValue(band, &has_nodata);
-  if (has_nodata != 0) return fmt::format("{:.17g}", declared);
-  if (GDALGetMaskFlags(band) == GMF_ALL_VALID) return std::string();
-  return fail(ErrorKind::kInput, fmt::format("{}: a mask tells where it has no heights, which means do not heed: give it a "
-                                             "nodata value first (gdalwarp -dstnodata -9999 {} new.tif)",
-                                             path, path));
-}
-
-/// Means of the cells that hold a height: resampling of a virtual raster averages nodata too, warping does not.
-Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
-                           const std::string& nodata, const std::string& type) {
-  std::array<double, 6> gt{};
-  GDALGetGeoTransform(whole, gt.data());
-  if (gt[1] < 0 || gt[5] > 0) {
-    return fail(ErrorKind::kInput, fmt::format("{}: is not north up, and has nodata: make it so before it is coarsened "
-                                               "(gdalwarp {} new.tif)",
-                                               path, path));
-  }
-  const int cols = part.cols / part.across, rows = part.rows / part.down;
-  const auto x = [&](int col) { return fmt::format("{:.17g}", gt[0] + gt[1] * col); };
-  const auto y = [&](int row) { return fmt::format("{:.17g}", gt[3] + gt[5] * row); };
-  CPLStringList words;
-  for (const std::string& word :
-       {std::string("-of"), std::string("VRT"), std::string("-r"), std::string("average"), std::string("-ovr"),
-        std::string("NONE"), std::string("-et"), std::string("0"), std::string("-te"), x(part.col),
-        y(part.row + rows * part.down), x(part.col + cols * part.across), y(part.row), std::string("-ts"),
-        fmt::format("{}", cols), fmt::format("{}", rows), std::string("-srcnodata"), nodata,
-        std::string("-dstnodata"), nodata, std::string("-ot"), type})
-    words.AddString(word.c_str());
-  const std::unique_ptr<GDALWarpAppOptions, FreeOptions> options(GDALWarpAppOptionsNew(words.List(), nullptr));
-  session.clear();
-  int failed = 0;
-  const Dataset made(GDALWarp("", nullptr, 1, &whole, options.get(), &failed));
-  if (!made || failed != 0)
+/// The virtual raster `made` of `whole`, which then says what that says.
+Result<Dataset> finish_view(Session& session, GDALDatasetH whole, GDALDatasetH made, const std::string& path) {
+  if (made == nullptr)
     return fail(ErrorKind::kInput, fmt::format("{}: no part of it can be read: {}", path, session.reason()));
-  return open_virtual(session, made.get(), path);
+  repeat_said(whole, made);
+  return open_virtual(session, made, path);
 }
 
-Result<Dataset> open_part(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
-                          bool keeps_type, std::optional<double> nodata) {
-  const bool is_mean = part.across > 1 || part.down > 1;
-  if (is_mean && !keeps_type) {
-    const auto value = find_nodata(whole, path, nodata);
-    if (!value) return tl::unexpected(value.error());
-    const GDALDataType type = GDALGetRasterDataType(GDALGetRasterBand(whole, 1));
-    if (!value->empty()) return open_means(session, whole, path, part, *value, mean_type(type, false));
-  }
+/// A window of cells; as means of type `type` where that is not empty.
+Result<Dataset> open_window(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
+                            const std::string& type) {
   const int cols = part.cols / part.across, rows = part.rows / part.down;
   CPLStringList words;
   const auto add = [&](std::initializer_list<std::string> more) {
@@ -137,18 +97,79 @@ Result<Dataset> open_part(Session& session, GDALDatasetH whole, const std::strin
   };
   add({"-of", "VRT", "-srcwin", fmt::format("{}", part.col), fmt::format("{}", part.row),
        fmt::format("{}", cols * part.across), fmt::format("{}", rows * part.down)});
-  if (is_mean) {
-    add({"-outsize", fmt::format("{}", cols), fmt::format("{}", rows), "-r", "average", "-ovr", "NONE", "-ot",
-         mean_type(GDALGetRasterDataType(GDALGetRasterBand(whole, 1)), keeps_type)});
+  if (!type.empty()) {
+    add({"-outsize", fmt::format("{}", cols), fmt::format("{}", rows), "-r", "average", "-ovr", "NONE", "-ot", type});
   }
   const std::unique_ptr<GDALTranslateOptions, FreeOptions> options(GDALTranslateOptionsNew(words.List(), nullptr));
   session.clear();
   int failed = 0;
   const Dataset made(GDALTranslate("", whole, options.get(), &failed));
-  if (!made || failed != 0) {
-    return fail(ErrorKind::kInput, fmt::format("{}: no part of it can be read: {}", path, session.reason()));
+  for (int k = 1; made && type.empty() && k <= GDALGetRasterCount(whole); ++k) {
+    GDALRasterBandH said = GDALGetRasterBand(whole, k), band = GDALGetRasterBand(made.get(), k);
+    int has_nodata = 0;
+    const double nodata = GDALGetRasterNoDataValue(said, &has_nodata);
+    // What the type cannot hold was replaced by what it can.
+    if (has_nodata != 0 && can_join(GDALGetRasterDataType(said))) GDALSetRasterNoDataValue(band, nodata);
   }
-  return open_virtual(session, made.get(), path);
+  return finish_view(session, whole, failed == 0 ? made.get() : nullptr, path);
+}
+
+/// Means of the cells that hold a height: resampling of a virtual raster averages nodata too, warping does not. Where
+/// no cell holds one the mean is NaN, since any other value may be a mean. Warping takes columns and rows for
+/// coordinates, which are exact and begin at the top.
+Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
+                           std::optional<double> nodata, const std::string& type) {
+  const int cols = part.cols / part.across, rows = part.rows / part.down;
+  Tile tile = describe_raster(whole, path);
+  std::array<double, 6> gt = tile.gt;
+  tile.gt = {0, 1, 0, 0, 0, -1};
+  tile.from_col = part.col;
+  tile.from_row = part.row;
+  tile.cols = cols * part.across;
+  tile.rows = rows * part.down;
+  const auto cells = open_xml(session, write_with_nan(tile, nodata), path);
+  if (!cells) return tl::unexpected(cells.error());
+  CPLStringList words;
+  for (const std::string& word : {std::string("-of"),
+                                  std::string("VRT"),
+                                  std::string("-r"),
+                                  std::string("average"),
+                                  std::string("-ovr"),
+                                  std::string("NONE"),
+                                  std::string("-et"),
+                                  std::string("0"),
+                                  std::string("-te"),
+                                  std::string("0"),
+                                  fmt::format("{}", -rows * part.down),
+                                  fmt::format("{}", cols * part.across),
+                                  std::string("0"),
+                                  std::string("-ts"),
+                                  fmt::format("{}", cols),
+                                  fmt::format("{}", rows),
+                                  std::string("-dstnodata"),
+                                  std::string("nan"),
+                                  std::string("-ot"),
+                                  type})
+    words.AddString(word.c_str());
+  const std::unique_ptr<GDALWarpAppOptions, FreeOptions> options(GDALWarpAppOptionsNew(words.List(), nullptr));
+  session.clear();
+  int failed = 0;
+  GDALDatasetH source = cells->get();
+  const Dataset made(GDALWarp("", nullptr, 1, &source, options.get(), &failed));
+  if (!made || failed != 0) return finish_view(session, whole, nullptr, path);
+  gt[0] += part.col * gt[1];
+  gt[3] += part.row * gt[5];
+  gt[1] *= part.across;
+  gt[5] *= part.down;
+  GDALSetGeoTransform(made.get(), gt.data());
+  return finish_view(session, whole, made.get(), path);
+}
+
+/// What a cell must hold to have no part in a mean: the value that was asked for, or declared.
+std::optional<double> find_nodata(GDALRasterBandH band, std::optional<double> asked) {
+  int has_nodata = 0;
+  const double declared = GDALGetRasterNoDataValue(band, &has_nodata);
+  return asked || has_nodata == 0 ? asked : declared;
 }
 
 std::string describe_part(const Part& part, int cols, int rows, const std::array<double, 6>& gt) {
@@ -175,11 +196,14 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
   const auto paths = expand_folders(session, given, left_out);
   if (!paths) return tl::unexpected(paths.error());
   const bool is_mosaic = paths->size() > 1;
-  auto whole = is_mosaic ? open_mosaic(session, *paths) : open_raster(session, paths->front());
+  auto whole = is_mosaic ? open_mosaic(session, *paths, nodata, words) : open_raster(session, paths->front());
   if (!whole) return whole;
-  if (is_mosaic) words = fmt::format("mosaic of {} rasters", paths->size());
-  if (const char* nodes = GDALGetMetadataItem(whole->get(), kTextGridKey, nullptr); !is_mosaic && nodes != nullptr)
+  if (!is_mosaic && find_wide_gap(whole->get())) {
+    whole = open_mosaic(session, *paths, nodata, words);
+    if (!whole) return whole;
+  } else if (const char* nodes = GDALGetMetadataItem(whole->get(), kTextGridKey, nullptr); !is_mosaic && nodes != nullptr) {
     words = fmt::format("raster of {} (--points: as scattered points)", nodes);
+  }
   if (!left_out.empty())
     words += fmt::format("{}, without what Scarp made: {}", is_mosaic ? "" : paths->front(), fmt::join(left_out, ", "));
   if (!view.extent && !view.resolution) return whole;
@@ -201,12 +225,17 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
   const std::string of_part = describe_part(part, cols, rows, gt);
   if (of_part.empty()) return whole;
   words += (words.empty() ? "" : ", ") + of_part;
-  if (means != nullptr) {
-    const GDALDataType type = GDALGetRasterDataType(GDALGetRasterBand(whole->get(), 1));
-    means->cells = static_cast<int>(std::min<std::int64_t>(std::int64_t{part.across} * part.down, 1 << 30));
-    means->are_whole = type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16;
-  }
-  return open_part(session, whole->get(), path, part, keeps_type, nodata);
+  if (part.across == 1 && part.down == 1) return open_window(session, whole->get(), path, part, "");
+  GDALRasterBandH band = GDALGetRasterBand(whole->get(), 1);
+  const GDALDataType type = GDALGetRasterDataType(band);
+  if (means == nullptr) return open_window(session, whole->get(), path, part, mean_type(type, keeps_type));
+  means->cells = static_cast<int>(std::min<std::int64_t>(std::int64_t{part.across} * part.down, 1 << 30));
+  means->are_whole = type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16;
+  means->nodata = find_nodata(band, nodata);
+  means->have_holes = means->nodata || GDALDataTypeIsFloating(type) != 0 || GDALGetMaskFlags(band) != GMF_ALL_VALID ||
+                      describe_raster(whole->get(), path).bands.front().is_signed_byte;
+  return means->have_holes ? open_means(session, whole->get(), path, part, means->nodata, mean_type(type, false))
+                           : open_window(session, whole->get(), path, part, mean_type(type, false));
 }
 
 }  // namespace scarp::gdal

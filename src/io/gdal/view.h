@@ -11,8 +11,10 @@ namespace scarp::gdal {
 
 /// What a sample is the mean of.
 struct Means {
-  int cells = 1;          ///< at most: nodata does not count
-  bool are_whole = false;  ///< the cells hold whole numbers of 16 bits
+  int cells = 1;                 ///< at most: nodata does not count
+  bool are_whole = false;        ///< the cells hold whole numbers of 16 bits
+  bool have_holes = false;       ///< cells may hold no height; a mean of none is NaN, whatever stood for it
+  std::optional<double> nodata;  ///< what stood for it
 };
 
 /// Opens what `view` makes of `path`, a virtual raster in memory where that is more than the one raster as it is. A
@@ -20,7 +22,6 @@ struct Means {
 /// bytes where samples are averaged, as colours are. `nodata`: holds instead of the value that is declared; neither has
 /// a part in means. Fails as open_raster() and as ReadOptions::view tells.
 Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
-                          std::string& words, Means* means = nullptr,
-                          std::optional<double> nodata = std::nullopt);
+                          std::string& words, Means* means = nullptr, std::optional<double> nodata = std::nullopt);
 
 }  // namespace scarp::gdal
