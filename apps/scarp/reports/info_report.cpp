@@ -144,7 +144,7 @@ Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions
   report["scarp"] = version();
   report["command"] = command_line;
   report["input"] = describe_input(field, field.info, band);
-  report["frame"] = describe_frame(field);
+  report["frame"] = describe_frame(field.frame, field.info, field.rows);
   report["full_triangles"] = full_grid_triangles(field);
   Json& rows = report["suggestions"];
   rows = Json::array();

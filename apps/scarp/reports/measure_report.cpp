@@ -131,7 +131,7 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const Cutli
   report["scarp"] = version();
   report["command"] = command_line;
   report["input"] = describe_input(judged.field, judged.field.info, judged.band);
-  report["frame"] = describe_frame(judged.field);
+  report["frame"] = describe_frame(judged.field.frame, judged.field.info, judged.field.rows);
   report["mesh"] = Json{{"path", mesh_path}, {"metadata", judged.mesh.metadata}};
   report["vertices"] = judged.judgement.heights.vertices;
   report["triangles"] = judged.judgement.heights.triangles;

@@ -79,14 +79,17 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
   input["sample_rounding"] = field.sample_rounding;
   Json& undeclared = input["undeclared_nodata"] = Json::array();
   for (const UndeclaredNodata& nodata : as_read.undeclared_nodata)
-    undeclared.push_back(Json{{"value", nodata.of.height}, {"samples", nodata.of.samples}});
+    undeclared.push_back(Json{{"value", nodata.value}, {"samples", nodata.of.samples}});
+  if (!as_read.packed.seems.empty() || as_read.packed.torn > 0) {
+    input["packed"] = Json{{"torn", as_read.packed.torn}, {"torn_by", as_read.packed.torn_by}};
+    input["packed"]["seems"] = as_read.packed.seems.empty() ? Json(nullptr) : Json(as_read.packed.seems);
+  }
   return input;
 }
 
-Json describe_frame(const OwnedHeightField& field) {
-  const Frame& frame = field.frame;
+Json describe_frame(const Frame& frame, const RasterInfo& info, int rows) {
   Json json{{"kind", kind_name(frame.kind)}, {"crs", frame.crs}, {"description", frame.description}};
-  add_place(json, place_in_source(frame, field.info, field.rows));
+  add_place(json, place_in_source(frame, info, rows));
   json["to_earth"] = frame.space ? Json(frame.space->to_earth()) : Json(nullptr);
   return json;
 }

@@ -24,7 +24,7 @@ Json or_null(const std::optional<T>& value) {
 /// The "input" object: the raster as it was read.
 Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band);
 /// The "frame" object: what the mesh's x and y are, and the way back to the raster's coordinates.
-Json describe_frame(const OwnedHeightField& field);
+Json describe_frame(const Frame& frame, const RasterInfo& info, int rows);
 /// The place of the mesh in the source's coordinates, as members of the object; null where there is none.
 void add_place(Json& json, const std::optional<PlaceInSource>& place);
 /// "stopped_by": the goal that ended the run, as its option is called.

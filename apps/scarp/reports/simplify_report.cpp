@@ -10,6 +10,7 @@
 #include "inputs/waters.h"
 #include "reports/place.h"
 #include "reports/report.h"
+#include "scarp/lines.h"
 #include "scarp/version.h"
 #include "terminal/text.h"
 
@@ -169,6 +170,20 @@ std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   return fmt::format("; the file holds offsets from {:.10g}, {:.10g}", o[0], o[1]);
 }
 
+/// A raster lies where the one lies that it was made of, whatever the frame of the mesh; a PGM does not know where.
+Frame frame_of_output(const SimplifyPlan& plan, const Outcome& outcome) {
+  const RasterInfo& info = outcome.field.info;
+  if (plan.format.kind != OutputKind::kDem) return outcome.field.frame;
+  if (!info.has_georeference || plan.format.raster == RasterFormat::kPgm) return grid_frame(outcome.field.rows);
+  Frame frame;
+  frame.kind = Frame::Kind::kSource;
+  frame.affine = map_affine(info, outcome.field.rows);
+  frame.crs = info.crs;
+  frame.description = info.crs.empty() ? "the raster's own coordinates (no CRS)"
+                                       : fmt::format("coordinates in {} ({})", crs_words(info.crs), info.crs_unit);
+  return frame;
+}
+
 /// So that the numbers hold for those of the file.
 void add_offset(const SimplifyPlan& plan, const Mesh& mesh, Json& frame) {
   const std::string words = offset_words(plan, mesh);
@@ -190,7 +205,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["command"] = command_line;
   report["input"] = describe_input(outcome.field, outcome.as_read, plan.read.band);
   report["input"]["filled"] = outcome.filled;
-  report["frame"] = describe_frame(outcome.field);
+  report["frame"] = describe_frame(frame_of_output(plan, outcome), outcome.field.info, outcome.field.rows);
   add_offset(plan, outcome.simplified.mesh, report["frame"]);
   report["goal"] = describe_goal(plan, outcome);
   report["strategy"] = describe_strategy(plan.simplify, plan.strategy, outcome.simplified);
@@ -257,7 +272,8 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
   text += outline_line(plan, outcome);
   text += summary_line("effort", describe_effort(plan, outcome.simplified));
   text += summary_line("order", order_name(outcome.simplified.order));
-  text += summary_line("frame", outcome.field.frame.description + offset_words(plan, outcome.simplified.mesh));
+  text +=
+      summary_line("frame", frame_of_output(plan, outcome).description + offset_words(plan, outcome.simplified.mesh));
   text += waters_lines(outcome.features.lakes, outcome.simplified.features.rivers);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_inserted,
