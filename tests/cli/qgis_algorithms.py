@@ -4,6 +4,7 @@ import filecmp
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -200,6 +201,17 @@ for folder, _, names in os.walk("by_program"):
     for name in names:
         path = os.path.join(folder, name)
         assert filecmp.cmp(path, path.replace("by_program", "globe/terrain", 1), shallow=False), path
+
+# The lines of docs/guide/qgis.md, in the folder of examples.
+guide = os.path.join(DATA, "..", "docs", "guide", "qgis.md")
+with open(guide, encoding="utf-8") as file:
+    blocks = re.findall(r"^```python\n(.*?)^```$", file.read(), re.M | re.S)
+shutil.copytree(EXAMPLES, "by_guide_python")
+os.chdir("by_guide_python")
+for block in blocks:
+    exec(compile(block, "qgis.md", "exec"), {"processing": processing})
+assert blocks and os.path.getsize("tin.2dm") > 0
+os.chdir("..")
 
 plugin.unload()
 assert registry.providerById("scarp") is None

@@ -1,7 +1,7 @@
 #!/bin/bash
 # The clients of the C library in examples/: each compiles and prints the same lines, where its tools are there.
 . "$(dirname "$0")/lib.sh"
-need cc pkg-config
+need cc pkg-config python3
 library=$SCARP_BUILD/bindings/c
 [ -e "$library/libscarp_c.so" ] || skip "needs the C library: -DSCARP_BUILD_C=ON"
 export LD_LIBRARY_PATH=$library PKG_CONFIG_PATH=$PWD
@@ -16,6 +16,18 @@ cp "$logs/out" expected
 grep -q "did you mean effort" expected || fail "no advice on a wrong name"
 grep -qE "max error ([0-4]\.[0-9]+|5\.000) " expected || fail "the bound is not kept"
 succeeds "$scarp" info from_c.glb
+
+# The lines of docs/guide/c.md, with a raster around them.
+{
+  printf '#include <math.h>\n#include <scarp_c.h>\n#include <stdio.h>\n\nstatic float heights[512 * 512];\n\nint main(void) {\n'
+  printf 'for (int i = 0; i < 512 * 512; ++i) heights[i] = 100 * sinf(i %% 512 / 40.0f) * cosf(i / 512 / 50.0f);\n'
+  python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/docs/guide/c.md" c
+  printf '(void)positions, (void)triangles;\nreturn 0;\n}\n'
+} > guide.c
+# shellcheck disable=SC2046
+succeeds cc -std=c99 -pedantic -Wall -Wextra -Werror guide.c $(pkg-config --cflags --libs scarp_c) -lm -o guide
+succeeds ./guide
+succeeds "$scarp" info hills.glb
 
 compare() {
   diff expected "$logs/out" > "$logs/err" || fail "the client in $1 prints other lines than the one in C"

@@ -52,6 +52,23 @@ if command -v pkg-config >/dev/null; then
   # shellcheck disable=SC2046
   c++ -std=c++20 "$source_tree/docs/guide/library.cpp" -o "$scratch/guide" $(pkg-config --cflags --libs scarp)
   (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./guide) || fail "the program of docs/guide/library.md"
+  # The program of README.md; and that of library.md by the guide's lines of CMake.
+  mkdir "$scratch/by_guide"
+  blocks="$source_tree/tools/guide_blocks.py"
+  python3 "$blocks" "$source_tree/README.md" cpp >"$scratch/by_guide/readme.cpp"
+  # shellcheck disable=SC2046
+  c++ -std=c++20 "$scratch/by_guide/readme.cpp" -o "$scratch/by_guide/readme" $(pkg-config --cflags --libs scarp)
+  cp "$source_tree/data/examples/dem.tif" "$scratch/by_guide/"
+  (cd "$scratch/by_guide" && LD_LIBRARY_PATH="$prefix/lib" ./readme) || fail "the program of README.md"
+  {
+    printf 'cmake_minimum_required(VERSION 3.20)\nproject(app CXX)\nset(CMAKE_CXX_STANDARD 20)\n'
+    printf 'add_executable(app guide.cpp)\n'
+    python3 "$blocks" "$source_tree/docs/guide/library.md" cmake
+  } >"$scratch/by_guide/CMakeLists.txt"
+  python3 "$blocks" "$source_tree/docs/guide/library.md" cpp >"$scratch/by_guide/guide.cpp"
+  cmake -S "$scratch/by_guide" -B "$scratch/by_guide/build" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null &&
+    cmake --build "$scratch/by_guide/build" >/dev/null && (cd "$scratch" && ./by_guide/build/app >/dev/null) ||
+    fail "the lines of CMake of docs/guide/library.md"
   if [ -e "$prefix/include/scarp_c.h" ]; then
     # shellcheck disable=SC2046
     cc -std=c99 "$source_tree/examples/c/client.c" -o "$scratch/c_client" $(pkg-config --cflags --libs scarp_c)

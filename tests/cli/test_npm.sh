@@ -93,12 +93,13 @@ succeeds node numbers.mjs numbers.json
 holds "$(cat "$logs/out") > 5000" || fail "few numbers were compared"
 
 # The guide's code, from top to bottom.
-python3 - "$SCARP_SOURCE/docs/guide/web.md" > guide.mjs << 'E2'
-import re, sys
-print("".join(re.findall(r"^```js\n(.*?)^```$", open(sys.argv[1], encoding="utf-8").read(), re.M | re.S)))
-E2
-succeeds node guide.mjs
-grep -q '^true true true$' "$logs/out" && grep -q '^true usage ' "$logs/out" && [ -s tile.glb ] || fail "the guide's code does not do what it says"
+if npm_judges three; then
+  [ -e node_modules/three ] || ln -s "$js/node_modules/three" node_modules/
+  python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/docs/guide/web.md" js > guide.mjs
+  succeeds node guide.mjs
+  grep -q '^true true true$' "$logs/out" && grep -q '^true usage ' "$logs/out" && [ -s tile.glb ] && [ -s tile.terrain ] ||
+    fail "the guide's code does not do what it says"
+fi
 
 # The same tiles as the program.
 succeeds gdal_translate -q -srcwin 0 0 150 150 -a_srs EPSG:4979 -a_ullr 9.9 10.2 10.025 10.075 "$dem" placed.tif
@@ -145,6 +146,18 @@ fi
 if command -v chromium > /dev/null && npm_judges playwright-core; then
   cp "$js/browser.mjs" open_page.mjs
   [ -e node_modules/playwright-core ] || ln -s "$js/node_modules/playwright-core" node_modules/
+  # The blocks of bindings/wasm/README.md.
+  readme=$SCARP_SOURCE/bindings/wasm/README.md
+  if npm_judges three esbuild && "$SCARP_SOURCE/tools/build_viewer.sh" "$SCARP_BUILD" > viewer.log 2>&1; then
+    "$js/node_modules/.bin/esbuild" "$SCARP_BUILD/viewer/node_modules/geotiff/dist-module/geotiff.js" --bundle --format=esm --log-level=error --outfile=geotiff.js
+    cp -L "$data/examples/tile.png" "$data/examples/dem.tif" .
+    succeeds node readme.mjs "$(command -v chromium)" "$readme"
+    cat "$logs/out"
+    mkdir by_readme
+    (cd by_readme && ln -s ../node_modules . && echo 'import { simplify } from "scarp"; console.log(simplify);' > app.js &&
+      PATH=$js/node_modules/.bin:$PATH succeeds bash -ec "$(python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$readme" sh)" && ls dist/scarp.wasm dist/app.js > /dev/null) ||
+      fail "the lines for esbuild"
+  fi
   succeeds node browser.mjs "$(command -v chromium)" "$told" "${bundles[@]}"
   cat "$logs/out"
   if npm_judges @deck.gl/geo-layers @loaders.gl/terrain esbuild; then

@@ -61,6 +61,12 @@ if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
   unset PYTHONPATH
 fi
 
+# The command of docs/guide/python.md, with the library that is built already.
+install=$(python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/docs/guide/python.md" sh)
+succeeds /usr/bin/python3 -m venv --system-site-packages by_guide
+(cd "$SCARP_SOURCE" && PATH=$scratch/by_guide/bin:$PATH PIP_NO_INDEX=1 SCARP_C_LIBRARY=$(realpath "$alone") succeeds bash -c "$install")
+succeeds by_guide/bin/python -c 'import scarp'
+
 # 4. It is typed, and its reference is what the docstrings say.
 succeeds python3 "$SCARP_SOURCE/tools/python_reference.py" --check
 if command -v mypy > /dev/null; then

@@ -44,4 +44,10 @@ succeeds "$qgis_process" plugins enable scarp_processing
 succeeds "$qgis_process" run scarp:rastertomesh -- INPUT="$dem" MAX_ERROR=20 EFFORT=fast OUTPUT=by_process.2dm
 succeeds "$scarp" simplify "$dem" by_program.2dm -e 20 --effort fast
 cmp by_process.2dm by_program.2dm || fail "qgis_process and the program make different files"
+# The lines of docs/guide/qgis.md.
+mkdir by_guide
+cp -L "$data"/examples/* by_guide/
+(cd by_guide && qgis_process() { "$qgis_process_program" "$@"; } && qgis_process_program=$qgis_process &&
+  eval "$(python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/docs/guide/qgis.md" sh)") > "$logs/out" 2> "$logs/err" || fail "the guide's lines"
+succeeds "$scarp" info by_guide/tin.2dm
 echo "QGIS makes the program's meshes"

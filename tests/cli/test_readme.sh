@@ -10,9 +10,9 @@ PATH=$(dirname "$scarp"):$PATH
 commands() {
   python3 - "$1" <<'PYTHON'
 import re, sys
-text = open(sys.argv[1], encoding="utf-8").read().replace("\\\n", " ")
+text = re.sub(r"^```.*?^```$", "", open(sys.argv[1], encoding="utf-8").read(), flags=re.M | re.S).replace("\\\n", " ")
 for line in text.split("\n"):
-    for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    ((?:scarp|gdaldem|gdalwarp|printf) .*)", line):
+    for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    ([a-z]+ .*)", re.sub("^    hint .*", "", line)):
         print(re.sub(r"\s+", " ", re.sub(r" +#.*", "", command)))
 PYTHON
 }
@@ -32,6 +32,26 @@ serves() {
   [ -n "$address" ] && [ $code = 0 ] || fail "it does not serve: $1"
 }
 
+# printed_as_quoted FILE OUTPUT: what the guide quotes is what its commands print: each line of a block of `text`, and, behind
+# a paragraph, <!-- printed: REGEX -->, whose numbers stand in the paragraph, too.
+printed_as_quoted() {
+  python3 - "$1" "$2" <<'PYTHON' || fail "$(basename "$1") quotes what its commands do not print"
+import re, sys
+text, output = (open(name, encoding="utf-8").read() for name in sys.argv[1:])
+plain = lambda words: re.sub(r"\s+", " ", words).strip()
+lines = [plain(line) for line in output.split("\n")]
+faults = []
+for block in re.findall(r"^```text\n(.*?)^```$", text, re.M | re.S):
+    faults += [line for line in map(plain, block.split("\n")) if line not in lines]
+for paragraph, pattern in re.findall(r"((?:[^\n]+\n)+?)<!-- printed: (.*?) -->", text):
+    if not any(re.search(pattern, line) for line in lines):
+        faults.append(pattern)
+    faults += [f"{number} of {pattern}" for number in re.findall(r"\d[\d,.]*\d|\d", pattern.replace("\\", "")) if number not in paragraph]
+print(*faults, sep="\n", file=sys.stderr)
+sys.exit(len(faults) > 0)
+PYTHON
+}
+
 # run_all FILE: in a folder of its own, with the examples.
 run_all() {
   local folder line
@@ -39,15 +59,19 @@ run_all() {
   cp -L "$SCARP_SOURCE"/data/examples/* "$folder"
   cd "$folder"
   commands "$1" > "$root/commands"
+  : > "$root/printed"
   while read -r line; do
     if [[ $line == "scarp serve "* ]]; then
       serves "$line"
       continue
     fi
+    if [[ $line == make\ * ]]; then line="make -n -C '$SCARP_SOURCE' ${line#make }"; fi
     try bash -c "$line"
+    cat "$logs/out" "$logs/err" >> "$root/printed"
     [ "$code" = 0 ] || fail "exit code $code: $(basename "$1"): $line"
     if grep -Eq 'warning: .* no [a-z ]+ (was|were) found' "$logs/err"; then fail "it finds nothing: $(basename "$1"): $line"; fi
   done < "$root/commands"
+  printed_as_quoted "$1" "$root/printed"
   cd "$scratch"
 }
 
@@ -56,6 +80,7 @@ run_all "$readme"
 for row in Basics GIS 'Web and games' Simulation Printing 'The 1995 paper'; do
   grep -qF "| **$row** | |" "$readme" || fail "the cookbook has no group $row"
 done
+python3 "$SCARP_SOURCE/tools/guide_blocks.py" --check "$SCARP_SOURCE" || fail "a block of a guide has no test"
 python3 - "$SCARP_SOURCE/docs/guide" <<'PYTHON' || fail "library.md does not show library.cpp"
 import pathlib, sys
 folder = pathlib.Path(sys.argv[1])
