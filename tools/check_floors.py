@@ -18,7 +18,7 @@ MAX_LINES = 600
 ANY = None
 ROOMS = {
     "door": (0, [], ANY, "`include/scarp`: the public headers, each a manual"),
-    "base": (0, [], ["result", "progress", "version"], "lattice points, exact integers, arrays, threads, memory budget, progress"),
+    "base": (0, [], ["alike", "result", "progress", "version"], "lattice points, exact integers, arrays, threads, memory budget, progress"),
     "grid": (1, ["base"],
              ["border", "degrees", "edits", "frame", "generate", "height_field", "lines", "points", "progress", "result", "ridges", "strategy"],
              "rasters: outline, frames, runs, rows; `sources/`: samples that are not one array"),
@@ -30,7 +30,7 @@ ROOMS = {
                ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
     "io": (2, ["base", "grid", "mesh"],
-           ["cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_image", "globe_place", "gzip", "height_field", "io", "lent", "lines", "live_tiles", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tile_waters", "tiles3d", "version", "zones"],
+           ["alike", "commands", "cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_image", "globe_place", "gzip", "height_field", "io", "lent", "lines", "live_tiles", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tile_waters", "tiles3d", "version", "zones"],
            "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],

@@ -115,6 +115,10 @@ Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& opti
 /// read_lines() of the first that does.
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options = {});
 
+/// kInput unless all lines are rings of polygons. `user` is what needs them ("--water"), `otherwise` what takes lines
+/// ("--rivers"), or empty: both for the sentence.
+Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise = {});
+
 }  // namespace scarp
 
 #pragma GCC visibility pop

@@ -1,8 +1,10 @@
 // All public headers of the library.
 #pragma once
 
+#include "scarp/alike.h"
 #include "scarp/border.h"
 #include "scarp/cliffs.h"
+#include "scarp/commands.h"
 #include "scarp/conflicts.h"
 #include "scarp/cutline.h"
 #include "scarp/degrees.h"

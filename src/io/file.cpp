@@ -16,6 +16,7 @@
 
 #include "base/caught.h"
 #include "io/file_reason.h"
+#include "io/missing_file.h"
 #include "io/raster/raster_file.h"
 #include "io/spool.h"
 #include "io/staged_file.h"
@@ -108,7 +109,7 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
   const auto name = readable_name(path);
   if (!name) return tl::unexpected(name.error());
   const int fd = ::open(name->c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return cannot(errno == ENOENT ? "there is no such file" : reason_of(errno));
+  if (fd < 0) return cannot(errno == ENOENT ? "there is " + describe_missing(path) : reason_of(errno));
   struct Closer {
     int fd;
     ~Closer() { ::close(fd); }

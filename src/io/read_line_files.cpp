@@ -1,4 +1,7 @@
 // Lines of several vector files.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -19,6 +22,18 @@ Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOp
     all.polygons += set->polygons;
   }
   return all;
+}
+
+Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise) {
+  const auto open = std::find_if(lines.begin(), lines.end(), [](const Line& line) { return !line.is_ring(); });
+  if (open == lines.end()) return {};
+  const auto &first = open->points.front(), &last = open->points.back();
+  const bool is_closed = first[0] == last[0] && first[1] == last[1];
+  return fail(ErrorKind::kInput,
+              fmt::format("{} is a {}line, and {} needs polygons{}", open->name, is_closed ? "closed " : "", user,
+                          is_closed ? ": make polygons of such lines first (ogr2ogr -nlt POLYGON NEW.gpkg FILE)"
+                          : otherwise.empty() ? ""
+                                              : fmt::format(": {} takes lines", otherwise)));
 }
 
 }  // namespace scarp

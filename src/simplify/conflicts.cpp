@@ -77,7 +77,8 @@ constexpr ConflictRule kRules[] = {
      Fields(Field::kCurvedFrame),
      {},
      Where::kAlways,
-     "a curved border needs vertices of its own; project the raster with gdalwarp instead"},
+     "a curved border needs vertices of its own; project the raster instead (gdalwarp -t_srs EPSG:CODE -r bilinear -ot "
+     "Float32 -dstnodata -9999 FILE NEW.tif)"},
     {Fields(Field::kLevels),
      kBudgets | kTolerances | Fields(Field::kObjectiveRms),
      {},
@@ -165,7 +166,7 @@ constexpr ConflictRule kRules[] = {
      Fields(Field::kTileLocal),
      {},
      Where::kAlways,
-     "lakes and rivers are laid in degrees; flatten them first (scarp simplify --water)"},
+     "lakes and rivers are laid in degrees; flatten them first (scarp simplify RASTER NEW.tif -e 0 --water LAKES)"},
     {Fields(Field::kTileLines), Fields(Field::kTileLocal), {}, Where::kAlways, "lines are laid in degrees"},
     {Fields(Field::kTileDrape),
      Fields(Field::kTileLocal),

@@ -55,8 +55,9 @@ Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<dou
     return fail(ErrorKind::kInput, "no part of the raster lies on the globe");
   if (longitudes.low < -kFarthest || longitudes.high > kFarthest)
     return fail(ErrorKind::kInput,
-                fmt::format("longitudes of {} to {} are no place on the globe: give them within {} degrees (gdal_edit "
-                            "-a_ullr, or gdal_edit -a_srs if they are not degrees)",
+                fmt::format("longitudes of {} to {} are no place on the globe: give them within {} degrees "
+                            "(gdal_translate -a_ullr WEST NORTH EAST SOUTH FILE NEW.tif), or their CRS if they are not "
+                            "degrees (gdal_translate -a_srs EPSG:CODE FILE NEW.tif)",
                             longitudes.low, longitudes.high, kFarthest));
   if (to_degrees != nullptr) {
     // Between the places looked at the raster may reach a step farther, and around a pole all round.

@@ -199,7 +199,7 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
       settings.max_zoom != settings.grid.finest_local(settings.cells))
     return fail(ErrorKind::kUsage,
                 fmt::format("the nodes of a local grid are the raster's samples, and its finest level "
-                            "is {}: leave --zoom out, or reduce the raster first (gdalwarp -tr)",
+                            "is {}: leave --zoom out, or coarsen the raster with --resolution",
                             settings.grid.finest_local(settings.cells)));
   if (!(settings.quality >= 0.5) || !(settings.quality <= 1e6))
     return fail(ErrorKind::kUsage, fmt::format("a quality of {} is none: give 0.5 to 1000000", settings.quality));

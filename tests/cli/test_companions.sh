@@ -156,7 +156,7 @@ same max_error bounded_max_error
 # What does not fit is refused, with the way out.
 gdal_translate -q -outsize 100 100 weights.tif small.tif
 refuses 2 "--mask small.tif is 100 x 100 samples instead of 403 x 344" simplify -e 20 --mask small.tif
-refuses 2 "for example with gdalwarp -te -84.41375" simplify -e 20 --mask small.tif
+refuses 2 "first (gdalwarp -te -84.41375" simplify -e 20 --mask small.tif
 gdal_translate -q -a_ullr 10 11 11 10 weights.tif moved.tif
 refuses 2 "--tolerance moved.tif begins at" simplify --tolerance moved.tif
 gdal_translate -q -a_srs EPSG:32616 -a_ullr 700000 4030000 736270 3999040 weights.tif utm.tif

@@ -46,7 +46,7 @@ refuses 1 "a share of the relief is an error with a % behind it: -e 1%" "$scarp"
 refuses 1 "contour lines are an input: scarp simplify contours.gpkg OUTPUT -e 2" "$scarp" simplify "$dem" out.glb --contours lines.gpkg
 refuses 1 "unknown command 'simp' (did you mean simplify?)" "$scarp" simp
 refuses 1 "option --error=5 is unknown (did you mean --max-error?)" "$scarp" simplify "$dem" out.glb --error=5
-refuses 1 "gdal_edit.py -a_srs" "$scarp" simplify "$dem" out.glb -e 1 -a_srs EPSG:32611
+refuses 1 "gdal_translate -a_srs" "$scarp" simplify "$dem" out.glb -e 1 -a_srs EPSG:32611
 refuses 1 "the output is the word behind the input" "$scarp" simplify "$dem" -o out.glb -e 1
 for area in -te --bbox; do
   refuses 1 "option $area is unknown (did you mean --te?)" "$scarp" simplify "$dem" out.glb -e 1 $area 1 2 3 4

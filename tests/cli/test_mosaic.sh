@@ -62,8 +62,6 @@ for other in float.tif nodata.tif; do # of another type, and with another nodata
 done
 refuses 2 "coarse.tif has cells of 60.2970297 x 60" "$scarp" info tiles/a.tif coarse.tif
 refuses 2 "shifted.tif lies 0.5 of a cell beside the grid of tiles/a.tif" "$scarp" simplify tiles/a.tif shifted.tif o.stl -e 20
-eval "$(sed -n 's/.*(\(gdalwarp .*\)).*/\1/p' "$logs/err") -q" || fail "the way out is no command"
-succeeds "$scarp" simplify tiles/a.tif new.tif o.stl -e 20
 refuses 2 "no.tif: no such file" "$scarp" simplify tiles/a.tif no.tif p.stl -e 20
 mkdir empty
 refuses 2 "empty: the folder holds no raster" "$scarp" simplify empty p.stl -e 20

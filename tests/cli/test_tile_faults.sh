@@ -76,7 +76,7 @@ done
 # Plans and parts of other versions.
 sed 's/"scarp_tile_plan": [0-9]*/"scarp_tile_plan": 99/' plan.json > later.json
 for command in "run later.json" "finish later.json no"; do
-  refuses 2 "later.json is no plan of tiles of this version: make it with scarp tile plan" "$scarp" tile $command
+  refuses 2 "later.json is no plan of tiles of this version: make one first (scarp tile plan RASTER " "$scarp" tile $command
 done
 head -c 2000 plan.json > torn.json
 refuses 2 "torn.json is no plan of tiles" "$scarp" tile run torn.json

@@ -10,6 +10,7 @@
 
 #include "inputs/companions.h"
 #include "options/option_table.h"
+#include "scarp/commands.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -89,11 +90,11 @@ Result<void> check_coverage(const OwnedChannels& texture, const OwnedHeightField
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::isfinite(values[k]) || !std::isfinite(heights.samples[k])) continue;
       const std::size_t cols = static_cast<std::size_t>(heights.cols);
-      return fail(
-          ErrorKind::kInput,
-          fmt::format("--texture {}: band {} has no value at column {}, row {}, where {} has a height: fill it, "
-                      "for example with gdal_fillnodata.py",
-                      texture.info.path, band + 1, k % cols, k / cols, heights.info.path));
+      return fail(ErrorKind::kInput,
+                  fmt::format("--texture {}: band {} has no value at column {}, row {}, where {} has a height: fill it "
+                              "first (gdal_fillnodata.py -b {} {} {})",
+                              texture.info.path, band + 1, k % cols, k / cols, heights.info.path, band + 1,
+                              file_word(texture.info.path), new_file(".tif")));
     }
   }
   return {};

@@ -8,6 +8,7 @@
 
 #include "options/memory.h"
 #include "options/option_table.h"
+#include "scarp/commands.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -40,18 +41,24 @@ void add_warnings(const OwnedHeightField& values, Companions& companions) {
 }
 
 /// A command that brings a raster onto the grid of `raster`.
-std::string suggest_command(const RasterInfo& raster, int cols, int rows, const RasterInfo& other) {
-  const std::string file = shell_word(base_name(other.path));
+std::string suggest_command(const RasterInfo& raster, int cols, int rows, const RasterInfo& other, int other_cols,
+                            int other_rows) {
+  const std::string file = shell_word(other.path);
   const std::array<double, 6>& g = raster.geotransform;
   const bool is_upright = g[2] == 0 && g[4] == 0 && g[1] > 0 && g[5] < 0;
   if (!raster.has_georeference || !other.has_georeference || !is_upright) {
-    return fmt::format("gdal_translate -outsize {} {} {} aligned.tif", cols, rows, file);
+    return fmt::format("gdal_translate -r bilinear -outsize {} {} {} {}", cols, rows, file, new_file(".tif"));
   }
-  const std::string crs = raster.crs.empty() || raster.crs.size() > 40 || raster.crs == other.crs
-                              ? ""
-                              : fmt::format("-t_srs {} ", shell_word(raster.crs));
-  return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {} aligned.tif", crs, g[0], g[3] + g[5] * rows,
-                     g[0] + g[1] * cols, g[3], cols, rows, file);
+  const std::string crs =
+      raster.crs.empty() || raster.crs == other.crs ? "" : fmt::format("-t_srs {} ", shell_word(raster.crs));
+  const double east = g[0] + g[1] * cols, south = g[3] + g[5] * rows;
+  const std::array<double, 6>& o = other.geotransform;
+  const bool is_covered = crs.empty() && o[2] == 0 && o[4] == 0 && o[1] > 0 && o[5] < 0 && o[0] <= g[0] &&
+                          o[3] >= g[3] && o[0] + o[1] * other_cols >= east && o[3] + o[5] * other_rows <= south;
+  // Elsewhere it has no value: gdalwarp writes 0 else.
+  const char* beyond = is_covered ? "" : "-ot Float32 -dstnodata nan ";
+  return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {}{} {}", crs, g[0], south, east, g[3], cols,
+                     rows, beyond, file, new_file(".tif"));
 }
 
 struct RegionFile {
@@ -255,8 +262,8 @@ Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char
   const std::optional<std::string> difference = find_grid_difference(raster, cols, rows, other, other_cols, other_rows);
   if (!difference) return {};
   return fail(ErrorKind::kInput,
-              fmt::format("{} {} {}: bring it onto the grid of {}, for example with {}", option, other.path,
-                          *difference, raster.path, suggest_command(raster, cols, rows, other)));
+              fmt::format("{} {} {}: bring it onto the grid of {} first ({})", option, other.path, *difference,
+                          raster.path, suggest_command(raster, cols, rows, other, other_cols, other_rows)));
 }
 
 }  // namespace scarp::cli

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scarp/commands.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -12,9 +13,8 @@ namespace {
 /// What there is to do. --nodata names one value, in place of the one that counts already (NaN always does).
 std::string remedy_of(const std::string& value, const std::string& kept, const std::string& path) {
   if (kept.empty()) return "give --nodata " + value;
-  return fmt::format(
-      "--nodata takes one value, and gdalwarp -srcnodata {} -dstnodata {} {} NEW.tif makes one value of both", value,
-      kept, shell_word(path));
+  return fmt::format("--nodata takes one value, and gdalwarp -srcnodata {} -dstnodata {} {} {} makes one value of both",
+                     value, kept, file_word(path), new_file(".tif"));
 }
 
 }  // namespace

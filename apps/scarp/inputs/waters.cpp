@@ -33,6 +33,7 @@ Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCa
   if (given.water.empty()) return std::vector<Lake>();
   const auto polygons = read_files(given.water, plan_reading(field, progress), warnings);
   if (!polygons) return tl::unexpected(polygons.error());
+  if (auto closed = check_polygons(*polygons, "--water", "--rivers"); !closed) return tl::unexpected(closed.error());
   WaterOptions options;
   options.affine = affine;
   options.run.memory.limit = memory.limit;

@@ -9,6 +9,7 @@
 #include "commands/simplify_run.h"
 #include "options/option_table.h"
 #include "reports/report.h"
+#include "scarp/commands.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -93,8 +94,8 @@ Result<void> check_frame_of_lines(const char* lines, const Frame& frame, const s
   return fail(
       ErrorKind::kUsage,
       fmt::format("{} cannot be combined with --crs {}: lines are inserted where the grid is regular, and in that "
-                  "CRS it is bent. Leave --crs out, or bend the raster first: gdalwarp -t_srs {} {} warped.tif",
-                  lines, crs, crs, shell_word(input)));
+                  "CRS it is bent. Leave --crs out, or bend the raster first ({})",
+                  lines, crs, warp_command("-t_srs " + crs, input)));
 }
 
 std::string LineArguments::canonical() const {

@@ -159,6 +159,10 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
     return *named;
   }
   if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
+  if (is_stdout(output))
+    return fail(ErrorKind::kUsage, fmt::format("OUTPUT {} is standard output, whose name tells no format: give --of "
+                                               "FORMAT, one of {}",
+                                               output, kNames));
   return fail(
       ErrorKind::kUsage,
       fmt::format("cannot tell the format from {}: use .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, "

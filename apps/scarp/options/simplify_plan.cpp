@@ -183,7 +183,7 @@ const char* find_print_obstacle(const SimplifyArguments& given) {
 }
 
 Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
-  const Result<std::optional<PrintOptions>> solid = given.solid.parse();
+  const Result<std::optional<PrintOptions>> solid = given.solid.parse(plan.warnings);
   if (!solid) return tl::unexpected(solid.error());
   plan.solid = *solid;
   if (plan.error_goal && plan.error_goal->is_on_print) {
@@ -352,7 +352,8 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   }
   if (given.html) outputs.push_back({"--html", *given.html});
   if (given.report) outputs.push_back({"--report", *given.report});
-  return check_outputs(outputs, plan.files_read, given.overwrite);
+  plan.outputs = std::move(outputs);
+  return {};
 }
 
 Result<void> plan_page(const SimplifyArguments& given, SimplifyPlan& plan) {
@@ -484,6 +485,9 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<s
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }
+  // Last: who has mistaken an option reads of that first.
+  if (auto checked = check_outputs(plan.outputs, plan.files_read, given.overwrite); !checked)
+    return tl::unexpected(checked.error());
   return plan;
 }
 

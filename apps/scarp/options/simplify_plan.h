@@ -60,6 +60,7 @@ struct SimplifyArguments {
 struct SimplifyPlan {
   std::string input, output;
   std::vector<std::string> files_read;  ///< by any option
+  std::vector<PlannedOutput> outputs;
   OutputFormat format;
   ReadOptions read;
   std::optional<ErrorGoal> error_goal;
@@ -83,7 +84,7 @@ struct SimplifyPlan {
   std::optional<Levels> levels;
   bool levels_in_one = false;
   std::optional<std::string> preview, render, error_raster, html, report;
-  std::string page_template;                 ///< of the page, where `html` asks for one
+  std::string page_template;  ///< of the page, where `html` asks for one
   bool compress = false;
   bool overwrite = false;
   bool is_y_up = false;                      ///< see choose_y_up()

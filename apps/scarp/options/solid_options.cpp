@@ -55,10 +55,13 @@ Result<void> refuse_key(const char* option, const std::string& key, const char* 
   return fail(ErrorKind::kUsage, fmt::format("{} has no key {}: choose {}", option, shell_word(key), keys));
 }
 
-Result<void> take_solid(const Pair& pair, PrintOptions& plan) {
+Result<void> take_solid(const Pair& pair, PrintOptions& plan, std::vector<std::string>& warnings) {
   const auto& [key, value] = pair;
   const std::string name = "--solid " + key;
   if (key == "walls" && !value) return {};  // a solid always has them
+  if (!value && parse_length(name, key))
+    return fail(ErrorKind::kUsage,
+                fmt::format("--solid {} names no key: give size={}", shell_word(key), shell_word(key)));
   if (key != "base" && key != "thickness" && key != "size" && key != "exaggerate")
     return refuse_key("--solid", key, "base, thickness, size, exaggerate or walls");
   if (!value) return fail(ErrorKind::kUsage, fmt::format("{} needs a value: {}=VALUE", name, key));
@@ -85,6 +88,8 @@ Result<void> take_solid(const Pair& pair, PrintOptions& plan) {
     (length->is_metric ? plan.printed_thickness : plan.thickness) = length->value;
   } else {
     plan.size = length->value;
+    if (!length->is_metric)
+      warnings.push_back(fmt::format("{} {} is taken for millimetres: size={}mm says so", name, *value, *value));
   }
   return {};
 }
@@ -128,7 +133,7 @@ void SolidArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kSplit, split);
 }
 
-Result<std::optional<PrintOptions>> SolidArguments::parse() const {
+Result<std::optional<PrintOptions>> SolidArguments::parse(std::vector<std::string>& warnings) const {
   if (!solid) {
     if (split)
       return fail(ErrorKind::kUsage, "--split needs --solid: print tiles are solids, such as --solid size=120mm");
@@ -136,7 +141,7 @@ Result<std::optional<PrintOptions>> SolidArguments::parse() const {
   }
   PrintOptions plan;
   for (const Pair& pair : split_pairs(*solid)) {
-    if (auto taken = take_solid(pair, plan); !taken) return tl::unexpected(taken.error());
+    if (auto taken = take_solid(pair, plan, warnings); !taken) return tl::unexpected(taken.error());
   }
   if (plan.base && (plan.thickness || plan.printed_thickness))
     return fail(ErrorKind::kUsage, "--solid base cannot be combined with thickness; drop one of them");

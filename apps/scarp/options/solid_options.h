@@ -18,7 +18,7 @@ struct SolidArguments {
 
   void add_to(CLI::App& command);
   /// Nothing without --solid.
-  Result<std::optional<PrintOptions>> parse() const;
+  Result<std::optional<PrintOptions>> parse(std::vector<std::string>& warnings) const;
   std::string canonical() const { return canonical_option("--solid", solid) + canonical_option("--split", split); }
 };
 

@@ -11,6 +11,7 @@
 
 #include "options/help.h"
 #include "options/option_table.h"
+#include "scarp/alike.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -32,7 +33,8 @@ constexpr Foreign kForeign[] = {
     {"ratio si simplify-ratio decimate", "--max-triangles",
      "give the number of triangles with -t, or the error with -e"},
     {"a-srs s-srs", "",
-     "the input's CRS is the file's own: gdal_edit.py -a_srs CRS FILE changes it; --crs is the mesh's"},
+     "the input's CRS is the file's own: gdal_translate -a_srs EPSG:CODE FILE NEW.tif gives it another; --crs is the "
+     "mesh's"},
     {"t-srs srs epsg proj projection", "--crs", ""},
     {"a-nodata srcnodata dstnodata no-data nodata-value nodatavalue", "--nodata", ""},
     {"of f format output-format", "--of", ""},
@@ -41,8 +43,8 @@ constexpr Foreign kForeign[] = {
     {"te bbox extent bounds projwin", "--te", ""},
     {"tr res outsize", "--resolution", ""},
     {"te bbox extent bounds projwin srcwin", "",
-     "cut the raster first, with gdal_translate -projwin or gdalwarp -te, or clip to a polygon with --cutline"},
-    {"tr ts res outsize", "", "change the raster first, with gdalwarp -tr or gdal_translate -outsize"},
+     "cut the raster first (gdal_translate -projwin WEST NORTH EAST SOUTH FILE NEW.tif)"},
+    {"tr ts res outsize", "", "change the raster first (gdal_translate -r average -outsize COLUMNS 0 FILE NEW.tif)"},
     {"z zscale z-exaggeration vertical-exaggeration exaggerate exaggeration", "--z-scale", ""},
     {"exaggerate exaggeration z-exaggeration vertical-exaggeration", "--solid", "give it as --solid exaggerate=2"},
     {"force y overwrite-existing clobber", "--overwrite", ""},
@@ -71,60 +73,15 @@ std::string bare(const std::string& word) {
   return name;
 }
 
-/// Letters to change, add, leave out or exchange with their neighbours.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> steps(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      std::size_t& least = steps[i][j];
-      if (i == 0 || j == 0) {
-        least = i + j;
-        continue;
-      }
-      least = std::min({steps[i - 1][j] + 1, steps[i][j - 1] + 1, steps[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        least = std::min(least, steps[i - 2][j - 2] + 1);
-    }
-  }
-  return steps[a.size()][b.size()];
-}
-
 /// Whether one of the words is this one, or, of four letters or more, `most` letters beside it.
 bool holds_word(std::string_view words, std::string_view word, std::size_t most = 0) {
   for (std::size_t begin = 0; begin < words.size();) {
     const std::size_t end = std::min(words.find(' ', begin), words.size());
     const std::string_view here = words.substr(begin, end - begin);
-    if (here == word || (here.size() >= 4 && distance(here, word) <= most)) return true;
+    if (here == word || (here.size() >= 4 && count_typos(here, word) <= most)) return true;
     begin = end + 1;
   }
   return false;
-}
-
-/// The names that are like the word: those that begin with it, else those at the least distance, else one that holds
-/// it. Empty if none is.
-std::vector<std::string> find_alike(const std::string& word, const std::vector<std::string>& names) {
-  std::vector<std::string> alike;
-  const auto choose = [&](const auto& is_chosen) {
-    std::copy_if(names.begin(), names.end(), std::back_inserter(alike), is_chosen);
-  };
-  if (word.size() >= 2) choose([&](const std::string& name) { return name.starts_with(word); });
-  if (!alike.empty()) return alike;
-  const std::size_t most = std::min<std::size_t>(2, word.size() / 3);
-  for (std::size_t steps = 1; alike.empty() && steps <= most; ++steps)
-    choose([&](const std::string& name) { return distance(word, name) == steps; });
-  if (!alike.empty() || word.size() < 4) return alike;
-  choose([&](const std::string& name) { return name.find(word) != std::string::npos; });
-  return alike.size() == 1 ? alike : std::vector<std::string>();
-}
-
-/// "did you mean --lods or --lods-in-one?", the first few of them; empty without any.
-std::string ask(const std::vector<std::string>& meant, const char* dashes) {
-  constexpr std::size_t kMost = 4;
-  const std::size_t count = std::min(meant.size(), kMost);
-  std::string text;
-  for (std::size_t k = 0; k < count; ++k)
-    text += (k == 0 ? "did you mean " : k + 1 < count ? ", " : " or ") + (dashes + meant[k]);
-  return text.empty() ? text : text + "?";
 }
 
 std::vector<std::string> names_of(const CLI::App* command) {
@@ -137,7 +94,7 @@ std::vector<std::string> names_of(const CLI::App* command) {
   return names;
 }
 
-/// What ask() says, or better advice; empty if nothing is like the word.
+/// What ask_for() says, or better advice; empty if nothing is like the word.
 std::string advise(const CLI::App* command, const std::string& word) {
   const std::string name = bare(word);
   const std::vector<std::string> names = names_of(command);
@@ -154,7 +111,7 @@ std::string advise(const CLI::App* command, const std::string& word) {
     return {};
   };
   std::string advice = advise_on_foreign(0);
-  if (advice.empty()) advice = ask(find_alike(name, names), "--");
+  if (advice.empty()) advice = ask_for(find_alike(name, names), "--");
   return advice.empty() && name.size() >= 4 ? advise_on_foreign(1) : advice;
 }
 
@@ -208,7 +165,7 @@ Error unknown_command(const std::string& word) {
   }
   if (meant.empty()) meant = find_alike(bare(word), names);
   const bool is_file = meant.empty() && word.find_first_of("./") != std::string::npos;
-  const std::string hint = !meant.empty() ? fmt::format(" ({})", ask(meant, "")) : ": " + choose_command();
+  const std::string hint = !meant.empty() ? fmt::format(" ({})", ask_for(meant)) : ": " + choose_command();
   return {
       ErrorKind::kUsage,
       is_file

@@ -24,14 +24,11 @@ void drop_heights(Line& line) {
 }
 
 /// The polygons of a file. Without an attribute features are numbered in their order, after the number of the rest.
-Result<std::vector<Zone>> make_zones(const std::string& file, const std::vector<Line>& lines, const Given& field) {
+Result<std::vector<Zone>> make_zones(const std::vector<Line>& lines, const Given& field) {
   std::vector<Zone> zones;
   std::map<std::uint32_t, std::size_t> zone_of;  // by polygon
   std::map<std::string, std::uint32_t> numbers;  // by feature
   for (const Line& line : lines) {
-    if (!line.is_ring())
-      return fail(ErrorKind::kInput, fmt::format("{} is a line, and --materials {} needs polygons", line.name,
-                                                 shell_word(base_name(file))));
     const auto [place, is_new] = zone_of.try_emplace(line.polygon, zones.size());
     if (is_new) {
       const double value = line.points.front()[2];
@@ -103,7 +100,9 @@ Result<ZonePlan> ZoneArguments::read(const RasterInfo& raster, int rows, const P
     options.ignore_z = !field;
     auto lines = read_files({*materials}, options, warnings);
     if (!lines) return tl::unexpected(std::move(lines.error()));
-    auto zones = make_zones(*materials, *lines, field);
+    const std::string user = "--materials " + shell_word(base_name(*materials));
+    if (auto closed = check_polygons(*lines, user); !closed) return tl::unexpected(closed.error());
+    auto zones = make_zones(*lines, field);
     if (!zones) return tl::unexpected(std::move(zones.error()));
     plan.zones = std::move(*zones);
     for (Line& line : *lines) {

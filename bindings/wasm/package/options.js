@@ -141,7 +141,7 @@ const WORDS = [
   [/\b(effort|order|vertices|objective) = (\w+)/g, "$1: '$2'"],
   [/choose the frame 'source'/, 'leave degrees out'],
   [/choose a polar CRS such as EPSG:3413 or EPSG:3031/, 'leave degrees out if the transform is in other units'],
-  [/\(gdal_edit -a_ullr, or gdal_edit -a_srs if they are not degrees\)/, "in bounds, or take crs: 'mercator' if they are its metres"],
+  [/\(gdal_translate -a_ullr .*\), or their CRS if they are not degrees \(.*\)/, "in bounds, or take crs: 'mercator' if they are its metres"],
   [/\b[a-z]+(?:_[a-z]+)+\b/g, word => {
     const name = word.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
     return TABLE[name] ? name : word;

@@ -17,6 +17,7 @@
 
 #include "io/gdal/georeference.h"
 #include "io/gdal/session.h"
+#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {
@@ -210,12 +211,16 @@ Result<void> verify(const EarthTransform& way, const Axes& axes, const Georefere
                           path));
 }
 
-void warn_of_heights(const SpaceCrs& crs, bool is_applied, RasterInfo& info) {
+void warn_of_heights(const Georeference& geo, bool is_applied, RasterInfo& info) {
+  const SpaceCrs& crs = geo.in_space;
   if (crs.is_ellipsoidal || is_applied) return;
+  const std::string name = crs_name(geo.crs);
+  const std::string code = name.starts_with("EPSG:") ? name : "EPSG:CODE";
   info.warnings.push_back(
       crs.vertical.empty()
-          ? "heights are taken as heights above the ellipsoid of the raster's CRS; if they are above sea level, which "
-            "lies up to 107 m beside it, name their CRS first, as with gdal_edit -a_srs EPSG:4326+5773"
+          ? fmt::format("heights are taken as heights above the ellipsoid of the raster's CRS; if they are above sea "
+                        "level, which lies up to 107 m beside it, name their CRS first ({})",
+                        translate_command("-a_srs " + code + "+5773", info.path))
           : fmt::format("heights are above {}, for which PROJ has no grid on this machine: they are taken as heights "
                         "above the ellipsoid of the raster's CRS",
                         crs.vertical));
@@ -260,7 +265,7 @@ Result<Frame> earth_frame(const Georeference& geo, const std::string& wanted, Ra
   }
   const Axes axes = axes_of(*way, geo);
   if (auto verified = verify(*way, axes, geo, info.path); !verified) return tl::unexpected(verified.error());
-  warn_of_heights(geo.in_space, is_applied, info);
+  warn_of_heights(geo, is_applied, info);
   way->settle(axes, is_tangent);
   const auto [x, y] = geo.centre();
   const Vector& o = axes.origin;

@@ -9,6 +9,7 @@
 
 #include "grid/local_frame.h"
 #include "io/raster/raster_finish.h"
+#include "scarp/commands.h"
 #include "scarp/degrees.h"
 
 namespace scarp::gdal {
@@ -185,9 +186,9 @@ Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& 
   Georeference geo = make_georeference(GDALGetRasterXSize(dataset), GDALGetRasterYSize(dataset), pixels,
                                        crs_of(dataset), space_crs_of(declared_crs(dataset)));
   if (geo.located && is_degenerate(geo.samples)) {
-    return fail(ErrorKind::kInput, path +
-                                       ": its geotransform maps the raster to a line or to infinity; repair it with "
-                                       "gdal_edit -a_ullr");
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: its geotransform maps the raster to a line or to infinity; give it a place first ({})",
+                            path, translate_command("-a_ullr WEST NORTH EAST SOUTH", path)));
   }
   return geo;
 }
@@ -228,8 +229,9 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
   }
   if (geo.located && !geo.crs && info.format != "memory" && looks_like_degrees(geo.pixels, geo.cols, geo.rows)) {
     info.warnings.push_back(
-        "the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if so, "
-        "say so with gdal_edit -a_srs EPSG:4326");
+        fmt::format("the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if "
+                    "they are, give it that CRS first ({})",
+                    translate_command("-a_srs EPSG:4326", info.path)));
   }
   const DefaultFrame otherwise = options.default_frame;
   const bool is_local =
@@ -243,8 +245,8 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
   if (!geo.crs) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for 'source', 'local' or "
-                            "'grid', or give it its CRS first (gdal_edit -a_srs)",
-                            info.path, wanted));
+                            "'grid', or give it its CRS first ({})",
+                            info.path, wanted, translate_command("-a_srs EPSG:CODE", info.path)));
   }
   return is_in_space(wanted) ? earth_frame(geo, wanted, info) : projected_frame(geo, wanted, info);
 }

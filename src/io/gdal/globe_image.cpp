@@ -11,6 +11,7 @@
 #include "base/caught.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/warp_image.h"
+#include "scarp/commands.h"
 
 namespace scarp {
 namespace gdal {
@@ -41,8 +42,8 @@ class WarpedImage final : public GlobeImage {
   Result<void> find_place(const Georeference& geo) {
     auto to_degrees = build_transform(geo.crs, degrees_);
     if (!to_degrees)
-      return fail(ErrorKind::kInput, fmt::format("{}: PROJ knows no way from {} to longitude and latitude", path_,
-                                                 short_name(geo.crs)));
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: PROJ knows no way from {} to longitude and latitude", path_, short_name(geo.crs)));
     HeightField field;
     field.cols = geo.cols;
     field.rows = geo.rows;
@@ -114,10 +115,11 @@ class WarpedImage final : public GlobeImage {
     bool has_colour = false;
     for (int row = 0; row < height; ++row) {
       for (int col = 0; col < width; ++col) {
-        const auto from = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(col);
+        const auto from =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(col);
         if (pixels->alpha[from] == 0) continue;
-        const auto to = static_cast<std::size_t>(row + top) * static_cast<std::size_t>(side) +
-                        static_cast<std::size_t>(col + left);
+        const auto to =
+            static_cast<std::size_t>(row + top) * static_cast<std::size_t>(side) + static_cast<std::size_t>(col + left);
         std::copy_n(&pixels->picture.rgb[3 * from], 3, &picture.rgb[3 * to]);
         has_colour = true;
       }
@@ -141,9 +143,8 @@ Result<std::shared_ptr<const GlobeImage>> open(const std::string& path, const Ge
   if (!geo) return tl::unexpected(geo.error());
   if (!geo->located || !geo->crs)
     return fail(ErrorKind::kInput,
-                fmt::format("{} does not say where on the globe it lies: give it a position and a CRS (gdal_translate "
-                            "-a_ullr … -a_srs EPSG:4326)",
-                            path));
+                fmt::format("{} does not say where on the globe it lies: give it a position and a CRS ({})", path,
+                            translate_command("-a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH", path)));
   const double radius = OSRGetSemiMajor(geo->crs.get(), nullptr);
   if (!(std::abs(radius / ellipsoid.semi_major - 1) <= kSamePlanet))
     return fail(ErrorKind::kInput, fmt::format("{} lies on a planet of {:.0f} m, and the tiles on one of {:.0f} m",

@@ -13,6 +13,7 @@
 
 #include "io/gdal/crs.h"
 #include "io/gdal/session.h"
+#include "scarp/commands.h"
 #include "scarp/geoid.h"
 
 namespace scarp {
@@ -196,10 +197,11 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
   gdal::Session quiet;
   const Crs source = info.crs.empty() ? nullptr : gdal::find_crs(info.crs);
   if (!info.has_georeference || !source)
-    return fail(ErrorKind::kInput,
-                fmt::format("{} does not say where on the globe it lies: give it a position and a CRS (gdal_translate "
-                            "-a_ullr … -a_srs EPSG:4326), or take --grid local",
-                            path));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} does not say where on the globe it lies: give it a position and a CRS ({}), or take --grid "
+                    "local",
+                    path, translate_command("-a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH", path)));
   if (auto metres = check_metres(info, path); !metres) return tl::unexpected(metres.error());
   RasterOnGlobe globe;
   const Degrees degrees = choose_degrees(source, datum.ellipsoid);
@@ -221,8 +223,8 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
     if (!is_found_again(cols, rows, globe))
       return fail(ErrorKind::kInput,
                   fmt::format("{} reaches beyond 180 degrees of its projection, where places are not found again from "
-                              "longitude and latitude: put it into degrees (gdalwarp -t_srs EPSG:4326)",
-                              path));
+                              "longitude and latitude: put it into degrees ({})",
+                              path, warp_command("-t_srs '+proj=longlat +datum=WGS84 +lon_wrap=180'", path)));
   }
 
   if (auto found = find_zero(info, datum, path, globe); !found) return tl::unexpected(found.error());

@@ -17,6 +17,7 @@
 #include "io/gdal/crs.h"
 #include "io/gdal/earth_frame.h"
 #include "io/gdal/join.h"
+#include "scarp/commands.h"
 #include "scarp/tile_job.h"
 
 namespace scarp::gdal {
@@ -24,14 +25,14 @@ namespace {
 
 constexpr double kMostOffGrid = 1e-3;  // of a cell
 
-/// A command that makes new.tif of the raster. Cells beside it hold no value rather than 0.
+/// A command that makes a new file of the raster. Cells beside it hold no value rather than 0.
 std::string gdalwarp(const std::string& options, const Tile& tile) {
   const BandFacts& band = tile.bands.front();
   const bool tells = band.nodata || tile.has_mask(false) || tile.has_alpha() || tile.bands.size() > 1;
   const char* wide = band.type == GDT_Int32 || band.type == GDT_UInt32 ? " -ot Float64" : " -ot Float32";
-  return fmt::format("(gdalwarp {}{} {} new.tif)", options,
+  return fmt::format("(gdalwarp {}{} {} {})", options,
                      tells ? "" : std::string(GDALDataTypeIsFloating(band.type) ? "" : wide) + " -dstnodata nan",
-                     tile.path);
+                     file_word(tile.path), new_file(".tif"));
 }
 
 Result<Tile> look_at(Session& session, const std::string& path) {
@@ -45,8 +46,9 @@ Result<Tile> look_at(Session& session, const std::string& path) {
                 path + ": has no georeference, so that it has no place in a mosaic: name the other rasters one by one");
   }
   if (tile.gt[2] != 0 || tile.gt[4] != 0) {
-    return fail(ErrorKind::kInput, fmt::format("{}: is rotated, so that it has no place in a mosaic: turn it first {}",
-                                               path, gdalwarp("-r bilinear", tile)));
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: is rotated, so that it has no place in a mosaic: turn it first ({})", path,
+                            warp_command("", path)));
   }
   return tile;
 }
@@ -82,9 +84,8 @@ std::string describe_unit_difference(const Tile& first, const Tile& tile, std::s
   const std::string way =
       ratio == 0 ? "give rasters of one unit"
                  : fmt::format(
-                       "bring it to one unit first (gdal_translate {} new.tif && gdal_edit.py -scale {:.17g} "
-                       "-offset {:.17g} -units \"{}\" new.tif)",
-                       tile.path, b.scale * ratio, b.offset * ratio, a.unit);
+                       "bring it to one unit first ({} && gdal_edit.py -scale {:.17g} -offset {:.17g} -units \"{}\" {})",
+                       translate_command("", tile.path), b.scale * ratio, b.offset * ratio, a.unit, new_file(".tif"));
   return fmt::format("has heights in {}, and {} in {}: {}", b.unit, first.path, a.unit, way);
 }
 
@@ -125,26 +126,27 @@ std::string find_difference(const Tile& first, const Tile& tile) {
     const auto name = [](const Tile& of) { return of.crs ? short_name(of.crs) : std::string("no CRS"); };
     if (!tile.crs || !first.crs) {
       const Tile& without = tile.crs ? first : tile;
-      return fmt::format("is in {}, and {} in {}: if {} is in the same, say so first (gdal_edit.py -a_srs {} {})",
-                         name(tile), first.path, name(first), without.path, name(tile.crs ? tile : first),
-                         without.path);
+      return fmt::format(
+          "is in {}, and {} in {}: if {} is in the same, name it first ({})", name(tile), first.path, name(first),
+          without.path,
+          translate_command("-a_srs " + file_word(crs_name((tile.crs ? tile : first).crs)), without.path));
     }
     return fmt::format("is in {}, and {} in {}: bring it there first {}", name(tile), first.path, name(first),
-                       gdalwarp(fmt::format("-t_srs {} -r bilinear", name(first)), tile));
+                       gdalwarp(fmt::format("-t_srs {} -r bilinear", file_word(crs_name(first.crs))), tile));
   }
   if (heights_of(first) != heights_of(tile)) return describe_datum_difference(first, tile);
   if (tile.bands.size() != first.bands.size()) {
-    return fmt::format("has {} bands, and {} has {}: give rasters of one kind", tile.bands.size(), first.path,
-                       first.bands.size());
+    return fmt::format("has {} bands, and {} has {}: choose one of the bands first ({})", tile.bands.size(), first.path,
+                       first.bands.size(),
+                       translate_command("-b 1", (tile.bands.size() > 1 ? tile : first).path));
   }
   for (std::size_t k = 0; k < tile.bands.size(); ++k) {
     const BandFacts &a = first.bands[k], &b = tile.bands[k];
     const Tile& hard = can_join(b.type) ? first : tile;
     if (!can_join(hard.bands[k].type))
       return fmt::format(
-          "and {} make no mosaic, since {} holds {}: give it another type first (gdal_translate -ot "
-          "Float64 {} new.tif)",
-          first.path, hard.path, GDALGetDataTypeName(hard.bands[k].type), hard.path);
+          "and {} make no mosaic, since {} holds {}: give it another type first ({})", first.path, hard.path,
+          GDALGetDataTypeName(hard.bands[k].type), translate_command("-ot Float64", hard.path));
     if (a.is_alpha != b.is_alpha) {
       return fmt::format(
           "and {} make no mosaic, since band {} is transparency in one of them alone: give rasters of one "
@@ -157,7 +159,7 @@ std::string find_difference(const Tile& first, const Tile& tile) {
   if (dx * tile.gt[1] < 0 || dy * tile.gt[5] < 0) {
     const Tile& turned = tile.gt[1] < 0 || tile.gt[5] > 0 ? tile : first;
     return fmt::format("and {} begin at different sides: make {} north up first {}", first.path, turned.path,
-                       fmt::format("(gdalwarp {} new.tif)", turned.path));
+                       fmt::format("(gdalwarp {} {})", file_word(turned.path), new_file(".tif")));
   }
   const double size = std::max(std::abs(tile.gt[1] - dx) * std::max(tile.cols, first.cols) / std::abs(dx),
                                std::abs(tile.gt[5] - dy) * std::max(tile.rows, first.rows) / std::abs(dy));
@@ -170,9 +172,10 @@ std::string find_difference(const Tile& first, const Tile& tile) {
   const double rows = std::ceil(tile.rows * tile.gt[5] / dy + kMostOffGrid);
   const auto [low, high] = std::minmax({north, north + rows * dy});
   const std::string to_grid =
-      gdalwarp(fmt::format("-tr {:.17g} {:.17g} -te {:.17g} {:.17g} {:.17g} {:.17g} -r bilinear", std::abs(dx),
-                           std::abs(dy), std::min(west, west + cols * dx), low, std::max(west, west + cols * dx), high),
-               tile);
+      warp_onto(first,
+                fmt::format("-tr {:.17g} {:.17g} -te {:.17g} {:.17g} {:.17g} {:.17g}", std::abs(dx), std::abs(dy),
+                            std::min(west, west + cols * dx), low, std::max(west, west + cols * dx), high),
+                tile);
   if (size > kMostOffGrid)
     return fmt::format("has cells of {:.10g} x {:.10g}, and {} of {:.10g} x {:.10g}: bring it to that grid first {}",
                        std::abs(tile.gt[1]), std::abs(tile.gt[5]), first.path, std::abs(dx), std::abs(dy), to_grid);

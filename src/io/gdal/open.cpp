@@ -2,6 +2,7 @@
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
+#include <cpl_vsi_error.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +15,11 @@
 #include "io/gdal/cf_axes.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/text_grid.h"
+#include "io/kinds.h"
+#include "io/missing_file.h"
+#include "io/points/point_source.h"
 #include "io/spool.h"
+#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {
@@ -68,7 +73,7 @@ std::vector<std::string> find_subdatasets(GDALDatasetH dataset) {
 
 std::string join(const std::vector<std::string>& names, std::size_t most) {
   std::string text;
-  for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k == 0 ? "" : ", ") + names[k];
+  for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k == 0 ? "" : ", ") + file_word(names[k]);
   if (names.size() > most) text += ", …";
   return text;
 }
@@ -92,18 +97,6 @@ Result<Dataset> open_in_zip(Session& session, const std::string& path, const std
                 fmt::format("{}: {} in the zip cannot be read: {}", path, rasters.front(), session.reason()));
   }
   return dataset;
-}
-
-/// The first bytes of a file; fewer than asked for where it is shorter, or none.
-std::string read_head(const std::string& vsi, std::size_t bytes) {
-  std::string head(bytes, '\0');
-  VSIStatBufL status{};
-  if (VSIStatL(vsi.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return {};
-  VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
-  if (file == nullptr) return {};
-  head.resize(VSIFReadL(head.data(), 1, bytes, file));
-  VSIFCloseL(file);
-  return head;
 }
 
 /// An HDF4 file, or one of its rasters by name.
@@ -131,20 +124,28 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
   if (is_hdf4(vsi)) {
     return fail(ErrorKind::kInput,
                 fmt::format("{0}: HDF4 is not read, since its library crashes on damaged files: convert it first "
-                            "(gdal_translate {0} dem.tif)",
-                            path));
+                            "(gdal_translate {1} {2}; where it holds several rasters gdal_translate -sds {1} {2})",
+                            path, file_word(path), new_file(".tif")));
   }
   VSIStatBufL status{};
   const bool exists = VSIStatL(vsi.c_str(), &status) == 0;
-  if (is_remote(path)) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, reason));
-  if (!exists) return fail(ErrorKind::kInput, path + ": no such file");
+  if (is_remote(path)) return refuse_remote(path, vsi, reason);
+  if (!exists) return fail(ErrorKind::kInput, path + ": " + describe_missing(path));
   if (VSI_ISDIR(status.st_mode)) return fail(ErrorKind::kInput, path + ": a directory, not a raster");
   if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
   VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
   if (file == nullptr) return fail(ErrorKind::kInput, path + ": the file cannot be opened for reading (permissions?)");
   VSIFCloseL(file);
+  const std::string kind = describe_kind(path, read_head(vsi), status.st_size);
+  if (!kind.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
   // A driver that knows the file and still fails (a truncated TIFF) has the better words.
   if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_RASTER); driver && gave_reason) {
+    if (EQUAL(GDALGetDriverShortName(driver), "XYZ")) {
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: holds points that lie on no grid ({}), and a raster is asked for: make one of them "
+                              "first ({} && gdal_grid -a linear:nodata=-9999 -outsize COLUMNS ROWS {} {})",
+                              path, reason, geopackage_command(path), new_file(".gpkg"), new_file(".tif")));
+    }
     return fail(ErrorKind::kInput,
                 fmt::format("{}: a damaged or truncated {} raster: {}", path, GDALGetDriverShortName(driver), reason));
   }
@@ -162,6 +163,25 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
 }
 
 }  // namespace
+
+std::string read_head(const std::string& vsi, std::size_t bytes) {
+  std::string head(bytes, '\0');
+  VSIStatBufL status{};
+  if (VSIStatL(vsi.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return {};
+  VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
+  if (file == nullptr) return {};
+  head.resize(VSIFReadL(head.data(), 1, bytes, file));
+  VSIFCloseL(file);
+  return head;
+}
+
+tl::unexpected<Error> refuse_remote(const std::string& path, const std::string& vsi, const std::string& reason) {
+  VSIStatBufL status{};
+  VSIErrorReset();
+  const bool is_there = VSIStatExL(vsi.c_str(), &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_SET_ERROR_FLAG) == 0;
+  const std::string why = is_there ? "" : VSIGetLastErrorMsg();
+  return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, why.empty() ? reason : why));
+}
 
 std::string vsi_path(const std::string& path) {
   for (const Scheme& scheme : kSchemes) {

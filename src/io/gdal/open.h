@@ -38,6 +38,12 @@ Result<Dataset> open_xml(Session& session, const std::string& xml, const std::st
 /// with its vertical datum, whether a value is that of an area or a point, and for each band unit, scale and offset,
 /// description, meaning and colours.
 void repeat_said(GDALDatasetH from, GDALDatasetH to);
+/// What to say of a file on another machine that cannot be opened: the server's answer where there is one, else
+/// `reason`.
+tl::unexpected<Error> refuse_remote(const std::string& path, const std::string& vsi, const std::string& reason);
+
+/// The first bytes of a file; fewer than asked for where it is shorter, or none.
+std::string read_head(const std::string& vsi, std::size_t bytes = 4096);
 
 /// Opens a virtual raster anew by its XML, which then needs neither a file nor the rasters that it was made from to be
 /// open. `path` is for the sentence.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/gdal/read_samples.h"
+#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {
@@ -65,10 +66,11 @@ Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const 
   plan.type = GDALGetRasterDataType(plan.band);
   info.sample_type = GDALGetDataTypeName(plan.type);
   if (GDALDataTypeIsComplex(plan.type)) {
-    return fail(ErrorKind::kInput,
-                fmt::format("{}: band {} holds complex numbers ({}), which are no heights; extract a part "
-                            "first (gdal_calc)",
-                            path, options.band, info.sample_type));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{}: band {} holds complex numbers ({}), which are no heights; take their real parts first ({})",
+                    path, options.band, info.sample_type,
+                    translate_command(fmt::format("-ot Float64 -b {}", options.band), path)));
   }
   const char* pixel_type = GDALGetMetadataItem(plan.band, "PIXELTYPE", "IMAGE_STRUCTURE");
   plan.signed_byte = plan.type == GDT_Byte && pixel_type != nullptr && EQUAL(pixel_type, "SIGNEDBYTE");

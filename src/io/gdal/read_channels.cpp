@@ -12,6 +12,7 @@
 #include "io/gdal/view.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
+#include "scarp/commands.h"
 
 namespace scarp {
 namespace gdal {
@@ -46,6 +47,13 @@ Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, Read
                              RasterInfo& info) {
   const int count = GDALGetRasterCount(dataset);
   const int first = all_bands ? 1 : options.band, last = all_bands ? count : options.band;
+  const auto choose = [&](int left_out) {
+    std::string words;
+    for (int k = 1, taken = 0; k <= count && taken < kMaxChannels; ++k) {
+      if (k != left_out) words += fmt::format("{}-b {}", taken++ == 0 ? "" : " ", k);
+    }
+    return translate_command(words, path);
+  };
   BandsPlan plan;
   for (int k = first; k <= last; ++k) {
     options.band = k;
@@ -54,8 +62,8 @@ Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, Read
     if (GDALGetRasterColorInterpretation(band->band) == GCI_AlphaBand) {
       return fail(ErrorKind::kInput,
                   fmt::format("{}: band {} is transparency (alpha), which is no channel; leave it out "
-                              "first (gdal_translate -b for each of the other bands)",
-                              path, k));
+                              "first ({})",
+                              path, k, choose(k)));
     }
     plan.palettes.push_back(palette_of(band->band));
     plan.channels += plan.palettes.back().empty() ? 1 : 3;
@@ -64,8 +72,8 @@ Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, Read
   }
   if (plan.channels > kMaxChannels) {
     return fail(ErrorKind::kInput,
-                fmt::format("{} has {} bands, and at most {} can be channels; choose some of them (gdal_translate -b)",
-                            path, plan.channels, kMaxChannels));
+                fmt::format("{} has {} bands, and at most {} can be channels; choose some of them ({})", path,
+                            plan.channels, kMaxChannels, choose(0)));
   }
   const auto means = [&](std::size_t k, GDALColorInterp meaning) {
     return GDALGetRasterColorInterpretation(plan.bands[k].band) == meaning;

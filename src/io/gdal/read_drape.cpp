@@ -10,6 +10,7 @@
 #include "base/caught.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/warp_image.h"
+#include "scarp/commands.h"
 #include "scarp/drape.h"
 
 namespace scarp {
@@ -60,12 +61,13 @@ Result<Drape> read(const std::string& path, const RasterInfo& raster, int cols, 
   // An image with as many pixels as the raster has samples is most likely made from it, and has lost its place.
   const bool is_twin = !geo->located && geo->cols == cols && geo->rows == rows;
   if (geo->located != raster.has_georeference && !is_twin) {
-    return fail(ErrorKind::kInput,
-                fmt::format("{} has {}, and the raster has {}: give {} a georeference first (gdal_translate -a_ullr "
-                            "-a_srs){}",
-                            path, geo->located ? "a place" : "no place", geo->located ? "none" : "one",
-                            geo->located ? "the raster" : "it",
-                            geo->located ? "" : fmt::format(", or an image of {} x {} pixels", cols, rows)));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format(
+            "{} has {}, and the raster has {}: give {} a place first ({}){}", path,
+            geo->located ? "a place" : "no place", geo->located ? "none" : "one", geo->located ? "the raster" : "it",
+            translate_command("-a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH", geo->located ? raster.path : path),
+            geo->located ? "" : fmt::format(", or an image of {} x {} pixels", cols, rows)));
   }
   Drape drape;
   if (is_twin && raster.has_georeference)

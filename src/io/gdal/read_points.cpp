@@ -13,6 +13,7 @@
 #include "io/gdal/vector.h"
 #include "io/points/column_names.h"
 #include "io/points/point_source.h"
+#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {
@@ -27,6 +28,17 @@ bool is_layer_of_lines(OGRLayerH layer) {
   return OGR_GT_IsSubClassOf(type, wkbCurve) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0;
 }
 
+bool holds_polygons(OGRLayerH layer) {
+  return OGR_GT_IsSubClassOf(OGR_GT_GetLinear(wkbFlatten(OGR_L_GetGeomType(layer))), wkbSurface) != 0 ||
+         OGR_GT_IsSubClassOf(wkbFlatten(OGR_L_GetGeomType(layer)), wkbMultiSurface) != 0;
+}
+
+/// The way out for contours that are polygons.
+std::string make_lines(const std::string& path) {
+  return fmt::format("if their rings are contours, make lines of them first (ogr2ogr -nlt MULTILINESTRING {} {})",
+                     new_file(".gpkg"), file_word(path));
+}
+
 Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
   OGRLayerH first_of_lines = nullptr;
   for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
@@ -35,6 +47,9 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
     if (first_of_lines == nullptr && is_layer_of_lines(layer)) first_of_lines = layer;
   }
   if (wanted.empty() && first_of_lines != nullptr) return first_of_lines;
+  const bool is_polygons = GDALDatasetGetLayerCount(dataset) > 0 && holds_polygons(GDALDatasetGetLayer(dataset, 0));
+  if (wanted.empty() && is_polygons)
+    return fail(ErrorKind::kInput, fmt::format("{}: holds polygons, not points or lines: {}", path, make_lines(path)));
   if (wanted.empty())
     return fail(ErrorKind::kInput,
                 fmt::format("{}: holds no layer of points or lines, only {}", path, layer_names(dataset)));
@@ -193,9 +208,7 @@ class PointCollector {
       return fail(ErrorKind::kInput,
                   fmt::format("{}: feature {} is a {}, not a point or a line{}", path_, id_,
                               OGRGeometryTypeToName(OGR_G_GetGeometryType(geometry)),
-                              type == wkbPolygon || type == wkbMultiPolygon
-                                  ? ": give its contours as lines (gdal_contour without -p, ogr2ogr -nlt LINESTRING)"
-                                  : ""));
+                              type == wkbPolygon || type == wkbMultiPolygon ? ": " + make_lines(path_) : ""));
     if (OGR_G_IsEmpty(geometry) != 0) {
       ++without_geometry_;
       return {};
@@ -338,8 +351,8 @@ Result<void> place(const Crs& crs, const std::string& wanted, PointSet& points) 
   }
   if (!crs)
     return fail(ErrorKind::kUsage, fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for "
-                                               "'source', or give it its CRS first (ogr2ogr -a_srs)",
-                                               points.path, wanted));
+                                               "'source', or give it its CRS first (ogr2ogr -a_srs EPSG:CODE {} {})",
+                                               points.path, wanted, new_file(".gpkg"), file_word(points.path)));
   return wanted.empty() || wanted == "local" ? make_local(crs, points) : project(crs, wanted, points);
 }
 

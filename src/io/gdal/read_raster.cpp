@@ -18,6 +18,7 @@
 #include "io/gdal/view.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
+#include "scarp/commands.h"
 
 namespace scarp {
 namespace gdal {
@@ -36,7 +37,7 @@ constexpr double kMetresPerFoot = 0.3048;
 /// In space there is one unit for all.
 Result<void> check_unit(const Frame& frame, const Georeference& geo, RasterInfo& info) {
   if (!frame.space) return {};
-  if (info.unit.empty() && geo.is_in_feet()) {
+  if (info.unit.empty() && geo.is_in_feet() && info.z_scale == 1) {
     info.warnings.push_back(
         fmt::format("z is taken for metres though x and y are in {}: if it is not, --z-scale {:.6g} makes metres of it",
                     geo.unit_name, kMetresPerFoot));
@@ -98,7 +99,8 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
   describe_georeference(*geo, plan.info);
   if (!geo->located && GDALGetGCPCount(plan.dataset.get()) > 0) {
     plan.info.warnings.push_back(
-        "the raster is placed by ground control points, which are not used: rectify it first (gdalwarp)");
+        fmt::format("the raster is placed by ground control points, which are not used: rectify it first ({})",
+                    warp_command("", path)));
   }
   plan.georeference = std::move(*geo);
   return plan;
@@ -175,8 +177,9 @@ Result<void> refuse_beyond(const Findings& findings, const std::string& path, co
   return fail(
       ErrorKind::kInput,
       fmt::format("{}: the value {:.6g} at column {}, row {} is beyond what a float32 holds (3.4e38): if it means "
-                  "nodata, give it as such, else scale the values first (gdal_translate -ot Float32 -scale)",
-                  path, findings.beyond->value, findings.beyond->col, findings.beyond->row));
+                  "nodata, give --nodata {:.17g}, else give the heights in a larger unit first ({})",
+                  path, findings.beyond->value, findings.beyond->col, findings.beyond->row, findings.beyond->value,
+                  translate_command("-ot Float64 -scale 0 1e10 0 1", path)));
 }
 
 Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, const ReadOptions& options) {

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 
+#include "io/kinds.h"
+#include "io/missing_file.h"
 #include "io/spool.h"
+#include "scarp/commands.h"
 
 namespace scarp::gdal {
 
@@ -18,18 +22,20 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
   session.clear();
   if (declares_entities(vsi)) {
     return fail(ErrorKind::kInput,
-                path +
-                    ": XML that declares entities is not read, since they may grow without end: write the file anew "
-                    "without them (xmllint --noent)");
+                fmt::format("{}: XML that declares entities is not read, since they may grow without end: write the "
+                            "file anew without them (xmllint --noent --dropdtd {} --output {})",
+                            path, file_word(path), new_file(std::filesystem::path(path).extension().string())));
   }
   Dataset dataset(GDALOpenEx(vsi.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                              kOpenOptions, nullptr));
   if (dataset) return dataset;
   if (path.empty()) return fail(ErrorKind::kInput, fmt::format("the name of the {} is empty", what));
-  if (is_remote(path)) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, session.reason()));
+  if (is_remote(path)) return refuse_remote(path, vsi, session.reason());
   VSIStatBufL status{};
-  if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": no such file");
+  if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": " + describe_missing(path));
   if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
+  const std::string kind = describe_kind(path, read_head(vsi), static_cast<std::uint64_t>(status.st_size));
+  if (!kind.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
   if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_VECTOR); driver)
     return fail(ErrorKind::kInput, fmt::format("{}: a damaged or truncated {} file: {}", path,
                                                GDALGetDriverShortName(driver), session.reason()));

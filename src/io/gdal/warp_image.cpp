@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "scarp/commands.h"
+
 namespace scarp::gdal {
 namespace {
 
@@ -35,8 +37,9 @@ Result<std::vector<int>> choose_bands(GDALDatasetH image, const std::string& pat
     if (GDALGetRasterDataType(band) != GDT_Byte) {
       return fail(ErrorKind::kInput,
                   fmt::format("{}: band {} holds {}, and an image to drape has 8 bits: stretch it first "
-                              "(gdal_translate -ot Byte -scale)",
-                              path, k, GDALGetDataTypeName(GDALGetRasterDataType(band))));
+                              "({})",
+                              path, k, GDALGetDataTypeName(GDALGetRasterDataType(band)),
+                              translate_command("-ot Byte -scale", path)));
     }
     if (GDALGetRasterColorInterpretation(band) == GCI_AlphaBand) {
       alpha = k;
@@ -125,10 +128,11 @@ Result<WarpedPixels> take_pixels(Session& session, GDALDatasetH target, const st
   warped.picture.height = height;
   warped.picture.rgb.resize(3 * pixels);
   warped.alpha.resize(pixels);
-  const bool read = GDALDatasetRasterIOEx(target, GF_Read, 0, 0, width, height, warped.picture.rgb.data(), width,
-                                          height, GDT_Byte, 3, nullptr, 3, GSpacing{3} * width, 1, nullptr) == CE_None &&
-                    GDALRasterIO(GDALGetRasterBand(target, 4), GF_Read, 0, 0, width, height, warped.alpha.data(), width,
-                                 height, GDT_Byte, 0, 0) == CE_None;
+  const bool read =
+      GDALDatasetRasterIOEx(target, GF_Read, 0, 0, width, height, warped.picture.rgb.data(), width, height, GDT_Byte, 3,
+                            nullptr, 3, GSpacing{3} * width, 1, nullptr) == CE_None &&
+      GDALRasterIO(GDALGetRasterBand(target, 4), GF_Read, 0, 0, width, height, warped.alpha.data(), width, height,
+                   GDT_Byte, 0, 0) == CE_None;
   if (!read) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, session.reason()));
   return warped;
 }

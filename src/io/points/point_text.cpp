@@ -15,6 +15,8 @@
 #include "io/points/point_columns.h"
 #include "io/points/point_source.h"
 #include "io/points/text_lines.h"
+#include "scarp/commands.h"
+#include "scarp/io.h"
 
 namespace scarp {
 namespace {
@@ -119,7 +121,33 @@ bool are_all_zero(const std::vector<double>& heights) {
   return std::all_of(heights.begin(), heights.end(), [](double z) { return z == 0; });
 }
 
+/// GDAL's reader of CSV has to be told which columns are coordinates: without it makes a table without points.
+std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::string& name,
+                                const ReadPointsOptions& options, const std::string& crs) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::string_view line;
+  TextLines lines(text);
+  PointColumns columns;
+  if (lines.next(line)) columns = find_columns(text, name, options).value_or(PointColumns());
+  std::string command = crs.empty() ? "ogr2ogr" : "ogr2ogr -a_srs " + crs;
+  if (!columns.has_header) command += " -oo HEADERS=NO";
+  if (columns.separator == ' ') command += " -oo MERGE_SEPARATOR=YES";
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t at = columns.at[k];
+    const std::string column = columns.has_header ? columns.names[at] : fmt::format("field_{}", at + 1);
+    command += " -oo " + file_word(fmt::format("{}_POSSIBLE_NAMES={}", "XYZ"[k], column));
+  }
+  const bool is_csv = lowered(name).ends_with(".csv") || lowered(name).ends_with(".tsv");
+  return fmt::format("{} {} {}{}", command, new_file(".gpkg"), is_csv ? "" : "CSV:", file_word(name));
+}
+
 }  // namespace
+
+std::string geopackage_command(const std::string& path, const std::string& crs) {
+  const auto bytes = read_file(path);
+  return describe_conversion(bytes ? std::span<const std::uint8_t>(*bytes) : std::span<const std::uint8_t>(), path, {},
+                             crs);
+}
 
 bool looks_like_columns(std::span<const std::uint8_t> head) {
   std::string_view line;
@@ -134,8 +162,8 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
   if (!options.crs.empty() && options.crs != "source")
     return fail(ErrorKind::kUsage,
                 fmt::format("{} says nothing of its CRS, so its coordinates cannot be given in '{}': ask for 'source', "
-                            "or make a GeoPackage with a CRS of it (ogr2ogr -a_srs)",
-                            name, options.crs));
+                            "or make a GeoPackage with a CRS of it ({})",
+                            name, options.crs, describe_conversion(bytes, name, options, "EPSG:CODE")));
   PointSet points;
   points.path = name;
   points.format = name.ends_with(".xyz") ? "XYZ" : "CSV";
@@ -171,9 +199,10 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
         fmt::format("{}: the heights are those of the column {}: --z-field {} reads the others", name, chosen, other));
   }
   if (columns->in_degrees || looks_like_degrees(points))
-    points.warnings.push_back(
+    points.warnings.push_back(fmt::format(
         "x and y look like degrees, which do not mix with heights: make a GeoPackage with a CRS of the file "
-        "(ogr2ogr -a_srs EPSG:4326) for a local frame in metres");
+        "({}) for a local frame in metres",
+        describe_conversion(bytes, name, options, "EPSG:4326")));
   return points;
 }
 

@@ -16,6 +16,7 @@
 
 #include "base/caught.h"
 #include "grid/height_range.h"
+#include "io/kinds.h"
 #include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/point_source.h"
@@ -95,6 +96,9 @@ Result<PointSet> read_by_content(const std::string& path, const ReadPointsOption
   if (!is_text_of_columns(path)) return read_gdal_points(path, options);
   const auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
+  const std::string_view head(reinterpret_cast<const char*>(bytes->data()), std::min<std::size_t>(bytes->size(), 4096));
+  if (const std::string kind = describe_kind(path, head, bytes->size(), false); !kind.empty())
+    return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
   return decode_columns(*bytes, path, options);
 }
 

@@ -10,6 +10,7 @@
 #include "base/large_vector.h"
 #include "grid/height_range.h"
 #include "grid/local_frame.h"
+#include "scarp/commands.h"
 
 namespace scarp {
 
@@ -45,12 +46,14 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
   if (cols * rows > limit / bands) {
     return fail(
         ErrorKind::kInput,
-        fmt::format("{}: {} x {} samples{} need {} of memory, but only {} {}; read a part of it (gdal_translate "
-                    "-srcwin) or a coarser copy (gdal_translate -outsize 50% 50%)",
+        fmt::format("{}: {} x {} samples{} need {} of memory, but only {} {}; read a part of it ({}) or a coarser copy "
+                    "({})",
                     name, cols, rows, bands > 1 ? fmt::format(" of {} bands", bands) : "",
                     format_memory(5.0 * static_cast<double>(cols * rows) * static_cast<double>(bands)),
                     format_memory(5.0 * static_cast<double>(limit)),
-                    options.run.memory.limit != 0 ? "are allowed" : "are available"));
+                    options.run.memory.limit != 0 ? "are allowed" : "are available",
+                    translate_command("-srcwin COLUMN ROW COLUMNS ROWS", name),
+                    translate_command("-r average -outsize COLUMNS 0", name)));
   }
   return {};
 }
@@ -97,8 +100,9 @@ Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, cons
   if (field.info.valid == 0 && infinities > 0) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: none of its {} x {} samples is a height: {} beyond what a float32 holds (3.4e38), so "
-                            "scale them first (gdal_translate -ot Float32 -scale)",
-                            field.info.path, field.cols, field.rows, count_beyond(infinities)));
+                            "give them in a larger unit first ({})",
+                            field.info.path, field.cols, field.rows, count_beyond(infinities),
+                            translate_command("-ot Float64 -scale 0 1e10 0 1", field.info.path)));
   }
   if (field.info.valid == 0) {
     return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples is a height: all are nodata",
@@ -152,8 +156,8 @@ Result<Frame> ungeoreferenced_frame(const std::string& name, int cols, int rows,
   return fail(
       ErrorKind::kUsage,
       fmt::format("{} has no georeference, so its coordinates cannot be given in '{}': ask for 'grid' or 'local', or "
-                  "give the raster a CRS and a position first (gdal_translate -a_srs -a_ullr)",
-                  name, crs));
+                  "give the raster a CRS and a position first ({})",
+                  name, crs, translate_command("-a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH", name)));
 }
 
 Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int cols, int rows,

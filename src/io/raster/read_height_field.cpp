@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -14,6 +15,7 @@
 #include "io/raster/raster_source.h"
 #include "io/raster/stm.h"
 #include "io/spool.h"
+#include "scarp/commands.h"
 
 namespace scarp {
 namespace {
@@ -54,8 +56,8 @@ Result<void> fill_voids(OwnedHeightField& field, const std::string& path, double
     const double bytes = 4.0 * field.cols * field.rows;
     return fail(ErrorKind::kInput,
                 fmt::format("{}: filling its nodata needs all samples in memory, {}, which is more than is allowed for "
-                            "them: allow more, or fill it first (gdal_fillnodata.py)",
-                            path, format_memory(bytes)));
+                            "them: allow more, or fill it first (gdal_fillnodata.py -md {:.0f} {} {})",
+                            path, format_memory(bytes), std::ceil(distance), file_word(path), new_file(".tif")));
   }
   fill_nodata(field, distance);
   return {};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/raster/raster_finish.h"
+#include "scarp/commands.h"
 #include "scarp/io.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_waters.h"
@@ -93,6 +94,9 @@ FileStamp stamp_lines(std::string& file) {
   return stamp;
 }
 
+/// Of its CRS, as far as the EPSG numbers it.
+std::string code_of(const RasterInfo& info) { return info.crs.starts_with("EPSG:") ? info.crs : "EPSG:CODE"; }
+
 /// Sources of one stack lie on one globe, and what is said of all must not be what one of them denies.
 Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, const Datum& datum) {
   const RasterInfo& info = source.field.info;
@@ -107,10 +111,11 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
   if (datum.vertical == Vertical::kAuto || says.empty() || says == source.globe.vertical) return {};
   return fail(
       ErrorKind::kUsage,
-      fmt::format("the heights of {} are above {}, as its CRS says, and not above {}: leave --vertical and "
-                  "--geoid out, and say in each other raster's CRS what its heights are above (gdal_edit.py -a_srs "
-                  "EPSG:4326+5773 for the sea)",
-                  info.path, says, source.globe.vertical));
+      fmt::format(
+          "the heights of {} are above {}, as its CRS says, and not above {}: leave --vertical and "
+          "--geoid out, and name in the CRS of each other raster what its heights are above, such as the sea ({})",
+          info.path, says, source.globe.vertical,
+          translate_command("-a_srs " + code_of(first.field.info) + "+5773", first.field.info.path)));
 }
 
 /// Tiles are in metres. Where x and y are in feet, heights mostly are, too, whose unit such files often do not tell.
@@ -143,10 +148,12 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
                                                        const ReadOptions& options, const Datum& datum,
                                                        std::optional<GridKind> grid) {
   if (mosaics.size() > 1 && (options.view.extent || options.view.resolution))
-    return fail(ErrorKind::kUsage,
-                fmt::format("--te and --resolution are for one raster or mosaic, and {} is no mosaic with {}: cut them "
-                            "first (gdalwarp -te … -tr …)",
-                            mosaics[1].front(), mosaics[0].front()));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("--te and --resolution are for one raster or mosaic, and {} is no mosaic with {}: cut each of "
+                    "them first ({})",
+                    mosaics[1].front(), mosaics[0].front(),
+                    warp_command("-te XMIN YMIN XMAX YMAX -tr WIDTH HEIGHT", mosaics[0].front())));
   auto impl = std::make_unique<Impl>();
   ReadOptions reading = options;
   std::uint64_t& memory = reading.run.memory.limit;
@@ -158,8 +165,9 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
     if (mosaics.size() > 1 && grid == GridKind::kLocal)
       return fail(ErrorKind::kUsage,
                   fmt::format("a local grid has the samples of one raster, and {} is no mosaic with {}: put them "
-                              "together first (gdalbuildvrt), or take --grid geographic",
-                              mosaics[1].front(), mosaics[0].front()));
+                              "together first ({}), or take --grid geographic",
+                              mosaics[1].front(), mosaics[0].front(),
+                              warp_command(file_word(mosaics[0].front()), mosaics[1].front())));
     // What is in memory is not there for those behind it, down to a little for windows of files.
     if (mosaics.size() > 1) memory -= std::min((*source)->bytes(), memory - std::min(memory, kLeastMemory));
     if (mosaics.size() > 1) {
@@ -238,6 +246,7 @@ Result<void> find_waters(TileJob& job, GlobeRaster& raster) {
   reading.ignore_z = true;
   auto lakes = read_lines(job.waters.lakes, reading);
   if (!lakes) return tl::unexpected(lakes.error());
+  if (auto closed = check_polygons(lakes->lines, "--water", "--rivers"); !closed) return closed;
   auto rivers = read_lines(job.waters.rivers, reading);
   if (!rivers) return tl::unexpected(rivers.error());
   for (const LineSet* set : {&*lakes, &*rivers})

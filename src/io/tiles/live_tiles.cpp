@@ -143,7 +143,9 @@ LiveTileSet::~LiveTileSet() = default;
 Result<std::unique_ptr<LiveTileSet>> LiveTileSet::open(const TileJob& job, const NodeSource& nodes, std::uint64_t cache,
                                                        const Run& run, std::uint64_t look_nodes) {
   if (job.format != TileFormat::kQuantizedMesh)
-    return fail(ErrorKind::kUsage, "3D Tiles say in advance what each tile holds: make the set with scarp tile first");
+    return fail(
+        ErrorKind::kUsage,
+        "3D Tiles say in advance what each tile holds: make the set first (scarp tile RASTER OUTPUT --of 3dtiles)");
   auto impl = std::make_unique<Impl>();
   impl->job = job;
   impl->nodes = &nodes;

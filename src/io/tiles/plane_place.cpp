@@ -1,8 +1,10 @@
 // Where a raster lies on the plane of a local grid.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "scarp/commands.h"
 #include "scarp/globe_place.h"
 
 namespace scarp {
@@ -31,6 +33,14 @@ bool is_metre(const std::string& unit) {
   return unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters";
 }
 
+/// Of the zone in which the middle of a raster in degrees lies.
+std::string utm_code(const RasterInfo& info, int cols, int rows) {
+  const std::array<double, 6>& gt = info.geotransform;
+  const double east = gt[0] + (gt[1] * cols + gt[2] * rows) / 2, north = gt[3] + (gt[4] * cols + gt[5] * rows) / 2;
+  const int zone = std::clamp(static_cast<int>(std::floor((std::remainder(east, 360.0) + 180) / 6)) + 1, 1, 60);
+  return fmt::format("{}{:02}", north < 0 ? 327 : 326, zone);
+}
+
 }  // namespace
 
 Result<void> check_metres(const RasterInfo& info, const std::string& path) {
@@ -48,14 +58,15 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
                                      const Datum& datum) {
   const std::array<double, 6>& gt = info.geotransform;
   if (info.has_georeference && info.is_geographic)
-    return fail(ErrorKind::kInput,
-                fmt::format("{} is in degrees, and a local grid lies on a plane: put it into metres (gdalwarp -t_srs "
-                            "EPSG:326… for UTM), or take --grid geographic",
-                            info.path));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} is in degrees, and a local grid lies on a plane: put it into metres ({}), or take --grid "
+                    "geographic",
+                    info.path, warp_command("-t_srs EPSG:" + utm_code(info, cols, rows), info.path)));
   if (info.has_georeference && (gt[2] != 0 || gt[4] != 0 || !(gt[1] > 0) || !(gt[5] < 0)))
     return fail(ErrorKind::kInput, fmt::format("{} is turned or mirrored in its CRS, and rows of a local grid go from "
-                                               "west to east, the northern first: put it straight (gdalwarp)",
-                                               info.path));
+                                               "west to east, the northern first: put it straight ({})",
+                                               info.path, warp_command("", info.path)));
   RasterOnPlane plane;
   if (info.has_georeference) {
     const bool are_metres = info.cell_x_m > 0;

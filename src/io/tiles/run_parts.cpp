@@ -8,6 +8,7 @@
 #include "base/reporter.h"
 #include "io/tiles/core_seconds.h"
 #include "io/tiles/part_writer.h"
+#include "scarp/commands.h"
 #include "scarp/tile_job.h"
 
 namespace scarp {
@@ -131,9 +132,9 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
   const std::vector<TileId> blocks = find_blocks(job.plan);
   const auto missing = std::count_if(blocks.begin(), blocks.end(), [&](TileId id) { return !(*parts)->has(id); });
   if (missing > 0)
-    return fail(ErrorKind::kInput, fmt::format("{} of {} blocks are not in {}: run their shares with scarp tile run, "
-                                               "which makes only what is missing",
-                                               missing, blocks.size(), folder));
+    return fail(ErrorKind::kInput, fmt::format("{} of {} blocks are not in {}: make what is missing first "
+                                               "(scarp tile run PLAN --parts {})",
+                                               missing, blocks.size(), folder, file_word(folder)));
   auto encoder = open_tile_encoder(job);
   if (!encoder) return tl::unexpected(encoder.error());
   const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(*encoder));

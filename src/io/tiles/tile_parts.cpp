@@ -115,8 +115,7 @@ std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, 
   packer.add(std::uint64_t{block.report.levels.size()});
   for (const LevelSummary& level : block.report.levels) {
     for (const std::uint64_t count :
-         {level.tiles, level.triangles, level.bytes, level.over, level.coarser, level.oversized,
-          level.lines_left_out})
+         {level.tiles, level.triangles, level.bytes, level.over, level.coarser, level.oversized, level.lines_left_out})
       packer.add(count);
     packer.add(level.node_error);
     packer.add(level.bound);
@@ -272,8 +271,9 @@ Result<BlockReport> TileParts::read(
   const auto bytes = source.read(place->offset, place->length);
   if (!bytes) return tl::unexpected(bytes.error());
   const auto is_damaged = [&] {
-    return fail(ErrorKind::kInput,
-                fmt::format("{} is damaged: delete it, and make its blocks again with scarp tile run", source.path()));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} is damaged: delete it, and make its blocks again (scarp tile run PLAN)", source.path()));
   };
   if (crc_of(*bytes) != place->crc) return is_damaged();
   Unpacker unpacker(*bytes);
@@ -288,9 +288,8 @@ Result<BlockReport> TileParts::read(
   if (levels > kMaxTileLevel + 1) return is_damaged();
   for (std::uint64_t z = 0; z < levels; ++z) {
     LevelSummary level;
-    for (std::uint64_t* count :
-         {&level.tiles, &level.triangles, &level.bytes, &level.over, &level.coarser, &level.oversized,
-          &level.lines_left_out})
+    for (std::uint64_t* count : {&level.tiles, &level.triangles, &level.bytes, &level.over, &level.coarser,
+                                 &level.oversized, &level.lines_left_out})
       *count = unpacker.take<std::uint64_t>();
     level.node_error = unpacker.take<double>();
     level.bound = unpacker.take<double>();

@@ -17,6 +17,7 @@
 #include "io/tiles/byte_source.h"
 #include "io/tiles/grid_json.h"
 #include "io/tiles/plan_waters.h"
+#include "scarp/commands.h"
 #include "scarp/tile_job.h"
 #include "scarp/version.h"
 
@@ -399,7 +400,8 @@ Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::
     // Said below.
   }
   return fail(ErrorKind::kInput,
-              fmt::format("{} is no plan of tiles of this version: make it with scarp tile plan", name_for_errors));
+              fmt::format("{} is no plan of tiles of this version: make one first (scarp tile plan RASTER {})",
+                          name_for_errors, new_file(".json")));
 }
 
 Result<TileJob> read_tile_job(const std::string& path) {

@@ -1,0 +1,22 @@
+// Commands of other programs that sentences print: each runs as it stands. Words in capitals are for the user to
+// choose.
+#pragma once
+
+#include <string>
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// The file as a shell needs it; "FILE" for what has no name, such as standard input.
+std::string file_word(const std::string& file);
+/// A name that is not there yet: NEW.tif, else NEW2.tif, …, so that one way out does not undo another.
+std::string new_file(const std::string& extension);
+/// "gdal_translate OPTIONS FILE NEW.tif". Unlike gdal_edit it names a CRS or a place for formats that keep none, too.
+std::string translate_command(const std::string& options, const std::string& file);
+/// "gdalwarp OPTIONS … FILE NEW.tif". What the raster does not cover is nodata: gdalwarp writes heights of 0 else.
+std::string warp_command(const std::string& options, const std::string& file);
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

@@ -1,0 +1,36 @@
+#include "scarp/commands.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+namespace scarp {
+
+std::string file_word(const std::string& file) {
+  if (file.empty() || file == "-") return "FILE";
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:%+,=@";
+  if (file.find_first_not_of(kPlain) == std::string::npos) return file;
+  std::string quoted = "'";
+  for (const char c : file) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string new_file(const std::string& extension) {
+  std::string name = "NEW" + extension;
+  std::error_code error;
+  for (int k = 2; std::filesystem::exists(name, error); ++k) name = fmt::format("NEW{}{}", k, extension);
+  return name;
+}
+
+std::string translate_command(const std::string& options, const std::string& file) {
+  return fmt::format("gdal_translate {} {} {}", options, file_word(file), new_file(".tif"));
+}
+
+std::string warp_command(const std::string& options, const std::string& file) {
+  return fmt::format("gdalwarp{}{} -r bilinear -ot Float32 -dstnodata -9999 {} {}", options.empty() ? "" : " ", options,
+                     file_word(file), new_file(".tif"));
+}
+
+}  // namespace scarp

@@ -1,0 +1,299 @@
+"""The remedies that Scarp's sentences name, each with a situation. remedies.py says how a row is tried.
+
+C: a command. It is taken out of what `run` prints (the one with the number `way`), `fill` stands for its words in capitals,
+it is done, and `run` is repeated with the new file in place of the old one, or `then`.
+O: an option. What `run` prints holds `says`, and `then`, which does as told, ends well.
+"""
+
+import json
+
+# Made once, in the folder that each row gets a copy of.
+BASE = """
+gdal_translate -q -srcwin 100 100 40 36 whole.tif dem.tif
+gdal_translate -q -srcwin 200 100 40 36 whole.tif east.tif
+gdal_translate -q -a_srs EPSG:32616 -a_ullr 740000 4020000 743600 4016760 dem.tif utm.tif
+gdal_translate -q -a_srs EPSG:32616 -a_ullr 743600 4020000 747200 4016760 dem.tif utm_east.tif
+scarp generate fractal 40 36 none.tif -q
+gdal_translate -q -a_nodata none -a_srs EPSG:32617 -a_ullr 740000 4020000 743600 4016760 dem.tif zone17.tif
+gdal_translate -q -ot Byte -scale 0 1100 0 255 dem.tif byte.tif
+gdal_translate -q -b 1 -b 1 -b 1 -colorinterp red,green,blue byte.tif rgb.tif
+poly() { printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"elev":500,"name":"a"},"geometry":%s}]}' "$1"; }
+ring='[[-84.318,36.345],[-84.310,36.345],[-84.310,36.352],[-84.318,36.352],[-84.318,36.345]]'
+poly '{"type":"Polygon","coordinates":['"$ring"']}' > lake.geojson
+poly '{"type":"LineString","coordinates":'"$ring"'}' > closed.geojson
+poly '{"type":"LineString","coordinates":[[-84.325,36.36],[-84.31,36.35],[-84.30,36.335]]}' > stream.geojson
+printf 'x,y,z\\n0,0,1\\n90,0,2\\n0,90,3\\n90,90,5\\n40,50,4\\n' > plain.csv
+printf 'lon,lat,h\\n8.1,46.1,500\\n8.2,46.1,600\\n8.1,46.2,700\\n8.2,46.2,650\\n8.15,46.16,640\\n' > degrees.csv
+scarp simplify dem.tif mesh.glb -e 20 -q
+scarp simplify dem.tif mesh.obj -e 20 -q --crs source
+"""
+
+ROWS = []
+
+
+def C(name, run, make="", fill=None, way=0, then=None, says=None):
+    row = {"name": name, "run": run, "make": make, "fill": fill or {}, "way": way, "then": then}
+    if says:
+        row["says"] = says
+    ROWS.append(row)
+
+
+def M(*arguments):
+    C(*arguments)
+    ROWS[-1]["may_go"] = True
+
+
+def O(name, run, says, then, make="", code=0):
+    ROWS.append({"name": name, "run": run, "says": says, "then": then, "make": make, "code": code})
+
+
+def points(first, properties):
+    """p.geojson: five points, whose attribute `up` is a height; the first has other coordinates and attributes."""
+    features = [{"type": "Feature", "properties": {"up": k, **properties, **(first if k == 0 else {})},
+                 "geometry": {"type": "Point", "coordinates": [9 * (k % 2), 5 * k, *first.get("z", [])][:3 if k == 0 else 2]}}
+                for k in range(5)]
+    for feature in features:
+        feature["properties"].pop("z", None)
+    return f"cat > p.geojson <<'END'\n{json.dumps({'type': 'FeatureCollection', 'features': features})}\nEND\n"
+
+
+BOX = {"WEST NORTH EAST SOUTH": "-84.33 36.36 -84.30 36.33", "EPSG:CODE": "EPSG:4326"}
+UTM_BOX = {"WEST NORTH EAST SOUTH": "740000 4020000 743600 4016760", "EPSG:CODE": "EPSG:32616"}
+ASC = "gdal_translate -q -of AAIGrid dem.tif d.asc; rm -f d.prj d.asc.aux.xml"
+
+# Where a raster lies.
+C("asc in degrees", "scarp simplify d.asc o.glb -e 20", ASC)
+C("png in degrees", "scarp simplify d.png o.glb -e 20", "gdal_translate -q -of PNG -co WORLDFILE=YES -ot UInt16 dem.tif d.png; rm d.png.aux.xml")
+C("a name with blanks", "scarp simplify 'my dem.asc' o.glb -e 20", ASC + "; mv d.asc 'my dem.asc'")
+C("no CRS, --crs", "scarp simplify d.asc o.glb -e 20 --crs EPSG:32616", ASC, BOX)
+C("no place, --crs", "scarp simplify none.tif o.glb -e 0.1 --crs EPSG:32616", "", UTM_BOX)
+C("no place, PGM", "scarp simplify n.pgm o.glb -e 1 --crs EPSG:32616", "scarp generate fractal 40 36 n.pgm -q", UTM_BOX)
+C("a line as place", "scarp simplify line.vrt o.glb -e 20",
+  "gdal_translate -q -of VRT dem.tif line.vrt; sed -i 's#<GeoTransform>.*</GeoTransform>#<GeoTransform>1, 0, 0, 1, 0, 0</GeoTransform>#' line.vrt", BOX)
+C("ground control points", "scarp simplify gcp.tif o.glb -e 20",
+  "gdal_translate -q -a_srs EPSG:4326 -gcp 0 0 -84.33 36.36 -gcp 40 0 -84.30 36.361 -gcp 0 36 -84.331 36.33 -gcp 40 36 -84.3 36.33 dem.tif gcp.tif")
+C("heights in space", "scarp simplify dem.tif o.glb -e 20 --crs enu")
+C("heights in space, UTM", "scarp simplify utm.tif o.glb -e 20 --crs EPSG:4978")
+C("tiles of no place", "scarp tile none.tif g --grid geographic -e 1 --vertical ellipsoid", "", BOX)
+O("tiles of no place, local", "scarp tile none.tif g --grid geographic -e 1", "take --grid local", "scarp tile none.tif g --grid local -e 1")
+C("an image without place on the globe", "scarp tile dem.tif g --of 3dtiles --vertical egm96 --drape pic.tif", "gdal_translate -q -srcwin 0 0 20 20 rgb.tif a.tif; gdal_translate -q -of PNG a.tif b.png; rm -f b.png.aux.xml; gdal_translate -q b.png pic.tif", BOX)
+C("an image without place", "scarp simplify dem.tif o.glb -e 20 --drape b.png", "gdal_translate -q -srcwin 0 0 20 20 -of PNG rgb.tif b.png; rm b.png.aux.xml", BOX)
+C("a raster without place, an image with one", "scarp simplify none.tif o.glb -e 0.1 --drape rgb.tif", "gdal_translate -q -srcwin 0 0 30 30 rgb.tif a.tif; mv a.tif rgb.tif", BOX)
+C("beyond 180 degrees", "scarp tile far.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:3857 -a_ullr 19990000 40000 20110000 0 dem.tif far.tif")
+C("longitudes of 1000", "scarp tile far.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 1000 41 1001 40 dem.tif far.tif", dict(BOX, FILE="far.tif"))
+C("longitudes of 1000, metres", "scarp tile far.tif g -e 20 --zoom 13 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 700000 41 700900 40 dem.tif far.tif", {"EPSG:CODE": "EPSG:3857", "FILE": "far.tif"}, way=1)
+C("a local grid of degrees", "scarp tile dem.tif g --grid local -e 20")
+O("a local grid of degrees, geographic", "scarp tile dem.tif g --grid local -e 20", "take --grid geographic", "scarp tile dem.tif g --grid geographic -e 20 --zoom 9 --vertical egm96")
+C("a local grid of a turned raster", "scarp tile turned.tif g --grid local -e 20 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:32616 -a_ullr 743600 4020000 740000 4016760 dem.tif turned.tif")
+C("a stack with another datum", "scarp tile east.tif sea.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326+5773 dem.tif sea.tif",
+  then="scarp tile NEW.tif sea.tif g -e 20 --zoom 9")
+C("parts of a stack", "scarp tile dem.tif utm.tif g -e 20 --zoom 9 --vertical egm96 --te -84.33 36.34 -84.31 36.36", "", {"XMIN YMIN XMAX YMAX": "-84.33 36.34 -84.31 36.36", "WIDTH HEIGHT": "0.001 0.001"},
+  then="scarp tile NEW.tif utm.tif g -e 20 --zoom 9 --vertical egm96")
+C("a local grid of two", "scarp tile utm.tif fine.tif g --grid local -e 20 --vertical ellipsoid", "gdal_translate -q -outsize 200% 200% utm_east.tif fine.tif", then="scarp tile NEW.tif g --grid local -e 20 --vertical ellipsoid")
+
+# Mosaics: what differs is named, unless Scarp joins it by itself.
+M("two zones", "scarp simplify utm.tif zone17.tif o.glb -e 20")
+M("one without CRS", "scarp simplify utm.tif bare.tif o.glb -e 20", "gdal_translate -q -of AAIGrid utm_east.tif b.asc; rm -f b.prj b.asc.aux.xml; gdal_translate -q -ot Int16 b.asc bare.tif")
+M("the first without CRS", "scarp simplify bare.tif utm.tif o.glb -e 20", "gdal_translate -q -of AAIGrid utm_east.tif b.asc; rm -f b.prj b.asc.aux.xml; gdal_translate -q -ot Int16 b.asc bare.tif")
+M("other bands", "scarp simplify utm.tif two.tif o.glb -e 20", "gdal_translate -q -b 1 -b 1 utm_east.tif two.tif")
+M("other types", "scarp simplify utm.tif float.tif o.glb -e 20", "gdal_translate -q -ot Float32 utm_east.tif float.tif")
+M("other types, neither holds both", "scarp simplify utm.tif wide.tif o.glb -e 20", "gdal_translate -q -ot UInt16 utm_east.tif wide.tif")
+M("one with nodata", "scarp simplify utm.tif nodata.tif o.glb -e 20", "gdal_translate -q -a_nodata -9999 utm_east.tif nodata.tif")
+M("other nodata", "scarp simplify first.tif nodata.tif o.glb -e 20", "gdal_translate -q -a_nodata -1 utm.tif first.tif; gdal_translate -q -a_nodata -9999 utm_east.tif nodata.tif")
+M("other scales", "scarp simplify utm.tif scaled.tif o.glb -e 20", "gdal_translate -q -a_scale 0.1 utm_east.tif scaled.tif")
+M("the first scaled", "scarp simplify scaled.tif utm.tif o.glb -e 20", "gdal_translate -q -a_scale 0.1 utm_east.tif scaled.tif")
+M("other cells", "scarp simplify utm.tif coarse.tif o.glb -e 20", "gdal_translate -q -outsize 50% 50% utm_east.tif coarse.tif")
+M("beside the grid", "scarp simplify utm.tif beside.tif o.glb -e 20", "gdal_translate -q -a_ullr 743640 4020030 747240 4016790 utm_east.tif beside.tif")
+M("a rotated one", "scarp simplify utm.tif turned.vrt o.glb -e 20", "gdal_translate -q -of VRT utm_east.tif turned.vrt; sed -i 's#<GeoTransform>.*</GeoTransform>#<GeoTransform>743600, 89, 9, 4020000, 9, -89</GeoTransform>#' turned.vrt")
+
+# What a raster holds.
+C("complex numbers", "scarp simplify complex.tif o.glb -e 20", "gdal_translate -q -ot CFloat32 dem.tif complex.tif")
+CALC = "gdal_calc.py --quiet -A dem.tif --outfile %s --type %s --calc=\"%s\""
+BEYOND = CALC % ("beyond.tif", "Float64", "A*1e37") + "; gdal_translate -q -a_nodata none beyond.tif b.tif; mv b.tif beyond.tif"
+C("beyond float32", "scarp simplify beyond.tif o.glb -e 20%", BEYOND)
+O("beyond float32, nodata", "scarp simplify one.tif o.glb -e 20", "give --nodata ", "scarp simplify one.tif o.glb -e 20 --nodata $(scarp simplify one.tif o.glb -e 20 2>&1 | grep -o 'nodata [^,]*' | cut -d' ' -f2)", CALC % ("one.tif", "Float64", "numpy.where(A==935,1e39,A)") + "; gdal_translate -q -a_nodata none one.tif b.tif; mv b.tif one.tif")
+C("too large for the memory", "scarp info huge.vrt", "echo '<VRTDataset rasterXSize=\"2000000\" rasterYSize=\"2000000\"><VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>' > huge.vrt", {"COLUMN ROW COLUMNS ROWS": "0 0 100 90"})
+C("a mask and --resolution", "scarp simplify masked.tif o.glb -e 20 --resolution 0.002", "gdal_translate -q -b 1 -mask 1 dem.tif masked.tif")
+C("south up, nodata and --resolution", "scarp simplify south.tif o.glb -e 20 --resolution 200", "gdal_translate -q -a_nodata 400 -a_ullr 740000 4016760 743600 4020000 utm.tif south.tif")
+C("two nodata values", "scarp simplify two.tif o.glb -e 20", CALC % ("two.tif", "Float32 --NoDataValue=-32768", "numpy.where(A<460,-9999,numpy.where(A>920,-32768,A))"))
+O("undeclared nodata", "scarp simplify one.tif o.glb -e 20", "give --nodata -9999", "scarp simplify one.tif o.glb -e 20 --nodata -9999", CALC % ("a.tif", "Float32", "numpy.where(A<460,-9999,A)") + "; gdal_translate -q -a_nodata none a.tif one.tif")
+C("a transparent texture", "scarp simplify dem.tif o.glb -t 500 --texture rgba.tif", "gdal_translate -q -b 1 -b 2 -b 3 -b 1 -colorinterp red,green,blue,alpha rgb.tif rgba.tif")
+C("too many bands", "scarp simplify dem.tif o.ply -t 500 --texture many.tif", "gdal_translate -q $(printf -- '-b 1 %.0s' $(seq 300)) byte.tif many.tif")
+C("a texture with a gap", "scarp simplify dem.tif o.glb -t 500 --texture gap.tif", "gdal_translate -q -a_nodata 120 byte.tif gap.tif")
+C("an image of 16 bits", "scarp simplify dem.tif o.glb -e 20 --drape dem.tif")
+C("a mask on another grid", "scarp simplify dem.tif o.glb -e 20 --mask m.tif", "gdal_translate -q -ot Float32 whole.tif m.tif")
+C("a tolerance beside the raster", "scarp simplify dem.tif o.glb -e 20 --tolerance m.tif", "gdal_translate -q -srcwin 5 5 20 20 -ot Float32 dem.tif m.tif")
+C("a tolerance in another CRS", "scarp simplify utm.tif o.glb -e 20 --tolerance m.tif", "gdalwarp -q -t_srs EPSG:4326 -ot Float32 -dstnodata -9999 utm.tif m.tif")
+C("a tolerance of another size", "scarp simplify none.tif o.glb -e 1 --tolerance m.tif", "scarp generate smooth 20 18 m.tif -q --range 1")
+C("lines in a bent grid", "scarp simplify dem.tif o.glb -e 20 --crs EPSG:32616 --breaklines stream.geojson")
+C("a locked border in a bent grid", "scarp simplify dem.tif o.glb -e 20 --crs EPSG:32616 --lock-border", "", {"EPSG:CODE": "EPSG:32616", "FILE": "dem.tif"}, then="scarp simplify NEW.tif o.glb -e 20 --lock-border")
+C("lakes on a local grid", "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid --water lake.geojson", "", {"RASTER": "utm.tif", "LAKES": "lake.geojson"}, then="scarp tile NEW.tif g --grid local -e 20 --vertical ellipsoid")
+O("a level of a local grid", "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid --zoom 3", "leave --zoom out, or coarsen the raster with --resolution",
+  "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid --resolution 180")
+
+# Files of another kind.
+RAW = "python3 -c \"import struct; open('h.%s','wb').write(b''.join(struct.pack('%s',(i*7919)%%997) for i in range(33*%d)))\""
+C("r16", "scarp simplify h.r16 o.glb -e 20", RAW % ("r16", "<H", 33))
+C("raw, not square", "scarp simplify h.raw o.glb -e 20", RAW % ("raw", "<H", 40), {"COLUMNS": "33", "ROWS": "40"})
+C("r32", "scarp simplify h.r32 o.glb -e 20", RAW % ("r32", "<f", 33))
+C("HDF4", "scarp simplify x.hdf o.glb -e 20", "gdal_translate -q -of HDF4Image dem.tif x.hdf")
+C("gzip", "scarp simplify dem2.tif.gz o.glb -e 20", "cp dem.tif dem2.tif; gzip dem2.tif")
+C("tar", "scarp simplify a.tgz o.glb -e 20", "cp dem.tif dem2.tif; tar -czf a.tgz dem2.tif; rm dem2.tif", then="scarp simplify dem2.tif o.glb -e 20")
+LAS = """python3 - <<'END'
+import random, struct
+random.seed(1)
+points = [(random.randrange(10**5), random.randrange(10**5), random.randrange(3000)) for _ in range(60)]
+head = bytearray(227)
+struct.pack_into("<4s", head, 0, b"LASF")
+struct.pack_into("<BB", head, 24, 1, 2)
+struct.pack_into("<HIIBHI", head, 94, 227, 227, 0, 0, 20, len(points))
+struct.pack_into("<6d", head, 131, 0.01, 0.01, 0.01, 500000, 4000000, 0)
+open("scan.las", "wb").write(bytes(head) + b"".join(struct.pack("<3iHBBbBH", *point, 0, 0, 2, 0, 0, 0) for point in points))
+END
+"""
+C("LAS", "scarp simplify scan.las o.glb -e 2", LAS)
+C("LAS by another name", "scarp simplify scan.dat o.glb -e 2 --points", LAS + "mv scan.las scan.dat", then="scarp simplify NEW.csv o.glb -e 2")
+C("LAS for tiles", "scarp tile scan.las g -e 2", LAS, then="scarp simplify NEW.csv o.glb -e 2")
+O("PLY of points", "scarp simplify cloud.ply o.glb -e 1", "PLY point cloud: .*pdal translate cloud.ply", "true", "printf 'ply\\nformat ascii 1.0\\nelement vertex 1\\nproperty float x\\nend_header\\n1\\n' > cloud.ply")
+O("a web page", "scarp simplify page.tif o.glb -e 1", "a web page in place of the file: fetch the file again", "true", "echo '<!DOCTYPE html><html></html>' > page.tif")
+O("Git LFS", "scarp simplify lfs.tif o.glb -e 1", r"\(git lfs pull\)", "true", "printf 'version https://git-lfs.github.com/spec/v1\\noid sha256:1\\nsize 5\\n' > lfs.tif")
+C("a mesh", "scarp simplify mesh.glb o.glb -e 20")
+C("a mesh as OBJ, to tiles", "scarp tile mesh.obj g -e 20 --zoom 9")
+C("a mesh as lines", "scarp simplify dem.tif o.glb -e 20 --breaklines mesh.glb")
+C("points for tiles", "scarp tile p.xyz g -e 20 --zoom 9 --vertical ellipsoid", "printf '8.1 46.1 500\\n8.2 46.1 600\\n8.1 46.2 700\\n8.2 46.25 650\\n8.15 46.16 640\\n' > p.xyz", {"COLUMNS ROWS": "24 20", **BOX},
+  then="gdal_translate -q -a_srs EPSG:4326 -a_nodata -9999 NEW.tif n.tif && scarp tile n.tif g -e 20 --zoom 9 --vertical ellipsoid")
+C("the mesh before the raster", "scarp measure mesh.obj dem.tif --crs source")
+O("several rasters", "scarp simplify two.nc o.glb -e 20", "name one of them: .*:Band2", "scarp simplify 'NETCDF:\"two.nc\":Band2' o.glb -e 20",
+  "gdalbuildvrt -q -separate two.vrt dem.tif dem.tif; gdal_translate -q -of netCDF two.vrt two.nc")
+
+# Points and lines.
+C("degrees in CSV", "scarp simplify degrees.csv o.glb -e 5")
+C("degrees in CSV with ;", "scarp simplify d.csv o.glb -e 5", "sed 's/,/;/g' degrees.csv > d.csv")
+C("degrees in XYZ", "scarp simplify d.xyz o.glb -e 5", "sed 1d degrees.csv | tr , ' ' > d.xyz")
+C("degrees in TXT with blanks", "scarp simplify d.txt o.glb -e 5", "sed 1d degrees.csv | sed 's/,/   /g' > d.txt")
+C("degrees without header", "scarp simplify d.csv o.glb -e 5", "sed 1d degrees.csv > d.csv")
+C("CSV and --crs", "scarp simplify plain.csv o.glb -e 1 --crs EPSG:32633", "", {"EPSG:CODE": "EPSG:32632"})
+C("points without CRS", "scarp simplify p.gpkg o.glb -e 1 --crs EPSG:32633", "ogr2ogr -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z p.gpkg plain.csv", {"EPSG:CODE": "EPSG:32632"})
+C("contours as polygons", "scarp simplify lake.geojson o.glb -e 1", then="scarp simplify NEW.gpkg o.glb -e 1 --z-field elev")
+C("a polygon among points", "scarp simplify p.geojson o.glb -e 1", """printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"elev":1},"geometry":{"type":"Point","coordinates":[0,0]}},{"type":"Feature","properties":{"elev":2},"geometry":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]}}]}' > p.geojson""",
+  then="scarp simplify NEW.gpkg o.glb -e 1 --z-field elev")
+C("entities", "scarp simplify dem.tif o.glb -e 20 --breaklines l.gml",
+  "ogr2ogr -f GML l.gml stream.geojson; sed -i '1a <!DOCTYPE x [<!ENTITY a \"b\">]>' l.gml; rm -f l.xsd")
+C("a closed line as lake", "scarp simplify dem.tif o.glb -e 20 --water closed.geojson", "", {"FILE": "closed.geojson"}, then="scarp simplify dem.tif o.glb -e 20 --water NEW.gpkg")
+O("a stream as lake", "scarp simplify dem.tif o.glb -e 20 --water stream.geojson", "--rivers takes lines", "scarp simplify dem.tif o.glb -e 20 --rivers stream.geojson")
+O("a stream as lake of tiles", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --water stream.geojson", "--rivers takes lines", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --rivers stream.geojson")
+
+O("no height attribute", "scarp simplify p.geojson o.glb -e 1", "name the one that holds heights with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up", points({}, {}))
+O("an empty height", "scarp simplify p.geojson o.glb -e 1", "name another with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up", points({"h": None}, {"h": 1}))
+O("a height in words", "scarp simplify p.geojson o.glb -e 1", "name another with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up", points({"h": "a"}, {"h": "1"}))
+O("some heights", "scarp simplify p.geojson o.glb -e 1", "name an attribute with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up", points({"z": [7]}, {}))
+O("a column of heights", "scarp simplify c.csv o.glb -e 1", "--z-field names another", "scarp simplify c.csv o.glb -e 1 --z-field up", "sed 1s/z/up/ plain.csv > c.csv")
+O("an option of points", "scarp simplify dem.tif o.glb -e 20 --layer a", "--points says otherwise", "scarp simplify p.gpkg o.glb -e 20 --points --layer a", "ogr2ogr -nln a -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z p.gpkg plain.csv")
+O("an option of points, info", "scarp info dem.tif --layer a", "leave it out, or say --points", "scarp info dem.tif")
+O("a raster by pipe", "scarp simplify - o.glb -e 1 < plain.csv", "with --points as points", "scarp simplify - o.glb -e 1 --points < plain.csv")
+O("vector data", "scarp info l.json", "--points takes it", "scarp info l.json --points", """printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[0,0]}},{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[0,9]}},{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[9,9]}}]}' > l.json""")
+
+# Units.
+FEET = "gdal_translate -q -ot Float32 dem.tif feet.tif; gdal_edit.py -units ft feet.tif 2>/dev/null || python3 -c \"from osgeo import gdal; gdal.Open('feet.tif',1).GetRasterBand(1).SetUnitType('ft')\""
+FEET_ACROSS = "gdal_translate -q -a_srs EPSG:2264 -a_ullr 2000000 700000 2012000 690000 dem.tif ft.tif"
+O("feet in space", "scarp simplify feet.tif o.glb -e 20 --crs enu", "give --z-scale 0.3048", "scarp simplify feet.tif o.glb -e 20 --crs enu --z-scale 0.3048", FEET)
+O("feet for tiles", "scarp tile feet.tif g -e 20 --zoom 9 --vertical egm96", "give --z-scale 0.3048", "scarp tile feet.tif g -e 20 --zoom 9 --vertical egm96 --z-scale 0.3048", FEET)
+O("heights far too large", "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid --z-scale 1e6", "Else give --z-scale", "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid --z-scale 1")
+
+# Options that need, or end, another.
+SIMPLIFY = "scarp simplify dem.tif "
+for name, given, says, then in (
+    ("lods in one", "o.glb -e 20 --lods-in-one", "needs --lods", "o.glb -e 20 --lods 2 --lods-in-one"),
+    ("soft breaklines", "o.glb -e 20 --soft-breaklines", "needs --breaklines", "o.glb -e 20 --soft-breaklines --breaklines stream.geojson"),
+    ("percentile", "o.glb -e 20 --water-percentile 5", "needs --water", "o.glb -e 20 --water-percentile 5 --water lake.geojson"),
+    ("inset", "o.glb -e 20 --inset 1", "needs --cutline", "o.glb -e 20 --inset 1 --cutline lake.geojson"),
+    ("normal map", "o.glb -e 20 --drape-size 64", "needs an image: --drape FILE", "o.glb -e 20 --drape-size 64 --drape rgb.tif"),
+    ("fill distance", "o.glb -e 20 --fill-distance 5", "needs --nodata-policy fill", "o.glb -e 20 --fill-distance 5 --nodata-policy fill"),
+    ("background", "o.glb -e 20 --background 5", "needs --nodata-policy background", "o.glb -e 20 --background 5 --nodata-policy background"),
+    ("background value", "o.glb -e 20 --nodata-policy background", "--background V", "o.glb -e 20 --nodata-policy background --background 5"),
+    ("kept ridges", "o.glb -e 20 --keep-ridges", "needs --ridges", "o.glb -e 20 --keep-ridges --ridges 20"),
+    ("material field", "o.2dm -e 20 --material-field elev", "--materials FILE", "o.2dm -e 20 --material-field elev --materials lake.geojson"),
+    ("falloff", "o.glb -e 20 --falloff 5", "needs --roi", "o.glb -e 20 --falloff 500 --roi lake.geojson=5"),
+    ("texture weight", "o.glb -e 20 --texture-weight 0.5", "needs --texture", "o.glb -t 500 --texture-weight 0.5 --texture byte.tif"),
+    ("channel weights", "o.glb -t 500 --channel-weights 1", "needs --texture or --image", "o.glb -t 500 --channel-weights 1 --texture byte.tif"),
+    ("edge score", "o.glb -e 20 --shape-threshold 0.5", "needs --edges data", "o.glb -e 20 --shape-threshold 0.5 --edges data --edge-score abn"),
+    ("free vertices", "o.glb -e 20 --vertices free", "needs --effort high or max", "o.glb -e 20 --vertices free --effort high"),
+    ("walls of a budget", "o.glb --tolerance byte.tif --cliff 50", "needs --max-error", "o.glb -e 20 --cliff 50"),
+    ("a split", "o.stl -e 20 --split 2x2", "--solid size=120mm", "o.stl -e 20 --split 2x2 --solid size=120mm"),
+    ("an error on a print", "o.stl -e 0.1mm", "--solid size=120mm", "o.stl -e 0.1mm --solid size=120mm"),
+    ("thickness on a print", "o.stl -e 20 --solid thickness=3mm", "--solid size=120mm", "o.stl -e 20 --solid thickness=3mm,size=120mm"),
+    ("a size alone", "o.stl -e 20 --solid 120mm", "give size=120mm", "o.stl -e 20 --solid size=120mm"),
+    ("a size without unit", "o.stl -e 20 --solid size=120", "size=120mm says so", "o.stl -e 20 --solid size=120mm"),
+    ("no closed solid", "o.3mf -e 20", "--solid size=120mm", "o.3mf -e 20 --solid size=120mm"),
+    ("a print as GLB", "o.glb -e 20 --solid size=120mm", "or --base for a solid", "o.glb -e 20 --base 0"),
+    ("standard output", "- -e 20", "give --of FORMAT, one of glb", "- --of glb -e 20 > o.glb"),
+    ("no format", "o.abc -e 20", "or --of FORMAT", "o.abc -e 20 --of ply"),
+    ("an existing file", "mesh.glb -e 20", "--overwrite replaces it", "mesh.glb -e 20 --overwrite"),
+    ("many lods", "o.glb -t 500 --lods 2", "--lods", "o.glb -e 20 --lods 2"),
+    ("an unknown option", "o.glb --max-eror 20", "did you mean --max-error", "o.glb --max-error 20"),
+    ("an output by -o", "-e 20 -o o.glb", "scarp simplify INPUT OUTPUT", "o.glb -e 20"),
+    ("a CRS of the input", "o.glb -e 20 -a_srs EPSG:4326", "gdal_translate -a_srs EPSG:CODE FILE NEW.tif gives it another", "o.glb -e 20"),
+    ("verbose", "o.glb -e 20 -v", "--timing tells", "o.glb -e 20 --timing"),
+    ("contours wanted", "o.glb -e 20 --contours 5", "contour lines are an input", "o.glb -e 20"),
+):
+    O(name, SIMPLIFY + given, says, SIMPLIFY + then)
+C("a file without a command", "scarp dem.tif", "", {"OUTPUT": "o.glb"})
+C("no goal", "scarp simplify dem.tif o.glb")
+O("the format of a synthetic raster", "scarp generate smooth 9 9 o.abc", "or give --of", "scarp generate smooth 9 9 o.abc --of tif")
+
+# Tiles.
+O("no datum", "scarp tile dem.tif g -e 20 --zoom 9", "give --vertical egm96", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96")
+O("no datum of another planet", "scarp tile dem.tif g -e 20 --zoom 9 --ellipsoid 3396190,3376200", "give --vertical ellipsoid", "scarp tile dem.tif g -e 20 --zoom 9 --ellipsoid 3396190,3376200 --vertical ellipsoid")
+O("an ellipsoid of no place", "scarp tile none.tif g -e 1 --ellipsoid 3396190,3376200", "leave --ellipsoid out", "scarp tile none.tif g -e 1")
+O("a datum of no place", "scarp tile none.tif g -e 1 --vertical egm96", "leave --vertical and --geoid out", "scarp tile none.tif g -e 1")
+O("a mask of water", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --watermask", "needs --water", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --watermask --water lake.geojson")
+O("a percentile of tiles", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --water-percentile 5", "needs --water", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --water-percentile 5 --water lake.geojson")
+O("a format of images", "scarp tile dem.tif g --of 3dtiles -e 20 --zoom 9 --vertical egm96 --drape-format png", "--drape FILE", "scarp tile dem.tif g --of 3dtiles -e 20 --zoom 9 --vertical egm96 --drape-format png --drape rgb.tif")
+O("a set that is there", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96", "or --overwrite", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --overwrite", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 -q")
+O("planets", "scarp tile dem.tif mars.tif g -e 20 --zoom 9 --vertical ellipsoid", "or --ellipsoid", "scarp tile dem.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs '+proj=longlat +a=3396190 +b=3376200' east.tif mars.tif")
+
+# What is left of the tiles' commands.
+PLAN = "scarp tile plan dem.tif plan.json -e 20 --zoom 9 --cells 16 --vertical egm96 -q"
+O("the next commands of a plan", "scarp tile plan dem.tif plan.json -e 20 --zoom 9 --cells 16 --vertical egm96", "next: scarp tile run plan.json --shard 1/1.* then scarp tile finish plan.json OUTPUT", PLAN + " && scarp tile run plan.json --shard 1/1 -q && scarp tile finish plan.json g")
+C("missing parts", "scarp tile finish plan.json g", PLAN + "; mkdir -p plan.parts", {"PLAN": "plan.json"})
+C("no plan", "scarp tile run mesh.obj", "", {"RASTER": "dem.tif --vertical egm96"})
+O("3D Tiles as they are asked for", "scarp serve plan.json --port 0", "scarp tile RASTER OUTPUT --of 3dtiles", "scarp tile dem.tif g --of 3dtiles --vertical egm96 -e 20 --zoom 9", PLAN + " --of 3dtiles")
+O("quantized-mesh on a plane", "scarp tile utm.tif g --grid local --of qm -e 20 --vertical ellipsoid", "--of 3dtiles holds a plane", "scarp tile utm.tif g --grid local --of 3dtiles -e 20 --vertical ellipsoid")
+O("a plane too large", "scarp tile large.tif g --grid local -e 200 --vertical ellipsoid", "take --grid geographic", "scarp tile large.tif g2 --grid geographic -e 200 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:32616 -a_ullr 240000 5020000 1240000 4020000 dem.tif large.tif")
+O("heights on small cells", "scarp tile none.tif g -e 1 --cell-size 1e-7", "are no land: .* Else give --z-scale", "scarp tile none.tif g -e 1e-7 --cell-size 1e-7 --z-scale 1e-6")
+O("feet across", "scarp tile ft.tif g -e 20 --zoom 9 --vertical egm96", "give --z-scale 0.30480", "scarp tile ft.tif g -e 20 --zoom 9 --vertical egm96 --z-scale 0.3048006096", FEET_ACROSS)
+O("feet across, in space", "scarp simplify ft.tif o.glb -e 20 --crs enu", "--z-scale 0.3048 makes metres of it", "scarp simplify ft.tif o.glb -e 20 --crs enu --z-scale 0.3048", FEET_ACROSS)
+O("feet up", "scarp simplify feet.tif o.obj -e 20 --crs EPSG:32616", "--z-scale 0.3048 makes them one unit", "scarp simplify feet.tif o.obj -e 20 --crs EPSG:32616 --z-scale 0.3048", FEET)
+O("a port in use", "scarp serve plan.json --port $(cat port)", "by --port, or 0 for any", "timeout 2 scarp serve plan.json --port 0; [ $? = 124 ]",
+  PLAN + "; python3 -c \"import socket,time; s=socket.socket(); s.bind(('127.0.0.1',0)); s.listen(); print(s.getsockname()[1],flush=True); time.sleep(20)\" > port 2> /dev/null & until [ -s port ]; do sleep 0.05; done")
+
+# Space, prints, what measure and view say.
+O("a pole in space", "scarp simplify pole.tif o.glb -e 20 --crs enu", "with --te", "scarp simplify pole.tif o.glb -e 20 --crs enu --te 1 80 30 85", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 0 100 40 80 dem.tif pole.tif")
+O("half the earth in space", "scarp simplify wide.tif o.glb -e 20 --crs EPSG:4978", "cut that off with --te", "scarp simplify wide.tif o.glb -e 20 --crs EPSG:4978 --te 0 65 40 80", "gdal_translate -q -a_srs EPSG:4326 -a_ullr -170 89 170 62 dem.tif wide.tif")
+O("far from the middle in space", "scarp simplify wide.tif o.glb -e 20 --crs enu", "take it in parts with --te", "scarp simplify wide.tif o.glb -e 20 --crs enu --te 0 -10 40 10", "gdal_translate -q -a_srs EPSG:4326 -a_ullr -80 30 80 -30 dem.tif wide.tif")
+O("a flat print", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm", "--solid exaggerate=", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm,exaggerate=$(scarp simplify dem.tif p.stl -e 20 --solid size=120mm | grep -o 'exaggerate=[0-9.]*' | cut -d= -f2)", "gdal_translate -q -scale 0 1000 0 100 dem.tif a.tif; mv a.tif dem.tif")
+O("a split print in a bent grid", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm --split 2x2 --crs EPSG:32616", "leave it out, or choose local", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm --split 2x2 --crs local")
+O("a base of what is no mesh", "scarp simplify dem.tif o.svg -e 20 --base 0", "choose a mesh format", "scarp simplify dem.tif o.ply -e 20 --base 0")
+O("a mesh in another frame", "scarp measure dem.tif mesh.obj --crs EPSG:32616", "--crs overrides it|give the CRS it was made in \\(--crs\\)", "scarp measure dem.tif mesh.obj --crs source")
+O("a mesh that names its CRS", "scarp measure d.asc far.obj", "--crs overrides it", "scarp measure d.asc far.obj --crs source || [ $? = 3 ]", ASC + "; scarp simplify dem.tif far.obj -e 20 -q --crs EPSG:32616")
+O("a mesh of another CRS over points", "scarp measure plain.csv far.obj --points", "--crs overrides it|say with --crs source", "scarp measure plain.csv far.obj --points --crs source || [ $? = 3 ]", "scarp simplify dem.tif far.obj -e 20 -q --crs EPSG:32616")
+O("a mesh of a grid over points", "scarp measure plain.csv grid.obj --points", "say with --crs source", "scarp measure plain.csv grid.obj --points --crs source || [ $? = 3 ]", "scarp simplify none.tif grid.obj -e 1 -q --crs grid")
+O("a cutline by cells", "scarp simplify dem.tif o.glb -e 20 --cutline small.geojson --mask-outside", "leave --mask-outside out", "scarp simplify dem.tif o.glb -e 20 --cutline small.geojson", "sed 's/-84.318/-84.3178/g; s/-84.310/-84.3172/g' lake.geojson > small.geojson")
+O("a cutline with streaming", "scarp simplify dem.tif o.glb -e 20 --cutline lake.geojson --crs EPSG:32616", "--mask-outside cuts at cells", "scarp simplify dem.tif o.glb -e 20 --cutline lake.geojson --mask-outside --crs EPSG:32616")
+O("ridges without a bound", "scarp simplify dem.tif o.glb --tolerance m.tif --ridges 30", "needs --max-error", "scarp simplify dem.tif o.glb -e 20 --ridges 30", "gdal_translate -q -ot Float32 dem.tif m.tif")
+O("too little memory", "scarp simplify big.vrt o.glb -e 300 --nodata-policy fill --memory 100M", "leave --nodata-policy out|leave --memory out", "scarp simplify big.vrt o.glb -e 300 --memory 100M", "gdal_translate -q -of VRT -outsize 4000 3000 dem.tif big.vrt")
+O("the size of a synthetic raster", "scarp generate smooth 9 9 a.tif -tr 1", "change the raster first", "scarp generate smooth 9 9 a.tif && gdal_translate -q -r average -outsize 5 0 a.tif b.tif")
+O("the extent of a synthetic raster", "scarp generate smooth 9 9 a.tif --te 1 2 3 4", "gdal_translate -projwin|unknown", "scarp generate smooth 9 9 a.tif")
+
+# Parts of sentences that other tests make, or that name no way out.
+NOT_RUN = [
+    "{} exists; use --overwrite to replace it",  # a file that another program makes during the run: test_overwrite.sh
+    "filling its nodata needs all samples in memory",  # of the library: --nodata-policy is refused before
+    "is damaged: delete it, and make its blocks again",  # test_tile_faults.sh
+    "leave --memory out, or allow",  # test_memory_limit.sh
+    "does not go with --changed-since",
+    "whatever --crs says",
+    # Of view, whose page is built by npm: test_view.sh.
+    "is too large for a page", "the finest level of the page is", "is not whole:", "and a page judges by a raster alone",
+    "options of a raster are given", "is a set of tiles, which is shown without a raster",
+]
