@@ -110,5 +110,5 @@ json.dump({"type": "FeatureCollection", "features": [{"type": "Feature", "proper
           open("lake.geojson", "w"))
 PYTHON
 succeeds "$scarp" simplify "$dem" same.glb -e 50 --crs EPSG:4326 --breaklines road.geojson
-refuses 1 "gdalwarp -t_srs EPSG:32616 $dem" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --breaklines road.geojson
+refuses 1 "gdalwarp -t_srs EPSG:32616 -r bilinear -ot Float32 -dstnodata -9999 $dem" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --breaklines road.geojson
 refuses 1 "--water cannot be combined with --crs EPSG:32616" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --water lake.geojson

@@ -89,7 +89,7 @@ usage '--normal-map 0 is' x.glb -e 20 --normal-map 0
 input() { refuses 2 "$1" "$scarp" simplify "$dem" x.glb -e 20 --drape "${@:2}"; }
 input 'none.tif: no such file' none.tif
 input 'band 1 holds Int16' "$dem"
-input 'has no place, and the raster has one: give it a georeference first (gdal_translate -a_ullr -a_srs), or an image of 403 x 344 pixels' flat.ppm
+input 'has no place, and the raster has one: give it a place first (gdal_translate -a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH flat.ppm NEW.tif), or an image of 403 x 344 pixels' flat.ppm
 gdal_translate -q -a_ullr 10 10 11 9 chess.tif away.tif
 input 'away.tif: does not lie on the raster' away.tif
 

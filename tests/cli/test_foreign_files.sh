@@ -86,7 +86,7 @@ try "$scarp" info diagonal.asc
 [ "$code" = 2 ] && grep -q '^scarp: diagonal.asc: the raster has no grid cell' "$logs/err" || fail "info does not name its file"
 python3 -c 'import struct; open("huge.dat", "wb").write(struct.pack("<4d", 1e300, 2e300, 3e300, 4e300))'
 printf 'ENVI\nsamples = 2\nlines = 2\nbands = 1\ndata type = 5\nbyte order = 0\ninterleave = bsq\n' > huge.hdr
-refuses 2 "huge.dat: none of its 2 x 2 samples is a height: 4 are infinite or beyond what a float32 holds (3.4e38), so scale them first" \
+refuses 2 "huge.dat: none of its 2 x 2 samples is a height: 4 are infinite or beyond what a float32 holds (3.4e38), so give them in a larger unit first" \
   "$scarp" info huge.dat
 
 # Whoever has closed standard output wants the file alone.
