@@ -22,7 +22,6 @@ struct LentRaster {
   /// Of the geotransform: "EPSG:32611", WKT, a PROJ string. A build without GDAL knows no CRS and takes this for a
   /// name. DEFAULT: none.
   std::string crs = {};
-  std::string unit = {};       ///< of the heights: "m", "ft". DEFAULT: not known.
   bool is_geographic = false;  ///< without a CRS that GDAL knows: x and y are degrees on WGS 84. DEFAULT: false.
   double sample_rounding = 0;  ///< as HeightField::sample_rounding. DEFAULT: 0.
   std::string unit = {};       ///< of the samples, as RasterInfo::unit. DEFAULT: it is not known.

@@ -87,7 +87,6 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
   field.info.sample_type = "Float32";
   field.info.unit = raster.unit;
   field.info.crs = raster.crs;
-  field.info.unit = raster.unit;
   field.info.is_geographic = raster.is_geographic;
   field.info.nodata = options.nodata;
   LentRaster read = raster;
