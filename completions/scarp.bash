@@ -14,38 +14,40 @@ _scarp() {
   case "$command $previous" in
     "simplify -e" | "simplify --max-error" | "simplify -t" | "simplify --max-triangles" | "simplify -p" | \
       "simplify --max-points" | "simplify --band" | "simplify --te" | "simplify --resolution" | \
-      "simplify --z-scale" | "simplify --z-offset" | "simplify --cell-size" | "simplify --drape-size" | \
-      "simplify --normal-map" | "simplify --min-shape" | "simplify --time-limit" | "simplify --lods" | \
-      "simplify --nodata" | "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | \
-      "simplify --falloff" | "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | \
-      "simplify --ridges" | "simplify --material-field" | "simplify --water-percentile" | "simplify --detect-flats" | \
-      "simplify --min-angle" | "simplify --max-edge" | "simplify --min-edge" | "simplify --grade" | \
-      "simplify --base" | "simplify --split" | "simplify --memory" | "simplify -j" | "simplify --num-threads" | \
-      "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | "simplify --z-field" | \
-      "simplify --shape-threshold" | "simplify --supersample" | "measure --fail-above" | "measure --band" | \
-      "measure --te" | "measure --resolution" | "measure --z-scale" | "measure --z-offset" | "measure --cell-size" | \
-      "measure --nodata" | "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | \
-      "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
-      "measure --z-field" | "view --band" | "view --te" | "view --resolution" | "view --z-scale" | \
-      "view --z-offset" | "view --cell-size" | "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | \
-      "tile --z-scale" | "tile --z-offset" | "tile --cell-size" | "tile --ellipsoid" | "tile --only" | "tile -e" | \
-      "tile --max-error" | "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | \
-      "tile --fill-distance" | "tile --background" | "tile --water-percentile" | "tile -j" | "tile --num-threads" | \
-      "tile-plan --band" | "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | \
-      "tile-plan --z-offset" | "tile-plan --cell-size" | "tile-plan --ellipsoid" | "tile-plan --only" | \
+      "simplify --z-scale" | "simplify --z-offset" | "simplify --z-unit" | "simplify --cell-size" | \
+      "simplify --drape-size" | "simplify --normal-map" | "simplify --min-shape" | "simplify --time-limit" | \
+      "simplify --lods" | "simplify --nodata" | "simplify --fill-distance" | "simplify --background" | \
+      "simplify --outline-tolerance" | "simplify --falloff" | "simplify --breakline-z" | "simplify --inset" | \
+      "simplify --cliff" | "simplify --ridges" | "simplify --material-field" | "simplify --water-percentile" | \
+      "simplify --detect-flats" | "simplify --min-angle" | "simplify --max-edge" | "simplify --min-edge" | \
+      "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | "simplify -j" | \
+      "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | \
+      "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | "measure --fail-above" | \
+      "measure --band" | "measure --te" | "measure --resolution" | "measure --z-scale" | "measure --z-offset" | \
+      "measure --z-unit" | "measure --cell-size" | "measure --nodata" | "measure --falloff" | "measure --inset" | \
+      "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
+      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "view --band" | "view --te" | \
+      "view --resolution" | "view --z-scale" | "view --z-offset" | "view --z-unit" | "view --cell-size" | \
+      "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | "tile --z-offset" | \
+      "tile --z-unit" | "tile --cell-size" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | \
+      "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --fill-distance" | \
+      "tile --background" | "tile --water-percentile" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
+      "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | \
+      "tile-plan --z-unit" | "tile-plan --cell-size" | "tile-plan --ellipsoid" | "tile-plan --only" | \
       "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | \
       "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --fill-distance" | "tile-plan --background" | \
       "tile-plan --water-percentile" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
       "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "tile-check --band" | \
       "tile-check --te" | "tile-check --resolution" | "tile-check --z-scale" | "tile-check --z-offset" | \
-      "tile-check --cell-size" | "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --fill-distance" | \
-      "tile-check --background" | "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | \
-      "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | \
-      "serve --max-error" | "serve --quality" | "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | \
-      "serve --fill-distance" | "serve --background" | "serve --water-percentile" | "serve --memory" | \
-      "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | \
-      "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
-      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "tile-check --z-unit" | "tile-check --cell-size" | "tile-check --ellipsoid" | "tile-check --nodata" | \
+      "tile-check --fill-distance" | "tile-check --background" | "tile-check -j" | "tile-check --num-threads" | \
+      "serve --band" | "serve --te" | "serve --resolution" | "serve --z-scale" | "serve --z-offset" | \
+      "serve --z-unit" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | "serve --quality" | \
+      "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | "serve --fill-distance" | "serve --background" | \
+      "serve --water-percentile" | "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | \
+      "info --band" | "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --z-unit" | \
+      "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | "generate --seed" | \
+      "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -163,7 +165,7 @@ _scarp() {
       return
       ;;
     "tile --nodata-policy" | "tile-plan --nodata-policy" | "tile-check --nodata-policy" | "serve --nodata-policy")
-      COMPREPLY=($(compgen -W 'background fill' -- "$current"))
+      COMPREPLY=($(compgen -W 'voids fill background' -- "$current"))
       return
       ;;
     "tile-plan --hash")
@@ -192,44 +194,44 @@ _scarp() {
     case $command in
       simplify)
         options+=' --max-error --max-triangles --max-points --objective --band --te --resolution --decode'
-        options+=' --z-scale --z-offset --cell-size --crs --up --double --of --normals'
-        options+=' --uvs --compress --drape --drape-size --drape-format --normal-map --preview --render'
-        options+=' --error-raster --html --report --overwrite --effort --vertices --min-shape --time-limit'
-        options+=' --lods --lods-in-one --lock-border --nodata --nodata-policy --fill-distance --background --outline-tolerance'
-        options+=' --mask --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines'
-        options+=' --line-conflict --cutline --inset --mask-outside --cliff --ridges --keep-ridges --materials'
-        options+=' --material-field --node-strings --water --water-percentile --detect-flats --rivers --min-angle --max-edge'
-        options+=' --min-edge --grade --base --solid --split --memory --num-threads --quiet'
-        options+=' --timing --json-progress --help --help-all --version --texture --texture-weight --image'
-        options+=' --norm --channel-weights --points --duplicates --layer --z-field --order --importance'
-        options+=' --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --z-scale --z-offset --z-unit --cell-size --crs --up --double --of'
+        options+=' --normals --uvs --compress --drape --drape-size --drape-format --normal-map --preview'
+        options+=' --render --error-raster --html --report --overwrite --effort --vertices --min-shape'
+        options+=' --time-limit --lods --lods-in-one --lock-border --nodata --nodata-policy --fill-distance --background'
+        options+=' --outline-tolerance --mask --tolerance --roi --falloff --script --breaklines --breakline-z'
+        options+=' --soft-breaklines --line-conflict --cutline --inset --mask-outside --cliff --ridges --keep-ridges'
+        options+=' --materials --material-field --node-strings --water --water-percentile --detect-flats --rivers --min-angle'
+        options+=' --max-edge --min-edge --grade --base --solid --split --memory --num-threads'
+        options+=' --quiet --timing --json-progress --help --help-all --version --texture --texture-weight'
+        options+=' --image --norm --channel-weights --points --duplicates --layer --z-field --order'
+        options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         ;;
       measure)
-        options+=' --fail-above --band --te --resolution --decode --z-scale --z-offset --cell-size'
-        options+=' --crs --up --json --map --error-raster --overwrite --nodata --mask'
-        options+=' --tolerance --roi --falloff --script --cutline --inset --mask-outside --memory'
-        options+=' --num-threads --quiet --json-progress --help --help-all --version --texture --texture-weight'
-        options+=' --image --norm --channel-weights --points --duplicates --layer --z-field'
+        options+=' --fail-above --band --te --resolution --decode --z-scale --z-offset --z-unit'
+        options+=' --cell-size --crs --up --json --map --error-raster --overwrite --nodata'
+        options+=' --mask --tolerance --roi --falloff --script --cutline --inset --mask-outside'
+        options+=' --memory --num-threads --quiet --json-progress --help --help-all --version --texture'
+        options+=' --texture-weight --image --norm --channel-weights --points --duplicates --layer --z-field'
         ;;
       view)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'
-        options+=' --up --output --open --overwrite --nodata --quiet --help --help-all'
-        options+=' --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --cell-size'
+        options+=' --crs --up --output --open --overwrite --nodata --quiet --help'
+        options+=' --help-all --version'
         ;;
       tile)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --breaklines'
-        options+=' --vertical --geoid --ellipsoid --only --report --overwrite --of --drape'
-        options+=' --drape-format --effort --max-error --quality --zoom --grid --bound --max-tile-bytes'
-        options+=' --cells --nodata --nodata-policy --fill-distance --background --water --watermask --water-percentile'
-        options+=' --rivers --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --cell-size'
+        options+=' --breaklines --vertical --geoid --ellipsoid --only --report --overwrite --of'
+        options+=' --drape --drape-format --effort --max-error --quality --zoom --grid --bound'
+        options+=' --max-tile-bytes --cells --nodata --nodata-policy --fill-distance --background --water --watermask'
+        options+=' --water-percentile --rivers --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       tile-plan)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --breaklines'
-        options+=' --vertical --geoid --ellipsoid --only --changed-since --hash --overwrite --of'
-        options+=' --drape --drape-format --shards --slurm --effort --max-error --quality --zoom'
-        options+=' --grid --bound --max-tile-bytes --cells --nodata --nodata-policy --fill-distance --background'
-        options+=' --water --watermask --water-percentile --rivers --survey --quiet --json-progress --help'
-        options+=' --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --cell-size'
+        options+=' --breaklines --vertical --geoid --ellipsoid --only --changed-since --hash --overwrite'
+        options+=' --of --drape --drape-format --shards --slurm --effort --max-error --quality'
+        options+=' --zoom --grid --bound --max-tile-bytes --cells --nodata --nodata-policy --fill-distance'
+        options+=' --background --water --watermask --water-percentile --rivers --survey --quiet --json-progress'
+        options+=' --help --help-all --version'
         ;;
       tile-run)
         options+=' --shard --only --parts --memory --num-threads --quiet --json-progress --help'
@@ -240,21 +242,22 @@ _scarp() {
         options+=' --version'
         ;;
       tile-check)
-        options+=' --source --band --te --resolution --decode --z-scale --z-offset --cell-size'
-        options+=' --grid --vertical --geoid --ellipsoid --json --cells --nodata --nodata-policy'
-        options+=' --fill-distance --background --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --source --band --te --resolution --decode --z-scale --z-offset --z-unit'
+        options+=' --cell-size --grid --vertical --geoid --ellipsoid --json --cells --nodata'
+        options+=' --nodata-policy --fill-distance --background --num-threads --quiet --json-progress --help --help-all'
+        options+=' --version'
         ;;
       serve)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --breaklines --vertical'
-        options+=' --geoid --ellipsoid --effort --max-error --quality --zoom --grid --max-tile-bytes'
-        options+=' --cells --nodata --nodata-policy --fill-distance --background --water --watermask --water-percentile'
-        options+=' --rivers --memory --port --host --num-threads --quiet --json-progress --help'
-        options+=' --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --breaklines'
+        options+=' --vertical --geoid --ellipsoid --effort --max-error --quality --zoom --grid'
+        options+=' --max-tile-bytes --cells --nodata --nodata-policy --fill-distance --background --water --watermask'
+        options+=' --water-percentile --rivers --memory --port --host --num-threads --quiet --json-progress'
+        options+=' --help --help-all --version'
         ;;
       info)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'
-        options+=' --no-suggest --json --nodata --quiet --json-progress --help --help-all --version'
-        options+=' --points --layer --z-field'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --cell-size'
+        options+=' --crs --no-suggest --json --nodata --quiet --json-progress --help --help-all'
+        options+=' --version --points --layer --z-field'
         ;;
       generate)
         options+=' --seed --range --size --of --overwrite --quiet --help --help-all'

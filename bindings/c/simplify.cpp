@@ -91,7 +91,9 @@ SimplifyWords& words_of_thread() {
 
 /// Whoever does not say what the mesh is for gets the raster's own coordinates, in which arrays are compared.
 void choose_frame(const scarp_options& asked, ReadOptions& read) {
-  if (!has_setting(asked, "--of")) read.default_frame = DefaultFrame::kMetric;
+  if (has_setting(asked, "--of")) return;
+  read.default_frame = DefaultFrame::kMetric;
+  read.heights_in = HeightsIn::kFrame;
 }
 
 std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, const cli::SimplifyArguments& given,

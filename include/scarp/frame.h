@@ -51,7 +51,7 @@ struct Frame {
   enum class Kind {
     kGrid,        ///< x = col, y = rows − 1 − row, cell size 1
     kSource,      ///< the raster's own CRS
-    kLocal,       ///< metres east and north of the raster's centre, or feet, or cells; affine in the grid
+    kLocal,       ///< metres east and north of the raster's centre, or cells; affine in the grid
     kProjected,   ///< another CRS, reached through `transform`
     kGeocentric,  ///< earth-centred, earth-fixed metres, reached through `space`
     kTangent,     ///< metres east, north and up of the raster's centre on the ellipsoid, reached through `space`
@@ -62,6 +62,7 @@ struct Frame {
   std::shared_ptr<const SpaceTransform> space;      ///< null but in space
   std::string crs;                                  ///< of x and y: "EPSG:32611", WKT, or empty where there is none
   std::string description;                          ///< one line for reports: what x and y are, and in which unit
+  double unit_in_metres = 0;                        ///< of x and y; 0 for degrees and cells, and where nobody knows
 
   bool is_affine() const { return transform == nullptr && space == nullptr; }
   /// Affine part only: the position of the (fractional) sample (col, row).

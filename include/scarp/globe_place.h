@@ -84,7 +84,7 @@ struct RasterOnPlane {
   std::optional<RasterOnGlobe> samples = std::nullopt;
 };
 
-/// Fails with kInput where the file says that its heights are not in metres.
+/// Fails with kInput where heights are in another unit than metres (ReadOptions::heights_in).
 Result<void> check_metres(const RasterInfo& info, const std::string& path);
 
 /// The grid of tiles that suits a raster: a local one where it has no position, no CRS, or a CRS of its own.

@@ -94,6 +94,14 @@ struct PackedDoubts {
   std::string seems = {};  ///< the other encoding, where most heights are none on earth as they are, and are by that
 };
 
+/// Missing samples, by ReadOptions::void_side.
+struct VoidCount {
+  std::uint64_t filled = 0;  ///< samples
+  std::uint64_t left = 0;    ///< samples, of larger voids and of those at the raster's edge
+  /// The lowest height beside each void that is left: the highest of them. And the highest: the lowest of them.
+  double least = 0, most = 0;
+};
+
 /// Metadata of a raster that was read.
 struct RasterInfo {
   std::string path;
@@ -101,13 +109,17 @@ struct RasterInfo {
   std::string sample_type;       ///< type in the file: "Int16", "Float32", …
   std::string crs;               ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
   std::string crs_unit;          ///< of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
+  double crs_unit_in_metres = 0;  ///< 0 for degrees, and if there is no CRS
   bool is_geographic = false;    ///< x and y of the file are degrees
   std::string vertical;          ///< what heights are above, where the CRS says so: "EGM96 height"; else empty
   bool is_ellipsoidal = false;   ///< heights are above the ellipsoid, as the CRS says
   std::string crs_with_heights;  ///< WKT of the CRS where `vertical` is set; else empty
-  std::string unit;              ///< of z where the file says so; else empty
-  double z_scale = 1, z_offset = 0;  ///< those of ReadOptions: heights are z_scale · value + z_offset
+  std::string unit;              ///< of z where that is known; else empty
+  double unit_in_metres = 1;     ///< of z, known or taken for granted (HeightsIn); 0 for words that are no known length
+  std::string file_unit;         ///< of the file's values, where it is known and other than `unit`; else empty
+  bool unit_is_assumed = false;  ///< nobody names the unit of z, or of what was made metres
   double scale = 1, offset = 0;      ///< the file's own: such a value is scale · (what it stores) + offset
+  double z_scale = 1, z_offset = 0;  ///< heights are z_scale · value + z_offset: ReadOptions, and the way to metres
   std::optional<double> nodata;      ///< the nodata value used, of the file's values
   std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
   bool has_georeference = false;
@@ -118,6 +130,7 @@ struct RasterInfo {
   double min = 0, max = 0;            ///< of the valid samples
   std::vector<UndeclaredNodata> undeclared_nodata;  ///< among them, if has_range
   std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
+  VoidCount voids = {};   ///< if has_range, or the samples are in memory
   std::string view = {};  ///< what ReadOptions::view made of the files, in words; empty for one raster as it is
   PackedDoubts packed = {};  ///< of heights packed into colours
 };

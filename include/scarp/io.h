@@ -27,6 +27,14 @@ enum class DefaultFrame {
   kSource,  ///< the raster's own CRS, degrees too: for files drawn on maps
 };
 
+/// In which unit the heights of a field are. Heights whose unit nobody names are in the unit of the CRS's x and y where
+/// that is a length, else in metres.
+enum class HeightsIn {
+  kFrame,   ///< metres in the local frame of a CRS and in space, else as in the file
+  kMetres,  ///< metres in every frame: for files that are in metres by their specification
+  kFile,    ///< as in the file
+};
+
 /// Several rasters, a part or a coarser version of one, read as a raster.
 struct RasterView {
   /// Rasters that make one mosaic with the first. Where several have a value, that of the last one counts; where none
@@ -49,7 +57,7 @@ struct ReadOptions {
   std::optional<double> nodata = std::nullopt;  ///< overrides the file's value, which then is an ordinary height
   Decode decode = Decode::kNone;  ///< heights packed into red, green, blue (8 bit each); alpha 0 is nodata
   /// Frame of the mesh. Empty (DEFAULT): `default_frame`, the grid frame without georeference. "source": the raster's
-  /// own coordinates. "local": around the raster's centre, in metres, or in the CRS's feet. "grid": columns and rows.
+  /// own coordinates. "local": metres around the raster's centre. "grid": columns and rows.
   /// "enu", or a geocentric CRS ("EPSG:4978"): a frame in space, where the earth is round (Frame::space).
   /// Anything else is a CRS for GDAL ("EPSG:32611", "32611", WKT, PROJ string).
   std::string crs = {};
@@ -57,6 +65,12 @@ struct ReadOptions {
   /// A height is z_scale · value + z_offset, where the value is what the file says with its own scale and offset. All
   /// heights of the field, its range and its errors are these. nodata is the file's value. DEFAULT: as in the file.
   double z_scale = 1, z_offset = 0;  ///< finite; z_scale is not 0
+  /// The unit of these heights, before they become metres: "m", "ft", "us-ft" … or the file's own word. DEFAULT: the
+  /// file's, or that of its vertical CRS; metres where `z_scale` makes metres of it; with another factor nobody knows.
+  std::string z_unit = {};
+  /// Heights that become metres are multiplied by both at once: RasterInfo::z_scale has the product. kUsage where they
+  /// must and are in a unit that is no known length.
+  HeightsIn heights_in = HeightsIn::kFrame;
   /// Width of a cell in the mesh, for a raster without georeference or with crs "grid"; the frame is then around the
   /// raster's centre. kUsage with any other frame. DEFAULT: 1, the grid frame.
   std::optional<double> cell_size = std::nullopt;
@@ -72,6 +86,9 @@ struct ReadOptions {
   /// info is that of before. Fails with kInput for a raster of which the memory limit does not hold the samples as
   /// floats. DEFAULT: 0, it stays nodata.
   double fill_distance = 0;
+  /// Enclosed voids, 8-connected nodata that does not reach the raster's edge, of at most so many samples a side are
+  /// filled as fill_nodata() does, in memory or while windows are read: RasterInfo::voids. DEFAULT: 0, they stay.
+  int void_side = 0;
   /// Read by GDAL in every case. Fails with kInput for rasters that make no mosaic or that do not overlap the extent,
   /// and with kUsage for an extent or a resolution without a georeference whose x runs east and whose y runs north or
   /// south. DEFAULT: one raster as it is.

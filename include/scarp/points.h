@@ -33,6 +33,7 @@ struct PointSet {
   std::string crs;               ///< of x and y: "EPSG:32611", WKT, or empty
   std::string description;       ///< one line for reports: what x and y are, and in which unit
   bool is_local = false;         ///< x and y are metres around the middle of the points
+  double unit_in_metres = 0;     ///< of x and y; 0 for degrees, and where nobody knows. Heights are taken for it
   std::vector<std::string> warnings;
   std::string columns;               ///< one line for reports: how each column was read, or where heights come from
   std::uint64_t without_height = 0;  ///< left out, as ReadPointsOptions::nodata asks for

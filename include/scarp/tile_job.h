@@ -61,6 +61,7 @@ class GlobeRaster {
   const std::optional<RasterOnPlane>& plane() const;  ///< with a local grid
   const RasterInfo& info() const;             ///< of the first
   const RasterOnGlobe& place() const;         ///< of the first
+  VoidCount voids() const;                    ///< RasterInfo::voids of all together
   std::string heights_above() const;          ///< RasterOnGlobe::vertical of all, each once
   std::vector<std::string> warnings() const;  ///< RasterInfo::warnings of all, and of find_waters()
 
@@ -122,7 +123,7 @@ struct TileJob {
   std::vector<FileStamp> rasters;      ///< in the order of their priority
   std::vector<std::uint32_t> mosaics;  ///< how many of them, one after the other, make each mosaic
   std::vector<FileStamp> files;        ///< others that they are made of, such as those that a VRT names, and of water
-  ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset, fill_distance and view
+  ReadOptions reading;  ///< band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
   Datum datum;
   FileStamp geoid;  ///< of datum.geoid, where that is given
   WaterFiles waters;  ///< what plan.waters was found of
@@ -134,6 +135,7 @@ struct TileJob {
   /// What each of find_blocks() takes, as survey_blocks() found; empty: nobody has looked.
   std::vector<std::uint32_t> costs;
   std::optional<TileEstimate> estimate;  ///< no part of any key
+  std::uint64_t filled = 0;              ///< missing samples that were filled; no part of any key
 };
 
 /// The bytes that the job keeps of a tile. Opens its image. Borrows the job. Fails as open_globe_image().

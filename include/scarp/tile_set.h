@@ -91,16 +91,20 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 /// The grid of tiles that a set's layer.json or tileset.json names; else the geographic one.
 TileGrid find_grid(const TileSetReader& set);
 
+/// What --vertical was when the set was made, as its layer.json or tileset.json tells; empty where it does not.
+std::string find_vertical(const TileSetReader& set);
+
 /// What a set says of itself besides the tiles.
 struct LayerFacts {
   std::string name = "terrain";
   std::string description;
   std::string attribution;
   std::string heights_above;          ///< what the source's heights are above, in words; those of tiles: the ellipsoid
+  std::string vertical;               ///< Datum::vertical as an option names it; empty for kAuto and kGeoid
   std::string body;                   ///< whose ellipsoid, as RasterOnGlobe::body
   std::string units;                  ///< of a local grid's cells, as RasterOnPlane::units; empty with others
-  std::optional<PlaneOnGlobe> plane;  ///< of a local grid that has a place on the globe
-  std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies; sinks find it
+  std::optional<PlaneOnGlobe> plane = std::nullopt;  ///< of a local grid that has a place on the globe
+  std::string version = {};  ///< changes with any tile: clients ask for tiles with it, past old copies; sinks find it
 };
 
 /// What stands behind a length of a set whose LayerFacts::units these are: " m", or nothing where they are no metres.

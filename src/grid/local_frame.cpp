@@ -73,7 +73,7 @@ bool is_degenerate(const std::array<double, 6>& affine) {
 }
 
 Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerUnit& metres, int cols, int rows,
-                          const std::string& crs, const LocalUnit& unit) {
+                          const std::string& crs) {
   const auto& a = samples;
   const double col = cols / 2, row = rows / 2;
   const double x = a[0] + a[1] * col + a[2] * row, y = a[3] + a[4] * col + a[5] * row;
@@ -91,9 +91,12 @@ Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerU
   if (is_degenerate(frame.affine)) {
     return fail(ErrorKind::kUsage, "its cells are too unequal for a local frame in float32; choose the frame 'source'");
   }
+  frame.unit_in_metres = crs.empty() ? 0 : 1;
+  const char* const unit = crs.empty() ? "" : " m";
   frame.description = fmt::format("local {} east and north of {:.9g}, {:.9g} ({}), {:.6g}{} x {:.6g}{} a cell",
-                                  unit.name, x, y, crs, std::hypot(frame.affine[1], frame.affine[4]), unit.suffix,
-                                  std::hypot(frame.affine[2], frame.affine[5]), unit.suffix);
+                                  crs.empty() ? "units" : "metres", x, y, crs.empty() ? "no CRS" : crs,
+                                  std::hypot(frame.affine[1], frame.affine[4]), unit,
+                                  std::hypot(frame.affine[2], frame.affine[5]), unit);
   return frame;
 }
 

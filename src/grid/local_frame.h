@@ -35,15 +35,11 @@ std::array<double, 6> centred_affine(const std::array<double, 4>& linear, int co
 struct MetresPerUnit {
   double east = 0, north = 0;  ///< 0: not known, or at a pole
 };
-/// What descriptions call the unit of a local frame.
-struct LocalUnit {
-  const char* name = "metres";
-  const char* suffix = " m";
-};
-/// The local frame of samples that `samples` maps to x and y of the CRS that `crs` names. Fails with kUsage at a pole
-/// and for cells too unequal for float32; the sentence begins with "its".
+/// The local frame of samples that `samples` maps to x and y of the CRS that `crs` names; without one these keep their
+/// unit, whatever it is. Fails with kUsage at a pole and for cells too unequal for float32; the sentence begins with
+/// "its".
 Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerUnit& metres, int cols, int rows,
-                          const std::string& crs, const LocalUnit& unit = {});
+                          const std::string& crs);
 
 /// The local frame of square cells of which no more is known than their width. kUsage for one that is not positive, or
 /// out of float32's range.

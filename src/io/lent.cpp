@@ -8,6 +8,7 @@
 
 #include "grid/local_frame.h"
 #include "io/raster/crs_description.h"
+#include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 
 namespace scarp {
@@ -112,8 +113,10 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
                                    : ungeoreferenced_frame(name, raster.cols, raster.rows, options);
   if (!frame) return tl::unexpected(frame.error());
   field.frame = std::move(*frame);
-  const std::uint64_t infinities = clean_samples(read, options, field);
-  scale_values(options, field);
+  const auto settled = settle_heights(options, field.frame, field.info);
+  if (!settled) return tl::unexpected(settled.error());
+  const std::uint64_t infinities = clean_samples(read, *settled, field);
+  scale_values(*settled, field);
   if (auto done = finish_raster(field, infinities, options); !done) return tl::unexpected(done.error());
   return field;
 }

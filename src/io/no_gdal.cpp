@@ -73,8 +73,7 @@ Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& opt
                                                (options.default_frame == DefaultFrame::kMetric && info.is_geographic)));
   if (is_local && info.is_geographic) return frame_of_degrees(samples, cols, rows);
   if (is_local) {
-    const LocalUnit unit = raster.crs.empty() ? LocalUnit{"units", ""} : LocalUnit{};
-    return local_frame(samples, {1, 1}, cols, rows, raster.crs.empty() ? "no CRS" : raster.crs, unit);
+    return local_frame(samples, {1, 1}, cols, rows, raster.crs);
   }
   if (info.is_geographic) {
     info.warnings.push_back(

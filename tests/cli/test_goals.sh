@@ -72,7 +72,8 @@ for goal in 20 20m 2000cm; do
   grep -v '^#' "by_$goal.obj" > mesh && [ "$(cksum < mesh)" = "${first:=$(cksum < mesh)}" ] || fail "-e $goal: another mesh"
   [ ! -s "$logs/err" ] || fail "-e $goal of metres warns: $(cat "$logs/err")"
 done
-refuses 1 "--max-error is in ft, but the heights are in m" "$scarp" simplify metres.tif out2.glb -e 60ft
+succeeds "$scarp" simplify metres.tif out2.glb -e 60ft --report r.json --overwrite
+holds "$(json r.json goal max_error) == 18.288 && $(json r.json max_error) <= 18.288"
 succeeds "$scarp" simplify "$dem" out.glb -e 20m --overwrite
 unit=$("$scarp" info "$dem" --json --no-suggest | python3 -c 'import json, sys; print(json.load(sys.stdin)["input"].get("unit") or "")')
 if [ -z "$unit" ]; then

@@ -122,5 +122,8 @@ refuses 2 "no such file or folder" "$scarp" tile check missing
 refuses 2 "no set of tiles" "$scarp" tile check "$dem"
 refuses 1 "--vertical is for the raster of --source" "$scarp" tile check globe --vertical egm96
 refuses 1 "world.json has decided it" "$scarp" tile check globe --source world.json --vertical egm96
-refuses 1 "--vertical egm96" "$scarp" tile check globe --source "$dem"
+# The set knows what its heights are above, in each container; an option that says otherwise is believed, and finds faults (above).
+succeeds "$scarp" tile check globe --source "$dem" -q
+succeeds "$scarp" tile check ball --source "$dem" -q
+succeeds "$scarp" tile check globe.3tz --source "$dem" -q
 refuses 2 "no such file" "$scarp" tile check globe --source missing.tif

@@ -177,26 +177,30 @@ assert "3DTILES_ellipsoid" not in json.load(open("city/tileset.json")).get("exte
 assert json.load(open("mars.json"))["ellipsoid"] == [3396190, 3396190]
 E
 
-# Feet. Where nobody tells the unit of the heights, that is said once; where the file tells feet, they are refused.
+# Feet become metres, and that is said once; where nobody tells the unit of the heights, they are in that of x and y.
 quick=(--grid local --effort fast -e 200)
 for crs in 2225 2225+6360; do
   succeeds gdal_translate -q -a_srs EPSG:$crs -a_ullr 6000000 2100000 6040000 2070000 "$dem" feet.tif
-  if [ $crs = 2225 ]; then
-    succeeds "$scarp" tile feet.tif feet "${quick[@]}" --report feet.json
-    [ "$(grep -c "taken for metres, though its x and y are in US survey foot.*--z-scale 0.3048006096" "$logs/err")" = 1 ] || fail "no word of feet"
-    [ "$(json feet.json warnings 0 | grep -c "taken for metres")" = 1 ] || fail "the report has no word of feet"
-    succeeds "$scarp" tile feet.tif metres "${quick[@]}" --z-scale 0.3048006096
-    [ ! -s "$logs/err" ] || fail "scaled heights are warned of"
-    succeeds "$scarp" tile feet.tif globe --vertical ellipsoid --effort fast -e 200
-    grep -q "taken for metres" "$logs/err" || fail "globe sets have no word of feet"
-  else
-    refuses 2 "are in US survey foot, tiles need metres: give --z-scale" "$scarp" tile feet.tif no "${quick[@]}"
-  fi
+  succeeds "$scarp" tile feet.tif feet "${quick[@]}" --report feet.json --overwrite
+  [ "$(grep -c "US survey foot.*become metres" "$logs/err")" = 1 ] || fail "no word of feet"
+  [ "$(json feet.json warnings 0 | grep -c "become metres")" = 1 ] || fail "the report has no word of feet"
+  succeeds "$scarp" tile feet.tif metres "${quick[@]}" --z-scale 0.3048006096012192 --overwrite
+  [ ! -s "$logs/err" ] || fail "scaled heights are warned of"
+  differs=$(diff -rq feet metres | grep -v tileset.json || true)
+  [ -z "$differs" ] || fail "feet are not metres times 0.3048: $differs"
+  succeeds "$scarp" tile feet.tif metres "${quick[@]}" --z-unit m --overwrite -q
+  differs=$(diff -rq feet metres | grep glb || true)
+  [ -n "$differs" ] || fail "--z-unit changes nothing"
+  succeeds "$scarp" tile feet.tif globe --vertical ellipsoid --effort fast -e 200 --overwrite
+  grep -q "become metres" "$logs/err" || fail "globe sets have no word of feet"
 done
 succeeds gdal_translate -q -a_srs 'LOCAL_CS["site",UNIT["metre",1]]' feet.tif site.tif
 succeeds gdal_translate -q -of VRT site.tif site.vrt
 sed -i 's|<VRTRasterBand[^>]*>|&<UnitType>ft</UnitType>|' site.vrt
-refuses 2 "are in ft, tiles need metres" "$scarp" tile site.vrt no
+succeeds "$scarp" tile site.vrt site "${quick[@]}"
+grep -q "heights in ft become metres" "$logs/err" || fail "feet of a building site pass in silence"
+sed -i 's|<UnitType>ft|<UnitType>K|' site.vrt
+refuses 1 "heights are in 'K', which is no unit of length" "$scarp" tile site.vrt no
 
 # A plane is no picture of a continent: at 1 % of the way to a corner there is a word, and for the city there was none.
 succeeds gdal_translate -q -a_srs EPSG:3035 -a_ullr 3000000 4000000 5000000 2500000 "$dem" continent.tif

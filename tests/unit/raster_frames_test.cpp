@@ -378,11 +378,14 @@ TEST_F(RasterFrames, RefusesWhatCannotBe) {
 
 TEST_F(RasterFrames, UnitsThatDoNotMix) {
   const std::string feet = "<UnitType>ft</UnitType>";
-  EXPECT_TRUE(
-      warns(read_height_field(placed("EPSG:4326", "9.98, 0.001, 0, 45.0155, 0, -0.001", feet))->info, "z is in ft"));
-  EXPECT_TRUE(
-      warns(read_height_field(placed("EPSG:32611", "500000, 30, 0, 4100000, 0, -30", feet))->info, "z is in ft"));
-  const auto all_feet = read_height_field(placed("EPSG:2263", "500000, 30, 0, 200000, 0, -30", feet));
+  const auto local = read_height_field(placed("EPSG:4326", "9.98, 0.001, 0, 45.0155, 0, -0.001", feet));
+  ASSERT_TRUE(local) << local.error().message;
+  EXPECT_TRUE(warns(local->info, "heights in ft become metres"));
+  EXPECT_EQ(local->info.unit, "m");
+  EXPECT_EQ(local->info.file_unit, "ft");
+  EXPECT_TRUE(warns(read_height_field(placed("EPSG:32611", "500000, 30, 0, 4100000, 0, -30", feet), in("source"))->info,
+                    "z is in ft"));
+  const auto all_feet = read_height_field(placed("EPSG:2263", "500000, 30, 0, 200000, 0, -30", feet), in("source"));
   ASSERT_TRUE(all_feet) << all_feet.error().message;
   EXPECT_TRUE(all_feet->info.warnings.empty());
   EXPECT_NEAR(all_feet->info.cell_x_m, 9.144, 1e-3);

@@ -64,6 +64,7 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   if (!read) return tl::unexpected(std::move(read.error()));
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   read->run.progress = display.callback();
+  read->heights_in = HeightsIn::kFile;
   Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
   if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
   if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
@@ -92,6 +93,7 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
                                                 {"--decode", raster_.decode.has_value()},
                                                 {"--z-scale", raster_.z_scale.has_value()},
                                                 {"--z-offset", raster_.z_offset.has_value()},
+                                                {"--z-unit", raster_.z_unit.has_value()},
                                                 {"--cell-size", raster_.cell_size.has_value()},
                                                 {"--te", !raster_.extent.empty()},
                                                 {"--resolution", raster_.resolution.has_value()},

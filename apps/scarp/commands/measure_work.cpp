@@ -146,6 +146,7 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   }
   judged.band = read->band;
   read->run.progress = progress;
+  read->heights_in = judged.plan.image ? HeightsIn::kFile : heights_in(mesh_);
   read->with_range = judged.goal && judged.goal->percent_of_relief;
   Result<void> has_field = read_field(*read, judged);
   if (!has_field) {
@@ -154,7 +155,10 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
     }
     return has_field;
   }
-  if (!asked.crs) fit_frame(judged.mesh, judged.field);
+  if (!asked.crs && fit_frame(judged.mesh, judged.field)) {
+    read->crs = "source";
+    if (auto again = read_field(*read, judged); !again) return again;
+  }
   if (!raster_.crs) judged.warnings = place_frame(judged.mesh, judged.field);
   if (!judged.channels.empty()) {
     const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
@@ -164,7 +168,7 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
     RasterInfo& info = judged.field.info;
     if (judged.plan.image && !judged.goal->unit.empty())
       return fail(ErrorKind::kUsage, "--fail-above with a unit is for heights: errors of --image are in grey levels");
-    if (auto fits = check_unit("--fail-above", *judged.goal, info.unit, info.warnings); !fits) return fits;
+    if (auto fits = settle_goal("--fail-above", info, *judged.goal, info.warnings); !fits) return fits;
     judged.fail_above = judged.goal->absolute(judged.plan.image ? judged.channels.relief : info.max - info.min);
   }
   const Result<std::optional<std::uint64_t>> limit = memory_.parse();

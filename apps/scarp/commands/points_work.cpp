@@ -64,6 +64,15 @@ std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& a
          canonical_option("--z-field", arguments.z_field) + canonical_option("--columns", arguments.columns);
 }
 
+/// What a goal with a unit is compared with.
+RasterInfo heights_of(const PointSet& points) {
+  RasterInfo heights;
+  heights.unit_is_assumed = true;
+  heights.crs_unit = "the unit of x and y";
+  if (points.unit_in_metres > 0) heights.unit_in_metres = points.unit_in_metres;
+  return heights;
+}
+
 void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
   for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
 }
@@ -155,10 +164,19 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   if (!policy) return tl::unexpected(policy.error());
 
   outcome.policy = *policy;
-  const std::string crs = crs_option(plan);
-  Result<PointSet> points =
-      read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), plan.read.nodata, runner.progress);
+  const auto read_as = [&](const std::string& crs) {
+    return read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), plan.read.nodata, runner.progress);
+  };
+  Result<PointSet> points = read_as(crs_option(plan));
   if (!points) return tl::unexpected(std::move(points.error()));
+  const bool is_metric = plan.read.heights_in == HeightsIn::kMetres;
+  if (const double unit = points->unit_in_metres; is_metric && unit > 0 && unit != 1 && plan.read.crs.empty()) {
+    plan.read.crs = "local";
+    points = read_as(plan.read.crs);
+    if (!points) return tl::unexpected(std::move(points.error()));
+  }
+  if (auto fits = is_metric ? check_unit_of_frame(plan.format, points->unit_in_metres) : Result<void>(); !fits)
+    return fits;
   outcome.points = std::move(*points);
   if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
     return fail(ErrorKind::kUsage,
@@ -177,7 +195,8 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   const HeightRange heights = height_range(outcome.points);
   if (plan.error_goal) {
     if (auto fits = refuse_print("--max-error", *plan.error_goal); !fits) return fits;
-    if (auto fits = check_unit("--max-error", *plan.error_goal, "", outcome.warnings); !fits) return fits;
+    if (auto fits = settle_goal("--max-error", heights_of(outcome.points), *plan.error_goal, outcome.warnings); !fits)
+      return fits;
   }
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
   outcome.seconds_read = seconds_since(start);
@@ -257,7 +276,8 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
   judged.points = std::move(*points);
   if (!given.crs) put_back(judged.points, judged.mesh);
   if (goal) {
-    if (auto fits = check_unit("--fail-above", *goal, "", judged.points.warnings); !fits) return fits;
+    if (auto fits = settle_goal("--fail-above", heights_of(judged.points), *goal, judged.points.warnings); !fits)
+      return fits;
     const HeightRange heights = height_range(judged.points);
     judged.fail_above = goal->absolute(heights.max - heights.min);
   }

@@ -34,7 +34,7 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
     metadata["to_source"] = Json(place->to_source).dump();
   }
   if (frame.space) metadata["to_earth"] = Json(frame.space->to_earth()).dump();
-  if (plan.read.z_scale != 1) metadata["z_scale"] = Json(plan.read.z_scale).dump();
+  if (outcome.as_read.z_scale != 1) metadata["z_scale"] = Json(outcome.as_read.z_scale).dump();
   if (plan.read.z_offset != 0) metadata["z_offset"] = Json(plan.read.z_offset).dump();
   if (plan.read.cell_size) metadata["cell_size"] = Json(*plan.read.cell_size).dump();
   if (!outcome.as_read.unit.empty()) metadata["unit"] = outcome.as_read.unit;

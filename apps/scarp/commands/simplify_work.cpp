@@ -53,9 +53,9 @@ Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, 
   if (!textures) return tl::unexpected(std::move(textures.error()));
   outcome.channels = std::move(*textures);
   if (!plan.error_goal) return {};
-  auto& warnings = outcome.as_read.warnings;
-  if (auto fits = check_unit("--max-error", *plan.error_goal, outcome.as_read.unit, warnings); !fits) return fits;
-  outcome.asked = plan.error_goal->absolute(outcome.as_read.max - outcome.as_read.min);
+  ErrorGoal goal = *plan.error_goal;
+  if (auto fits = settle_goal("--max-error", outcome.as_read, goal, outcome.as_read.warnings); !fits) return fits;
+  outcome.asked = goal.absolute(outcome.as_read.max - outcome.as_read.min);
   if (!plan.error_goal->is_on_print) return {};
   const Result<double> scale = estimate_print_scale(outcome.field.view(), *plan.solid);
   if (!scale) return fail(scale.error().kind, fmt::format("{}: {}", plan.input, scale.error().message));
@@ -284,6 +284,9 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
   const Result<void> has_place = check_place_of_channels(plan, outcome.channels);
   if (!has_place) return has_place;
   const Frame& frame = outcome.field.frame;
+  if (plan.read.heights_in == HeightsIn::kMetres) {
+    if (auto checked = check_unit_of_frame(plan.format, frame.unit_in_metres); !checked) return checked;
+  }
   if (auto checked = check_crs_of(plan.format, frame.crs, outcome.as_read.unit); !checked) return checked;
   auto projections = plan_projection_files(plan, frame.crs);
   if (!projections) return tl::unexpected(std::move(projections.error()));

@@ -59,8 +59,8 @@ Result<void> TileCheckCommand::check_unused() const {
   return {};
 }
 
-Result<OpenedJob> TileCheckCommand::open_source(const TileGrid& of_set, const ProgressCallback& progress,
-                                                int threads) const {
+Result<OpenedJob> TileCheckCommand::open_source(const TileSetReader& set, const TileGrid& of_set,
+                                                const ProgressCallback& progress, int threads) const {
   if (lower_extension(*source_) == ".json") {
     auto job = read_tile_job(*source_);
     if (!job) return tl::unexpected(job.error());
@@ -70,6 +70,8 @@ Result<OpenedJob> TileCheckCommand::open_source(const TileGrid& of_set, const Pr
   tiles.raster.paths = {*source_};
   if (!tiles.grid) tiles.grid = std::string(of_set.name());
   if (of_set.is_flat()) tiles.format = "3dtiles";
+  const std::string said = find_vertical(set);
+  if (!said.empty() && !tiles.vertical && !tiles.geoid) tiles.vertical = said;
   return tiles.open(progress, kSourceBytes);
 }
 
@@ -93,7 +95,7 @@ Result<void> TileCheckCommand::run(const std::string& command_line) const {
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   OpenedJob opened;
   if (source_) {
-    auto source = open_source(of_set, display.callback(), *threads);
+    auto source = open_source(**set, of_set, display.callback(), *threads);
     if (!source) return tl::unexpected(source.error());
     opened = std::move(*source);
     const PyramidPlan& plan = opened.job.plan;

@@ -20,7 +20,8 @@ class TileCheckCommand {
   Result<void> run(const std::string& command_line) const;
 
  private:
-  Result<OpenedJob> open_source(const TileGrid& of_set, const ProgressCallback& progress, int threads) const;
+  Result<OpenedJob> open_source(const TileSetReader& set, const TileGrid& of_set, const ProgressCallback& progress,
+                                int threads) const;
   /// Fails for options of a raster where there is none, or a plan that has decided them.
   Result<void> check_unused() const;
 

@@ -123,8 +123,9 @@ Result<std::vector<PageMesh>> ViewCommand::read_meshes(bool is_y_up, Mesh& first
 
 Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<std::string>& warnings) const {
   const RasterArguments asked = remember_options(raster_, mesh);
-  const Result<ReadOptions> read = asked.parse();
+  Result<ReadOptions> read = asked.parse();
   if (!read) return tl::unexpected(read.error());
+  read->heights_in = heights_in(mesh_);
   Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
   if (!field && is_point_file(raster_.path())) {
     return fail(ErrorKind::kInput,
@@ -133,7 +134,10 @@ Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<
                             raster_.path(), shell_word(mesh_), shell_word(raster_.path()), shell_word(mesh_)));
   }
   if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
-  if (!asked.crs) fit_frame(mesh, *field);
+  if (!asked.crs && fit_frame(mesh, *field)) {
+    read->crs = "source";
+    if (field = read_height_field(raster_.path(), *read); !field) return field;
+  }
   if (!raster_.crs) warnings = place_frame(mesh, *field);
   return field;
 }

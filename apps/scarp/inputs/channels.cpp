@@ -132,9 +132,10 @@ Result<ChannelPlan> ChannelArguments::parse(const RasterArguments& raster) const
   if (image && raster.decode) {
     return fail(ErrorKind::kUsage, "--image cannot be combined with --decode: decoded bands are heights");
   }
-  if (image && (raster.z_scale || raster.z_offset)) {
-    return fail(ErrorKind::kUsage, fmt::format("--image cannot be combined with {}: an image has no heights",
-                                               raster.z_scale ? "--z-scale" : "--z-offset"));
+  for (const auto& [name, given] :
+       {std::pair{"--z-scale", &raster.z_scale}, {"--z-offset", &raster.z_offset}, {"--z-unit", &raster.z_unit}}) {
+    if (image && *given)
+      return fail(ErrorKind::kUsage, fmt::format("--image cannot be combined with {}: an image has no heights", name));
   }
   for (const std::string& texture : textures) {
     if (texture.empty()) return fail(ErrorKind::kUsage, "the name of --texture is empty");

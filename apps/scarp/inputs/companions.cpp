@@ -22,10 +22,12 @@ tl::unexpected<Error> name_option(const char* option, const char* between, Error
 
 /// The raster's values, on the grid of `raster`, whole or within the limit.
 Result<OwnedHeightField> read_values(const char* option, const std::string& path, const RasterInfo& raster,
-                                     const OwnedHeightField& field, const CompanionRun& run, bool in_windows) {
+                                     const OwnedHeightField& field, const CompanionRun& run, bool in_windows,
+                                     double scale = 1) {
   ReadOptions options;
   options.crs = "grid";
   options.as_values = true;
+  options.z_scale = scale;
   options.run.progress = run.progress;
   Result<OwnedHeightField> values =
       in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
@@ -34,6 +36,13 @@ Result<OwnedHeightField> read_values(const char* option, const std::string& path
       check_grid(raster, field.cols, field.rows, option, values->info, values->cols, values->rows);
   if (!fits) return tl::unexpected(fits.error());
   return values;
+}
+
+/// How many units of the heights are one of a raster that names its own.
+double units_of(const RasterInfo& values, const RasterInfo& heights) {
+  const bool are_known = !values.unit.empty() && values.unit_in_metres > 0 && heights.unit_in_metres > 0;
+  return are_known && values.unit_in_metres != heights.unit_in_metres ? values.unit_in_metres / heights.unit_in_metres
+                                                                      : 1;
 }
 
 void add_warnings(const OwnedHeightField& values, Companions& companions) {
@@ -133,6 +142,10 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
   if (given.tolerance) {
     auto read = read_values("--tolerance", *given.tolerance, raster, field, run, in_windows);
     if (!read) return tl::unexpected(std::move(read.error()));
+    if (const double scale = units_of(read->info, raster); scale != 1) {
+      read = read_values("--tolerance", *given.tolerance, raster, field, run, in_windows, scale);
+      if (!read) return tl::unexpected(std::move(read.error()));
+    }
     add_warnings(*read, companions);
     if (in_windows) bytes = bytes_beside(*read, field, run.memory);
     values = std::move(*read);

@@ -123,6 +123,7 @@ RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh)
   const std::pair<const char*, Given*> options[] = {{"crs_option", &asked.crs},
                                                     {"z_scale", &asked.z_scale},
                                                     {"z_offset", &asked.z_offset},
+                                                    {"unit", &asked.z_unit},
                                                     {"cell_size", &asked.cell_size}};
   for (const auto& [key, option] : options) {
     const auto entry = mesh.metadata.find(key);
@@ -138,15 +139,18 @@ void turn_up(bool is_y_up, const std::string& path, Mesh& mesh) {
   undo_y_up(mesh);
 }
 
-void fit_frame(const Mesh& mesh, OwnedHeightField& field) {
-  if (field.frame.kind != Frame::Kind::kLocal) return;
+bool fit_frame(const Mesh& mesh, OwnedHeightField& field) {
+  if (field.frame.kind != Frame::Kind::kLocal) return false;
   HeightField source = field.view();
   source.frame.kind = field.info.has_georeference ? Frame::Kind::kSource : Frame::Kind::kGrid;
   source.frame.affine = map_affine(field.info, field.rows);
   source.frame.crs = field.info.crs;
+  source.frame.unit_in_metres = field.info.crs_unit_in_metres;
   source.frame.description = "the raster's own coordinates, where the mesh lies";
   const Extent of_mesh = extent_of(mesh);
-  if (of_mesh.overlap(extent_of(source)) > of_mesh.overlap(extent_of(field.view()))) field.frame = source.frame;
+  if (of_mesh.overlap(extent_of(source)) <= of_mesh.overlap(extent_of(field.view()))) return false;
+  field.frame = source.frame;
+  return !field.info.file_unit.empty();
 }
 
 std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field) {

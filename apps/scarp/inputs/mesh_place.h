@@ -34,8 +34,8 @@ RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh)
 void turn_up(bool is_y_up, const std::string& path, Mesh& mesh);
 
 /// For a mesh that says nothing of its frame: the raster's own coordinates, if it fits the raster there better than in
-/// the frame that was read.
-void fit_frame(const Mesh& mesh, OwnedHeightField& field);
+/// the frame that was read. True where heights have become metres in that one and must be read anew, as "source".
+bool fit_frame(const Mesh& mesh, OwnedHeightField& field);
 
 /// For a mesh whose metadata tell in numbers where it lies (`to_source`): the frame in which they hold for the samples,
 /// in place of one around the raster's own centre, which may not be the mesh's. Returns warnings. Does nothing to

@@ -69,7 +69,8 @@ constexpr OptionRow kFileRows[] = {
      .type = kInputFile,
      .choices = kMeshEndings,
      .is_required = true,
-     .help = "Mesh to show, in any format that measure reads, or a set of tiles. Of OUT_lod0.glb the other levels of --lods are shown, too.",
+     .help = "Mesh to show, in any format that measure reads, or a set of tiles. Of OUT_lod0.glb the other levels of "
+             "--lods are shown, too.",
      .brief = ".glb .obj .ply .stl .2dm .vtu .vtp .xml .dxf .3mf .tin"},
     {.id = kRaster,
      .name = "RASTER",
@@ -147,7 +148,8 @@ constexpr OptionRow kFileRows[] = {
      .commands = kHelpCommand,
      .group = OptionGroup::kArguments,
      .type = kChoice,
-     .choices = "simplify measure view tile tile-plan tile-run tile-finish tile-check serve info generate paper help version",
+     .choices =
+         "simplify measure view tile tile-plan tile-run tile-finish tile-check serve info generate paper help version",
      .help = "The command to explain. Without it, the commands are listed."},
 
     {.id = kSeed,
@@ -222,8 +224,9 @@ constexpr OptionRow kFileRows[] = {
      .value = "F",
      .by_default = "1",
      .range = "not 0",
-     .help = "Multiply the heights, such as 0.3048 for feet over metres. Errors and all heights that options name are "
-             "in the scaled unit; --nodata is the file's value."},
+     .help =
+         "Multiply the heights, such as 0.1 for decimetres or -1 for depths. Errors and all heights that options name "
+         "are of the scaled heights; --nodata is the file's value."},
     {.id = kZScale,
      .name = "--z-scale",
      .commands = kMeasure | kView,
@@ -249,6 +252,24 @@ constexpr OptionRow kFileRows[] = {
      .value = "D",
      .by_default = "what the mesh file says of itself, else 0",
      .help = "Add this to the heights, after --z-scale."},
+    {.id = kZUnit,
+     .name = "--z-unit",
+     .commands = kSimplify | kInfo | kTile | kTilePlan | kTileCheck | kServe,
+     .group = OptionGroup::kInput,
+     .type = kText,
+     .value = "UNIT",
+     .by_default = "the raster's, else that of x and y, else m",
+     .help = "Unit of the heights, after --z-scale: m, ft, us-ft, cm, mm, dm, km, in, yd, fathom, mi. Outputs in "
+             "metres get "
+             "metres."},
+    {.id = kZUnit,
+     .name = "--z-unit",
+     .commands = kMeasure | kView,
+     .group = OptionGroup::kInput,
+     .type = kText,
+     .value = "UNIT",
+     .by_default = "what the mesh file says of itself, else as for simplify",
+     .help = "Unit of the heights, after --z-scale: m, ft, us-ft, cm, mm, dm, km, in, yd, fathom, mi."},
     {.id = kCellSize,
      .name = "--cell-size",
      .commands = kSimplify | kInfo,

@@ -34,11 +34,13 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kNodata,
      .type = kChoice,
      .value = "POLICY",
-     .choices = "background fill",
-     .by_default = "background",
-     .help = "What missing samples become. background: they get the height of --background. fill: they are "
-             "interpolated, before anything else.",
-     .brief = "What missing samples become: background or fill"},
+     .choices = "voids fill background",
+     .by_default = "voids",
+     .help =
+         "What missing samples become. voids: those of enclosed voids of at most 100 samples a side are interpolated, "
+         "others get the height of --background. fill: all within --fill-distance of a height are interpolated. "
+         "background: none is.",
+     .brief = "What missing samples become: voids, fill or background"},
     {.id = kFillDistance,
      .name = "--fill-distance",
      .commands = kSimplify | kTile | kTilePlan | kTileCheck | kServe,

@@ -35,6 +35,7 @@ enum class OptionId {
   kCrs,
   kZScale,
   kZOffset,
+  kZUnit,
   kCellSize,
   kUp,
   kDouble,

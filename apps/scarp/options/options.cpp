@@ -51,7 +51,7 @@ std::optional<double> find_rounded_count(std::string_view text) {
   return *number * factor;
 }
 
-/// --z-scale, --z-offset and --cell-size.
+/// --z-scale, --z-offset, --z-unit and --cell-size.
 Result<void> parse_heights(const RasterArguments& given, ReadOptions& options) {
   for (const auto& [name, text, value] : {std::tuple{"--z-scale", &given.z_scale, &options.z_scale},
                                           std::tuple{"--z-offset", &given.z_offset, &options.z_offset}}) {
@@ -62,6 +62,8 @@ Result<void> parse_heights(const RasterArguments& given, ReadOptions& options) {
   }
   if (options.z_scale == 0)
     return fail(ErrorKind::kUsage, "--z-scale 0 makes all heights equal: give a factor other than 0");
+  if (given.z_unit && given.z_unit->empty()) return fail(ErrorKind::kUsage, "the unit of --z-unit is empty");
+  options.z_unit = given.z_unit.value_or("");
   if (!given.cell_size) return {};
   const Result<double> cell = parse_number("--cell-size", *given.cell_size);
   if (!cell) return tl::unexpected(cell.error());
@@ -178,24 +180,26 @@ Result<void> refuse_print(std::string_view option, const ErrorGoal& goal) {
                                              option, format_number(goal.value)));
 }
 
-Result<void> check_unit(std::string_view option, const ErrorGoal& goal, const std::string& unit_of_heights,
-                        std::vector<std::string>& warnings) {
+Result<void> settle_goal(std::string_view option, const RasterInfo& heights, ErrorGoal& goal,
+                         std::vector<std::string>& warnings) {
   if (goal.unit.empty()) return {};
-  if (unit_of_heights.empty()) {
-    warnings.push_back(fmt::format("the file does not tell the unit of its heights: {} {}{} takes it for {}", option,
-                                   format_number(goal.value), goal.unit, goal.unit == "m" ? "the metre" : "the foot"));
-    return {};
-  }
-  const bool is_foot = unit_of_heights == "ft" || unit_of_heights.find("foot") != std::string::npos ||
-                       unit_of_heights.find("feet") != std::string::npos;
-  const bool is_metre = unit_of_heights == "m" || unit_of_heights == "metre" || unit_of_heights == "meter" ||
-                        unit_of_heights == "metres" || unit_of_heights == "meters";
-  if (goal.unit == "m" ? is_metre : is_foot) return {};
-  const double factor = goal.unit == "m" && is_foot ? 1 / 0.3048 : goal.unit == "ft" && is_metre ? 0.3048 : 0;
-  const std::string instead =
-      factor > 0 ? fmt::format(": give {} {:.6g}", option, goal.value * factor) : ": give a number without a unit";
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} is in {}, but the heights are in {}{}", option, goal.unit, unit_of_heights, instead));
+  const double metres = heights.unit_in_metres;
+  if (metres == 0)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is in {}, and the heights are in '{}', which is no unit of length that is "
+                            "known here: give a number without a unit, or name their unit (--z-unit)",
+                            option, goal.unit, heights.unit));
+  constexpr double kFoot = 0.3048;
+  const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // of any kind: theirs is meant
+  const double of_goal = goal.unit == "m" ? 1 : are_feet ? metres : kFoot;
+  const double given = goal.value;
+  if (of_goal != metres) goal.value *= of_goal / metres;
+  if (heights.unit_is_assumed && heights.unit.empty())
+    warnings.push_back(fmt::format(
+        "the file does not tell the unit of its heights, which are taken for {}: {} {}{} is {} of "
+        "them; --z-unit names another",
+        metres == 1 ? "metres" : heights.crs_unit, option, format_number(given), goal.unit, format_number(goal.value)));
+  return {};
 }
 
 Error name_goal(const ErrorGoal& goal, double relief, Error error) {
@@ -213,6 +217,7 @@ void RasterArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kCrs, crs);
   add_option(command, OptionId::kZScale, z_scale);
   add_option(command, OptionId::kZOffset, z_offset);
+  add_option(command, OptionId::kZUnit, z_unit);
   add_option(command, OptionId::kCellSize, cell_size);
   add_numbers(command, OptionId::kExtent, extent, 4);
   add_option(command, OptionId::kResolution, resolution);
@@ -222,7 +227,7 @@ std::string RasterArguments::canonical() const {
   return canonical_option("--band", band) + canonical_option("--nodata", nodata) +
          canonical_option("--decode", decode) + canonical_option("--crs", crs) +
          canonical_option("--z-scale", z_scale) + canonical_option("--z-offset", z_offset) +
-         canonical_option("--cell-size", cell_size) +
+         canonical_option("--z-unit", z_unit) + canonical_option("--cell-size", cell_size) +
          (extent.empty() ? "" : fmt::format(" --te {}", fmt::join(extent, " "))) +
          canonical_option("--resolution", resolution);
 }

@@ -81,17 +81,17 @@ struct ErrorGoal {
 Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text);
 /// Fails for a goal in millimetres of a print, where there is none.
 Result<void> refuse_print(std::string_view option, const ErrorGoal& goal);
-/// Fails for a goal in another unit than that of the heights. Heights of no known unit are taken for the goal's, which
-/// a warning says.
-Result<void> check_unit(std::string_view option, const ErrorGoal& goal, const std::string& unit_of_heights,
-                        std::vector<std::string>& warnings);
+/// Puts a goal that names its unit into that of the heights. A warning says where theirs is taken for granted; kUsage
+/// where it is no length.
+Result<void> settle_goal(std::string_view option, const RasterInfo& heights, ErrorGoal& goal,
+                         std::vector<std::string>& warnings);
 /// What the library says of a max error, with the share of the relief that was asked for.
 Error name_goal(const ErrorGoal& goal, double relief, Error error);
 
 /// The options of every command that reads a raster.
 struct RasterArguments {
   std::vector<std::string> paths;  ///< one, or those of a mosaic
-  Given band, nodata, decode, crs, z_scale, z_offset, cell_size, resolution;
+  Given band, nodata, decode, crs, z_scale, z_offset, z_unit, cell_size, resolution;
   std::vector<std::string> extent;
 
   const std::string& path() const { return paths.front(); }

@@ -23,22 +23,23 @@ struct MeshRow {
   std::uint64_t bytes_per_vertex;
   bool holds_attributes;
   DefaultFrame frame;
+  HeightsIn heights;
   const char* up;
   bool has_choice_of_up;
 };
 constexpr MeshRow kMeshRows[] = {
-    {MeshFormat::kGlb, "glb", "GLB", 80, true, DefaultFrame::kLocal, "y", false},
-    {MeshFormat::kObj, "obj", "OBJ", 190, true, DefaultFrame::kLocal, "y", true},
-    {MeshFormat::kPly, "ply", "PLY", 100, true, DefaultFrame::kLocal, "z", true},
-    {MeshFormat::kStl, "stl", "STL", 220, false, DefaultFrame::kLocal, "z", true},
-    {MeshFormat::kTin, "tin", "TIN", 400, false, DefaultFrame::kMetric, "z", false},
-    {MeshFormat::k2dm, "2dm", "2DM", 260, false, DefaultFrame::kSource, "z", false},
-    {MeshFormat::kVtu, "vtu", "VTU", 120, true, DefaultFrame::kMetric, "z", false},
-    {MeshFormat::kVtp, "vtp", "VTP", 120, true, DefaultFrame::kMetric, "z", false},
-    {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, DefaultFrame::kMetric, "z", false},
-    {MeshFormat::kDxf, "dxf", "DXF", 900, false, DefaultFrame::kSource, "z", false},
-    {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, DefaultFrame::kSource, "z", false},
-    {MeshFormat::k3mf, "3mf", "3MF", 400, false, DefaultFrame::kLocal, "z", false}};
+    {MeshFormat::kGlb, "glb", "GLB", 80, true, DefaultFrame::kLocal, HeightsIn::kMetres, "y", false},
+    {MeshFormat::kObj, "obj", "OBJ", 190, true, DefaultFrame::kLocal, HeightsIn::kFrame, "y", true},
+    {MeshFormat::kPly, "ply", "PLY", 100, true, DefaultFrame::kLocal, HeightsIn::kFrame, "z", true},
+    {MeshFormat::kStl, "stl", "STL", 220, false, DefaultFrame::kLocal, HeightsIn::kFrame, "z", true},
+    {MeshFormat::kTin, "tin", "TIN", 400, false, DefaultFrame::kMetric, HeightsIn::kFrame, "z", false},
+    {MeshFormat::k2dm, "2dm", "2DM", 260, false, DefaultFrame::kSource, HeightsIn::kFrame, "z", false},
+    {MeshFormat::kVtu, "vtu", "VTU", 120, true, DefaultFrame::kMetric, HeightsIn::kFrame, "z", false},
+    {MeshFormat::kVtp, "vtp", "VTP", 120, true, DefaultFrame::kMetric, HeightsIn::kFrame, "z", false},
+    {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, DefaultFrame::kMetric, HeightsIn::kFrame, "z", false},
+    {MeshFormat::kDxf, "dxf", "DXF", 900, false, DefaultFrame::kSource, HeightsIn::kFrame, "z", false},
+    {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, DefaultFrame::kSource, HeightsIn::kFrame, "z", false},
+    {MeshFormat::k3mf, "3mf", "3MF", 400, false, DefaultFrame::kLocal, HeightsIn::kMetres, "z", false}};
 
 const MeshRow& row_of(MeshFormat format) {
   for (const MeshRow& row : kMeshRows) {
@@ -120,6 +121,24 @@ bool OutputFormat::holds_space() const {
 }
 
 DefaultFrame OutputFormat::default_frame() const { return is_mesh() ? row_of(mesh).frame : DefaultFrame::kMetric; }
+
+HeightsIn OutputFormat::heights_in() const {
+  return is_mesh() ? row_of(mesh).heights : kind == OutputKind::kDem ? HeightsIn::kFile : HeightsIn::kFrame;
+}
+
+HeightsIn heights_in(const std::string& mesh_path) {
+  const auto format = find_mesh_format(mesh_path);
+  return format ? row_of(*format).heights : HeightsIn::kFrame;
+}
+
+Result<void> check_unit_of_frame(const OutputFormat& format, double metres) {
+  if (format.heights_in() != HeightsIn::kMetres || metres == 0 || metres == 1) return {};
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} is in metres by its specification, and x and y in the CRS of --crs are in units of {:.10g} m: "
+                  "leave --crs out, for metres around the raster's centre, or choose a CRS in metres",
+                  format.title(), metres));
+}
 
 bool OutputFormat::has_projection_beside() const {
   return is_mesh() && (mesh == MeshFormat::k2dm || mesh == MeshFormat::kDxf || mesh == MeshFormat::kTin ||

@@ -40,6 +40,8 @@ struct OutputFormat {
   bool holds_attributes() const;
   /// Where x and y are unless a CRS was asked for.
   DefaultFrame default_frame() const;
+  /// In which unit its heights are.
+  HeightsIn heights_in() const;
   /// What it shows does not rely on z being the height.
   bool holds_space() const;
   bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
@@ -60,6 +62,11 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
 /// kUsage if the format cannot hold a mesh in the CRS, with heights in `unit` (both may be empty): what writing would
 /// find out, before the work is done.
 Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit);
+
+/// In which unit heights are in a mesh file, by its name.
+HeightsIn heights_in(const std::string& mesh_path);
+/// kUsage if the format is in metres by its specification, and x and y are in units of another length (0: not known).
+Result<void> check_unit_of_frame(const OutputFormat& format, double metres);
 
 /// Makes a solid of the mesh; kUsage if --base is not below its lowest vertex.
 Result<void> close_with_base(Mesh& mesh, double base);

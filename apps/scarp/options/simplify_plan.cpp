@@ -309,6 +309,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!format) return tl::unexpected(format.error());
   plan.format = *format;
   plan.read.default_frame = format->default_frame();
+  plan.read.heights_in = plan.channels.image ? HeightsIn::kFile : format->heights_in();
   if (given.base) {
     const Result<double> base = parse_number("--base", *given.base);
     if (!base) return tl::unexpected(base.error());

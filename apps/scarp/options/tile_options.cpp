@@ -13,6 +13,7 @@
 #include "options/memory.h"
 #include "options/option_table.h"
 #include "scarp/lines.h"
+#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
@@ -23,7 +24,9 @@ constexpr Choice<GridKind> kGrids[] = {
     {"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}, {"local", GridKind::kLocal}};
 constexpr Choice<GridKind> kGlobeGrids[] = {{"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}};
 constexpr Choice<bool> kBounds[] = {{"nodes", false}, {"samples", true}};
-constexpr Choice<bool> kFills[] = {{"background", false}, {"fill", true}};
+enum class TileNodata { kVoids, kBackground, kFill };
+constexpr Choice<TileNodata> kTileNodata[] = {
+    {"voids", TileNodata::kVoids}, {"background", TileNodata::kBackground}, {"fill", TileNodata::kFill}};
 constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
 constexpr int kEgm2008 = 3855;
 struct DatumWord {
@@ -81,6 +84,18 @@ Result<Geodetic> parse_ellipsoid(const std::string& text) {
   return ellipsoid;
 }
 
+/// Missing samples in land far from the background's height.
+std::vector<std::string> warn_of_walls(const GlobeRaster& raster, const PyramidPlan& plan) {
+  const VoidCount voids = raster.voids();
+  const double background = plan.background, wall = std::max(voids.least - background, background - voids.most);
+  constexpr double kHigh = 10;  // times the max error
+  if (voids.left == 0 || !(wall > kHigh * plan.levels.back().max_error)) return {};
+  return {fmt::format(
+      "{} at the raster's edge or in voids of more than {} samples a side get the height {} (--background), "
+      "up to {} m from the land around them, which makes walls: --nodata-policy fill interpolates them",
+      format_plural(voids.left, "missing sample"), kVoidSide, format_number(background), format_number(wall))};
+}
+
 void add_plane(const GlobeRaster& raster, LayerFacts& facts) {
   if (!raster.plane()) return;
   facts.units = raster.plane()->units;
@@ -132,6 +147,7 @@ void TileArguments::add_nodes_to(CLI::App& command) {
   add_option(command, OptionId::kDecode, raster.decode);
   add_option(command, OptionId::kZScale, raster.z_scale);
   add_option(command, OptionId::kZOffset, raster.z_offset);
+  add_option(command, OptionId::kZUnit, raster.z_unit);
   if (command.get_name() != "serve") add_option(command, OptionId::kCellSize, raster.cell_size);
   add_option(command, OptionId::kVertical, vertical);
   add_option(command, OptionId::kGeoid, geoid);
@@ -233,11 +249,12 @@ Result<Datum> TileArguments::parse_datum() const {
 Result<ReadOptions> TileArguments::parse_reading() const {
   Result<ReadOptions> options = raster.parse();
   if (!options) return options;
-  const Result<bool> is_filled = choose("--nodata-policy", nodata_policy.value_or("background"), kFills);
-  if (!is_filled) return tl::unexpected(is_filled.error());
-  const Result<double> distance = parse_fill_distance(fill_distance, *is_filled);
+  const Result<TileNodata> policy = choose("--nodata-policy", nodata_policy.value_or("voids"), kTileNodata);
+  if (!policy) return tl::unexpected(policy.error());
+  const Result<double> distance = parse_fill_distance(fill_distance, *policy == TileNodata::kFill);
   if (!distance) return tl::unexpected(distance.error());
   options->fill_distance = *distance;
+  if (*policy == TileNodata::kVoids) options->void_side = kVoidSide;
   return options;
 }
 
@@ -344,6 +361,9 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   job.waters = *waters;
   job.plan.has_water_mask = has_water_mask;
   if (auto found = find_waters(job, *opened.raster); !found) return tl::unexpected(found.error());
+  for (std::string& one : warn_of_walls(*opened.raster, job.plan)) opened.warnings.push_back(std::move(one));
+  job.filled = opened.raster->voids().filled;
+  if (!geoid && vertical != Given("auto")) job.facts.vertical = vertical.value_or("");
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
   add_plane(*opened.raster, job.facts);
@@ -388,6 +408,7 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
   if (!earlier.geoid.path.empty()) now.geoid = stamp_of(earlier.geoid.path);
   if (earlier.drape) now.drape = stamp_drape(earlier.drape->path(), earlier.drape->format);
   now.facts = earlier.facts;
+  now.filled = opened.raster->voids().filled;
   now.facts.heights_above = opened.raster->heights_above();
   now.facts.body = opened.raster->place().body;
   add_plane(*opened.raster, now.facts);

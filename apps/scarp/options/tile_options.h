@@ -31,6 +31,9 @@ Result<std::optional<DegreeBox>> parse_box(const Given& text);
 /// "geographic", "mercator", and "local" where that is taken. Fails with kUsage.
 Result<GridKind> parse_grid(const std::string& text, bool takes_local);
 
+/// Enclosed voids of at most so many samples a side are filled, unless --nodata-policy says otherwise.
+inline constexpr int kVoidSide = 100;
+
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, nodata_policy,

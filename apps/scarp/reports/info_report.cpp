@@ -99,6 +99,14 @@ std::map<std::string, std::string> metadata_of(const MeshFile& file) {
   return metadata;
 }
 
+/// An error as -e takes it: outputs in metres take a number alone for metres.
+std::string goal_words(double error, const RasterInfo& info) {
+  const double metres = info.unit_in_metres;
+  if (metres == 1 || metres == 0) return format_number(error);
+  if (std::abs(metres / 0.3048 - 1) < 1e-5) return format_number(error) + "ft";
+  return format_number(error * metres) + "m";
+}
+
 }  // namespace
 
 std::string raster_facts(const OwnedHeightField& field) {
@@ -132,7 +140,7 @@ std::string suggestion_table(const OwnedHeightField& field, const Suggestions& s
     const auto triangles =
         static_cast<std::uint64_t>(std::floor(row.share * static_cast<double>(full_grid_triangles(field))));
     text += fmt::format("  {:>9}   {:>13.0f} %    {}\n", format_count(triangles), 100 * row.share,
-                        row.error ? fmt::format("-e {}", format_number(*row.error))
+                        row.error ? "-e " + goal_words(*row.error, field.info)
                                   : "not possible: the outline of the valid samples alone needs more");
   }
   return text;

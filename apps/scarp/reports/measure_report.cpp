@@ -169,6 +169,10 @@ std::string make_table(const Judged& judged, const std::string& raster_path, con
   const Measurement& m = judged.judgement.heights;
   std::string text = fmt::format("{} judged by {}, {} x {}\n", base_name(mesh_path), base_name(raster_path),
                                  judged.field.cols, judged.field.rows);
+  if (!judged.field.info.file_unit.empty())
+    text += line("heights", fmt::format("in {}, of the file's {}",
+                                        judged.field.info.unit.empty() ? "units" : judged.field.info.unit,
+                                        judged.field.info.file_unit));
   if (!judged.plan.image) text += describe_heights(judged);
   text += describe_weighed(judged);
   text += line("samples judged", format_count(m.samples));

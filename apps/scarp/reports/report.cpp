@@ -51,6 +51,11 @@ Json describe_topology(const Measurement& measured) {
 
 }  // namespace
 
+std::string heights_unit(const RasterInfo& info) {
+  const std::string unit = info.unit.empty() ? "" : " " + info.unit;
+  return info.file_unit.empty() ? unit : fmt::format("{} ({} in the file)", unit, info.file_unit);
+}
+
 Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band) {
   const std::uint64_t samples = static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
   Json input;
@@ -69,6 +74,8 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
   input["z_scale"] = as_read.z_scale;
   input["z_offset"] = as_read.z_offset;
   input["unit"] = as_read.unit;
+  input["unit_in_metres"] = as_read.unit_in_metres > 0 ? Json(as_read.unit_in_metres) : Json(nullptr);
+  input["file_unit"] = as_read.file_unit.empty() ? as_read.unit : as_read.file_unit;
   input["crs"] = as_read.crs;
   input["geographic"] = as_read.is_geographic;
   input["crs_unit"] = as_read.crs_unit;

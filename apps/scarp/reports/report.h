@@ -21,6 +21,8 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+/// " m", " m (ft in the file)", or nothing: behind a height.
+std::string heights_unit(const RasterInfo& info);
 /// The "input" object: the raster as it was read.
 Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band);
 /// The "frame" object: what the mesh's x and y are, and the way back to the raster's coordinates.

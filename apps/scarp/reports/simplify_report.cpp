@@ -251,7 +251,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
 std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files) {
   const Measurement& measured = outcome.simplified.measurement;
   const RasterInfo& info = outcome.as_read;
-  const std::string unit = info.unit.empty() ? "" : " " + info.unit;
+  const std::string unit = heights_unit(info);
 
   std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
   const bool is_image = plan.channels.image;

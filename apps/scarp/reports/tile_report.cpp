@@ -97,6 +97,7 @@ void add_tiles(Json& json, const TileJob& job, const std::string& output, const 
                      {"off_along", plane->off_along},
                      {"off_height", plane->off_height}};
   json["water"] = describe_waters(job);
+  json["filled"] = job.filled;
   json["max_zoom"] = job.plan.max_zoom();
   json["levels"] = describe_levels(job.plan, report);
 }
@@ -113,6 +114,9 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
   std::string text = fmt::format("{} -> {}\n", job.facts.name, output);
   text += fmt::format("  heights above  {}\n", job.facts.heights_above);
   text += grid_lines(job);
+  if (job.filled > 0)
+    text += fmt::format("  filled         {}{}\n", format_plural(job.filled, "missing sample"),
+                        job.reading.void_side > 0 ? " in enclosed voids; --nodata-policy background leaves them" : "");
   text += waters_line(job);
   text += fmt::format("  tiles          {}, levels 0 to {}, {}, {}\n", format_count(all.tiles), plan.max_zoom(),
                       format_plural(all.triangles, "triangle"), format_bytes(all.bytes));

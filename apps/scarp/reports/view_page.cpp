@@ -72,12 +72,9 @@ Json find_metres(const OwnedHeightField& field) {
   const RasterInfo& info = field.info;
   const auto& affine = field.frame.affine;
   if (!(info.cell_x_m > 0 && info.cell_y_m > 0)) return nullptr;
-  const std::string unit = short_unit(info.unit);
-  const double z = unit == "m" || unit.empty() ? 1 : unit == "US survey foot" ? 1200.0 / 3937 : 0;
-  const bool is_foot = unit == "ft" || unit == "foot" || unit == "feet";
-  if (z == 0 && !is_foot) return nullptr;
+  if (info.unit_in_metres == 0) return nullptr;
   return Json{info.cell_x_m / std::hypot(affine[1], affine[4]), info.cell_y_m / std::hypot(affine[2], affine[5]),
-              is_foot ? 0.3048 : z};
+              info.unit_in_metres};
 }
 
 std::optional<std::string> find_obstacle(const OwnedHeightField& field) {

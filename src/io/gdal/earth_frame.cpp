@@ -55,9 +55,9 @@ struct Axes {
 
 class EarthTransform final : public SpaceTransform {
  public:
-  /// `turn`: of a whole turn in x, where x is a longitude; else 0.
-  EarthTransform(const Crs& from, const Crs& earth, bool is_strict, double centre_x, double turn)
-      : forth_(from, earth, is_strict), back_(earth, from, is_strict), centre_x_(centre_x), turn_(turn) {}
+  /// `turn`: of a whole turn in x, where x is a longitude; else 0. `up`: metres of a unit of heights in `from`.
+  EarthTransform(const Crs& from, const Crs& earth, bool is_strict, double centre_x, double turn, double up)
+      : forth_(from, earth, is_strict), back_(earth, from, is_strict), centre_x_(centre_x), turn_(turn), up_(up) {}
 
   bool usable() const { return forth_.usable() && back_.usable(); }
   /// Puts positions into the tangent frame of the axes, or leaves them earth-centred.
@@ -67,6 +67,7 @@ class EarthTransform final : public SpaceTransform {
   }
 
   bool to_space(std::span<double> x, std::span<double> y, std::span<double> z) const override {
+    for (double& height : up_ != 1 ? z : std::span<double>()) height /= up_;
     const bool all = forth_.apply(x, y, z);
     for (std::size_t k = 0; is_tangent_ && k < x.size(); ++k) {
       const Vector away = minus({x[k], y[k], z[k]}, axes_.origin);
@@ -89,6 +90,7 @@ class EarthTransform final : public SpaceTransform {
     const bool all = back_.apply(x, y, z);
     for (double& longitude : turn_ > 0 ? x : std::span<double>())
       longitude = centre_x_ + std::remainder(longitude - centre_x_, turn_);
+    for (double& height : up_ != 1 ? z : std::span<double>()) height *= up_;
     return all;
   }
   /// Whole metres, so that the sum with a float32 offset is a double.
@@ -105,7 +107,7 @@ class EarthTransform final : public SpaceTransform {
 
  private:
   Passage forth_, back_;
-  double centre_x_, turn_;
+  double centre_x_, turn_, up_;
   Axes axes_;
   bool is_tangent_ = false;
 };
@@ -126,10 +128,11 @@ Crs own_geocentric(const Georeference& geo) {
 }
 
 /// Null if PROJ knows no way for the raster's centre.
-std::shared_ptr<EarthTransform> find_way(const Georeference& geo, const Crs& from, const Crs& earth, bool is_strict) {
+std::shared_ptr<EarthTransform> find_way(const Georeference& geo, const Crs& from, const Crs& earth, bool is_strict,
+                                         double up = 1) {
   const double turn = geo.geographic ? 2 * std::numbers::pi / geo.unit_in_metres : 0;
   const auto [x, y] = geo.centre();
-  auto way = std::make_shared<EarthTransform>(from, earth, is_strict, x, turn);
+  auto way = std::make_shared<EarthTransform>(from, earth, is_strict, x, turn, up);
   Points centre;
   centre.add(x, y, 0);
   if (!way->usable() || !way->to_space(centre.x, centre.y, centre.z)) return nullptr;
@@ -236,6 +239,9 @@ SpaceCrs space_crs_of(const Crs& declared) {
   if (OSRIsCompound(borrowed) != 0) {
     const char* name = OSRGetAttrValue(borrowed, "COMPD_CS|VERT_CS", 0);
     space.vertical = name != nullptr ? name : "a vertical datum";
+    char* unit = nullptr;  // owned by the CRS
+    space.unit.metres = OSRGetTargetLinearUnits(borrowed, "COMPD_CS|VERT_CS", &unit);
+    if (unit != nullptr) space.unit.name = unit;
   } else {
     space.is_ellipsoidal = OSRGetAxesCount(borrowed) == 3;
     if (!space.is_ellipsoidal) OSRPromoteTo3D(space.crs.get(), nullptr);
@@ -250,7 +256,7 @@ Result<Frame> earth_frame(const Georeference& geo, const std::string& wanted, Ra
   Crs flat(OSRClone(geo.crs.get()));
   OSRPromoteTo3D(flat.get(), nullptr);
   bool is_applied = !geo.in_space.vertical.empty();
-  auto way = is_applied ? find_way(geo, geo.in_space.crs, earth, true) : nullptr;
+  auto way = is_applied ? find_way(geo, geo.in_space.crs, earth, true, geo.in_space.unit.metres) : nullptr;
   if (!way) {
     is_applied = false;
     way = find_way(geo, flat, earth, false);
@@ -272,6 +278,7 @@ Result<Frame> earth_frame(const Georeference& geo, const std::string& wanted, Ra
   Frame frame;
   frame.kind = is_tangent ? Frame::Kind::kTangent : Frame::Kind::kGeocentric;
   frame.affine = geo.samples;
+  frame.unit_in_metres = 1;
   if (!is_tangent) frame.crs = crs_name(earth);
   frame.description =
       is_tangent ? fmt::format(

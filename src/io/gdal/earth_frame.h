@@ -4,16 +4,18 @@
 #include <string>
 
 #include "io/gdal/crs.h"
+#include "io/raster/height_unit.h"
 #include "scarp/height_field.h"
 
 namespace scarp::gdal {
 
 struct Georeference;
 
-/// A CRS of three dimensions, x (east, longitude) before y (north, latitude) before heights in metres.
+/// A CRS of three dimensions, x (east, longitude) before y (north, latitude) before heights.
 struct SpaceCrs {
   Crs crs;                      ///< null if there is none
   std::string vertical;         ///< what its heights are above, such as "EGM96 height"; empty: nobody says
+  HeightUnit unit;              ///< of its heights; empty name: nobody says
   bool is_ellipsoidal = false;  ///< they are above the ellipsoid
 };
 SpaceCrs space_crs_of(const Crs& declared);

@@ -40,6 +40,7 @@ Frame source_frame(const Georeference& geo) {
   frame.crs = crs_name(geo.crs);
   frame.description = geo.crs ? fmt::format("coordinates in {} ({})", short_name(geo.crs), geo.unit_name)
                               : "the raster's own coordinates (no CRS)";
+  frame.unit_in_metres = geo.length_in_metres();
   return frame;
 }
 
@@ -68,12 +69,9 @@ void warn_of_distortion(const Georeference& geo, RasterInfo& info) {
   }
 }
 
-/// Feet stay feet, and units that nobody knows stay what they are: heights are rather in them than in metres.
 Result<Frame> centred_frame(const Georeference& geo, RasterInfo& info) {
-  const bool keeps_unit = !geo.crs || geo.is_in_feet();
-  const MetresPerUnit metres = keeps_unit ? MetresPerUnit{1, 1} : metres_per_unit(geo);
-  const LocalUnit unit = !geo.crs ? LocalUnit{"units", ""} : keeps_unit ? LocalUnit{"feet", " ft"} : LocalUnit{};
-  auto frame = local_frame(geo.samples, metres, geo.cols, geo.rows, geo.crs ? short_name(geo.crs) : "no CRS", unit);
+  const MetresPerUnit metres = geo.crs ? metres_per_unit(geo) : MetresPerUnit{1, 1};
+  auto frame = local_frame(geo.samples, metres, geo.cols, geo.rows, geo.crs ? short_name(geo.crs) : "");
   if (!frame) return fail(frame.error().kind, info.path + ": " + frame.error().message);
   if (geo.geographic) warn_of_distortion(geo, info);
   return frame;
@@ -141,6 +139,7 @@ Result<Frame> projected_frame(const Georeference& geo, const std::string& wanted
   frame.kind = Frame::Kind::kProjected;
   frame.crs = crs_name(target);
   frame.description = fmt::format("coordinates in {}, transformed from {}", short_name(target), short_name(geo.crs));
+  frame.unit_in_metres = OSRIsGeographic(target.get()) != 0 ? 0 : OSRGetLinearUnits(target.get(), nullptr);
   frame.transform = build_transform(geo.crs, target);
   if (!frame.transform) {
     return fail(ErrorKind::kUsage, fmt::format("{}: there is no way from {} to {}; choose another CRS", info.path,
@@ -158,7 +157,7 @@ std::array<double, 2> Georeference::centre() const {
   return {a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row};
 }
 
-bool Georeference::is_in_feet() const { return !geographic && is_foot(unit_name); }
+double Georeference::length_in_metres() const { return crs && !geographic ? unit_in_metres : 0; }
 
 Georeference make_georeference(int cols, int rows, const std::optional<std::array<double, 6>>& pixels, Crs crs,
                                SpaceCrs space) {
@@ -198,6 +197,7 @@ void describe_georeference(const Georeference& geo, RasterInfo& info) {
   info.geotransform = geo.pixels;
   info.crs = crs_name(geo.crs);
   info.crs_unit = geo.unit_name;
+  info.crs_unit_in_metres = geo.length_in_metres();
   info.is_geographic = geo.geographic;
   info.vertical = geo.in_space.vertical;
   info.is_ellipsoidal = geo.in_space.is_ellipsoidal;

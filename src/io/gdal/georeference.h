@@ -26,8 +26,8 @@ struct Georeference {
 
   /// Of the sample (cols / 2, rows / 2).
   std::array<double, 2> centre() const;
-  /// A projected CRS in feet, whose heights mostly are in feet too.
-  bool is_in_feet() const;
+  /// Metres in one unit of x and y; 0 for degrees, and if there is no CRS.
+  double length_in_metres() const;
 };
 
 /// `space`: the CRS with heights, if that is known.

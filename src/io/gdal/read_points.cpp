@@ -306,14 +306,21 @@ Result<void> make_local(const Crs& crs, PointSet& points) {
           "the points span so many degrees of latitude that east-west lengths in the local frame are off by more than "
           "5 % at their edge; choose a projected CRS if shapes matter");
   } else {
-    const double unit = OSRGetLinearUnits(crs.get(), nullptr);
+    char* name = nullptr;  // owned by the CRS
+    const double unit = OSRGetLinearUnits(crs.get(), &name);
     metres = {unit, unit};
+    for (double& value : points.z) value *= unit;
+    if (unit != 1)
+      points.warnings.push_back(
+          fmt::format("nobody tells the unit of the heights: they are taken for {}, as x and y are, and become metres",
+                      name != nullptr ? name : "the unit of the CRS"));
   }
   for (double& value : points.x) value = (value - x) * metres.east;
   for (double& value : points.y) value = (value - y) * metres.north;
   points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y, short_name(crs));
   points.crs.clear();
   points.is_local = true;
+  points.unit_in_metres = 1;
   return {};
 }
 
@@ -333,6 +340,7 @@ Result<void> project(const Crs& from, const std::string& wanted, PointSet& point
     points.description = fmt::format("coordinates in {}, transformed from {}", short_name(to), short_name(from));
   }
   points.crs = crs_name(to);
+  points.unit_in_metres = OSRIsGeographic(to.get()) != 0 ? 0 : OSRGetLinearUnits(to.get(), nullptr);
   return {};
 }
 
@@ -342,6 +350,7 @@ Result<void> place(const Crs& crs, const std::string& wanted, PointSet& points) 
   points.crs = crs_name(crs);
   points.description = crs ? fmt::format("coordinates in {}", short_name(crs)) : "the points' own coordinates (no CRS)";
   const bool is_geographic = crs && OSRIsGeographic(crs.get()) != 0;
+  points.unit_in_metres = !crs || is_geographic ? 0 : OSRGetLinearUnits(crs.get(), nullptr);
   if (wanted.empty() && !is_geographic) return {};
   if (wanted == "source") {
     if (is_geographic)

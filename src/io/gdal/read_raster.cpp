@@ -16,6 +16,7 @@
 #include "io/gdal/read_samples.h"
 #include "io/gdal/text_grid.h"
 #include "io/gdal/view.h"
+#include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 #include "scarp/commands.h"
@@ -32,39 +33,15 @@ struct Plan {
   RasterInfo info;
 };
 
-constexpr double kMetresPerFoot = 0.3048;
-
-/// In space there is one unit for all.
-Result<void> check_unit(const Frame& frame, const Georeference& geo, RasterInfo& info) {
-  if (!frame.space) return {};
-  if (info.unit.empty() && geo.is_in_feet() && info.z_scale == 1) {
-    info.warnings.push_back(
-        fmt::format("z is taken for metres though x and y are in {}: if it is not, --z-scale {:.6g} makes metres of it",
-                    geo.unit_name, kMetresPerFoot));
-  }
-  if (!is_foot(info.unit)) return {};
-  return fail(ErrorKind::kUsage, fmt::format("{}: z is in {}, and a frame in space is in metres: give --z-scale {:.6g}",
-                                             info.path, info.unit, kMetresPerFoot));
-}
-
 /// x and y in one unit, z in another: the promise holds, the shape does not.
-void warn_of_units(const Frame& frame, const Georeference& geo, RasterInfo& info) {
-  if (!geo.located || frame.kind == Frame::Kind::kGrid || frame.space || info.unit.empty()) return;
-  const bool feet_up = is_foot(info.unit);
-  const bool feet_across = frame.kind != Frame::Kind::kProjected && geo.is_in_feet();
-  if (feet_up == feet_across) return;
+void warn_of_units(const Frame& frame, RasterInfo& info) {
+  const double across = frame.unit_in_metres, up = info.unit_in_metres;
+  if (!(across > 0) || !(up > 0) || info.unit.empty() || std::abs(up / across - 1) < 1e-5) return;
   info.warnings.push_back(fmt::format(
-      "z is in {} but x and y are in {}: if the shape matters, --z-scale {:.6g} makes "
-      "them one unit",
-      info.unit, feet_across ? geo.unit_name : "metres", feet_across ? 1 / kMetresPerFoot : kMetresPerFoot));
-}
-
-/// The band's values are decoded with the file's scale and the caller's at once, so that every way of reading knows
-/// them. The unit is known only where feet become metres.
-void scale_heights(const ReadOptions& options, Plan& plan) {
-  plan.band.scale *= options.z_scale;
-  plan.band.offset = options.z_scale * plan.band.offset + options.z_offset;
-  describe_heights(options, plan.info);
+      "z is in {} but x and y are in {}: if the shape matters, --z-scale {:.10g} makes them one unit", info.unit,
+      frame.kind == Frame::Kind::kProjected || info.crs_unit.empty() ? fmt::format("units of {:.10g} m", across)
+                                                                     : info.crs_unit,
+      up / across));
 }
 
 Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
@@ -151,7 +128,8 @@ struct OpenedRaster {
   }
 };
 
-Result<OpenedRaster> open(Session& session, const std::string& path, const ReadOptions& options) {
+/// `options` become those that the samples are read with.
+Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions& options) {
   auto plan = plan_raster(session, path, options);
   if (!plan) return tl::unexpected(plan.error());
   const Georeference& geo = plan->georeference;
@@ -159,9 +137,13 @@ Result<OpenedRaster> open(Session& session, const std::string& path, const ReadO
   if (auto fits = check_raster_sides(path, cols, rows); !fits) return tl::unexpected(fits.error());
   auto frame = choose_frame(geo, options, plan->info);
   if (!frame) return tl::unexpected(frame.error());
-  scale_heights(options, *plan);
-  if (auto checked = check_unit(*frame, geo, plan->info); !checked) return tl::unexpected(checked.error());
-  warn_of_units(*frame, geo, plan->info);
+  auto settled = settle_heights(options, *frame, plan->info, geo.in_space.unit);
+  if (!settled) return tl::unexpected(settled.error());
+  options = std::move(*settled);
+  // The band's values are decoded with the file's scale and this one at once, so that every way of reading knows it.
+  plan->band.scale *= options.z_scale;
+  plan->band.offset = options.z_scale * plan->band.offset + options.z_offset;
+  warn_of_units(*frame, plan->info);
   OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
@@ -197,7 +179,7 @@ Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, con
   return std::move(field);
 }
 
-Result<OwnedHeightField> read(const std::string& path, const ReadOptions& options) {
+Result<OwnedHeightField> read(const std::string& path, ReadOptions options) {
   Session session(is_remote(path));
   auto opened = open(session, path, options);
   if (!opened) return tl::unexpected(opened.error());
@@ -269,7 +251,7 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
   return std::move(field);
 }
 
-Result<OwnedHeightField> open_field(const std::string& path, const ReadOptions& options) {
+Result<OwnedHeightField> open_field(const std::string& path, ReadOptions options) {
   Session session(is_remote(path));
   auto opened = open(session, path, options);
   if (!opened) return tl::unexpected(opened.error());

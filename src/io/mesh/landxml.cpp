@@ -16,6 +16,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/xml_reader.h"
 #include "io/raster/crs_description.h"
+#include "io/raster/height_unit.h"
 #include "scarp/version.h"
 
 namespace scarp {
@@ -36,32 +37,6 @@ constexpr LengthUnit kUnits[] = {
 const LengthUnit* find_unit(double metres) {
   for (const LengthUnit& unit : kUnits) {
     if (std::fabs(metres / unit.metres - 1) < 1e-9) return &unit;
-  }
-  return nullptr;
-}
-
-/// What rasters call the unit of their heights; null for words that say nothing for sure.
-const LengthUnit* find_unit_of_heights(const std::string& word) {
-  struct Word {
-    const char* text;
-    double metres;
-  };
-  constexpr Word kWords[] = {{"m", 1},
-                             {"metre", 1},
-                             {"metres", 1},
-                             {"meter", 1},
-                             {"meters", 1},
-                             {"ft", 0.3048},
-                             {"foot", 0.3048},
-                             {"feet", 0.3048},
-                             {"us-ft", 1200.0 / 3937},
-                             {"ftus", 1200.0 / 3937},
-                             {"us survey foot", 1200.0 / 3937},
-                             {"cm", 0.01},
-                             {"mm", 0.001},
-                             {"km", 1000}};
-  for (const Word& known : kWords) {
-    if (lowered(word) == known.text) return find_unit(known.metres);
   }
   return nullptr;
 }
@@ -96,11 +71,13 @@ Result<Reference> find_reference(const Mesh& mesh) {
     }
   }
   const std::string unit = value_of(mesh, "unit");
-  const LengthUnit* heights = find_unit_of_heights(unit);
-  if (heights != nullptr && heights != reference.unit) {
-    return refuse_to_write(
-        fmt::format("LandXML has one unit for all lengths, and here x and y are in {} but heights in {} ({})",
-                    reference.unit->name, heights->name, unit));
+  const double metres = find_metres(unit).value_or(reference.unit->metres);  // words that say nothing for sure
+  if (const double factor = metres / reference.unit->metres; std::fabs(factor - 1) > 1e-9) {
+    const LengthUnit* const named = find_unit(metres);
+    return refuse_to_write(fmt::format(
+        "LandXML has one unit for all lengths, and here x and y are in {} but heights in {} ({}): scale them by "
+        "{:.10g} (--z-scale)",
+        reference.unit->name, named != nullptr ? named->name : "another", unit, factor));
   }
   return reference;
 }

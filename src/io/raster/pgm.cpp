@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 
 namespace scarp {
@@ -191,7 +192,9 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
   auto decoded =
       header->plain ? decode_plain(bytes, *header, name, samples) : decode_raw(bytes, *header, name, samples);
   if (!decoded) return tl::unexpected(decoded.error());
-  scale_values(options, field);
+  const auto settled = settle_heights(options, field.frame, field.info);
+  if (!settled) return tl::unexpected(settled.error());
+  scale_values(*settled, field);
   if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
   return field;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <iterator>
 
 #include "base/large_vector.h"
 #include "grid/height_range.h"
@@ -111,23 +110,9 @@ Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, cons
   return {};
 }
 
-bool is_foot(const std::string& unit) {
-  return unit == "ft" || unit.find("foot") != std::string::npos || unit.find("feet") != std::string::npos;
-}
-
 bool scales_heights(const ReadOptions& options) { return options.z_scale != 1 || options.z_offset != 0; }
 
-void describe_heights(const ReadOptions& options, RasterInfo& info) {
-  info.z_scale = options.z_scale;
-  info.z_offset = options.z_offset;
-  constexpr double kFeet[] = {0.3048, 1200.0 / 3937};  // international, US survey
-  const auto is_near = [&](double foot) { return std::abs(std::abs(options.z_scale) / foot - 1) < 1e-5; };
-  if (std::abs(options.z_scale) == 1 || info.unit.empty()) return;
-  info.unit = is_foot(info.unit) && std::any_of(std::begin(kFeet), std::end(kFeet), is_near) ? "m" : "";
-}
-
 void scale_values(const ReadOptions& options, OwnedHeightField& field) {
-  describe_heights(options, field.info);
   if (!scales_heights(options)) return;
   for (float& z : field.samples) {
     const double scaled = options.z_scale * static_cast<double>(z) + options.z_offset;

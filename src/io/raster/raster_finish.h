@@ -27,14 +27,10 @@ Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, co
 /// Warns of `infinities` samples that became nodata; kInput if no sample is a height, unless they are read as values.
 Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
 
-/// By the names that files give the unit.
-bool is_foot(const std::string& unit);
-
 /// Whether heights are other than the file's values.
 bool scales_heights(const ReadOptions& options);
-/// Says in `info` that they are; the unit is then known only where feet became metres.
-void describe_heights(const ReadOptions& options, RasterInfo& info);
-/// Of whole values of a file without a scale of its own, already read: z_scale and z_offset, and their rounding.
+/// Of whole values of a file without a scale of its own, already read: z_scale and z_offset of settle_heights(), and
+/// their rounding.
 void scale_values(const ReadOptions& options, OwnedHeightField& field);
 
 /// The grid frame; with a cell size one around the raster's centre.

@@ -7,8 +7,10 @@
 #include <fstream>
 #include <span>
 #include <system_error>
+#include <utility>
 
 #include "base/caught.h"
+#include "grid/small_voids.h"
 #include "io/lent.h"
 #include "io/raster/pgm.h"
 #include "io/raster/raster_finish.h"
@@ -50,8 +52,25 @@ Result<void> check_whole_file(const std::string& path, const ReadOptions& option
                           format_memory(static_cast<double>(options.run.memory.limit))));
 }
 
-Result<void> fill_voids(OwnedHeightField& field, const std::string& path, double distance) {
-  if (distance <= 0) return {};
+Result<void> fill_enclosed(OwnedHeightField& field, int side) {
+  if (side <= 0) return {};
+  RasterInfo& info = field.info;
+  if (!field.source) {
+    info.voids = fill_small_voids(field, side);
+    return {};
+  }
+  if (info.has_range && info.valid < static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows)) {
+    const auto voids = count_voids(field.view(), side);
+    if (!voids) return tl::unexpected(voids.error());
+    info.voids = *voids;
+  }
+  field.source = without_small_voids(field.view(), side, field.source);
+  return {};
+}
+
+Result<void> fill_voids(OwnedHeightField& field, const std::string& path, const ReadOptions& options) {
+  const double distance = options.fill_distance;
+  if (distance <= 0) return fill_enclosed(field, options.void_side);
   if (field.source) {
     const double bytes = 4.0 * field.cols * field.rows;
     return fail(ErrorKind::kInput,
@@ -59,7 +78,7 @@ Result<void> fill_voids(OwnedHeightField& field, const std::string& path, double
                             "them: allow more, or fill it first (gdal_fillnodata.py -md {:.0f} {} {})",
                             path, format_memory(bytes), std::ceil(distance), file_word(path), new_file(".tif")));
   }
-  fill_nodata(field, distance);
+  field.info.voids.filled = fill_nodata(field, distance);
   return {};
 }
 
@@ -89,7 +108,7 @@ Result<OwnedHeightField> open_as_it_is(const std::string& path, const ReadOption
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
   auto field = open_as_it_is(path, options);
   if (!field) return field;
-  if (auto filled = fill_voids(*field, path, options.fill_distance); !filled) return tl::unexpected(filled.error());
+  if (auto filled = fill_voids(*field, path, options); !filled) return tl::unexpected(filled.error());
   return field;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
@@ -98,7 +117,7 @@ Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOp
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
   auto field = read_as_it_is(path, options);
   if (!field) return field;
-  if (auto filled = fill_voids(*field, path, options.fill_distance); !filled) return tl::unexpected(filled.error());
+  if (auto filled = fill_voids(*field, path, options); !filled) return tl::unexpected(filled.error());
   return field;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);

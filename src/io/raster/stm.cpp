@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 
 namespace scarp {
@@ -99,7 +100,9 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
     const int value = data[2 * k + high] << 8 | data[2 * k + 1 - high];
     field.samples[k] = value == nodata ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
   }
-  scale_values(options, field);
+  const auto settled = settle_heights(options, field.frame, field.info);
+  if (!settled) return tl::unexpected(settled.error());
+  scale_values(*settled, field);
   if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
   return field;
 }

@@ -21,6 +21,7 @@ Result<Zero> read_geoid(const Datum& datum, const RasterOnGlobe& globe) {
   ReadOptions options;
   options.crs = "source";
   options.as_values = true;
+  options.heights_in = HeightsIn::kMetres;
   auto field = read_height_field(datum.geoid, options);
   if (!field) return tl::unexpected(field.error());
   Datum as_it_is;

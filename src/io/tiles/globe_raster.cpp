@@ -7,6 +7,7 @@
 
 #include "io/raster/raster_finish.h"
 #include "scarp/commands.h"
+#include "grid/small_voids.h"
 #include "scarp/io.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_waters.h"
@@ -25,8 +26,12 @@ struct GlobeSource {
   std::optional<RasterOnPlane> plane;
   DegreeBox covered;
   std::unique_ptr<NodeSource> samples, raised;
+  /// Of a stack: the same with small voids filled, which show where no source of the stack has a height.
+  std::shared_ptr<const SampleSource> filled;
+  std::unique_ptr<NodeSource> filled_samples, filled_raised;
 
   const NodeSource& nodes() const { return raised ? *raised : *samples; }
+  const NodeSource& filled_nodes() const { return filled_raised ? *filled_raised : *filled_samples; }
   /// Of its samples in memory.
   std::uint64_t bytes() const {
     const std::uint64_t codes = field.source && field.source->is_in_memory() ? sizeof(std::uint16_t) : 0;
@@ -51,6 +56,18 @@ Result<void> place_source(GlobeSource& source, const Datum& datum) {
   return {};
 }
 
+Result<void> fill_source(GlobeSource& source, int side) {
+  HeightField field = source.field.view();
+  source.filled = without_small_voids(field, side);
+  field.samples = nullptr;
+  field.source = source.filled.get();
+  auto nodes = make_node_source(field, source.globe.place);
+  if (!nodes) return tl::unexpected(nodes.error());
+  source.filled_samples = std::move(*nodes);
+  if (source.globe.zero) source.filled_raised = make_raised_source(*source.filled_samples, source.globe.zero);
+  return {};
+}
+
 /// On the plane of a local grid.
 Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_size, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
@@ -71,6 +88,7 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   auto source = std::make_unique<GlobeSource>();
   options.crs = "";
   options.default_frame = DefaultFrame::kSource;
+  options.heights_in = HeightsIn::kMetres;
   // The last of a mosaic lies on top.
   const std::string& path = mosaic.back();
   options.view.more.assign(mosaic.rbegin() + 1, mosaic.rend());
@@ -118,16 +136,6 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
           translate_command("-a_srs " + code_of(first.field.info) + "+5773", first.field.info.path)));
 }
 
-/// Tiles are in metres. Where x and y are in feet, heights mostly are, too, whose unit such files often do not tell.
-std::vector<std::string> warn_of_feet(const RasterInfo& info) {
-  if (!info.unit.empty() || info.z_scale != 1 || !is_foot(info.crs_unit)) return {};
-  const bool is_survey = info.crs_unit.find("survey") != std::string::npos;
-  return {
-      fmt::format("the heights of {} are taken for metres, though its x and y are in {}: where they are in it, too, "
-                  "give --z-scale {}",
-                  info.path, info.crs_unit, is_survey ? "0.3048006096" : "0.3048")};
-}
-
 }  // namespace
 
 struct GlobeRaster::Impl {
@@ -156,6 +164,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
                     warp_command("-te XMIN YMIN XMAX YMAX -tr WIDTH HEIGHT", mosaics[0].front())));
   auto impl = std::make_unique<Impl>();
   ReadOptions reading = options;
+  if (mosaics.size() > 1) reading.void_side = 0;
   std::uint64_t& memory = reading.run.memory.limit;
   if (mosaics.size() > 1 && memory == 0) memory = kBytesPerSample * max_samples(0);
   for (const std::vector<std::string>& mosaic : mosaics) {
@@ -179,6 +188,11 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
   if (mosaics.size() > 1) {
     std::vector<StackedSource> stack;
     for (const auto& source : impl->sources) stack.push_back({&source->nodes(), source->covered});
+    for (const auto& source : impl->sources) {
+      if (options.void_side == 0) break;
+      if (auto filled = fill_source(*source, options.void_side); !filled) return tl::unexpected(filled.error());
+      stack.push_back({&source->filled_nodes(), source->covered});
+    }
     impl->stack = make_stacked_source(std::move(stack));
   }
   return std::unique_ptr<GlobeRaster>(new GlobeRaster(std::move(impl)));
@@ -216,6 +230,19 @@ const RasterInfo& GlobeRaster::info() const { return impl_->sources.front()->fie
 
 const RasterOnGlobe& GlobeRaster::place() const { return impl_->sources.front()->globe; }
 
+VoidCount GlobeRaster::voids() const {
+  VoidCount all;
+  for (const auto& source : impl_->sources) {
+    const VoidCount& voids = source->field.info.voids;
+    all.filled += voids.filled;
+    if (voids.left == 0) continue;
+    all.least = all.left == 0 ? voids.least : std::max(all.least, voids.least);
+    all.most = all.left == 0 ? voids.most : std::min(all.most, voids.most);
+    all.left += voids.left;
+  }
+  return all;
+}
+
 std::string GlobeRaster::heights_above() const {
   std::vector<std::string> different;
   for (const auto& source : impl_->sources) {
@@ -231,7 +258,6 @@ std::vector<std::string> GlobeRaster::warnings() const {
     const RasterInfo& raster = source->field.info;
     for (const std::string& one : raster.warnings)
       warnings.push_back(impl_->stack ? fmt::format("{}: {}", raster.path, one) : one);
-    for (std::string& one : warn_of_feet(raster)) warnings.push_back(std::move(one));
     if (source->plane) warnings.insert(warnings.end(), source->plane->warnings.begin(), source->plane->warnings.end());
   }
   warnings.insert(warnings.end(), impl_->warnings.begin(), impl_->warnings.end());

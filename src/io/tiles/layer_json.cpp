@@ -93,6 +93,7 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
                         {"cells", plan.cells},
                         {"background", plan.background},
                         {"levels", std::move(levels)}};
+  if (!facts.vertical.empty()) layer["scarp"]["vertical"] = facts.vertical;
   const std::string text = layer.dump(1) + "\n";
   return {text.begin(), text.end()};
 }

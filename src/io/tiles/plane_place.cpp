@@ -29,10 +29,6 @@ std::vector<std::string> warn_of_distance(const PlaneOnGlobe& on_globe, const Ra
                   path, off / 1000, 100 * off / way)};
 }
 
-bool is_metre(const std::string& unit) {
-  return unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters";
-}
-
 /// Of the zone in which the middle of a raster in degrees lies.
 std::string utm_code(const RasterInfo& info, int cols, int rows) {
   const std::array<double, 6>& gt = info.geotransform;
@@ -44,10 +40,10 @@ std::string utm_code(const RasterInfo& info, int cols, int rows) {
 }  // namespace
 
 Result<void> check_metres(const RasterInfo& info, const std::string& path) {
-  if (is_metre(info.unit)) return {};
-  return fail(
-      ErrorKind::kInput,
-      fmt::format("the heights of {} are in {}, tiles need metres: give --z-scale 0.3048 for feet", path, info.unit));
+  if (info.unit_in_metres == 1) return {};
+  return fail(ErrorKind::kInput, fmt::format("the heights of {} are in {}, and tiles need metres: read them with "
+                                             "HeightsIn::kMetres",
+                                             path, info.unit.empty() ? info.crs_unit : info.unit));
 }
 
 GridKind grid_for(const RasterInfo& info) {

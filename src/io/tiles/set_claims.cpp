@@ -50,6 +50,8 @@ void read_own(const Json* scarp, SetClaims& claims) {
     if (!read) claims.faults.emplace_back("the set names a grid that makes no sense");
     claims.grid = read.value_or(claims.grid);
   }
+  const Json* const vertical = find_member(scarp, "vertical");
+  if (vertical != nullptr && vertical->is_string()) claims.vertical = vertical->get<std::string>();
   const Json* const units = find_member(find_member(scarp, "units"), "horizontal");
   if (units != nullptr && units->is_string()) claims.units = units->get<std::string>();
   const Json* const levels = find_member(scarp, "levels");
@@ -202,14 +204,23 @@ void read_tileset(const TileSetReader& set, SetClaims& claims) {
 
 }  // namespace
 
-TileGrid find_grid(const TileSetReader& set) {
+namespace {
+
+/// Of the set as a whole.
+SetClaims read_head(const TileSetReader& set) {
   SetClaims claims;
   const bool is_glb = set.format() == TileFormat::kGlb;
   const auto json = read_json(set, is_glb ? "tileset.json" : "layer.json", claims);
-  if (json && is_glb) read_own(find_own(*json), claims);
+  if (json) read_own(is_glb ? find_own(*json) : find_member(&*json, "scarp"), claims);
   if (json && !is_glb) read_projection(*json, claims);
-  return claims.grid;
+  return claims;
 }
+
+}  // namespace
+
+TileGrid find_grid(const TileSetReader& set) { return read_head(set).grid; }
+
+std::string find_vertical(const TileSetReader& set) { return read_head(set).vertical; }
 
 SetClaims read_set_claims(const TileSetReader& set) {
   SetClaims claims;

@@ -38,6 +38,7 @@ struct SetClaims {
   std::optional<int> cells;
   std::optional<double> background;
   std::optional<Geodetic> ellipsoid;
+  std::string vertical;                   ///< as LayerFacts::vertical, where Scarp wrote it
   std::string units;                      ///< as LayerFacts::units, where Scarp wrote them
   TileGrid grid = {};                     ///< of the projection that layer.json names, or the one in tileset.json
   FactsByTile facts;                      ///< of 3D Tiles

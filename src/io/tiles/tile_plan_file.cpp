@@ -77,6 +77,8 @@ Json describe_reading(const ReadOptions& reading) {
             {"extent", or_null(reading.view.extent)},
             {"resolution", or_null(reading.view.resolution)}};
   if (reading.cell_size) json["cell_size"] = *reading.cell_size;
+  if (reading.void_side > 0) json["void_side"] = reading.void_side;
+  if (!reading.z_unit.empty()) json["z_unit"] = reading.z_unit;
   return json;
 }
 
@@ -247,6 +249,8 @@ TileJob parse_job(const Json& json) {
   job.reading.fill_distance = reading.at("fill_distance");
   job.reading.view.extent = optional_of<std::array<double, 4>>(reading.at("extent"));
   job.reading.view.resolution = optional_of<double>(reading.at("resolution"));
+  job.reading.void_side = reading.value("void_side", 0);
+  job.reading.z_unit = reading.value("z_unit", "");
   if (reading.contains("cell_size")) job.reading.cell_size = reading["cell_size"].get<double>();
   parse_datum(json.at("datum"), job);
   if (json.contains("waters")) {
@@ -261,10 +265,12 @@ TileJob parse_job(const Json& json) {
   job.facts.description = json.at("description");
   job.facts.attribution = json.at("attribution");
   job.facts.heights_above = json.at("heights_above");
+  job.facts.vertical = json.value("vertical", "");
   job.facts.body = json.at("body");
   job.facts.units = json.value("units", "");
   if (json.contains("plane")) job.facts.plane = parse_plane(json["plane"]);
   job.parts = json.value("parts", "");
+  job.filled = json.value("filled", std::uint64_t{0});
   job.costs = json.value("costs", std::vector<std::uint32_t>());
   if (json.contains("estimate")) {
     const Json& estimate = json["estimate"];
@@ -301,6 +307,8 @@ Json describe_job(const TileJob& job) {
             {"description", job.facts.description},
             {"attribution", job.facts.attribution},
             {"pyramid", describe_plan(job.plan)}};
+  if (!job.facts.vertical.empty()) json["vertical"] = job.facts.vertical;
+  if (job.filled > 0) json["filled"] = job.filled;
   if (!job.facts.units.empty()) json["units"] = job.facts.units;
   if (job.facts.plane) json["plane"] = describe_plane(*job.facts.plane);
   if (!job.waters.is_empty())
@@ -414,15 +422,14 @@ Result<TileJob> read_tile_job(const std::string& path) {
 
 std::uint64_t key_of(const TileJob& job) {
   Json json = describe_job(job);
-  json.erase("estimate");
-  json.erase("costs");
+  for (const char* other : {"estimate", "costs", "filled"}) json.erase(other);
   return hash_of(json);
 }
 
 std::uint64_t settings_key_of(const TileJob& job) {
   Json json = describe_job(job);
   for (const char* other : {"estimate", "costs", "rasters", "files", "waters", "parts", "heights_above", "body", "name",
-                            "description", "attribution", "units", "plane"})
+                            "description", "attribution", "units", "plane", "filled"})
     json.erase(other);
   json["datum"].erase("geoid");
   json["pyramid"].erase("covered");

@@ -182,7 +182,7 @@ Json describe_square(const PyramidPlan& plan, double low, double high) {
 void describe_plane(const PyramidPlan& plan, const LayerFacts& facts, Json& scarp) {
   if (!facts.plane) scarp.erase("ellipsoid");
   scarp["grid"] = describe_grid(plan.grid);
-  scarp["units"] = {{"horizontal", facts.units}, {"vertical", facts.plane ? "metre" : "unit of the raster's heights"}};
+  scarp["units"] = {{"horizontal", facts.units}, {"vertical", "metre"}};
   if (!facts.plane) return;
   const PlaneOnGlobe& plane = *facts.plane;
   scarp["crs"] = plane.crs;
@@ -229,6 +229,7 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
       {"background", plan.background},
       {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
       {"levels", std::move(levels)}};
+  if (!facts.vertical.empty()) asset["extras"]["scarp"]["vertical"] = facts.vertical;
   // Who draws nothing misses the whole planet, or the whole plane.
   const double nothing = std::max(is_flat ? plan.grid.tile_width(0, a) : a, 2 * root_error);
   Json root;

@@ -43,16 +43,16 @@ export function grid_frame(rows) {
 
 /**
  * `samples`: from columns and rows to the coordinates of the CRS, in GDAL's order. `radians`: one unit of these, if they are
- * longitude and latitude; else `metres`, null where nobody knows, and `keeps_unit` for x and y in that unit. `height`: metres of a unit of the heights.
+ * longitude and latitude; else `metres`, null where nobody knows. `height`: metres of a unit of the heights.
  */
-export function local_frame(samples, cols, rows, { radians = null, ellipsoid = WGS84, metres = null, keeps_unit = false, height = 1, crs = null }) {
+export function local_frame(samples, cols, rows, { radians = null, ellipsoid = WGS84, metres = null, height = 1, crs = null }) {
   const centre = [Math.floor(cols / 2), Math.floor(rows / 2)], latitude = radians && at(samples, ...centre)[1] * radians;
-  const [east, north] = radians ? metres_per_radian(ellipsoid, latitude).map(length => length * radians) : Array(2).fill(keeps_unit || metres === null ? 1 : metres);
+  const [east, north] = radians ? metres_per_radian(ellipsoid, latitude).map(length => length * radians) : Array(2).fill(metres ?? 1);
   const [xc, xr] = round_pair([samples[1] * east, samples[2] * east], centre), [yc, yr] = round_pair([samples[4] * north, samples[5] * north], centre);
   const affine = [-(xc * centre[0] + xr * centre[1]), xc, xr, -(yc * centre[0] + yr * centre[1]), yc, yr];
   const is_at_pole = radians && !(Math.abs(latitude) < Math.PI / 2 && east > 1e-3 * north), area = xc * yr - xr * yc;
   if (is_at_pole || area === 0 || !Number.isFinite(area)) return grid_frame(rows);
-  const of_unit = keeps_unit ? metres : 1, to_source = back_to_source(affine, samples, centre);
-  return { affine, metres: [of_unit, of_unit, height], knows_metres: Boolean(radians) || metres !== null,
+  const to_source = back_to_source(affine, samples, centre);
+  return { affine, metres: [1, 1, height], knows_metres: Boolean(radians) || metres !== null,
     extras: { crs_option: 'local', origin: [to_source[0], to_source[3]], ...(crs ? { origin_crs: crs } : {}), to_source } };
 }

@@ -9,7 +9,7 @@ const RADIANS_OF_UNIT = { 9101: 1, 9102: Math.PI / 180, 9105: Math.PI / 200 };
 const CLARKE_1866 = { semi_major: 6378206.4, inverse_flattening: 294.9786982139006 }, GRS80 = { semi_major: 6378137, inverse_flattening: 298.257222101 };
 const ELLIPSOIDS = { 4267: CLARKE_1866, 4269: GRS80, 4258: GRS80, 4283: GRS80, 4617: GRS80, 7844: GRS80 };
 const UNITS = { metre: 'm', meter: 'm', metres: 'm', meters: 'm', foot: 'ft', feet: 'ft' };
-const METRES_OF_HEIGHT = { ft: 0.3048, 'US survey foot': 1200 / 3937 };
+const METRES_OF_HEIGHT = { m: 1, ft: 0.3048, 'US survey foot': 1200 / 3937 };
 const COLOURS = 2, PALETTE = 3;
 
 /** From the centre of a sample to the CRS; null without a place. */
@@ -26,7 +26,14 @@ function ellipsoid_of({ GeogSemiMajorAxisGeoKey: semi_major, GeogSemiMinorAxisGe
   return { semi_major, inverse_flattening: given ?? (semi_minor > 0 && semi_minor !== semi_major ? semi_major / (semi_major - semi_minor) : 0) };
 }
 
+/** Heights become metres where x and y do (src/io/raster/height_unit.cpp): `scale` times. */
 function frame_of(image, unit) {
+  const frame = bare_frame_of(image, unit), scale = frame.knows_metres ? frame.metres[2] : 1;
+  if (scale === 1) return { ...frame, scale };
+  return { ...frame, scale, metres: [1, 1, 1], extras: { ...frame.extras, z_scale: scale, unit: 'm' } };
+}
+
+function bare_frame_of(image, unit) {
   const [cols, rows] = [image.getWidth(), image.getHeight()];
   const keys = image.getGeoKeys() ?? {}, samples = samples_affine(image, keys.GTRasterTypeGeoKey === 2), model = keys.GTModelTypeGeoKey;
   if (!samples) return grid_frame(rows);
@@ -37,7 +44,7 @@ function frame_of(image, unit) {
   }
   if (model !== 1) return local_frame(samples, cols, rows, { height });
   const metres = METRES_OF_UNIT[keys.ProjLinearUnitsGeoKey ?? 9001] ?? keys.ProjLinearUnitSizeGeoKey ?? 1;
-  return local_frame(samples, cols, rows, { metres, keeps_unit: Math.abs(metres - 0.3048) < 1e-5, height, crs: of_code(keys.ProjectedCSTypeGeoKey) });
+  return local_frame(samples, cols, rows, { metres, height: unit ? height : metres, crs: of_code(keys.ProjectedCSTypeGeoKey) });
 }
 
 const LARGEST = 3.4028234663852886e38, NEAR_LARGEST = 3.4e38;  // the latter: "-3.40282e+38" and its like, however few digits survived
@@ -90,12 +97,13 @@ async function find_mask(tiff) {
 }
 
 /** Heights of each `step`th sample of each `step`th row, in doubles where float32 does not hold them. */
-async function read_heights(name, tiff, image, buffer, step, told) {
+async function read_heights(name, tiff, image, buffer, step, told, factor) {
   const source = new TiffSamples(name, image, buffer), { fileDirectory: { GDAL_NODATA } } = image, { NODATA_VALUES } = metadata_of(image.fileDirectory);
   const nodata = GDAL_NODATA ? number_of(GDAL_NODATA) : source.bands === 1 && NODATA_VALUES ? number_of(NODATA_VALUES) : null;
   if (source.bands > 1 && NODATA_VALUES) throw new Sentence(`${name} tells by all bands at once where there is nothing (NODATA_VALUES): this page reads one band; gdal_translate -b 1 makes a file of it.`);
   let scale = number_of(told.scale ?? '1'), offset = number_of(told.offset ?? '0'), beyond = null;
   if (scale === 0 || !Number.isFinite(scale) || !Number.isFinite(offset)) [scale, offset] = [1, 0];
+  [scale, offset] = [scale * factor, offset * factor];
   const is_scaled = scale !== 1 || offset !== 0, is_missing = missing_test(source, nodata), [low, high] = source.range;
   const values = new Float64Array(Math.floor(source.cols / step) * Math.floor(source.rows / step));
   await source.each(0, step, Math.max(low, Math.min(high, nodata || 0)), (at, raw) => {
@@ -121,9 +129,10 @@ export async function read_geotiff(name, buffer, most_samples) {
   }
   const [full_cols, full_rows] = [image.getWidth(), image.getHeight()], step = Math.max(1, Math.ceil(Math.sqrt(full_cols * full_rows / most_samples)));
   const cols = Math.floor(full_cols / step), rows = Math.floor(full_rows / step), { PhotometricInterpretation: colours } = image.fileDirectory;
-  const told = metadata_of(image.fileDirectory, 0), unit = UNITS[told.unittype] ?? told.unittype ?? '', notes = [];
-  const samples = await read_heights(name, tiff, image, buffer, step, told).catch(error => { throw error instanceof Sentence ? error : damaged(name); });
+  const told = metadata_of(image.fileDirectory, 0), said = UNITS[told.unittype] ?? told.unittype ?? '', notes = [];
+  const { scale, ...frame } = frame_of(image, said), unit = scale === 1 ? said : 'm';
+  const samples = await read_heights(name, tiff, image, buffer, step, told, scale).catch(error => { throw error instanceof Sentence ? error : damaged(name); });
   if (step > 1) notes.push(`${name} has ${full_cols} x ${full_rows} samples, too many for a page: one of ${step} x ${step} was read, and errors are against these.`);
   if (colours === COLOURS || colours === PALETTE) notes.push(`This is a colour picture, and its ${colours === COLOURS ? 'red is' : 'colour numbers are'} taken as height.`);
-  return { cols, rows, samples, frame: thin_frame(frame_of(image, unit), step), unit, notes, step };
+  return { cols, rows, samples, frame: thin_frame(frame, step), unit, notes, step };
 }

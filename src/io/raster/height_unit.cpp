@@ -1,0 +1,141 @@
+#include "io/raster/height_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <iterator>
+
+namespace scarp {
+namespace {
+
+constexpr double kFoot = 0.3048, kSurveyFoot = 1200.0 / 3937;
+
+struct NamedLength {
+  const char* name;
+  double metres;
+};
+constexpr NamedLength kLengths[] = {{"m", 1},
+                                    {"metre", 1},
+                                    {"meter", 1},
+                                    {"metres", 1},
+                                    {"meters", 1},
+                                    {"ft", kFoot},
+                                    {"foot", kFoot},
+                                    {"feet", kFoot},
+                                    {"international foot", kFoot},
+                                    {"international feet", kFoot},
+                                    {"us-ft", kSurveyFoot},
+                                    {"ftus", kSurveyFoot},
+                                    {"us survey foot", kSurveyFoot},
+                                    {"us survey feet", kSurveyFoot},
+                                    {"survey foot", kSurveyFoot},
+                                    {"survey feet", kSurveyFoot},
+                                    {"foot_us", kSurveyFoot},
+                                    {"mm", 0.001},
+                                    {"millimetre", 0.001},
+                                    {"millimeter", 0.001},
+                                    {"cm", 0.01},
+                                    {"centimetre", 0.01},
+                                    {"centimeter", 0.01},
+                                    {"dm", 0.1},
+                                    {"decimetre", 0.1},
+                                    {"decimeter", 0.1},
+                                    {"km", 1000},
+                                    {"kilometre", 1000},
+                                    {"kilometer", 1000},
+                                    {"in", 0.0254},
+                                    {"inch", 0.0254},
+                                    {"yd", 0.9144},
+                                    {"yard", 0.9144},
+                                    {"fathom", 1.8288},
+                                    {"mi", 1609.344},
+                                    {"mile", 1609.344}};
+
+/// Conversions are given by six digits, or more.
+bool is_about(double one, double other) { return std::abs(one / other - 1) < 1e-5; }
+
+/// What nobody names.
+HeightUnit assume_unit(const RasterInfo& info) {
+  return info.crs_unit_in_metres > 0 ? HeightUnit{info.crs_unit, info.crs_unit_in_metres} : HeightUnit{"metre", 1};
+}
+
+/// Of scaled heights: the unit that the factor makes of the file's, where it makes one.
+HeightUnit scaled_unit(double factor, const HeightUnit& of_file, const RasterInfo& info) {
+  if (!(of_file.metres > 0)) return {};
+  if (is_about(factor, of_file.metres)) return {"m", 1};
+  const double of_crs = info.crs_unit_in_metres;
+  if (of_crs > 0 && is_about(factor, of_file.metres / of_crs)) return {info.crs_unit, of_crs};
+  return {};
+}
+
+std::string words_of_metres(const HeightUnit& unit, const RasterInfo& info) {
+  if (!info.unit_is_assumed)
+    return fmt::format("heights in {} become metres: an error or a height without a unit is in metres", unit.name);
+  return fmt::format(
+      "{} does not tell the unit of its heights: they are taken for {}, as x and y are, and become metres; "
+      "--z-unit m says that they are metres",
+      info.path, unit.name);
+}
+
+}  // namespace
+
+std::optional<double> find_metres(const std::string& name) {
+  std::string word = name;
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto find = [](const std::string& text) {
+    return std::ranges::find_if(kLengths, [&](const NamedLength& length) { return text == length.name; });
+  };
+  auto found = find(word);
+  if (found == std::end(kLengths) && word.ends_with('s')) found = find(word.substr(0, word.size() - 1));
+  return found == std::end(kLengths) ? std::nullopt : std::optional(found->metres);
+}
+
+bool is_foot(double metres) { return is_about(metres, kFoot); }
+
+Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& frame, RasterInfo& info,
+                                   const HeightUnit& vertical) {
+  ReadOptions settled = options;
+  const HeightUnit of_file = info.unit.empty() || info.unit == vertical.name
+                                 ? vertical
+                                 : HeightUnit{info.unit, find_metres(info.unit).value_or(0)};
+  HeightUnit unit = of_file;
+  const double factor = std::abs(options.z_scale);
+  if (!options.z_unit.empty()) {
+    unit =
+        options.z_unit == of_file.name ? of_file : HeightUnit{options.z_unit, find_metres(options.z_unit).value_or(0)};
+  } else if (factor != 1) {
+    unit = scaled_unit(factor, of_file, info);
+  }
+  info.unit_is_assumed = unit.name.empty();
+  if (info.unit_is_assumed) unit = factor == 1 ? assume_unit(info) : HeightUnit{"metre", 1};
+  const bool is_metric = options.heights_in == HeightsIn::kMetres ||
+                         (options.heights_in == HeightsIn::kFrame &&
+                          (frame.space || (frame.kind == Frame::Kind::kLocal && frame.unit_in_metres == 1)));
+  const bool is_converted = is_metric && unit.metres != 1;
+  if (is_converted && unit.metres == 0)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: its heights are in '{}', which is no unit of length that is known here, and they must "
+                            "become metres: name their unit (--z-unit m, ft, us-ft, cm, fathom …), or give the factor "
+                            "that makes metres of them (--z-scale F)",
+                            info.path, unit.name));
+  if (is_converted) info.warnings.push_back(words_of_metres(unit, info));
+  if (is_converted && frame.unit_in_metres == 0 && info.has_georeference && info.crs.empty())
+    info.warnings.emplace_back(
+        "x and y have no CRS and stay as they are, while heights become metres: give the raster its CRS first "
+        "(gdal_edit.py -a_srs) if they are in another unit");
+  if (is_converted) {
+    settled.z_scale *= unit.metres;
+    if (of_file.name.empty()) info.file_unit = unit.name;
+    unit = {"m", 1};
+  }
+  info.unit = info.unit_is_assumed && !is_converted ? "" : unit.name;
+  info.unit_in_metres = unit.metres;
+  if (!of_file.name.empty() && of_file.metres != unit.metres) info.file_unit = of_file.name;
+  info.z_scale = settled.z_scale;
+  info.z_offset = settled.z_offset;
+  return settled;
+}
+
+}  // namespace scarp

@@ -1,0 +1,166 @@
+#!/usr/bin/env bash
+# One unit of heights in a run: metres where the frame or the format is in metres, the raster's own elsewhere. The heights of the
+# files are compared with those of the ground, read by other programs.
+source "$(dirname "$0")/lib.sh"
+need python3 gdal_translate
+
+cat > ground.py <<'PYTHON'
+"""RASTER METRES CELL MESH ERROR [UNIT]: the mesh is as wide as the raster and as high, METRES and CELL being those of a unit of its
+heights and of a cell, up to ERROR metres; a unit of the mesh is UNIT metres (1)."""
+import json, struct, subprocess, sys
+raster, metres, cell, mesh, error = sys.argv[1], *map(float, sys.argv[2:4]), sys.argv[4], float(sys.argv[5])
+unit = float(sys.argv[6]) if len(sys.argv) > 6 else 1
+info = json.loads(subprocess.check_output(["gdalinfo", "-json", "-mm", raster], stderr=subprocess.DEVNULL))
+low, high = info["bands"][0]["computedMin"] * metres, info["bands"][0]["computedMax"] * metres
+data = open(mesh, "rb").read()
+if mesh.endswith(".glb"):
+    gltf = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+    box = [[], []]
+    for primitive in gltf["meshes"][0]["primitives"]:
+        position = gltf["accessors"][primitive["attributes"]["POSITION"]]
+        box[0].append(position["min"]), box[1].append(position["max"])
+    least, most = ([f(v[k] for v in side) for k in (0, 2, 1)] for f, side in ((min, box[0]), (max, box[1])))
+else:
+    points = [[float(w) for w in line.split()[-3:]] for line in data.decode().splitlines() if line.startswith(("v ", "ND "))]
+    points = [[p[0], p[2], p[1]] for p in points] if mesh.endswith(".obj") else points
+    least, most = [min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)]
+wide, deep = ((b - a) * unit for a, b in list(zip(least, most))[:2])
+for got, count in ((wide, info["size"][0]), (deep, info["size"][1])):
+    assert abs(got / (cell * (count - 1)) - 1) < 1e-4, (mesh, got, cell * (count - 1))
+for got, want in ((least[2] * unit, low), (most[2] * unit, high)):
+    assert abs(got - want) <= error * 1.000001, (mesh, got, want, error)
+PYTHON
+
+# made NAME SRS UNIT: a part of the bundled raster as it would lie there, cells 30 wide, with UNIT as the band's.
+made() {
+  succeeds gdal_translate -q -of VRT -srcwin 0 0 60 46 -a_srs "$2" -a_ullr 1500000 701380 1501800 700000 "$dem" "$1.vrt"
+  [ -z "$3" ] || sed -i "s|<VRTRasterBand[^>]*>|&<UnitType>$3</UnitType>|" "$1.vrt"
+}
+foot=0.3048 survey=0.3048006096012192
+made utm_ft EPSG:32616 ft
+made utm EPSG:32616 ""
+made utm_fathom EPSG:32616 fathoms
+made plane_ft EPSG:2264 ft
+made plane EPSG:2264 ""
+made plane_m EPSG:2264 m
+made plane_up EPSG:2264+6360 ""
+
+# Raster, metres of a unit of its heights and of a cell; every format in metres, with the bound in metres and in feet.
+while read -r name metres cell; do
+  for goal in 6 20ft; do
+    if [ $goal = 6 ]; then error=6 mesh=$name.obj; else error=6.0961 mesh=$name.glb; fi
+    succeeds "$scarp" simplify "$name.vrt" "$mesh" -e $goal --report r.json --overwrite
+    python3 ground.py "$name.vrt" "$metres" "$cell" "$mesh" "$error" || fail "$mesh: $goal"
+    max_error=$(json r.json max_error)
+    holds "$max_error <= $error && $(json r.json goal max_error) <= $error && $(json r.json goal max_error) > 5.99"
+    succeeds "$scarp" measure "$name.vrt" "$mesh" --fail-above $error --json
+    [ "$(json "$logs/out" max_error)" = "$max_error" ] || fail "$mesh: measure sees another error"
+  done
+  if [ "$metres" = 1 ]; then continue; fi
+  [ "$(json r.json input unit)" = '"m"' ] || fail "$name: heights are not in metres"
+  [ "$(json r.json warnings 0 | grep -c 'become metres')" = 1 ] || fail "$name: nothing in the report of the way to metres"
+  succeeds "$scarp" simplify "$name.vrt" "$name.stl" -e 6
+  [ "$(grep -c 'become metres' "$logs/err")" = 1 ] || fail "$name: nothing is told of the way to metres"
+  grep -q 'in the file' "$logs/out" || fail "$name: the summary has no unit of the file"
+  # Formats that say nothing of themselves, and other frames in metres.
+  succeeds "$scarp" measure "$name.vrt" "$name.stl" --fail-above 6
+  succeeds "$scarp" simplify "$name.vrt" "$name.glb" -e 6 --crs enu -q --overwrite
+  succeeds "$scarp" measure "$name.vrt" "$name.glb" --fail-above 6
+done <<LIST
+utm 1 30
+utm_ft $foot 30
+utm_fathom 1.8288 30
+plane $survey 9.144018288036576
+plane_ft $foot 9.144018288036576
+plane_m 1 9.144018288036576
+plane_up $survey 9.144018288036576
+LIST
+
+# An assumption is told, with its way out, which changes the heights as it says.
+succeeds "$scarp" simplify plane.vrt plane.glb -e 6 --overwrite
+grep -q 'taken for US survey foot, as x and y are.*--z-unit m' "$logs/err" || fail "nothing is told of an assumption"
+succeeds "$scarp" simplify plane.vrt plane.glb -e 6 --z-unit m --overwrite
+[ ! -s "$logs/err" ] || fail "a unit that was named is warned of: $(cat "$logs/err")"
+python3 ground.py plane.vrt 1 9.144018288036576 plane.glb 6
+succeeds "$scarp" measure plane.vrt plane.glb --fail-above 6
+succeeds "$scarp" simplify utm.vrt utm.glb -e 6 --z-unit us-ft --overwrite
+python3 ground.py utm.vrt $survey 30 utm.glb 6
+succeeds "$scarp" simplify utm.vrt utm.glb -e 20ft --overwrite
+grep -q "taken for metres: --max-error 20ft is 6.096 of them; --z-unit" "$logs/err" || fail "no word of a goal in feet"
+
+# Files in the raster's own CRS keep its unit, and goals follow it.
+for name in utm_ft plane_ft; do
+  succeeds "$scarp" simplify $name.vrt $name.2dm -e 20ft --report r.json --overwrite
+  holds "$(json r.json goal max_error) == 20"
+  python3 - $name.2dm <<'PYTHON' || fail "$name.2dm is in another unit"
+import sys
+z = [float(line.split()[4]) for line in open(sys.argv[1]) if line.startswith("ND ")]
+assert max(z) > 700 and min(z) > 200, (min(z), max(z))
+PYTHON
+  succeeds "$scarp" measure $name.vrt $name.2dm --fail-above 20ft
+  succeeds "$scarp" simplify $name.vrt $name.2dm -e 6.096m --report r.json --overwrite
+  holds "$(json r.json goal max_error) > 19.999 && $(json r.json goal max_error) < 20.001"
+  succeeds "$scarp" simplify $name.vrt $name.tin -e 20 --crs source -q --overwrite
+  succeeds "$scarp" measure $name.vrt $name.tin --fail-above 20
+done
+succeeds "$scarp" simplify utm_ft.vrt same.tif -e 20ft --overwrite
+gdalinfo same.tif | grep -q 'Unit Type: ft' || fail "a raster loses its unit"
+# What info suggests is that error in every format.
+goal=$("$scarp" info utm_ft.vrt | sed -n 's/.*-e \([0-9.]*ft\)$/\1/p' | head -1)
+[ -n "$goal" ] || fail "info suggests no error in feet"
+succeeds "$scarp" simplify utm_ft.vrt utm_ft.glb -e "$goal" --overwrite
+succeeds "$scarp" measure utm_ft.vrt utm_ft.glb --fail-above "$goal"
+
+# Tolerances in a unit of their own.
+succeeds gdal_translate -q -of VRT -ot Float32 -scale 0 2000 20 20 utm.vrt few.vrt
+sed -i 's|<VRTRasterBand[^>]*>|&<UnitType>ft</UnitType>|' few.vrt
+succeeds "$scarp" simplify utm.vrt few.glb --tolerance few.vrt --report r.json --overwrite
+holds "$(json r.json max_error) <= 6.0961 && $(json r.json max_error) > 4"
+
+# No unit of length, and a CRS that a format in metres has no place for.
+made utm_K EPSG:32616 K
+refuses 1 "heights are in 'K', which is no unit of length" "$scarp" simplify utm_K.vrt no.glb -e 6
+grep -q -- '--z-unit m.*--z-scale F' "$logs/err" || fail "no way out of a unit that is no length"
+succeeds "$scarp" simplify utm_K.vrt kelvin.glb -e 6 --z-unit m
+succeeds "$scarp" simplify utm_K.vrt kelvin.2dm -e 6
+refuses 1 "--max-error is in m, and the heights are in 'K'" "$scarp" simplify utm_K.vrt no.2dm -e 6m
+refuses 1 "GLB is in metres by its specification" "$scarp" simplify plane.vrt no.glb -e 6 --crs source
+refuses 1 "GLB is in metres by its specification" "$scarp" simplify utm.vrt no.glb -e 6 --crs EPSG:2264
+refuses 1 "cannot be combined with --z-unit" "$scarp" simplify utm.vrt no.glb -e 6 --image --z-unit ft
+
+# Tiles.
+for name in plane plane_up utm_ft; do
+  succeeds "$scarp" tile $name.vrt $name --vertical none --effort fast -e 100 --zoom 10 --report r.json --overwrite
+  [ "$(grep -c 'become metres' "$logs/err")" = 1 ] || fail "$name: tiles tell nothing of the way to metres"
+  succeeds "$scarp" tile check $name --source $name.vrt -q
+done
+succeeds "$scarp" tile utm_ft.vrt by_hand --vertical none --effort fast -e 100 --zoom 10 --z-scale 0.3048 -q
+differs=$(diff -rq utm_ft by_hand | grep terrain || true)
+[ -z "$differs" ] || fail "tiles of feet are others by hand"
+
+# Points.
+printf 'x,y,z\n' > points.csv
+python3 -c 'import random; random.seed(3); [print(f"{1500000 + random.random() * 3000:.2f},{700000 + random.random() * 3000:.2f},{900 + random.random() * 100:.2f}") for _ in range(200)]' >> points.csv
+printf '<OGRVRTDataSource><OGRVRTLayer name="points"><SrcDataSource relativeToVRT="1">points.csv</SrcDataSource><GeometryType>wkbPoint25D</GeometryType><LayerSRS>EPSG:2264</LayerSRS><GeometryField encoding="PointFromColumns" x="x" y="y" z="z"/></OGRVRTLayer></OGRVRTDataSource>' > points.vrt
+succeeds "$scarp" simplify points.vrt points.glb --points -e 3
+grep -q 'taken for US survey foot.*become metres' "$logs/err" || fail "nothing is told of points in feet"
+python3 - <<'PYTHON'
+import json, struct
+data = open("points.glb", "rb").read()
+gltf = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+position = gltf["accessors"][gltf["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+low, high = position["min"], position["max"]
+assert 880 < high[0] - low[0] < 915 and 270 < low[1] < high[1] < 306, (low, high)
+PYTHON
+succeeds "$scarp" measure points.vrt points.glb --points --fail-above 3
+succeeds "$scarp" measure points.vrt points.glb --points --fail-above 9.85ft
+
+# LandXML has one unit for all: the way out that it names works.
+refuses 1 "--z-scale" "$scarp" simplify utm_ft.vrt no.xml -e 20ft
+factor=$(sed -n 's/.*scale them by \([0-9.]*\) (--z-scale).*/\1/p' "$logs/err")
+succeeds "$scarp" simplify utm_ft.vrt site.xml -e 20ft --z-scale "$factor"
+succeeds "$scarp" measure utm_ft.vrt site.xml --fail-above 6.0961
+succeeds "$scarp" simplify plane_m.vrt plane.2dm -e 20
+factor=$(sed -n 's/.*--z-scale \([0-9.]*\) makes them one unit.*/\1/p' "$logs/err")
+succeeds "$scarp" simplify plane_m.vrt plane.2dm -e 20 --z-scale "$factor" --overwrite
+[ ! -s "$logs/err" ] || fail "units that were made one are warned of"
