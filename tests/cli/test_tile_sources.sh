@@ -47,8 +47,8 @@ succeeds "$scarp" tile void.tif high.tif void_first --background 200 -q
 
 # Nodata within a raster goes down to the background, or is filled before anything else.
 make_raster hole.tif 'math.nan if 150 <= col < 250 and 110 <= row < 210 else 500 + row / 2'
-succeeds "$scarp" tile hole.tif hole --vertical ellipsoid --nodata-policy background --report r.json
-[ "$(json r.json filled)" = 0 ] && [ ! -s "$logs/err" ] || fail "voids that are to be left are filled, or warned of"
+succeeds "$scarp" tile hole.tif hole --vertical ellipsoid --nodata-policy background --report voids.json
+[ "$(json voids.json filled)" = 0 ] && [ ! -s "$logs/err" ] || fail "voids that are to be left are filled, or warned of"
 succeeds "$scarp" tile hole.tif filled --vertical ellipsoid --nodata-policy fill -q
 read -r lowest highest < <(python3 - "$reader" hole.tif << 'PY'
 import importlib.util, pathlib, subprocess, sys, json
@@ -80,10 +80,10 @@ diff -rq filled near > /dev/null && fail "--fill-distance changes nothing"
 refuses 1 "--fill-distance needs --nodata-policy fill" "$scarp" tile hole.tif no --fill-distance 5
 refuses 1 "background" "$scarp" tile hole.tif no --nodata-policy hole
 # Enclosed voids of 100 samples a side are filled unless that is not wanted, by a plan, from a raster in its file, and from several.
-succeeds "$scarp" tile hole.tif usual --vertical ellipsoid --report r.json --overwrite
+succeeds "$scarp" tile hole.tif usual --vertical ellipsoid --report voids.json --overwrite
 diff -r usual filled || fail "small voids are filled otherwise"
 grep -q 'filled  *10,000 missing samples in enclosed voids; --nodata-policy background leaves them' "$logs/out" || fail "the summary has no filled samples"
-[ "$(json r.json filled)" = 10000 ] && [ ! -s "$logs/err" ] || fail "the report has no filled samples"
+[ "$(json voids.json filled)" = 10000 ] && [ ! -s "$logs/err" ] || fail "the report has no filled samples"
 succeeds "$scarp" tile check usual --source hole.tif -q
 succeeds "$scarp" tile plan hole.tif usual.json --vertical ellipsoid -q
 succeeds "$scarp" tile run usual.json --memory 10k -q
@@ -91,12 +91,12 @@ succeeds "$scarp" tile finish usual.json streamed
 diff -r usual streamed || fail "windows of a file have other voids"
 grep -q 'filled  *10,000' "$logs/out" || fail "a plan forgets its filled samples"
 cp hole.tif also.tif
-succeeds "$scarp" tile hole.tif also.tif both --vertical ellipsoid -q
-for tile in $(cd usual && find . -name '*.terrain'); do cmp -s "usual/$tile" "both/$tile" || fail "a stack has a pit in $tile"; done
+succeeds "$scarp" tile hole.tif also.tif twice --vertical ellipsoid -q
+for tile in $(cd usual && find . -name '*.terrain'); do cmp -s "usual/$tile" "twice/$tile" || fail "a stack has a pit in $tile"; done
 make_raster wide.tif 'math.nan if 150 <= col < 251 and 110 <= row < 210 or col == 400 and row < 9 else 500 + row / 2'
-succeeds "$scarp" tile wide.tif wide --vertical ellipsoid --report r.json --overwrite
+succeeds "$scarp" tile wide.tif wide --vertical ellipsoid --report voids.json --overwrite
 grep -q '^scarp: warning: 10,109 missing samples .* up to 5[0-9.]* m from the land.*--nodata-policy fill' "$logs/err" || fail "no word of a pit"
-[ "$(json r.json filled)" = 0 ] && json r.json warnings 0 | grep -q 'nodata-policy fill' || fail "no pit in the report"
+[ "$(json voids.json filled)" = 0 ] && json voids.json warnings 0 | grep -q 'nodata-policy fill' || fail "no pit in the report"
 
 # A fine raster in UTM with nodata at its corners, above the sea, on a coarse one in degrees above the ellipsoid.
 succeeds gdalwarp -q -t_srs EPSG:32616+5773 -s_srs EPSG:4326+5773 -te 740000 4014000 752000 4026000 -tr 80 80 -r bilinear -dstnodata -9999 -ot Float32 "$dem" fine.tif

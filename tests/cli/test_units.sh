@@ -64,6 +64,7 @@ while read -r name metres cell; do
   grep -q 'in the file' "$logs/out" || fail "$name: the summary has no unit of the file"
   # Formats that say nothing of themselves, and other frames in metres.
   succeeds "$scarp" measure "$name.vrt" "$name.stl" --fail-above 6
+  [[ $name = utm_* ]] || [ $name = plane_up ] || continue
   succeeds "$scarp" simplify "$name.vrt" "$name.glb" -e 6 --crs enu -q --overwrite
   succeeds "$scarp" measure "$name.vrt" "$name.glb" --fail-above 6
 done <<LIST
@@ -106,7 +107,7 @@ done
 succeeds "$scarp" simplify utm_ft.vrt same.tif -e 20ft --overwrite
 gdalinfo same.tif | grep -q 'Unit Type: ft' || fail "a raster loses its unit"
 # What info suggests is that error in every format.
-goal=$("$scarp" info utm_ft.vrt | sed -n 's/.*-e \([0-9.]*ft\)$/\1/p' | head -1)
+goal=$("$scarp" info utm_ft.vrt 2> /dev/null | sed -n 's/.*-e \([0-9.]*ft\)$/\1/p' | head -1)
 [ -n "$goal" ] || fail "info suggests no error in feet"
 succeeds "$scarp" simplify utm_ft.vrt utm_ft.glb -e "$goal" --overwrite
 succeeds "$scarp" measure utm_ft.vrt utm_ft.glb --fail-above "$goal"
@@ -131,7 +132,7 @@ refuses 1 "cannot be combined with --z-unit" "$scarp" simplify utm.vrt no.glb -e
 # Tiles.
 for name in plane plane_up utm_ft; do
   succeeds "$scarp" tile $name.vrt $name --vertical none --effort fast -e 100 --zoom 10 --report r.json --overwrite
-  [ "$(grep -c 'become metres' "$logs/err")" = 1 ] || fail "$name: tiles tell nothing of the way to metres"
+  [ "$(grep -c 'become metres' "$logs/err")" = 1 ] && ! grep -q 'z is in' "$logs/err" || fail "$name: tiles tell nothing of the way to metres"
   succeeds "$scarp" tile check $name --source $name.vrt -q
 done
 succeeds "$scarp" tile utm_ft.vrt by_hand --vertical none --effort fast -e 100 --zoom 10 --z-scale 0.3048 -q
@@ -164,3 +165,4 @@ succeeds "$scarp" simplify plane_m.vrt plane.2dm -e 20
 factor=$(sed -n 's/.*--z-scale \([0-9.]*\) makes them one unit.*/\1/p' "$logs/err")
 succeeds "$scarp" simplify plane_m.vrt plane.2dm -e 20 --z-scale "$factor" --overwrite
 [ ! -s "$logs/err" ] || fail "units that were made one are warned of"
+echo "heights have one unit in a run"

@@ -71,7 +71,7 @@ TEST(RasterWrite, GeoTiffKeepsValuesPlaceAndUnit) {
     ASSERT_TRUE(bytes) << bytes.error().message;
     EXPECT_EQ(*bytes, *encode_raster({samples, kCols, kRows, &like}, RasterFormat::kGeoTiff));
     ASSERT_TRUE(write_file(scratch.file("out.tif"), *bytes));
-    const auto back = read_height_field(scratch.file("out.tif"));
+    const auto back = read_height_field(scratch.file("out.tif"), {.heights_in = HeightsIn::kFile});
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(back->info.crs, crs);
     EXPECT_EQ(back->info.unit, "ft");

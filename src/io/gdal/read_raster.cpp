@@ -143,7 +143,7 @@ Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions
   // The band's values are decoded with the file's scale and this one at once, so that every way of reading knows it.
   plan->band.scale *= options.z_scale;
   plan->band.offset = options.z_scale * plan->band.offset + options.z_offset;
-  warn_of_units(*frame, plan->info);
+  if (options.heights_in != HeightsIn::kMetres) warn_of_units(*frame, plan->info);  // else x and y are the caller's
   OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
