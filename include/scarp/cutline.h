@@ -29,11 +29,14 @@ struct Cutline {
 Result<std::vector<Line>> close_rings(std::vector<Line> lines);
 
 /// The union of polygons, with its outline moved inwards by `distance`, outwards if negative. Corners that move away
-/// become round, with arcs as chords of 90 / 8 degrees. `unit`: lengths of the coordinates' units along x and y in the
-/// unit of the distance, above 0. The result may be empty: polygons narrower than twice the distance vanish. By GDAL
-/// and GEOS, in double arithmetic; fails with kUsage in a build without one of them, with kInput where GEOS fails.
+/// become round, with arcs as chords of 90 / 8 degrees. Given the side of a `sample`, vertices go that the outline can
+/// do without, within a 256th of it and an eighth of the distance, and distances below it leave corners pointed, at
+/// most twice as far away: edges far below a sample would ask for many tiny triangles. `unit`: lengths of the
+/// coordinates' units along x and y in the unit of the distance, above 0. The result may be empty: polygons narrower
+/// than twice the distance vanish. By GDAL and GEOS, in double arithmetic; fails with kUsage in a build without one of
+/// them, with kInput where GEOS fails.
 Result<std::vector<Line>> inset_polygons(std::span<const Line> rings, double distance,
-                                         const std::array<double, 2>& unit = {1, 1});
+                                         const std::array<double, 2>& unit = {1, 1}, double sample = 0);
 
 /// Result of mask_outside().
 struct MaskedOutside {

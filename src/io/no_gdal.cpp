@@ -110,7 +110,7 @@ Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions&) {
   return fail(ErrorKind::kInput, path + ": this build of Scarp reads no vector data: it was built without GDAL");
 }
 
-Result<std::vector<Line>> inset_polygons(std::span<const Line>, double, const std::array<double, 2>&) {
+Result<std::vector<Line>> inset_polygons(std::span<const Line>, double, const std::array<double, 2>&, double) {
   return fail(ErrorKind::kUsage,
               "polygons cannot be moved inwards: this build of Scarp has no GDAL, whose GEOS does that");
 }

@@ -64,7 +64,9 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
   cut.cutline.affine = map_affine(raster, field.rows);
   cut.cutline.rings = std::move(*rings);
   if (given.inset) {
-    auto moved = inset_polygons(cut.cutline.rings, *parse_number("--inset", *given.inset), unit_of(raster));
+    const std::array<double, 2> unit = unit_of(raster);
+    const double sample = std::min(raster.cell_x * unit[0], raster.cell_y * unit[1]);
+    auto moved = inset_polygons(cut.cutline.rings, *parse_number("--inset", *given.inset), unit, sample);
     if (!moved) {
       moved.error().message = fmt::format("--inset {}: {}", shell_word(*given.inset), moved.error().message);
       return tl::unexpected(std::move(moved.error()));

@@ -55,6 +55,15 @@ bool is_distance(double distance, const OGRGeometry& polygons) {
   return std::abs(distance) > 0x1p-40 * largest;
 }
 
+/// Null where GEOS fails. Instead of segments GEOS takes minus the length of pointed corners.
+OGRGeometry* buffer(const OGRGeometry& polygons, double distance, double sample) {
+  constexpr int kPointed = -2;
+  constexpr double kSteps = 256, kShare = 0.125;
+  const Owned moved(polygons.Buffer(distance, std::abs(distance) < sample ? kPointed : kSegmentsPerQuarter));
+  if (!moved || sample <= 0) return moved ? moved->clone() : nullptr;
+  return moved->SimplifyPreserveTopology(std::min(sample / kSteps, kShare * std::abs(distance)));
+}
+
 void add_ring(const OGRLinearRing& ring, LineRole role, std::uint32_t polygon, const std::array<double, 2>& unit,
               const std::string& name, std::vector<Line>& rings) {
   Line line;
@@ -66,7 +75,8 @@ void add_ring(const OGRLinearRing& ring, LineRole role, std::uint32_t polygon, c
   if (line.points.size() >= 4) rings.push_back(std::move(line));
 }
 
-Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, const std::array<double, 2>& unit) {
+Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, const std::array<double, 2>& unit,
+                                double sample) {
   Session session(false);
   if (!OGRGeometryFactory::haveGEOS())
     return fail(ErrorKind::kUsage, "polygons cannot be moved inwards: GDAL was built without GEOS, which does that");
@@ -74,7 +84,7 @@ Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, co
   const bool are_valid = to_polygons(rings, unit, polygons);
   const Owned whole(are_valid ? polygons.UnionCascaded() : nullptr);
   const bool moves = whole && is_distance(distance, *whole);
-  const Owned moved(!whole ? nullptr : moves ? whole->Buffer(-distance, kSegmentsPerQuarter) : whole->clone());
+  const Owned moved(!whole ? nullptr : moves ? buffer(*whole, -distance, sample) : whole->clone());
   if (!moved)
     return fail(ErrorKind::kInput,
                 fmt::format("the polygons cannot be moved inwards by {}: {}", distance, session.reason()));
@@ -98,8 +108,8 @@ Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, co
 namespace scarp {
 
 Result<std::vector<Line>> inset_polygons(std::span<const Line> rings, double distance,
-                                         const std::array<double, 2>& unit) try {
-  return gdal::inset(rings, distance, unit);
+                                         const std::array<double, 2>& unit, double sample) try {
+  return gdal::inset(rings, distance, unit, sample);
 } catch (...) {
   return caught(ErrorKind::kInput, "move polygons inwards");
 }
