@@ -49,7 +49,7 @@ bool Collapse::find_polygon(Patch::Id v, Patch::Id u) {
     polygon_.push_back(beyond);
   }
   energy_ = 0;
-  floor_ = rules_.shape.floor;
+  floor_ = rules_.shape.least();
   const auto replace = [&](Patch::Id f) {
     const auto& [a, b, c] = patch_.face(f).corners;
     energy_ += patch_.face(f).energy;

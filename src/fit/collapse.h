@@ -62,7 +62,7 @@ class Collapse {
   std::vector<Patch::Id> polygon_;  // around the edge
   std::size_t hub_ = 0;             // where u is on the ring of v
   float energy_ = 0;                // of what the fan would replace
-  double floor_ = 0;                // of its shapes
+  TriangleShape floor_;             // of its shapes
   std::vector<Offer> offers_;
   std::vector<Patch::RingTriangle> fan_;
 };

@@ -15,8 +15,8 @@ constexpr float kFlipGain = 1e-5f;
 bool Flips::has_shape(const Patch::Quad& q) const {
   if (!shape_.is_on()) return true;
   const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
-  const double worst = std::min(shape_.shape(c, a, d), shape_.shape(d, b, c));
-  return worst >= shape_.lowered(shape_.lowered(shape_.floor, a, b, c), b, a, d);
+  const TriangleShape floor = shape_.lowered(shape_.lowered(shape_.least(), a, b, c), b, a, d);
+  return shape_.shape(c, a, d).worse_of(shape_.shape(d, b, c)).keeps(floor);
 }
 
 bool Flips::Trial::operator==(const Trial& other) const {
@@ -56,9 +56,14 @@ bool Flips::heal(const TriangleError& error, Patch::Id face, unsigned edge) {
   if (!shape_.is_on() || Patch::is_border(patch_.face(face).links[edge])) return false;
   const Patch::Quad q = patch_.quad(face, edge);
   const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
-  const double before = std::min(shape_.shape(a, b, c), shape_.shape(b, a, d));
-  if (before >= shape_.floor || area2(c, a, d) <= 0 || area2(d, b, c) <= 0) return false;
-  if (std::min(shape_.shape(c, a, d), shape_.shape(d, b, c)) < kWorthFlip * before) return false;
+  const TriangleShape least = shape_.least(), before = shape_.shape(a, b, c).worse_of(shape_.shape(b, a, d));
+  if (before.keeps(least) || area2(c, a, d) <= 0 || area2(d, b, c) <= 0) return false;
+  const TriangleShape after = shape_.shape(c, a, d).worse_of(shape_.shape(d, b, c));
+  // The form comes first, so that no edge is flipped back and forth.
+  const bool is_thin = before.form < least.form;
+  if (is_thin ? after.form < kWorthFlip * before.form
+              : after.form < least.form || after.edge < kWorthFlip * before.edge)
+    return false;
   constexpr float kAnyEnergy = std::numeric_limits<float>::infinity();
   const auto near = error.assess(c, a, d, kAnyEnergy);
   if (near.kind != TriangleError::Verdict::Kind::kKeeps) return false;

@@ -54,7 +54,7 @@ Insertion::Offer Insertion::best_at(Patch::Id face) {
   const std::array<FitCorner, 3> at{patch_.at(near.corners[0]), patch_.at(near.corners[1]), patch_.at(near.corners[2])};
   rim_.assign(at.begin(), at.end());
   energy_ = near.energy;
-  floor_ = rules_.shape.lowered(rules_.shape.floor, at[0], at[1], at[2]);
+  floor_ = rules_.shape.lowered(rules_.shape.least(), at[0], at[1], at[2]);
   try_place((double{1} * at[0].x + at[1].x + at[2].x) / 3, (double{1} * at[0].y + at[1].y + at[2].y) / 3, best,
             {.face = face, .beyond = face});
   for (unsigned edge = 0; edge < 3; ++edge) {
@@ -64,7 +64,8 @@ Insertion::Offer Insertion::best_at(Patch::Id face) {
     const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b);
     rim_ = {a, patch_.at(q.d), b, patch_.at(q.c)};
     energy_ = near.energy + patch_.face(q.beyond).energy;
-    floor_ = rules_.shape.lowered(rules_.shape.lowered(rules_.shape.floor, at[0], at[1], at[2]), b, a, patch_.at(q.d));
+    floor_ =
+        rules_.shape.lowered(rules_.shape.lowered(rules_.shape.least(), at[0], at[1], at[2]), b, a, patch_.at(q.d));
     for (const double share : kInsertShares)
       try_place(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), best,
                 {.face = face, .beyond = q.beyond, .edge = edge});

@@ -56,7 +56,7 @@ class Insertion {
   std::vector<std::uint32_t> stamps_;  // by face: how often it has changed
   std::vector<FitCorner> rim_;         // of what a candidate would replace
   float energy_ = 0;                   // of it
-  double floor_ = 0;                   // of the new shapes
+  TriangleShape floor_;                // of the new shapes
   Patch::Star star_;
 };
 

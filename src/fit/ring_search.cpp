@@ -119,7 +119,7 @@ void RingSearch::keep_positive() {
 
 /// A hub on a side is in line with the first and the last of its ring.
 void RingSearch::keep_shapely(const FitCorner& hub) {
-  double floor = shape_.floor;
+  TriangleShape floor = shape_.least();
   for (std::size_t i = 0; i < size_; ++i) {
     const FitCorner &a = ring_[i], &b = ring_[i + 1 == size_ ? 0 : i + 1];
     if (area2(hub, a, b) > 0) floor = shape_.lowered(floor, hub, a, b);
@@ -132,7 +132,7 @@ void RingSearch::keep_shapely(const FitCorner& hub) {
       for (Set left = allowed_[i][j]; left != 0; left &= left - 1) {
         const std::size_t q = lowest(left);
         const double area = cross_[i][q] + cross_[q][j] - cross_[i][j];
-        if (shape_.of(area, square_[i][q], square_[q][j], square_[i][j]) < floor) allowed_[i][j] &= ~only(q);
+        if (!shape_.of(area, square_[i][q], square_[q][j], square_[i][j]).keeps(floor)) allowed_[i][j] &= ~only(q);
       }
     }
   }

@@ -51,7 +51,7 @@ double thin_share(const Patch& patch, const ShapeRule& rule) {
     const auto& [a, b, c] = patch.face(f).corners;
     if (a == kNone) continue;
     ++all;
-    if (rule.shape(patch.at(a), patch.at(b), patch.at(c)) < rule.floor) ++thin;
+    if (rule.shape(patch.at(a), patch.at(b), patch.at(c)).form < rule.floor) ++thin;
   }
   return all == 0 ? 0 : static_cast<double>(thin) / static_cast<double>(all);
 }

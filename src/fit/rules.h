@@ -16,32 +16,41 @@ enum class Freedom : std::uint8_t {
   kLattice,  ///< on the lattice of fitting, at any height
 };
 
-/// How long and thin triangles may be. A move must not leave one whose shape is below the floor, unless the move takes
-/// away one that is worse, or as bad: slivers that a mesh begins with, or that its outline wants, are thus never made
-/// worse and hold up nobody.
+/// Of a triangle; each part is compared for itself, so that none pays for the other.
+struct TriangleShape {
+  double form = 0;  ///< how far it is from being thin
+  double edge = 0;  ///< the square of the shortest edge, at most ShapeRule::shortest_square
+
+  bool keeps(const TriangleShape& floor) const { return form >= floor.form && edge >= floor.edge; }
+  TriangleShape worse_of(const TriangleShape& other) const {
+    return {std::min(form, other.form), std::min(edge, other.edge)};
+  }
+};
+
+/// How thin triangles, and how long edges, may be. A move must not leave a triangle that is thinner than the floor,
+/// unless the move takes away one that is as thin, nor a shorter edge, unless it takes away one as short: slivers that
+/// a mesh begins with, or that its outline wants, are thus never made worse and hold up no move.
 struct ShapeRule {
   double floor = 0;       ///< 0: any shape
   double aspect = 1;      ///< of a sample: its height over its width
-  bool by_angle = false;  ///< the shape is the square of the smallest angle's sine instead
-  double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with an edge beyond has the shape 0
-  double shortest_square = 0;  ///< one with a shorter edge lies below the floor, the deeper the shorter that edge is
+  bool by_angle = false;  ///< the form is the square of the smallest angle's sine instead
+  double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with an edge beyond has the form 0
+  double shortest_square = 0;                                       ///< no edge is too short from here on
 
   bool is_on() const { return floor > 0; }
+  TriangleShape least() const { return {floor, shortest_square}; }
   /// Twice the area over the square of the longest edge, that is, height over longest edge: 0.87 where all edges are
   /// equal. The same whichever corner comes first; for square samples the exact quotient, rounded once.
-  double shape(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+  TriangleShape shape(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
     return of(static_cast<double>(area2(a, b, c)), square(a, b), square(b, c), square(c, a));
   }
   /// The same from twice the area and the squares of the edges.
-  double of(double area, double ab, double bc, double ca) const {
-    const double longest = std::max({ab, bc, ca});
-    if (longest > longest_square) return 0;
-    const double shortest = std::min({ab, bc, ca});
-    const double most =
-        shortest < shortest_square ? floor * shortest / shortest_square : std::numeric_limits<double>::infinity();
-    if (!by_angle) return std::min(most, area * aspect / longest);
+  TriangleShape of(double area, double ab, double bc, double ca) const {
+    const double longest = std::max({ab, bc, ca}), edge = std::min({ab, bc, ca, shortest_square});
+    if (longest > longest_square) return {0, edge};
+    if (!by_angle) return {area * aspect / longest, edge};
     const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), ca));
-    return std::min(most, area * aspect / longest * (area * aspect / middle));
+    return {area * aspect / longest * (area * aspect / middle), edge};
   }
   /// Whether an edge is shorter than it may be.
   bool is_short(const FitCorner& p, const FitCorner& q) const { return square(p, q) < shortest_square; }
@@ -51,8 +60,8 @@ struct ShapeRule {
     return x * x + y * y;
   }
   /// The floor for moves that take away the triangle too.
-  double lowered(double to, const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
-    return std::min(to, shape(a, b, c));
+  TriangleShape lowered(const TriangleShape& to, const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+    return to.worse_of(shape(a, b, c));
   }
 };
 

@@ -119,7 +119,8 @@ bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
   const FitCorner from = patch_.at(v);
   const Vector step = newton_step(error, from);
   const double length = std::sqrt(step.x * step.x + step.y * step.y) * kLatticeSteps;
-  const double edge = mean_edge(from), floor = shape_floor(from);
+  const double edge = mean_edge(from);
+  const TriangleShape floor = shape_floor(from);
   Point last{0, 0};
   for (const auto& [times, reach] : lengths_of(error.power(), is_free())) {
     if (!(length > 0 && length < 1e9)) break;
@@ -141,7 +142,7 @@ bool VertexStep::probe(const TriangleError& error, Patch::Id v, double reach) {
   if (!take_up(error, v)) return false;
   const float limit = energy() * (1 - kStepGain);
   const FitCorner from = patch_.at(v);
-  const double floor = shape_floor(from);
+  const TriangleShape floor = shape_floor(from);
   const auto steps = static_cast<std::int32_t>(std::max(1L, std::lround(reach * mean_edge(from) / unit())));
   Offer best{from, limit};
   for (const Point& way : kStepWays) {
@@ -175,14 +176,16 @@ FitCorner VertexStep::beside(const FitCorner& from, Point by) const {
 }
 
 /// For a step of the vertex.
-double VertexStep::shape_floor(const FitCorner& from) const {
-  double floor = rules_.shape.floor;
+TriangleShape VertexStep::shape_floor(const FitCorner& from) const {
+  TriangleShape floor = rules_.shape.least();
   if (!rules_.shape.is_on()) return floor;
   for (std::size_t i = 0; i < star_.faces.size(); ++i) floor = rules_.shape.lowered(floor, from, ring(i), ring(i + 1));
   return floor;
 }
 
-bool VertexStep::fits(const FitCorner& place, double floor) const { return fan().fits(place, rules_.shape, floor); }
+bool VertexStep::fits(const FitCorner& place, const TriangleShape& floor) const {
+  return fan().fits(place, rules_.shape, floor);
+}
 
 /// Gives the place its height. Where that mends the star its energy counts as below the limit.
 VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorner& from, FitCorner place,

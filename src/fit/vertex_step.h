@@ -70,8 +70,8 @@ class VertexStep {
   FitCorner beside(const FitCorner& from, Point by) const;
   std::int32_t unit() const { return is_free() ? kFreeStep : kLatticeSteps; }
   bool is_free() const { return rules_.freedom == Freedom::kLattice; }
-  double shape_floor(const FitCorner& from) const;
-  bool fits(const FitCorner& place, double floor) const;
+  TriangleShape shape_floor(const FitCorner& from) const;
+  bool fits(const FitCorner& place, const TriangleShape& floor) const;
   Offer offer_at(const TriangleError& error, const FitCorner& from, FitCorner place, float limit) const;
   bool take(const TriangleError& error, Patch::Id v, const Offer& offer, float limit);
 

@@ -15,6 +15,7 @@
 #include "metric/lattice_metric.h"
 #include "refine/refinement.h"
 #include "shape/plan_metric.h"
+#include "shape/plan_shapes.h"
 #include "shape/shape_faults.h"
 #include "shape/shape_need.h"
 #include "shape/size_field.h"
@@ -28,15 +29,12 @@ using Location = Triangulation::Location;
 
 constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, that rounding of positions may take
 constexpr double kClosest = 1.0 / 32;    ///< of a sample: vertices for the sake of angles
+constexpr double kAnyLength = 0;         ///< of the halves of an edge that is too long
 constexpr double kFinestSize = 0.5;      ///< of a sample: sizes that grade reckons with
 constexpr double kSnapShare = 1.0 / 12;  ///< steps of the lattice over the distance to the nearest vertices
-constexpr double kAcute = 0.5;  ///< cos² of 45 degrees: corners between walls below that are acute, those of nodata not
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
-
-/// Whether the angle between u and v is less than the one whose cosine has this square (of 0 … 90 degrees).
-bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
 
 Band::Read aims_of(const SourceBounds& bounds) {
   return [&bounds](Point first, std::int32_t cols, std::int32_t rows, float* out) {
@@ -62,13 +60,13 @@ class ShapeRefiner {
         error_metric_(bound_rows_ ? LatticeMetric(samples_, heights_, *bound_rows_)
                                   : LatticeMetric(samples_, heights_, task.threshold, task.bounds)),
         fixed_(lattice.fixed),
-        cosine2_(squares_of(task.goals.min_angle + kShapeSlack).cosine),
+        shapes_(tin, metric_, squares_of(task.goals.min_angle + kShapeSlack).cosine),
         least_(kClosest * metric_.shorter_side()) {
     if (const auto& longest = task.goals.max_edge) {
       longest2_ = *longest * *longest * (1 - kShapeSlack);
       least_ = std::min(least_, *longest / 4);
     }
-    if (task.goals.min_edge) least_ = *task.goals.min_edge;
+    least_for_size_ = std::max(least_, task.goals.min_edge.value_or(0));
     const SquaredAngle half = squares_of((task.goals.min_angle + kShapeSlack) / 2);
     off_centre_ = 0.475 * std::sqrt(half.cosine / half.sine);
     if (lattice.are_samples()) tin_.scale(kLatticeSteps);
@@ -97,7 +95,6 @@ class ShapeRefiner {
       before = work_.insertions;
       if (auto done = rows_ ? sweep_bands() : sweep_all(); !done) return tl::unexpected(done.error());
     }
-    for (Triangle t = 0; t < tin_.triangle_count(); ++t) work_.forced += is_sharp(t) && is_forced(t);
     work_.samples_scanned = refinement_->work().samples_scanned;
     work_.triangles_scanned = refinement_->work().triangles_scanned;
     return work_;
@@ -171,12 +168,9 @@ class ShapeRefiner {
   std::array<Vertex, 3> corners_of(Triangle t) const {
     return {tin_.origin(3 * t), tin_.origin(3 * t + 1), tin_.origin(3 * t + 2)};
   }
-  double square(HalfEdge h) const {
-    return metric_.square(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))));
-  }
-  HalfEdge shortest(Triangle t) const {
-    return std::min({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return square(a) < square(b); });
-  }
+  double square(HalfEdge h) const { return shapes_.square(h); }
+  HalfEdge shortest(Triangle t) const { return shapes_.shortest(t); }
+  bool is_wall(HalfEdge h) const { return shapes_.is_wall(h); }
   /// Of samples, in which its centre lies.
   std::int32_t row_of(Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
@@ -194,18 +188,11 @@ class ShapeRefiner {
     }
     return excess;
   }
-  bool is_sharp(Triangle t) const {
-    if (tin_.is_outside(t) || task_.goals.min_angle == 0) return false;
-    const HalfEdge h = shortest(t);
-    return is_sharper(metric_.dot(tin_.point(opposite(h)), tin_.point(tin_.origin(h)),
-                                  tin_.point(tin_.origin(Triangulation::next(h)))),
-                      square(Triangulation::next(h)) * square(Triangulation::previous(h)), cosine2_);
-  }
   std::optional<ShapeFault> find_fault(Triangle t) const {
     if (tin_.is_outside(t)) return std::nullopt;
     const double most = std::max({excess(3 * t), excess(3 * t + 1), excess(3 * t + 2)});
     if (most > 1) return ShapeFault{true, most, t, corners_of(t)};
-    if (!is_sharp(t) || is_forced(t)) return std::nullopt;
+    if (task_.goals.min_angle == 0 || !shapes_.is_sharp(t) || shapes_.is_forced(t)) return std::nullopt;
     return ShapeFault{false, -square(shortest(t)), t, corners_of(t)};
   }
   void enqueue(Triangle t) {
@@ -220,44 +207,25 @@ class ShapeRefiner {
     }
   }
 
-  /// Nothing may cross it.
-  bool is_wall(HalfEdge h) const {
-    const HalfEdge g = tin_.twin(h);
-    return g == kNone || tin_.is_constrained(h) || tin_.is_outside(g / 3);
-  }
   /// A line with surface on both sides.
   bool is_line(HalfEdge h) const { return tin_.twin(h) != kNone && !tin_.is_outside(tin_.twin(h) / 3); }
-
-  /// Whether the small angle is the input's: between two walls, or over an edge that joins two walls of an acute
-  /// corner.
-  bool is_forced(Triangle t) const {
-    const HalfEdge h = shortest(t);
-    const auto is_corner = [&](HalfEdge side) {
-      return is_wall(Triangulation::next(side)) && is_wall(Triangulation::previous(side));
-    };
-    if (is_corner(h)) return true;
-    const HalfEdge g = tin_.twin(h);
-    if (is_wall(h) || !is_corner(g)) return false;
-    return is_sharper(metric_.dot(tin_.point(opposite(g)), tin_.point(tin_.origin(g)),
-                                  tin_.point(tin_.origin(Triangulation::next(g)))),
-                      square(Triangulation::next(g)) * square(Triangulation::previous(g)), kAcute);
-  }
 
   // ---- What is done about it ----------------------------------------------------------------------------------------
 
   bool shorten(Triangle t) {
     const HalfEdge h =
         std::max({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return excess(a) < excess(b); });
-    if (is_wall(h)) return split_wall(h, true);
-    return insert_near(t, std::numeric_limits<double>::infinity()) || split_free(h);
+    if (is_wall(h)) return split_wall(h, kAnyLength);
+    return insert_near(t, std::numeric_limits<double>::infinity(), least_for_size_) || split_free(h);
   }
   bool blunt(Triangle t) {
-    return insert_near(t, off_centre_ * std::sqrt(square(shortest(t)))) ||
-           insert_near(t, std::numeric_limits<double>::infinity());
+    return insert_near(t, off_centre_ * std::sqrt(square(shortest(t))), least_) ||
+           insert_near(t, std::numeric_limits<double>::infinity(), least_);
   }
 
-  /// Towards the centre of the triangle's circle, so far from its shortest edge at most. False if nothing was inserted.
-  bool insert_near(Triangle t, double reach) {
+  /// Towards the centre of the triangle's circle, so far from its shortest edge at most, and at least so far from all
+  /// other vertices. False if nothing was inserted.
+  bool insert_near(Triangle t, double reach, double least) {
     const HalfEdge h = shortest(t);
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
                 c = tin_.point(opposite(h));
@@ -271,7 +239,7 @@ class ShapeRefiner {
     const double radius = std::sqrt(ab2 / 4 + dot_of(up, up));
     const Vector from{(double(a.x) + b.x + c.x) / 3, (double(a.y) + b.y + c.y) / 3};
     const Point p = lattice_point_near(from, {a.x + at[0], a.y + at[1]}, radius / metric_.longer_side());
-    return insert_free(t, from, p);
+    return insert_free(t, from, p, least);
   }
 
   /// On the lattice and in the rectangle; on coarse steps where `radius`, in samples, is large.
@@ -356,18 +324,18 @@ class ShapeRefiner {
     return cavity;
   }
 
-  bool insert_free(Triangle t, const Vector& from, Point p) {
+  bool insert_free(Triangle t, const Vector& from, Point p, double least) {
     const Sight sight = look(t, from, p);
-    if (sight.wall != kNone) return split_wall(sight.wall, false);
+    if (sight.wall != kNone) return split_wall(sight.wall, least);
     if (sight.triangle == kNone) return false;
     const Location location = tin_.locate_in(p, sight.triangle);
     if (location.kind == Location::Kind::kOnVertex) return false;
-    if (location.kind == Location::Kind::kOnEdge && is_wall(location.edge)) return split_wall(location.edge, false);
+    if (location.kind == Location::Kind::kOnEdge && is_wall(location.edge)) return split_wall(location.edge, least);
     const Cavity cavity = cavity_of(p, location);
     for (const HalfEdge wall : cavity.encroached) {
-      if (split_wall(wall, false)) return true;
+      if (split_wall(wall, least)) return true;
     }
-    return cavity.nearest2 >= least_ * least_ && insert_with_height(p, location);
+    return cavity.nearest2 >= least * least && insert_with_height(p, location);
   }
 
   /// The raster's; in level triangles theirs, so that water is flat up to its shore.
@@ -419,10 +387,10 @@ class ShapeRefiner {
     return best;
   }
 
-  /// Halves it, about; for the sake of angles only if it is long enough for that. False if nothing was inserted.
-  bool split_wall(HalfEdge h, bool is_too_long) {
+  /// Halves it, about, if the halves are as long as that. False if nothing was inserted.
+  bool split_wall(HalfEdge h, double least) {
     if (tin_.is_outside(h / 3)) h = tin_.twin(h);
-    if (!is_too_long && square(h) < 4 * least_ * least_) return false;
+    if (square(h) < 4 * least * least) return false;
     const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
     const Point a = tin_.point(from), b = tin_.point(to);
     const double share = share_of_split(h);
@@ -436,7 +404,7 @@ class ShapeRefiner {
       for (const Vertex v : {from, to}) {
         if (const auto bent = lines_.find(v); bent != lines_.end()) line = bent->second;
       }
-      p = beside_line(line, h, share, is_too_long ? 0.25 : 0);
+      p = beside_line(line, h, share, least == kAnyLength ? 0.25 : 0);
     }
     if (!p) return false;
     if (!LatticeHeights::is_sample(*p) || !samples_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
@@ -547,7 +515,8 @@ class ShapeRefiner {
   LatticeHeights heights_;
   LatticeMetric error_metric_;
   std::vector<std::uint8_t> fixed_;  ///< as they were given
-  double cosine2_, least_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
+  PlanShapes shapes_;
+  double least_, least_for_size_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
   std::optional<Refinement> refinement_;
   std::optional<SizeField> sizes_;
   ShapeFaults bad_;

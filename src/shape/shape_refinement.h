@@ -57,7 +57,6 @@ struct ShapeTask {
 };
 
 struct ShapeWork {
-  std::uint64_t forced = 0;  ///< triangles with small angles in corners between lines or outline
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0;
 };
 
@@ -77,7 +76,16 @@ inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 /// Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right angles.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 
-/// Shapes of a finished mesh. `forced`: see ShapeWork.
-ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, std::uint64_t forced);
+/// What lines and outline cost the other goals.
+struct ShapeLosses {
+  std::uint64_t forced = 0;        ///< triangles with small angles in corners between lines or outline
+  std::uint64_t beside_lines = 0;  ///< other such triangles with a corner on lines or outline
+  std::uint64_t short_edges = 0;   ///< with an end on lines or outline
+};
+/// `steps`: of the lattice of `tin`, from a sample to the next.
+ShapeLosses count_losses(const Triangulation& tin, std::int32_t steps, const Frame& frame, const ShapeGoals& goals);
+
+/// Shapes of a finished mesh. `losses`: of the triangulation that it was made of.
+ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const ShapeLosses& losses);
 
 }  // namespace scarp

@@ -342,8 +342,7 @@ class BudgetSearch {
   Result<Simplified> run(SimplifyOptions options, double factor, double share, std::optional<Budget> room = {}) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, kCancelled);
     options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
-    constexpr std::uint64_t kBytesPerVertex = 48;
-    options.run.memory.taken += kBytesPerVertex * best_.mesh.vertex_count();
+    options.run.memory.taken += kMeshBytesPerVertex * best_.mesh.vertex_count();
     auto made = task_.run(options, {.factor = factor, .room = room});
     if (!made && has_mesh_ && !task_.insertion_stops) excuse(made.error());
     has_mesh_ = has_mesh_ || made.has_value();

@@ -1,12 +1,16 @@
 // What a pass did, as it is reported.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "metric/error_metric.h"
 #include "scarp/simplify.h"
 
 namespace scarp {
+
+/// A vertex of a finished mesh and its two triangles, kept beside the mesh at work.
+inline constexpr std::uint64_t kMeshBytesPerVertex = 48;
 
 inline Pass pass_of(std::string_view name, double seconds, const Work& work = {}) {
   return {name, seconds, work.samples_scanned, work.triangles_scanned, work.passes};

@@ -58,9 +58,12 @@ class EngineRun {
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
     if (auto inserted = insert_lines(result); !inserted) return tl::unexpected(inserted.error());
-    const auto shaped = fit_and_shape(result);
-    if (!shaped) return tl::unexpected(shaped.error());
+    if (auto shaped = fit_and_shape(result); !shaped) return tl::unexpected(shaped.error());
     if (auto kept = refinement_.check_border(); !kept) return tl::unexpected(kept.error());
+    const ShapeGoals& shape = options_.quality.shape;
+    const auto losses =
+        shape.any() ? count_losses(refinement_.piece().tin, refinement_.piece().lattice.steps, field_.frame, shape)
+                    : ShapeLosses{};
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !refinement_.piece().lattice.are_samples();
@@ -74,7 +77,7 @@ class EngineRun {
     }
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
     count_looser_outline(result);
-    if (options_.quality.shape.any()) result.shape = report_shapes(result.mesh, options_.quality.shape, shaped->forced);
+    if (shape.any()) result.shape = report_shapes(result.mesh, shape, losses);
     return result;
   }
 
@@ -157,14 +160,13 @@ class EngineRun {
     return {};
   }
 
-  Result<ShapeWork> fit_and_shape(Simplified& result) {
+  Result<void> fit_and_shape(Simplified& result) {
     if (!plan_.removes_last) {
-      if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+      if (auto fitted = remove_vertices(result); !fitted) return fitted;
     }
     auto shaped = add_for_shapes(result);
     if (!shaped || !plan_.removes_last) return shaped;
-    if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
-    return shaped;
+    return remove_vertices(result);
   }
 
   /// Vertices that the bound can do without go.
@@ -207,8 +209,8 @@ class EngineRun {
   }
 
   /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
-  Result<ShapeWork> add_for_shapes(Simplified& result) {
-    if (!options_.quality.shape.any()) return ShapeWork{};
+  Result<void> add_for_shapes(Simplified& result) {
+    if (!options_.quality.shape.any()) return {};
     const auto start = Clock::now();
     refinement_.forget();
     ShapeTask task{options_.quality.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
@@ -228,12 +230,12 @@ class EngineRun {
       return plan_.memory.check_mesh(rows, count, now / (before + (now - before) / share));
     };
     task.foresee = [&](double triangles) { return check_need(triangles, plan_.memory, rows); };
-    auto work = refine_shapes(raster_, refinement_.piece().tin, refinement_.piece().lattice, task);
-    if (!work) return work;
+    const auto work = refine_shapes(raster_, refinement_.piece().tin, refinement_.piece().lattice, task);
+    if (!work) return tl::unexpected(work.error());
     note_vertices(result);
     result.passes.push_back(
         {"shape", seconds_since(start), work->samples_scanned, work->triangles_scanned, work->insertions});
-    return work;
+    return {};
   }
 
   /// After fitting.

@@ -19,6 +19,7 @@
 #include "simplify/budget_task.h"
 #include "simplify/checks.h"
 #include "simplify/once.h"
+#include "simplify/pass_work.h"
 #include "simplify/squares_search.h"
 
 namespace scarp {
@@ -41,9 +42,30 @@ Error name_budget(const SimplifyOptions& options, Error error) {
   return error;
 }
 
+/// A mesh with few vertices may need more than another for the angles and lengths that are asked for. So with goals of
+/// shape the next lower effort has its try, too.
+Result<Simplified> simplify_towards(const HeightField& field, const SimplifyOptions& options) {
+  auto made = simplify_once(field, options);
+  const Effort effort = options.quality.effort;
+  const bool has_lower = effort == Effort::kHigh || effort == Effort::kMax;
+  if (!made || made->is_cut_short || !has_lower || !options.quality.shape.any()) return made;
+  SimplifyOptions lower = options;
+  lower.quality.effort = effort == Effort::kMax ? Effort::kHigh : Effort::kNormal;
+  lower.run.memory.taken += kMeshBytesPerVertex * made->mesh.vertex_count();
+  auto other = simplify_towards(field, lower);
+  if (!other) return other.error().kind == ErrorKind::kCancelled ? std::move(other) : std::move(made);
+  if (other->mesh.triangle_count() < made->mesh.triangle_count()) std::swap(*made, *other);
+  Pass search{"search", other->seconds_refine + other->seconds_measure};
+  add_work(*other, search);
+  made->passes.insert(made->passes.begin(), search);
+  made->seconds_refine += search.seconds;
+  made->effort = effort;
+  return made;
+}
+
 /// REQUIRES: a chosen effort.
 Result<Simplified> make_mesh(const HeightField& field, const SimplifyOptions& options) {
-  if (!has_budget(options)) return simplify_once(field, options);
+  if (!has_budget(options)) return simplify_towards(field, options);
   auto made = simplify_within_budget(field, options);
   if (!made) return tl::unexpected(name_budget(options, std::move(made.error())));
   return made;

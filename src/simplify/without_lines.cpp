@@ -36,6 +36,7 @@ HeightField FieldLines::apply(const HeightField& field) const { return field; }
 Result<ShapeWork> refine_shapes(const Raster&, Triangulation&, VertexLattice&, const ShapeTask&) { return refuse(); }
 Result<void> check_need(double, const MemoryBudget&, std::uint64_t) { return refuse(); }
 std::optional<ShapeRule> shape_rule(const ShapeGoals&, const Frame&) { return std::nullopt; }
-ShapeReport report_shapes(const Mesh&, const ShapeGoals&, std::uint64_t) { return {}; }
+ShapeLosses count_losses(const Triangulation&, std::int32_t, const Frame&, const ShapeGoals&) { return {}; }
+ShapeReport report_shapes(const Mesh&, const ShapeGoals&, const ShapeLosses&) { return {}; }
 
 }  // namespace scarp

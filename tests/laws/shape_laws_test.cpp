@@ -152,6 +152,8 @@ RC_GTEST_PROP(shape, angles_that_theory_grants_hold_without_an_exception, ()) {
   view.frame = any_frame(field.rows);
   SimplifyOptions options = any_run();
   options.quality.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
+  // What comes after angles costs none.
+  if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_edge = *rc::gen::element(0.5, 2.0, 5.0);
   const Simplified result = simplified(view, options);
   // Corners of nodata have 45 degrees at least where samples are squares.
   const bool has_squares = view.frame.kind == Frame::Kind::kGrid && view.frame.affine[1] == -view.frame.affine[5] &&
@@ -262,6 +264,55 @@ std::uint64_t count_shorter(const Mesh& mesh, double least) {
     if (length(mesh, v, w) < least) edges.insert({std::min(v, w), std::max(v, w)});
   });
   return edges.size();
+}
+
+/// Any goals together, and lines.
+void ask_anything(const Field& field, SimplifyOptions& options) {
+  ShapeGoals& goals = options.quality.shape;
+  goals.min_angle = *rc::gen::element(0.0, 10.0, 20.0, 25.0, 30.0);
+  goals.min_edge = *rc::gen::element<std::optional<double>>(std::nullopt, 0.5, 2.0, 3.0);
+  goals.max_edge = *rc::gen::element<std::optional<double>>(std::nullopt, 6.0, 9.0);
+  goals.grade = *rc::gen::element<std::optional<double>>(std::nullopt, std::nullopt, 0.3);
+  RC_PRE(goals.any());
+  if (!*rc::gen::arbitrary<bool>()) return;
+  options.features.breaklines.lines = any_two_lines(field);
+  options.features.breaklines.affine = {0, 1, 0, 0, 0, 1};
+}
+
+RC_GTEST_PROP(shape, goals_that_fight_yield_by_their_rank, ()) {
+  const Field field = testing::any_field(16);
+  SimplifyOptions options = any_run();
+  ask_anything(field, options);
+  options.output.float32_positions = false;
+  const Simplified result = simplified(field.view(), options);
+  const ShapeGoals& goals = options.quality.shape;
+  const ShapeReport& shape = *result.shape;
+  RC_ASSERT(!goals.max_edge || longest_edge(result.mesh) <= *goals.max_edge);
+  const double least = std::max(longer_side(grid_frame(field.rows)) / 2, goals.min_edge.value_or(0));
+  RC_ASSERT(!goals.grade || worst_growth(result.mesh, *goals.grade, least) <= 1);
+  RC_ASSERT(count_below(result.mesh, goals.min_angle) <= shape.below);
+  RC_ASSERT(shape.below <= count_below(result.mesh, goals.min_angle + 2e-4));
+  RC_ASSERT(shape.shorter == (goals.min_edge ? count_shorter(result.mesh, *goals.min_edge) : 0));
+  RC_ASSERT(shape.forced + shape.below_beside_lines <= shape.below);
+  RC_ASSERT(shape.shorter_beside_lines <= shape.shorter);
+  if (options.features.breaklines.lines.empty() && goals.min_angle <= 20) RC_ASSERT(shape.below == 0u);
+}
+
+RC_GTEST_PROP(shape, more_effort_never_takes_more_triangles, ()) {
+  const Field field = testing::any_field(16);
+  SimplifyOptions options = any_run();
+  ask_anything(field, options);
+  std::size_t before = std::numeric_limits<std::size_t>::max();
+  for (const Effort effort : {Effort::kNormal, Effort::kHigh, Effort::kMax}) {
+    options.quality.effort = effort;
+    const auto result = simplify(field.view(), options);
+    RC_ASSERT(result.has_value() || result.error().kind == ErrorKind::kInput);
+    RC_PRE(result.has_value());
+    RC_ASSERT(result->effort == effort);
+    RC_ASSERT(result->mesh.triangle_count() <= before);
+    before = result->mesh.triangle_count();
+    RC_ASSERT(measure(field.view(), result->mesh)->max_error <= *options.goals.max_error || !result->edits.empty());
+  }
 }
 
 RC_GTEST_PROP(shape, edges_that_are_too_short_are_counted_and_cost_no_promise, ()) {

@@ -12,6 +12,7 @@
 #include "inputs/nodata_warnings.h"
 #include "inputs/waters.h"
 #include "options/conflicts.h"
+#include "options/shape_options.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
 #include "reports/verdict.h"
@@ -363,6 +364,7 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
   warn_of_far_lines(outcome.simplified, outcome.asked.value_or(outcome.simplified.lines_for), outcome.warnings);
   warn_of_missing_walls(given.cliff, fitted.walls, outcome.warnings);
   warn_of_missing_ridges(given.ridges, fitted.ridges, outcome.warnings);
+  warn_of_shapes(options.quality.shape, outcome.simplified, outcome.warnings);
   if (fitted.given_lines() > 0 && outcome.simplified.lines_inserted == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",

@@ -201,8 +201,9 @@ constexpr OptionRow kLineRows[] = {
      .unit = "degrees",
      .by_default = "0",
      .range = "0 to 33",
-     .help = "Smallest angle of a triangle, seen from above, in degrees. Smaller angles that sharp corners force are "
-             "left and counted."},
+     .help =
+         "Smallest angle of a triangle, seen from above, in degrees. The error bound, lines and outline come first: "
+         "smaller angles that they leave no room to mend are counted, with a warning."},
     {.id = kMaxEdge,
      .name = "--max-edge",
      .commands = kSimplify,
@@ -211,7 +212,7 @@ constexpr OptionRow kLineRows[] = {
      .value = "LENGTH",
      .unit = "units of x and y",
      .range = "above 0",
-     .help = "Longest edge, seen from above, in the units of x and y of the mesh."},
+     .help = "Longest edge, seen from above, in the units of x and y of the mesh. Always kept."},
     {.id = kMinEdge,
      .name = "--min-edge",
      .commands = kSimplify,
@@ -220,8 +221,8 @@ constexpr OptionRow kLineRows[] = {
      .value = "LENGTH",
      .unit = "units of x and y",
      .range = "above 0, at most half of --max-edge",
-     .help = "Shortest edge, seen from above, in the units of x and y of the mesh. The error bound, outlines and lines "
-             "come first: shorter edges that they need are left and counted."},
+     .help = "Shortest edge, seen from above, in the units of x and y of the mesh. All other goals come first: shorter "
+             "edges that they need are left and counted, with a warning."},
     {.id = kGrade,
      .name = "--grade",
      .commands = kSimplify,
@@ -230,7 +231,7 @@ constexpr OptionRow kLineRows[] = {
      .value = "G",
      .range = "above 0",
      .help = "How fast edges may grow: none is longer than 2 (s + G d), d from its far end to an edge of length s. "
-             "0.2 is moderate."},
+             "0.2 is moderate. Always kept."},
 };
 
 }  // namespace

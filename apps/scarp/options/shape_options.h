@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "options/options.h"
 #include "reports/json.h"
@@ -29,5 +30,7 @@ struct ShapeArguments {
 Json describe_shape(const ShapeGoals& goals, const Simplified& simplified);
 /// Of the summary; empty where nothing was asked.
 std::string shape_line(const ShapeGoals& goals, const Simplified& simplified);
+/// Of the goals that yielded to others, in numbers.
+void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

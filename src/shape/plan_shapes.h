@@ -1,0 +1,66 @@
+// Triangles of a triangulation as they look in the plan of its mesh: edges, walls, sharp angles.
+#pragma once
+
+#include <algorithm>
+
+#include "shape/plan_metric.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+/// Whether the angle between two vectors is less than the one whose cosine has this square (of 0 … 90 degrees).
+/// `squares`: the product of the squares of their lengths.
+inline bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
+
+/// cos² of 45 degrees: corners between walls below that are acute, those of nodata not.
+inline constexpr double kAcute = 0.5;
+
+class PlanShapes {
+ public:
+  /// Both stay alive. `cosine2`: of the smallest angle, squared.
+  PlanShapes(const Triangulation& tin, const PlanMetric& metric, double cosine2)
+      : tin_(tin), metric_(metric), cosine2_(cosine2) {}
+
+  double square(HalfEdge h) const {
+    return metric_.square(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))));
+  }
+  HalfEdge shortest(Triangle t) const {
+    return std::min({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return square(a) < square(b); });
+  }
+  /// Nothing may cross it.
+  bool is_wall(HalfEdge h) const {
+    const HalfEdge g = tin_.twin(h);
+    return g == kNone || tin_.is_constrained(h) || tin_.is_outside(g / 3);
+  }
+  /// Whether an angle of the surface is too small.
+  bool is_sharp(Triangle t) const {
+    if (tin_.is_outside(t)) return false;
+    const HalfEdge h = shortest(t);
+    return is_sharper(dot_over(h), square(Triangulation::next(h)) * square(Triangulation::previous(h)), cosine2_);
+  }
+  /// Whether the small angle is the input's: between two walls, or over an edge that joins two walls of an acute
+  /// corner.
+  bool is_forced(Triangle t) const {
+    const HalfEdge h = shortest(t);
+    const auto is_corner = [&](HalfEdge side) {
+      return is_wall(Triangulation::next(side)) && is_wall(Triangulation::previous(side));
+    };
+    if (is_corner(h)) return true;
+    const HalfEdge g = tin_.twin(h);
+    if (is_wall(h) || !is_corner(g)) return false;
+    return is_sharper(dot_over(g), square(Triangulation::next(g)) * square(Triangulation::previous(g)), kAcute);
+  }
+
+ private:
+  /// Of the vectors from the opposite corner to the ends.
+  double dot_over(HalfEdge h) const {
+    return metric_.dot(tin_.point(tin_.origin(Triangulation::previous(h))), tin_.point(tin_.origin(h)),
+                       tin_.point(tin_.origin(Triangulation::next(h))));
+  }
+
+  const Triangulation& tin_;
+  const PlanMetric& metric_;
+  double cosine2_;
+};
+
+}  // namespace scarp
