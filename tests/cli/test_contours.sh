@@ -64,7 +64,7 @@ least=$(sed -n 's/.*ask for at least \([^,]*\), or split.*/\1/p' "$logs/err")
 [ -n "$least" ] || fail "no error that can be kept is named"
 succeeds "$scarp" simplify degrees.gpkg exact.obj -e "$least"
 gdal_contour -q -amin ELEV -p -i 200 dem.tif bands.gpkg -f GPKG
-refuses 2 "holds no layer of points or lines" "$scarp" simplify bands.gpkg x.glb -e 5
+refuses 2 "holds polygons, not points or lines" "$scarp" simplify bands.gpkg x.glb -e 5
 refuses 2 "not a point or a line: give its contours as lines" "$scarp" simplify bands.gpkg x.glb -e 5 --layer contour
 refuses 1 "--max-triangles cannot be combined with lines, and contours.gpkg holds them" \
   "$scarp" simplify contours.gpkg x.glb -t 1000

@@ -41,7 +41,7 @@ gzip -k grid.asc
 gdal_translate -q -of PNG -scale 200 1100 0 65535 -ot UInt16 "$dem" picture.png
 rm -f ./*.aux.xml
 before=$(ls)
-refuses 2 "area.gml: holds no layer of points" "$scarp" info area.gml
+refuses 2 "area.gml: holds polygons, not points or lines" "$scarp" info area.gml
 try "$scarp" simplify "$dem" "$logs/o.glb" -e 50 --cutline area.gml --mask-outside --overwrite
 [ "$code" != 70 ] || fail "exit code 70 with a cutline in GML"
 for file in grid.asc /vsigzip/grid.asc.gz picture.png; do
