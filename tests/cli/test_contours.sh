@@ -65,7 +65,7 @@ least=$(sed -n 's/.*ask for at least \([^,]*\), or split.*/\1/p' "$logs/err")
 succeeds "$scarp" simplify degrees.gpkg exact.obj -e "$least"
 gdal_contour -q -amin ELEV -p -i 200 dem.tif bands.gpkg -f GPKG
 refuses 2 "holds polygons, not points or lines" "$scarp" simplify bands.gpkg x.glb -e 5
-refuses 2 "not a point or a line: give its contours as lines" "$scarp" simplify bands.gpkg x.glb -e 5 --layer contour
+refuses 2 "not a point or a line: if their rings are contours, make lines of them first" "$scarp" simplify bands.gpkg x.glb -e 5 --layer contour
 refuses 1 "--max-triangles cannot be combined with lines, and contours.gpkg holds them" \
   "$scarp" simplify contours.gpkg x.glb -t 1000
 [ ! -e x.glb ] || fail "a refused run left a file"
