@@ -541,14 +541,14 @@ RC_GTEST_PROP(collapse, makes_one_vertex_of_two_within_the_bound_the_range_and_t
   const MoveRules rules{Freedom::kLattice, shape, lowest, highest};
   Repair repair(patch, loose, {6, 2.5, true, true, true}, rules);
   const auto thinnest = [&] {
-    double least = 1;
+    TriangleShape least{1, 0};
     for (Patch::Id f = 0; f < patch.face_count(); ++f) {
       const auto& [a, b, c] = patch.face(f).corners;
       if (a != kNone) least = shape.lowered(least, patch.at(a), patch.at(b), patch.at(c));
     }
     return least;
   };
-  const double thinnest_before = thinnest();
+  const TriangleShape thinnest_before = thinnest();
   const Picture before(patch);
   const auto counts = Collapse(patch, loose, rules, repair).run([](Patch::Id) { return true; }, {});
   std::uint64_t removed = 0;
@@ -558,7 +558,7 @@ RC_GTEST_PROP(collapse, makes_one_vertex_of_two_within_the_bound_the_range_and_t
       RC_ASSERT(!patch.is_locked(v) && lowest <= patch.at(v).z && patch.at(v).z <= highest);
   }
   RC_ASSERT(removed == counts.done);
-  RC_ASSERT(thinnest() >= std::min(shape.floor, thinnest_before));
+  RC_ASSERT(thinnest().keeps(shape.least().worse_of(thinnest_before)));
   RC_ASSERT(verify(patch) == "");
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     const auto& [a, b, c] = patch.face(f).corners;

@@ -172,10 +172,9 @@ std::string find_difference(const Tile& first, const Tile& tile) {
   const double rows = std::ceil(tile.rows * tile.gt[5] / dy + kMostOffGrid);
   const auto [low, high] = std::minmax({north, north + rows * dy});
   const std::string to_grid =
-      warp_onto(first,
-                fmt::format("-tr {:.17g} {:.17g} -te {:.17g} {:.17g} {:.17g} {:.17g}", std::abs(dx), std::abs(dy),
-                            std::min(west, west + cols * dx), low, std::max(west, west + cols * dx), high),
-                tile);
+      gdalwarp(fmt::format("-tr {:.17g} {:.17g} -te {:.17g} {:.17g} {:.17g} {:.17g} -r bilinear", std::abs(dx),
+                           std::abs(dy), std::min(west, west + cols * dx), low, std::max(west, west + cols * dx), high),
+               tile);
   if (size > kMostOffGrid)
     return fmt::format("has cells of {:.10g} x {:.10g}, and {} of {:.10g} x {:.10g}: bring it to that grid first {}",
                        std::abs(tile.gt[1]), std::abs(tile.gt[5]), first.path, std::abs(dx), std::abs(dy), to_grid);
