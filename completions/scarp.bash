@@ -22,32 +22,33 @@ _scarp() {
       "simplify --detect-flats" | "simplify --min-angle" | "simplify --max-edge" | "simplify --min-edge" | \
       "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | "simplify -j" | \
       "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | \
-      "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | "measure --fail-above" | \
-      "measure --band" | "measure --te" | "measure --resolution" | "measure --z-scale" | "measure --z-offset" | \
-      "measure --z-unit" | "measure --cell-size" | "measure --nodata" | "measure --falloff" | "measure --inset" | \
-      "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
-      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "view --band" | "view --te" | \
-      "view --resolution" | "view --z-scale" | "view --z-offset" | "view --z-unit" | "view --cell-size" | \
-      "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | "tile --z-offset" | \
-      "tile --z-unit" | "tile --cell-size" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | \
-      "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | "tile --fill-distance" | \
-      "tile --background" | "tile --water-percentile" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
-      "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | \
-      "tile-plan --z-unit" | "tile-plan --cell-size" | "tile-plan --ellipsoid" | "tile-plan --only" | \
-      "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | \
-      "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --fill-distance" | "tile-plan --background" | \
-      "tile-plan --water-percentile" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
-      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "tile-check --band" | \
-      "tile-check --te" | "tile-check --resolution" | "tile-check --z-scale" | "tile-check --z-offset" | \
-      "tile-check --z-unit" | "tile-check --cell-size" | "tile-check --ellipsoid" | "tile-check --nodata" | \
-      "tile-check --fill-distance" | "tile-check --background" | "tile-check -j" | "tile-check --num-threads" | \
-      "serve --band" | "serve --te" | "serve --resolution" | "serve --z-scale" | "serve --z-offset" | \
-      "serve --z-unit" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | "serve --quality" | \
-      "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | "serve --fill-distance" | "serve --background" | \
-      "serve --water-percentile" | "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | \
-      "info --band" | "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --z-unit" | \
-      "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | "generate --seed" | \
-      "generate --range" | "generate --size")
+      "simplify --z-field" | "simplify --columns" | "simplify --shape-threshold" | "simplify --supersample" | \
+      "measure --fail-above" | "measure --band" | "measure --te" | "measure --resolution" | "measure --z-scale" | \
+      "measure --z-offset" | "measure --z-unit" | "measure --cell-size" | "measure --nodata" | "measure --falloff" | \
+      "measure --inset" | "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
+      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "measure --columns" | "view --band" | \
+      "view --te" | "view --resolution" | "view --z-scale" | "view --z-offset" | "view --z-unit" | \
+      "view --cell-size" | "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
+      "tile --z-offset" | "tile --z-unit" | "tile --cell-size" | "tile --ellipsoid" | "tile --only" | "tile -e" | \
+      "tile --max-error" | "tile --quality" | "tile --zoom" | "tile --max-tile-bytes" | "tile --nodata" | \
+      "tile --fill-distance" | "tile --background" | "tile --water-percentile" | "tile -j" | "tile --num-threads" | \
+      "tile-plan --band" | "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | \
+      "tile-plan --z-offset" | "tile-plan --z-unit" | "tile-plan --cell-size" | "tile-plan --ellipsoid" | \
+      "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | \
+      "tile-plan --zoom" | "tile-plan --max-tile-bytes" | "tile-plan --nodata" | "tile-plan --fill-distance" | \
+      "tile-plan --background" | "tile-plan --water-percentile" | "tile-run --shard" | "tile-run --only" | \
+      "tile-run --memory" | "tile-run -j" | "tile-run --num-threads" | "tile-finish -j" | \
+      "tile-finish --num-threads" | "tile-check --band" | "tile-check --te" | "tile-check --resolution" | \
+      "tile-check --z-scale" | "tile-check --z-offset" | "tile-check --z-unit" | "tile-check --cell-size" | \
+      "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --fill-distance" | "tile-check --background" | \
+      "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | "serve --resolution" | \
+      "serve --z-scale" | "serve --z-offset" | "serve --z-unit" | "serve --ellipsoid" | "serve -e" | \
+      "serve --max-error" | "serve --quality" | "serve --zoom" | "serve --max-tile-bytes" | "serve --nodata" | \
+      "serve --fill-distance" | "serve --background" | "serve --water-percentile" | "serve --memory" | \
+      "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | \
+      "info --z-scale" | "info --z-offset" | "info --z-unit" | "info --cell-size" | "info --nodata" | \
+      "info --layer" | "info --z-field" | "info --columns" | "generate --seed" | "generate --range" | \
+      "generate --size")
       return
       ;;
     "simplify --objective")
@@ -203,8 +204,9 @@ _scarp() {
         options+=' --materials --material-field --node-strings --water --water-percentile --detect-flats --rivers --min-angle'
         options+=' --max-edge --min-edge --grade --base --solid --split --memory --num-threads'
         options+=' --quiet --timing --json-progress --help --help-all --version --texture --texture-weight'
-        options+=' --image --norm --channel-weights --points --duplicates --layer --z-field --order'
-        options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --image --norm --channel-weights --points --duplicates --layer --z-field --columns'
+        options+=' --order --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold'
+        options+=' --supersample'
         ;;
       measure)
         options+=' --fail-above --band --te --resolution --decode --z-scale --z-offset --z-unit'
@@ -212,6 +214,7 @@ _scarp() {
         options+=' --mask --tolerance --roi --falloff --script --cutline --inset --mask-outside'
         options+=' --memory --num-threads --quiet --json-progress --help --help-all --version --texture'
         options+=' --texture-weight --image --norm --channel-weights --points --duplicates --layer --z-field'
+        options+=' --columns'
         ;;
       view)
         options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --cell-size'
@@ -257,7 +260,7 @@ _scarp() {
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --cell-size'
         options+=' --crs --no-suggest --json --nodata --quiet --json-progress --help --help-all'
-        options+=' --version --points --layer --z-field'
+        options+=' --version --points --layer --z-field --columns'
         ;;
       generate)
         options+=' --seed --range --size --of --overwrite --quiet --help --help-all'
