@@ -11,8 +11,8 @@ import json
 import os
 import subprocess
 
-SOURCE = -84.24667, 36.3625  # longitude, latitude
-POINTS = 106                 # of the line, a sample apart
+SOURCE = -84.2830, 36.3980  # longitude, latitude
+POINTS = 170  # of the line, a sample apart
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 text = subprocess.run(["gdal_translate", "-q", "-of", "XYZ", "data/jacksboro_fault.tif", "/vsistdout/"], check=True,

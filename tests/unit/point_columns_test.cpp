@@ -74,8 +74,9 @@ std::string survey(const std::string& pattern, const std::string& header = "", i
 }
 
 TEST_F(PointColumns, a_first_column_that_counts_is_a_number) {
-  for (const char* pattern : {"n,N,E,H", "n,N,E,H,tree", "n,E,N,H", "n N E H", "n\tN\tE\tH\ttop of kerb", "n;N;E;H;tree",
-                              "@,N,E,H", "@ E N H", "@;N;E;H;x", "n,tree,E,N,H", "n,N,E,H,", "\"n\",N,E,H,\"a, b\""})
+  for (const char* pattern :
+       {"n,N,E,H", "n,N,E,H,tree", "n,E,N,H", "n N E H", "n\tN\tE\tH\ttop of kerb", "n;N;E;H;tree", "@,N,E,H",
+        "@ E N H", "@;N;E;H;x", "n,tree,E,N,H", "n,N,E,H,", "\"n\",N,E,H,\"a, b\""})
     expect_survey(survey(pattern));
   for (const int step : {1, 5, -1, 100}) {
     expect_survey(survey("n,N,E,H", "", 1001, step));
@@ -123,6 +124,9 @@ TEST_F(PointColumns, headers_name_columns_in_several_languages) {
   expect_survey(survey("H;code;E;n;N", "Hoehe;Code;Ost;Nr;Nord\n"));
   EXPECT_EQ(read("lat,lon,alt\n48.5,11.5,520\n48.6,11.6,560\n").y, (std::vector<double>{48.5, 48.6}));
   EXPECT_TRUE(contains(read(survey("N,E,H", "x,y,z\n")).warnings.at(0), "if x is the northing here"));
+  const std::string geodetic = "Y;X;Z\n3501234,5;5401234,5;87\n3501244,5;5401240,5;88\n";
+  EXPECT_TRUE(contains(read(geodetic).warnings.at(0), "--columns enz"));
+  EXPECT_TRUE(read(geodetic, "enz").warnings.empty());
   EXPECT_TRUE(contains(refuse("a,b,c\n1,2,3\n"), "--columns"));
   EXPECT_EQ(read("a,b,c\n1,2,3\n", "yxz").x, (std::vector<double>{2}));
 }

@@ -151,19 +151,6 @@ void take_names(std::string_view line, char separator, PointColumns& columns) {
   for (const std::string_view field : fields_of(line, separator)) columns.names.emplace_back(field);
 }
 
-/// Headers that say x and y where geodesists write the northing first.
-void warn_of_turned_names(const Rows& rows, PointColumns& columns) {
-  if (std::max(columns.at[0], columns.at[1]) >= rows.columns.size()) return;
-  const bool are_turned =
-      Rows::is_northing(rows.columns[columns.at[0]]) && Rows::is_easting(rows.columns[columns.at[1]]);
-  const auto is = [&](std::size_t axis, const char* word) { return lowered(columns.names[columns.at[axis]]) == word; };
-  if (!are_turned || !is(0, "x") || !is(1, "y")) return;
-  columns.warnings.push_back(fmt::format(
-      "x lies at {:.6g} and y at {:.6g}, as northing and easting do on most grids: if x is the northing here, name the "
-      "columns with --columns",
-      rows.columns[columns.at[0]].low, rows.columns[columns.at[1]].low));
-}
-
 /// The option's value for columns that have these places.
 std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool has_number) {
   std::string text(std::min(count, kMostColumns), '-');
@@ -171,6 +158,20 @@ std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool ha
   for (std::size_t axis = 0; axis < at.size(); ++axis) text[at[axis]] = "enz"[axis];
   if (has_number && text[0] == '-') text[0] = 'p';
   return text;
+}
+
+/// Headers that say x and y where geodesists call the northing x: it is the larger one, or y stands before it.
+void warn_of_turned_names(const Rows& rows, PointColumns& columns) {
+  const auto [x, y, height] = columns.at;
+  if (std::max(x, y) >= rows.columns.size()) return;
+  const ColumnFacts &across = rows.columns[x], &up = rows.columns[y];
+  if (lowered(columns.names[x]) != "x" || lowered(columns.names[y]) != "y") return;
+  const bool are_on_map = across.low >= 1e5 && up.low >= 1e5;
+  if (!(Rows::is_northing(across) && Rows::is_easting(up)) && !(are_on_map && y < x)) return;
+  columns.warnings.push_back(
+      fmt::format("x begins at {:.9g} and y at {:.9g}: if x is the northing here, as on many geodetic grids, name the "
+                  "columns with --columns {}",
+                  across.low, up.low, option_for(rows.columns.size(), {y, x, height}, false)));
 }
 
 bool are_degrees(const ColumnFacts& a, const ColumnFacts& b, const ColumnFacts& height) {

@@ -47,8 +47,10 @@ tl::unexpected<Error> explain(std::string_view line, const PointColumns& columns
                       "with semicolons, or write numbers with a decimal point",
                       name, number, in_quotes(decimal_comma)));
     if (columns.at[k] >= fields.size())
-      return fail(ErrorKind::kInput,
-                  fmt::format("{}: line {} has {} columns, so that {} is missing", name, number, fields.size(), axis));
+      return fail(
+          ErrorKind::kInput,
+          fmt::format("{}: line {} has {} {}, so that {} is missing: put # in front of lines that hold no point", name,
+                      number, fields.size(), fields.size() == 1 ? "column" : "columns", axis));
     if (value && std::isfinite(*value)) continue;
     const std::string_view field = fields[columns.at[k]];
     const char* fault = field.empty() ? "empty" : value ? ", which is no finite number" : ", which is no number";
