@@ -116,7 +116,7 @@ TEST_F(RasterFormats, HgtPlainAndZipped) {
   }
   ASSERT_TRUE(run(zip + "many.zip --format=zip N41E001.hgt source source.hdr"));
   EXPECT_TRUE(
-      testing::contains(testing::read_error(scratch_.file("many.zip")).message, "rasters; name one of them: /vsizip/"));
+      testing::contains(testing::read_error(scratch_.file("many.zip")).message, "rasters; name one of them: '/vsizip/"));
   testing::write_text(scratch_.file("cut.zip"), testing::read_text(scratch_.file("tile.zip")).substr(0, 300));
   EXPECT_TRUE(testing::contains(testing::read_error(scratch_.file("cut.zip")).message, "the zip is damaged"));
   testing::write_text(scratch_.file("N41E002.hgt"), testing::read_text(scratch_.file("N41E001.hgt")).substr(0, 99999));

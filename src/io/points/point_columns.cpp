@@ -133,7 +133,12 @@ bool read_names(const std::string& z_field, PointColumns& columns, std::size_t& 
     for (std::size_t k = 0; k < columns.names.size(); ++k) {
       const std::string& name = columns.names[k];
       if (is_named ? lowered(name) != lowered(z_field) : role_of(name) != kAxes[axis]) continue;
-      if (!best || (!is_named && rank_of(name) < rank_of(columns.names[*best]))) best = k;
+      // Of two names alike the first column is the one that counts: "n, UTM_N, UTM_E".
+      const auto is_better = [&] {
+        const std::size_t rank = rank_of(name), least = rank_of(columns.names[*best]);
+        return rank < least || (rank == least && *best == 0 && axis < 2);
+      };
+      if (!best || (!is_named && is_better())) best = k;
       if (axis == 2 && !is_named) columns.heights.push_back(k);
     }
     missing = axis;
