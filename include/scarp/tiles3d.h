@@ -56,7 +56,8 @@ struct EarthTile {
   std::vector<std::array<double, 3>> normals;           ///< of unit length
   std::vector<std::array<double, 2>> places;            ///< 0 … 1 of the tile from west, from north
   std::vector<std::uint32_t> triangles;                 ///< counter-clockwise seen from outside
-  std::vector<std::uint32_t> west, south, east, north;  ///< vertices on the edges, by place
+  /// Vertices on the edges, clockwise around the tile seen from outside, as CesiumJS takes them.
+  std::vector<std::uint32_t> west, north, east, south;
   TileFacts facts;
 };
 
@@ -70,8 +71,8 @@ struct TileGlbOptions {
   std::optional<TileTexture> texture = std::nullopt;  ///< DEFAULT: none, the ground has one colour.
 };
 
-/// The bytes of a GLB file: one node with a matrix, one mesh of one primitive, and CESIUM_tile_edges. Its y is up, as
-/// glTF demands: clients of 3D Tiles turn it back. A texture's coordinates are whole 65535ths. asset.extras hold the
+/// The bytes of a GLB file: one node with a matrix, one mesh of one primitive, and CESIUM_tile_edges, clockwise. Its y
+/// is up, as glTF demands: clients of 3D Tiles turn it back. A texture's coordinates are whole 65535ths. asset.extras hold the
 /// facts. Fails as encode_glb().
 Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options = {});
 
@@ -85,7 +86,7 @@ struct TileGlb {
   std::vector<float> uvs;                        ///< empty, or two a vertex: its place in `image`, from the top left
   GlbImage image;                                ///< empty without one in the file
   std::vector<std::uint32_t> triangles;
-  std::vector<std::uint32_t> west, south, east, north;  ///< of CESIUM_tile_edges
+  std::vector<std::uint32_t> west, south, east, north;  ///< of CESIUM_tile_edges, in its order
   double step = 0;  ///< metres between the positions that the file can tell apart, the most; 0 for single precision
   TileFacts facts;
 };

@@ -74,6 +74,20 @@ bool faces_down(const ClientTile& tile, std::size_t k) {
   return is_turned(area);
 }
 
+/// Whether the list of an edge goes clockwise around the tile, as clients take it; places are as exact as positions.
+bool is_clockwise(const ClientTile& tile, std::size_t side) {
+  const std::vector<std::uint32_t>& listed = tile.edges[side];
+  const std::vector<double>& along = side == kWest || side == kEast ? tile.v : tile.u;
+  const double sign = side == kWest || side == kNorth ? 1 : -1;
+  // An edge at a pole has no length, and no order.
+  const double metres = length(tile.places[listed.back()] - tile.places[listed.front()]);
+  const double slack = 3 * tile.resolution / metres * kWholeTile;
+  for (std::size_t k = 1; k < listed.size(); ++k) {
+    if (sign * (along[listed[k]] - along[listed[k - 1]]) < -slack) return false;
+  }
+  return true;
+}
+
 std::string describe_place(const ClientTile& tile, std::uint32_t vertex) {
   return fmt::format("u {:.6g}, v {:.6g}", tile.u[vertex], tile.v[vertex]);
 }
@@ -176,6 +190,8 @@ void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFa
 
 void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults) {
   constexpr const char* kNames[] = {"western", "southern", "eastern", "northern"};
+  constexpr const char* kBackwards[] = {"does not go from south to north", "does not go from east to west",
+                                        "does not go from north to south", "does not go from west to east"};
   const auto add = [&](std::size_t side, const char* what) {
     faults.push_back({TileFaultKind::kEdgeList, fmt::format("{}: the list of its {} edge {}",
                                                             tile_name(tile.format, tile.id), kNames[side], what)});
@@ -200,6 +216,8 @@ void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults) {
       add(side, "leaves out a vertex");
     } else if (listed != there) {
       add(side, "names a vertex that is not there");
+    } else if (tile.format == TileFormat::kGlb && !is_clockwise(tile, side)) {
+      add(side, kBackwards[side]);
     }
   }
 }

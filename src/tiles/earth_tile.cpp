@@ -31,13 +31,18 @@ Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& gr
   return ground.position(is_around ? -180 : longitude, latitude, tile.quantum * tile.heights[v]);
 }
 
+enum class Way { kUp, kDown };
+
+/// In the order of their places along the edge.
 std::vector<std::uint32_t> vertices_along(const std::vector<std::uint16_t>& across, std::uint16_t edge,
-                                          const std::vector<std::uint16_t>& along) {
+                                          const std::vector<std::uint16_t>& along, Way way) {
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < across.size(); ++v) {
     if (across[v] == edge) vertices.push_back(v);
   }
-  std::sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) { return along[a] < along[b]; });
+  std::sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return way == Way::kUp ? along[a] < along[b] : along[b] < along[a];
+  });
   return vertices;
 }
 
@@ -102,11 +107,13 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   for (std::size_t v = 0; v < tile.u.size(); ++v)
     placed.places.push_back({tile.u[v] / units, (units - tile.v[v]) / units});
   placed.triangles = tile.triangles;
-  placed.west = vertices_along(tile.u, 0, tile.v);
-  placed.south = vertices_along(tile.v, 0, tile.u);
   // Where a local grid's raster ends in the tile, so does the mesh.
-  placed.east = vertices_along(tile.u, *std::max_element(tile.u.begin(), tile.u.end()), tile.v);
-  placed.north = vertices_along(tile.v, *std::max_element(tile.v.begin(), tile.v.end()), tile.u);
+  const std::uint16_t east = *std::max_element(tile.u.begin(), tile.u.end()),
+                      north = *std::max_element(tile.v.begin(), tile.v.end());
+  placed.west = vertices_along(tile.u, 0, tile.v, Way::kUp);
+  placed.north = vertices_along(tile.v, north, tile.u, Way::kUp);
+  placed.east = vertices_along(tile.u, east, tile.v, Way::kDown);
+  placed.south = vertices_along(tile.v, 0, tile.u, Way::kDown);
   placed.facts = find_facts(tile, placed, ground);
   return placed;
 }

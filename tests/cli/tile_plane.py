@@ -186,7 +186,7 @@ def main():
         for (_, x, y), tile in of_level.items():
             for name, (to_x, to_y), other in (("right", (1, 0), "left"), ("top", (0, 1), "bottom")):
                 beside = of_level.get((z, x + to_x, y + to_y))
-                assert beside is None or tile.edges[name] == beside.edges[other], (z, x, y, name)
+                assert beside is None or tile.edges[name] == beside.edges[other][::-1], (z, x, y, name)
             places = [(px / cell + west, py / cell + south, pz) for px, py, pz in tile.places]
             triangles += len(tile.triangles) // 3
             for px, py, pz in places:

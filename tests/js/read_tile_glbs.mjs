@@ -1,12 +1,15 @@
 // Decodes the GLBs of a folder of 3D Tiles terrain with meshoptimizer's own decoder: read_tile_glbs.mjs FOLDER
 //
-// Fails where two neighbours of a level differ in a position or a normal of the edge that they share. Prints tiles and edges.
+// Fails where two neighbours of a level differ in a position or a normal of the edge that they share, and where a list of
+// CESIUM_tile_edges does not go clockwise around its tile, as CesiumJS takes it. Prints tiles and edges.
 import fs from "node:fs";
 import { MeshoptDecoder } from "meshoptimizer/decoder";
 
 await MeshoptDecoder.ready;
 const kinds = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
 const widths = { SCALAR: 1, VEC3: 3 };
+
+const clockwise = ["left", "top", "right", "bottom"];
 
 function read(file) {
   const bytes = fs.readFileSync(file), json_size = bytes.readUInt32LE(12);
@@ -37,7 +40,7 @@ function read(file) {
   const places = positions.map(([x, y, z]) => [0, 1, 2].map(row =>
     (matrix[row] * x + matrix[row + 4] * y + matrix[row + 8] * z) * scale + matrix[row + 12]));
   const edge = name => list(primitive.extensions.CESIUM_tile_edges[name]).map(([k]) => ({ place: places[k], normal: normals[k] }));
-  return Object.fromEntries(["left", "bottom", "right", "top"].map(name => [name, edge(name)]));
+  return Object.fromEntries(clockwise.map(name => [name, edge(name)]));
 }
 
 const [folder] = process.argv.slice(2), tiles = new Map();
@@ -48,13 +51,17 @@ for (const name of fs.readdirSync(folder, { recursive: true })) {
   tiles.set([z, root * 2 ** z + x, y].join(), read(`${folder}/${name}`));
 }
 let edges = 0;
+const same = (a, b) => a.place.every((value, part) => value === b.place[part]);
 for (const [key, tile] of tiles) {
+  clockwise.forEach((name, k) => {
+    if (!same(tile[name].at(-1), tile[clockwise[(k + 1) % 4]][0])) throw new Error(`${key}: "${name}" does not end where the next list begins`);
+  });
   const [z, x, y] = key.split(",").map(Number);
   for (const [other, mine, theirs] of [[[z, (x + 1) % 2 ** (z + 1), y], "right", "left"], [[z, x, y + 1], "top", "bottom"]]) {
     const neighbour = tiles.get(other.join());
     if (!neighbour) continue;
     ++edges;
-    const [a, b] = [tile[mine], neighbour[theirs]];
+    const [a, b] = [tile[mine], neighbour[theirs].toReversed()];
     if (a.length !== b.length) throw new Error(`${key} and ${other}: ${a.length} and ${b.length} vertices on the edge`);
     a.forEach((vertex, k) => {
       // The decoder's division by 65535 leaves as much as 16 bits of 65535 parts do.

@@ -403,6 +403,23 @@ TEST(tile_check, finds_what_is_planted_in_3d_tiles) {
   expect(made, TileFaultKind::kFile, name);
 }
 
+TEST(tile_check, finds_lists_of_edges_that_go_the_other_way_round) {
+  const Made good(TileFormat::kGlb, kIsland, 900, 40, false, Effort::kFast, 5);
+  ASSERT_TRUE(good.check().holds());
+  const TileId id = good.inner_tile();
+  const EarthTile placed = place_on_earth(*make_tile(good.plan, id, good.land), good.plan);
+  for (const auto edge : {&EarthTile::west, &EarthTile::north, &EarthTile::east, &EarthTile::south}) {
+    Made made = good;
+    EarthTile turned = placed;
+    std::reverse((turned.*edge).begin(), (turned.*edge).end());
+    made.bytes_of(id) = *encode_tile_glb(turned);
+    const TileCheck check = made.check();
+    EXPECT_EQ(check.count(), 1u) << described(check);
+    EXPECT_EQ(check.faults[static_cast<std::size_t>(TileFaultKind::kEdgeList)], 1u) << described(check);
+    EXPECT_NE(described(check).find("does not go from"), std::string::npos) << described(check);
+  }
+}
+
 TEST(tile_check, a_tile_of_glb_is_read_as_it_was_placed) {
   const Made made(TileFormat::kGlb, kAcross, 4000, 300, false, Effort::kFast, 4);
   for (const auto& [key, bytes] : made.shelf.held) {
@@ -425,6 +442,7 @@ TEST(tile_check, a_tile_of_glb_is_read_as_it_was_placed) {
     EXPECT_EQ(want, have);
     EXPECT_EQ(read->triangles.size(), placed.triangles.size());
     EXPECT_EQ(read->west.size(), placed.west.size());
+    EXPECT_EQ(read->north.back(), read->east.front());
     EXPECT_EQ(read->facts, placed.facts);
   }
 }

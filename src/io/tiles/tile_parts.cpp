@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kPartMark[] = "SCARPTIL";
-constexpr std::uint64_t kPartVersion = 4;
+constexpr std::uint64_t kPartVersion = 5;
 constexpr std::uint64_t kFileHead = 24, kRecordHead = 16, kBlockHead = 28;
 
 static_assert(std::endian::native == std::endian::little);
