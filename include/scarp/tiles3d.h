@@ -50,16 +50,23 @@ struct TileFacts {
 
 /// A tile in space.
 struct EarthTile {
-  std::array<double, 3> steps{1, 1, 1};                 ///< metres, each way; all the same on a globe
-  std::array<std::int64_t, 3> origin{};                 ///< in steps: x towards 0° E, z towards the north pole
-  std::vector<std::array<std::uint32_t, 3>> offsets;    ///< from there, in steps, below 2^24
-  std::vector<std::array<double, 3>> normals;           ///< of unit length
-  std::vector<std::array<double, 2>> places;            ///< 0 … 1 of the tile from west, from north
-  std::vector<std::uint32_t> triangles;                 ///< counter-clockwise seen from outside
+  std::array<double, 3> steps{1, 1, 1};               ///< metres, each way; all the same on a globe
+  std::array<std::int64_t, 3> origin{};               ///< in steps: x towards 0° E, z towards the north pole
+  std::vector<std::array<std::uint32_t, 3>> offsets;  ///< from there, in steps, below 2^24
+  std::vector<std::array<double, 3>> normals;         ///< of unit length
+  std::vector<std::array<double, 2>> places;          ///< 0 … 1 of the tile from west, from north
+  std::vector<std::uint32_t> triangles;               ///< counter-clockwise seen from outside
   /// Vertices on the edges, clockwise around the tile seen from outside, as CesiumJS takes them.
   std::vector<std::uint32_t> west, north, east, south;
-  TileFacts facts;
+  /// The skirt's lower ends, in steps from the origin: one below each vertex of west, north, east and south. None where
+  /// no tile is beside: at a pole, and where the raster of a local grid ends.
+  std::array<std::vector<std::array<std::uint32_t, 3>>, 4> feet;
+  TileFacts facts;  ///< without the skirt
 };
+
+/// Metres that skirts hang down: 5 times the level's geometric error, as CesiumJS and cesium-native let them hang from
+/// terrain, or of its max error where that is larger. Enough beside tiles two levels coarser.
+double skirt_depth(const PyramidPlan& plan, int z);
 
 /// A function of the tile and the plan. No function of the machine's mathematics library enters it.
 EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan);
@@ -71,9 +78,10 @@ struct TileGlbOptions {
   std::optional<TileTexture> texture = std::nullopt;  ///< DEFAULT: none, the ground has one colour.
 };
 
-/// The bytes of a GLB file: one node with a matrix, one mesh of one primitive, and CESIUM_tile_edges, clockwise. Its y
-/// is up, as glTF demands: clients of 3D Tiles turn it back. A texture's coordinates are whole 65535ths. asset.extras hold the
-/// facts. Fails as encode_glb().
+/// The bytes of a GLB file: one node with a matrix, and one mesh. Its first primitive is the surface, with
+/// CESIUM_tile_edges, clockwise: CesiumJS takes it alone for terrain. The second one is the skirt, which its extras
+/// say; its vertices are pairs, one on an edge and one below. Its y is up, as glTF demands: clients of 3D Tiles turn it
+/// back. A texture's coordinates are whole 65535ths. asset.extras hold the facts. Fails as encode_glb().
 Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options = {});
 
 /// The facts of a tile that encode_tile_glb() wrote. Fails with kInput for other files.
@@ -87,6 +95,8 @@ struct TileGlb {
   GlbImage image;                                ///< empty without one in the file
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> west, south, east, north;  ///< of CESIUM_tile_edges, in its order
+  std::vector<std::array<double, 3>> skirt;             ///< pairs: on an edge, and below; no part of the surface
+  std::vector<std::uint32_t> skirt_triangles;
   double step = 0;  ///< metres between the positions that the file can tell apart, the most; 0 for single precision
   TileFacts facts;
 };

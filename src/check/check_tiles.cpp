@@ -179,6 +179,7 @@ class TilesCheck {
     findings.high = *highest;
     check_coverage(*tile, findings.faults);
     check_edge_lists(*tile, findings.faults);
+    check_skirt(*tile, world_, findings.faults);
     if (tile->is_flat)
       check_land(*tile, grid_, findings.faults);
     else

@@ -73,6 +73,8 @@ Result<ClientTile> take_glb(TileGlb glb, const DegreeBox& box, const World& worl
   tile.uvs = std::move(glb.uvs);
   tile.image = std::move(glb.image);
   tile.triangles = std::move(glb.triangles);
+  tile.skirt = std::move(glb.skirt);
+  tile.skirt_triangles = std::move(glb.skirt_triangles);
   tile.edges = {std::move(glb.west), std::move(glb.south), std::move(glb.east), std::move(glb.north)};
   if (std::find(is_pole.begin(), is_pole.end(), true) != is_pole.end()) place_at_poles(tile, is_pole);
   const TileFacts& said = facts != nullptr ? *facts : glb.facts;

@@ -33,6 +33,8 @@ struct ClientTile {
   std::vector<float> uvs;                     ///< empty, or two of each vertex: its place in `image`
   GlbImage image;                             ///< empty without one
   std::vector<std::uint32_t> triangles;
+  std::vector<Place> skirt;  ///< pairs: on an edge, and below; empty without one in the file
+  std::vector<std::uint32_t> skirt_triangles;
   std::vector<std::uint8_t> water_mask;             ///< empty without one
   std::array<std::vector<std::uint32_t>, 4> edges;  ///< by TileSide: vertices as the file lists them
 

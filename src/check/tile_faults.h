@@ -14,6 +14,8 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults);
 /// On a plane: that the triangles cover the raster's part of the tile, and no more.
 void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFault>& faults);
 void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults);
+/// That it hangs down from whole edges, and faces away from the tile.
+void check_skirt(const ClientTile& tile, const World& world, std::vector<TileFault>& faults);
 void check_header(const ClientTile& tile, std::vector<TileFault>& faults);
 void check_horizon(const ClientTile& tile, const World& world, std::vector<TileFault>& faults);
 

@@ -21,14 +21,23 @@ std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, const Space& 
 }
 
 /// The degrees of shared vertices, the same bits on both sides of an edge, around the antimeridian too.
-Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const Ground& ground) {
+Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const Ground& ground,
+                      double below = 0) {
   const DegreeBox box = grid.bounds_of(tile.id);
   const double units = tile.units;
   const double longitude = tile.u[v] == tile.units ? box.east : box.west + (box.east - box.west) * (tile.u[v] / units);
   const double latitude =
       tile.v[v] == tile.units ? box.north : box.south + (box.north - box.south) * (tile.v[v] / units);
   const bool is_around = longitude == 180 && grid.turns().size() > 1;
-  return ground.position(is_around ? -180 : longitude, latitude, tile.quantum * tile.heights[v]);
+  return ground.position(is_around ? -180 : longitude, latitude, tile.quantum * tile.heights[v] - below);
+}
+
+bool has_tile_beside(const TileGrid& grid, TileId id, int to_east, int to_north) {
+  const std::int64_t columns = grid.columns(id.z), y = std::int64_t{id.y} + to_north;
+  std::int64_t x = std::int64_t{id.x} + to_east;
+  if (grid.turns().size() > 1) x = (x + columns) % columns;
+  if (x < 0 || x >= columns || y < 0 || y >= grid.rows(id.z)) return false;
+  return grid.has({id.z, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)});
 }
 
 enum class Way { kUp, kDown };
@@ -82,6 +91,11 @@ Space lattice_steps(const PyramidPlan& plan, int z) {
   return {step, step, step};
 }
 
+double skirt_depth(const PyramidPlan& plan, int z) {
+  const PyramidLevel& level = plan.levels[static_cast<std::size_t>(z)];
+  return 5 * std::max(level.geometric_error, level.max_error);
+}
+
 double lattice_error(const PyramidPlan& plan, int z) {
   return plan.grid.is_flat() ? 0 : std::sqrt(3.0 / 4) * lattice_steps(plan, z)[0];
 }
@@ -90,23 +104,6 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   const Ground ground(plan.grid, plan.ellipsoid);
   EarthTile placed;
   placed.steps = lattice_steps(plan, tile.id.z);
-  std::vector<std::array<std::int64_t, 3>> points;
-  for (std::size_t v = 0; v < tile.u.size(); ++v)
-    points.push_back(nearest_lattice_point(shared_position(tile, v, plan.grid, ground), placed.steps));
-  placed.origin.fill(std::numeric_limits<std::int64_t>::max());
-  for (const auto& point : points) {
-    for (std::size_t k = 0; k < 3; ++k) placed.origin[k] = std::min(placed.origin[k], point[k]);
-  }
-  for (const auto& point : points) {
-    std::array<std::uint32_t, 3> offset{};
-    for (std::size_t k = 0; k < 3; ++k) offset[k] = static_cast<std::uint32_t>(point[k] - placed.origin[k]);
-    placed.offsets.push_back(offset);
-  }
-  for (const auto& normal : tile.normals) placed.normals.push_back(decode_octahedral(normal));
-  const double units = tile.units;
-  for (std::size_t v = 0; v < tile.u.size(); ++v)
-    placed.places.push_back({tile.u[v] / units, (units - tile.v[v]) / units});
-  placed.triangles = tile.triangles;
   // Where a local grid's raster ends in the tile, so does the mesh.
   const std::uint16_t east = *std::max_element(tile.u.begin(), tile.u.end()),
                       north = *std::max_element(tile.v.begin(), tile.v.end());
@@ -114,6 +111,45 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   placed.north = vertices_along(tile.v, north, tile.u, Way::kUp);
   placed.east = vertices_along(tile.u, east, tile.v, Way::kDown);
   placed.south = vertices_along(tile.v, 0, tile.u, Way::kDown);
+
+  std::vector<std::array<std::int64_t, 3>> points;
+  const auto add_point = [&](std::size_t v, double below) {
+    points.push_back(nearest_lattice_point(shared_position(tile, v, plan.grid, ground, below), placed.steps));
+  };
+  for (std::size_t v = 0; v < tile.u.size(); ++v) add_point(v, 0);
+  struct Side {
+    const std::vector<std::uint32_t>& vertices;
+    int to_east, to_north;
+  };
+  const std::array sides{Side{placed.west, -1, 0}, Side{placed.north, 0, 1}, Side{placed.east, 1, 0},
+                         Side{placed.south, 0, -1}};
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    if (!has_tile_beside(plan.grid, tile.id, sides[side].to_east, sides[side].to_north)) continue;
+    placed.feet[side].resize(sides[side].vertices.size());
+    for (const std::uint32_t v : sides[side].vertices) add_point(v, skirt_depth(plan, tile.id.z));
+  }
+
+  placed.origin.fill(std::numeric_limits<std::int64_t>::max());
+  for (const auto& point : points) {
+    for (std::size_t k = 0; k < 3; ++k) placed.origin[k] = std::min(placed.origin[k], point[k]);
+  }
+  std::size_t next = 0;
+  const auto take_offset = [&] {
+    std::array<std::uint32_t, 3> offset{};
+    for (std::size_t k = 0; k < 3; ++k) offset[k] = static_cast<std::uint32_t>(points[next][k] - placed.origin[k]);
+    ++next;
+    return offset;
+  };
+  placed.offsets.resize(tile.u.size());
+  for (auto& offset : placed.offsets) offset = take_offset();
+  for (auto& feet : placed.feet) {
+    for (auto& foot : feet) foot = take_offset();
+  }
+  for (const auto& normal : tile.normals) placed.normals.push_back(decode_octahedral(normal));
+  const double units = tile.units;
+  for (std::size_t v = 0; v < tile.u.size(); ++v)
+    placed.places.push_back({tile.u[v] / units, (units - tile.v[v]) / units});
+  placed.triangles = tile.triangles;
   placed.facts = find_facts(tile, placed, ground);
   return placed;
 }

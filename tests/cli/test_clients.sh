@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # CesiumJS in a browser: heights of both formats within the bound, the sag of a flat ocean, poles, the antimeridian, a plain
-# tileset, and one with an image on it. SCARP_SHOTS=FOLDER keeps what it draws.
+# tileset, and one with an image on it; no sky below the horizon. SCARP_SHOTS=FOLDER keeps what it draws.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate node chromium
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
@@ -163,6 +163,20 @@ job(lambda answer: tileset(answer, 0), kind="tileset", url="land.3dtiles", pixel
     **{"from": [middle[0], middle[1] - 0.4, 25000], "to": [*middle, 0]})
 
 
+def closed(answer):
+    """Where tiles of several levels meet, nobody sees through."""
+    assert answer["failed"] == 0 and answer["slits"] <= 5, answer
+    return f"{answer['slits']} pixels of sky below the horizon"
+
+
+# As terrain of both formats and as a plain tileset, along the ground.
+centre = [(a + b) / 2 for a, b in zip(rows[0][:2], rows[-1][:2])]
+for number, (away, high) in enumerate(((0.4, 12000), (0.3, 15000))):
+    for form, words in (("qm", {"kind": "globe", "of": "qm"}), ("3dtiles", {"kind": "globe", "of": "3dtiles"}), ("3dtiles", {"kind": "tileset"})):
+        job(closed, url=f"land.{form}", pixels=2, shot=f"closed_{number}_{words.get('of', 'tileset')}",
+            **{**words, "from": [centre[0], centre[1] - away, high], "to": [*centre, 500]})
+
+
 def draped(answer):
     tileset(answer, 0)
     left, right = answer["halves"]
@@ -170,7 +184,6 @@ def draped(answer):
     return answer["halves"]
 
 
-centre = [(a + b) / 2 for a, b in zip(rows[0][:2], rows[-1][:2])]
 job(draped, kind="tileset", url="draped.3dtiles", pixels=2, shot="tileset_draped",
     **{"from": [*centre, 14000], "to": [*centre, 0]})
 job(lambda answer: near(answer["heights"], [place[2] for place in places], levels("land.3dtiles")[11]["bound"] * 1.001 + 0.01),

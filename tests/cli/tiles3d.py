@@ -19,8 +19,9 @@ def read_glb(path):
     assert (magic, version, size, kind) == (b"glTF", 2, len(data), 0x4E4F534A), path
     gltf = json.loads(data[20:20 + json_size])
     assert struct.unpack_from("<II", data, 20 + json_size) == (len(data) - 28 - json_size, 0x004E4942), path
-    assert len(gltf["nodes"]) == len(gltf["meshes"]) == len(gltf["meshes"][0]["primitives"]) == 1
-    primitive = gltf["meshes"][0]["primitives"][0]
+    assert len(gltf["nodes"]) == len(gltf["meshes"]) == 1
+    primitive, skirt = gltf["meshes"][0]["primitives"]
+    assert skirt["extras"] == {"scarp": {"skirt": True}} and "extras" not in primitive
     assert set(primitive["extensions"]["CESIUM_tile_edges"]) == {"left", "bottom", "right", "top"}
     return gltf
 

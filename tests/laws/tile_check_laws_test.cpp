@@ -17,6 +17,7 @@
 
 #include "laws/sanitized.h"
 #include "scarp/gzip.h"
+#include "scarp/io.h"
 #include "scarp/tile_check.h"
 #include "scarp/tiles3d.h"
 
@@ -417,6 +418,54 @@ TEST(tile_check, finds_lists_of_edges_that_go_the_other_way_round) {
     EXPECT_EQ(check.count(), 1u) << described(check);
     EXPECT_EQ(check.faults[static_cast<std::size_t>(TileFaultKind::kEdgeList)], 1u) << described(check);
     EXPECT_NE(described(check).find("does not go from"), std::string::npos) << described(check);
+  }
+}
+
+TEST(tile_check, finds_skirts_that_hang_badly) {
+  const Made good(TileFormat::kGlb, kIsland, 900, 40, false, Effort::kFast, 5);
+  const TileId id = good.inner_tile();
+  const EarthTile placed = place_on_earth(*make_tile(good.plan, id, good.land), good.plan);
+  const auto expect = [&](const EarthTile& tile, const char* words) {
+    Made made = good;
+    made.bytes_of(id) = *encode_tile_glb(tile);
+    const TileCheck check = made.check();
+    EXPECT_EQ(check.count(), 1u) << described(check);
+    EXPECT_NE(described(check).find(words), std::string::npos) << described(check);
+  };
+  EarthTile changed = placed;
+  changed.feet[1][1] = changed.offsets[changed.north[1]];
+  expect(changed, "does not hang down");
+  changed = placed;
+  changed.feet[2].pop_back();
+  expect(changed, "leaves out a part of an edge");
+  // As other programs' tiles.
+  changed = placed;
+  changed.feet = {};
+  Made made = good;
+  made.bytes_of(id) = *encode_tile_glb(changed);
+  EXPECT_TRUE(made.check().holds());
+}
+
+TEST(tile_check, skirts_hang_where_a_tile_is_beside_and_are_no_part_of_the_surface) {
+  const Made made(TileFormat::kGlb, kPolar, 900, 40, false, Effort::kFast, 4);
+  for (const TileId id : {TileId{4, 3, 15}, TileId{4, 0, 14}, TileId{0, 1, 0}}) {
+    const Bytes& bytes = made.shelf.held.at({id.z, id.x, id.y});
+    const auto tile = decode_tile_glb(bytes, "tile");
+    ASSERT_TRUE(tile) << tile.error().message;
+    const bool is_at_pole = id.y + 1 == 1u << id.z, has_both_poles = id.z == 0;
+    std::size_t tops = tile->west.size() + tile->east.size();
+    if (!has_both_poles) tops += tile->south.size() + (is_at_pole ? 0 : tile->north.size());
+    EXPECT_EQ(tile->skirt.size(), 2 * tops);
+    EXPECT_EQ(tile->skirt_triangles.size(), 6 * (tops - (has_both_poles ? 2 : is_at_pole ? 3 : 4)));
+    const double depth = skirt_depth(made.plan, id.z);
+    EXPECT_GE(depth, 5 * made.plan.levels[static_cast<std::size_t>(id.z)].max_error);
+    for (std::size_t k = 0; k < tile->skirt.size(); k += 2) {
+      const auto &top = tile->skirt[k], &foot = tile->skirt[k + 1];
+      EXPECT_NEAR(std::hypot(top[0] - foot[0], top[1] - foot[1], top[2] - foot[2]), depth, 2 * tile->step);
+    }
+    const auto mesh = decode_mesh(bytes, "tile.glb");
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->triangles.size(), tile->triangles.size());
   }
 }
 

@@ -80,6 +80,14 @@ const Json* GlbArrays::member(const Json& object, const char* key) {
   return found == object.end() ? nullptr : &*found;
 }
 
+bool GlbArrays::is_skirt(const Json& primitive) {
+  const Json* at = &primitive;
+  for (const char* key : {"extras", "scarp", "skirt"}) {
+    if (at = member(*at, key); at == nullptr) return false;
+  }
+  return at->is_boolean() && at->get<bool>();
+}
+
 bool GlbArrays::read_count(const Json& object, const char* key, std::uint64_t missing, std::uint64_t& value) {
   const Json* found = member(object, key);
   value = missing;

@@ -201,6 +201,7 @@ class GlbReader : public GlbArrays {
     if (!primitives || !primitives->is_array()) return refuse(fmt::format("its mesh {} is malformed", index));
     std::map<std::uint64_t, std::uint32_t> first_vertices;  // of each position accessor that is already here
     for (const Json& primitive : *primitives) {
+      if (is_skirt(primitive)) continue;
       std::uint64_t mode = 0;
       if (!read_count(primitive, "mode", 4, mode)) return false;
       if (mode != 4)

@@ -39,13 +39,30 @@ std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
   return {byte(x), byte(y), 127, 0};
 }
 
+using Steps = std::array<std::uint32_t, 3>;
+
+/// Vertices of the file: which of the tile's each is, for its normal and its place in a texture; and where it lies.
+struct GlbVertices {
+  std::vector<std::uint32_t> of;
+  std::vector<Steps> offsets;
+
+  void add(std::uint32_t vertex, const Steps& offset) {
+    of.push_back(vertex);
+    offsets.push_back(offset);
+  }
+};
+
 class TileGlbWriter {
  public:
   TileGlbWriter(const EarthTile& tile, const TileGlbOptions& options)
       : tile_(tile), options_(options), is_packed_(options.compress && kHasMeshoptCodec) {
-    for (const auto& offset : tile.offsets) {
-      for (std::size_t k = 0; k < 3; ++k) size_[k] = std::max(size_[k], offset[k]);
-    }
+    const auto hold = [&](const std::vector<Steps>& offsets) {
+      for (const Steps& offset : offsets) {
+        for (std::size_t k = 0; k < 3; ++k) size_[k] = std::max(size_[k], offset[k]);
+      }
+    };
+    hold(tile.offsets);
+    for (const std::vector<Steps>& feet : tile.feet) hold(feet);
     is_short_ = is_packed_ && *std::max_element(size_.begin(), size_.end()) <= kShort;
     has_short_indices_ = tile.offsets.size() <= kShortIndices;
     order_vertices();
@@ -53,14 +70,15 @@ class TileGlbWriter {
 
   Result<std::vector<std::uint8_t>> encode() {
     describe();
-    Json attributes = Json::object();
-    attributes["POSITION"] = add_positions();
-    if (!tile_.normals.empty()) attributes["NORMAL"] = add_normals();
-    if (options_.texture) attributes["TEXCOORD_0"] = add_places();
-    const std::size_t indices = add_indices();
-    Json primitive = {{"attributes", std::move(attributes)}, {"indices", indices}, {"material", 0}, {"mode", 4}};
-    primitive["extensions"][kTileEdges] = add_edges();
-    glb_.json["meshes"] = Json::array({{{"primitives", Json::array({std::move(primitive)})}}});
+    Json surface = add_primitive(surface_, corners_);
+    surface["extensions"][kTileEdges] = add_edges();
+    Json primitives = Json::array({std::move(surface)});
+    if (add_skirt(); !skirt_.of.empty()) {
+      Json skirt = add_primitive(skirt_, skirt_corners_);
+      skirt["extras"]["scarp"]["skirt"] = true;
+      primitives.push_back(std::move(skirt));
+    }
+    glb_.json["meshes"] = Json::array({{{"primitives", std::move(primitives)}}});
     add_material();
     return glb_.assemble(1);
   }
@@ -68,11 +86,43 @@ class TileGlbWriter {
  private:
   /// The order that takes the fewest bytes.
   void order_vertices() {
-    for (std::uint32_t v = 0; v < tile_.offsets.size(); ++v) vertices_.push_back(v);
-    if (has_short_indices_) corners_.assign(tile_.triangles.begin(), tile_.triangles.end());
-    if (is_packed_ && has_short_indices_) order_for_codec(vertices_, corners_);
-    places_.resize(vertices_.size());
-    for (std::uint32_t place = 0; place < vertices_.size(); ++place) places_[vertices_[place]] = place;
+    std::vector<std::uint32_t>& vertices = surface_.of;
+    for (std::uint32_t v = 0; v < tile_.offsets.size(); ++v) vertices.push_back(v);
+    corners_ = tile_.triangles;
+    if (is_packed_ && has_short_indices_) {
+      std::vector<std::uint16_t> corners(corners_.begin(), corners_.end());
+      order_for_codec(vertices, corners);
+      corners_.assign(corners.begin(), corners.end());
+    }
+    places_.resize(vertices.size());
+    for (std::uint32_t place = 0; place < vertices.size(); ++place) places_[vertices[place]] = place;
+    for (const std::uint32_t v : vertices) surface_.offsets.push_back(tile_.offsets[v]);
+  }
+
+  /// Seen from beside the tile.
+  void add_skirt() {
+    const std::array edges{&tile_.west, &tile_.north, &tile_.east, &tile_.south};
+    for (std::size_t side = 0; side < edges.size(); ++side) {
+      const std::vector<Steps>& feet = tile_.feet[side];
+      for (std::size_t k = 0; k < feet.size(); ++k) {
+        const std::uint32_t vertex = (*edges[side])[k];
+        const auto top = static_cast<std::uint32_t>(skirt_.of.size());
+        skirt_.add(vertex, tile_.offsets[vertex]);
+        skirt_.add(vertex, feet[k]);
+        if (k == 0) continue;
+        for (const std::uint32_t corner : {top - 2, top, top - 1, top - 1, top, top + 1})
+          skirt_corners_.push_back(corner);
+      }
+    }
+  }
+
+  Json add_primitive(const GlbVertices& vertices, const std::vector<std::uint32_t>& corners) {
+    Json attributes = Json::object();
+    attributes["POSITION"] = add_positions(vertices);
+    if (!tile_.normals.empty()) attributes["NORMAL"] = add_normals(vertices);
+    if (options_.texture) attributes["TEXCOORD_0"] = add_places(vertices);
+    const std::size_t indices = add_indices(corners, vertices.of.size());
+    return {{"attributes", std::move(attributes)}, {"indices", indices}, {"material", 0}, {"mode", 4}};
   }
 
   void describe() {
@@ -122,17 +172,17 @@ class TileGlbWriter {
   }
 
   /// Steps from the node's origin.
-  std::array<std::uint32_t, 3> steps_of(std::uint32_t v) const {
-    const auto& [x, y, z] = tile_.offsets[v];
+  Steps steps_of(const Steps& offset) const {
+    const auto& [x, y, z] = offset;
     return {x, z, size_[1] - y};
   }
 
   template <class Number>
-  std::vector<std::uint8_t> positions_as(std::size_t width) const {
-    std::vector<std::uint8_t> items(vertices_.size() * width * sizeof(Number));
+  std::vector<std::uint8_t> positions_as(const GlbVertices& vertices, std::size_t width) const {
+    std::vector<std::uint8_t> items(vertices.of.size() * width * sizeof(Number));
     std::uint8_t* at = items.data();
-    for (const std::uint32_t v : vertices_) {
-      for (const std::uint32_t step : steps_of(v)) store_number(at, static_cast<Number>(step));
+    for (const Steps& offset : vertices.offsets) {
+      for (const std::uint32_t step : steps_of(offset)) store_number(at, static_cast<Number>(step));
       for (std::size_t k = 3; k < width; ++k) store_number(at, Number{0});
     }
     return items;
@@ -144,19 +194,19 @@ class TileGlbWriter {
                          [items = std::move(items)](std::uint8_t* at) { std::memcpy(at, items.data(), items.size()); });
   }
 
-  std::size_t add_positions() {
-    const std::uint64_t count = vertices_.size();
+  std::size_t add_positions(const GlbVertices& vertices) {
+    const std::uint64_t count = vertices.of.size();
     std::size_t view = 0;
     if (is_short_) {
       constexpr std::size_t kStride = 8;
-      view = glb_.add_packed(encode_meshopt_attributes(positions_as<std::uint16_t>(4), kStride), kArrayBuffer, count,
-                             kStride, "ATTRIBUTES");
+      view = glb_.add_packed(encode_meshopt_attributes(positions_as<std::uint16_t>(vertices, 4), kStride), kArrayBuffer,
+                             count, kStride, "ATTRIBUTES");
     } else {
-      view = add_plain(positions_as<float>(3), kArrayBuffer);
+      view = add_plain(positions_as<float>(vertices, 3), kArrayBuffer);
     }
-    std::array<std::uint32_t, 3> low{steps_of(0)}, high{low};
-    for (const std::uint32_t v : vertices_) {
-      const std::array<std::uint32_t, 3> steps = steps_of(v);
+    Steps low{steps_of(vertices.offsets[0])}, high{low};
+    for (const Steps& offset : vertices.offsets) {
+      const Steps steps = steps_of(offset);
       for (std::size_t k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], steps[k]);
         high[k] = std::max(high[k], steps[k]);
@@ -169,8 +219,8 @@ class TileGlbWriter {
     return glb_.accessor_count() - 1;
   }
 
-  std::size_t add_normals() {
-    const std::uint64_t count = vertices_.size();
+  std::size_t add_normals(const GlbVertices& vertices) {
+    const std::uint64_t count = vertices.of.size();
     std::size_t view = 0;
     // Of a plane whose steps are very unlike each way, bytes do not hold them.
     const auto [least, most] = std::minmax_element(tile_.steps.begin(), tile_.steps.end());
@@ -179,7 +229,7 @@ class TileGlbWriter {
       constexpr std::size_t kStride = 4;
       std::vector<std::uint8_t> items(count * kStride);
       std::uint8_t* at = items.data();
-      for (const std::uint32_t v : vertices_) {
+      for (const std::uint32_t v : vertices.of) {
         for (const std::int8_t part : to_octahedral(normal_before_matrix(v))) store_number(at, part);
       }
       view = glb_.add_packed(encode_meshopt_attributes(items, kStride), kArrayBuffer, count, kStride, "ATTRIBUTES",
@@ -187,7 +237,7 @@ class TileGlbWriter {
     } else {
       std::vector<std::uint8_t> items(count * 12);
       std::uint8_t* at = items.data();
-      for (const std::uint32_t v : vertices_) {
+      for (const std::uint32_t v : vertices.of) {
         for (const double part : normal_before_matrix(v)) store_number(at, static_cast<float>(part));
       }
       view = add_plain(std::move(items), kArrayBuffer);
@@ -198,16 +248,16 @@ class TileGlbWriter {
   }
 
   /// Where the vertices lie in the texture, whose outermost pixels lie beyond the tile. From the top.
-  std::size_t add_places() {
+  std::size_t add_places(const GlbVertices& vertices) {
     constexpr std::size_t kStride = 4;
-    const std::uint64_t count = vertices_.size();
+    const std::uint64_t count = vertices.of.size();
     const double side = options_.texture->side;
     const auto whole = [&](double share) {
       return static_cast<std::uint16_t>(std::floor((1 + share * (side - 2)) / side * kShort + 0.5));
     };
     std::vector<std::uint8_t> items(count * kStride);
     std::uint8_t* at = items.data();
-    for (const std::uint32_t v : vertices_) {
+    for (const std::uint32_t v : vertices.of) {
       const auto& [west, north] = tile_.places[v];
       store_number(at, whole(west));
       store_number(at, whole(north));
@@ -245,8 +295,7 @@ class TileGlbWriter {
     glb_.json["materials"] = Json::array({{{"pbrMetallicRoughness", std::move(surface)}}});
   }
 
-  template <class Range>
-  std::vector<std::uint8_t> indices_of(const Range& vertices) const {
+  std::vector<std::uint8_t> indices_of(const std::vector<std::uint32_t>& vertices) const {
     std::vector<std::uint8_t> items(vertices.size() * (has_short_indices_ ? 2 : 4));
     std::uint8_t* at = items.data();
     for (const std::uint32_t v : vertices) {
@@ -261,13 +310,15 @@ class TileGlbWriter {
 
   int index_component() const { return has_short_indices_ ? kUint16Component : kUint32Component; }
 
-  std::size_t add_indices() {
-    const std::uint64_t count = tile_.triangles.size();
+  std::size_t add_indices(const std::vector<std::uint32_t>& corners, std::size_t vertex_count) {
+    const std::uint64_t count = corners.size();
     std::size_t view = 0;
     if (is_packed_ && has_short_indices_) {
-      view = glb_.add_packed(encode_meshopt_triangles(corners_, vertices_.size()), kIndexBuffer, count, 2, "TRIANGLES");
+      const std::vector<std::uint16_t> short_corners(corners.begin(), corners.end());
+      view =
+          glb_.add_packed(encode_meshopt_triangles(short_corners, vertex_count), kIndexBuffer, count, 2, "TRIANGLES");
     } else {
-      view = add_plain(has_short_indices_ ? indices_of(corners_) : indices_of(tile_.triangles), kIndexBuffer);
+      view = add_plain(indices_of(corners), kIndexBuffer);
     }
     glb_.add_accessor(view, index_component(), count, "SCALAR");
     return glb_.accessor_count() - 1;
@@ -296,10 +347,11 @@ class TileGlbWriter {
   const EarthTile& tile_;
   const TileGlbOptions& options_;
   bool is_packed_, is_short_ = false, has_short_indices_ = false;
-  std::array<std::uint32_t, 3> size_{};  ///< the largest offsets
-  std::vector<std::uint32_t> vertices_;  ///< of the tile, in the file's order
-  std::vector<std::uint32_t> places_;    ///< the reverse
-  std::vector<std::uint16_t> corners_;   ///< of triangles, in the file's order
+  Steps size_{};                        ///< the largest offsets
+  GlbVertices surface_, skirt_;         ///< in the file's order
+  std::vector<std::uint32_t> places_;   ///< of the tile's vertices in the file
+  std::vector<std::uint32_t> corners_;  ///< of triangles, in the file's order
+  std::vector<std::uint32_t> skirt_corners_;
   GlbBuilder glb_;
 };
 

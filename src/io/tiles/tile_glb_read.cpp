@@ -23,20 +23,22 @@ class TileGlbReader : public GlbArrays {
     if (!split(bytes) || !read_node()) return false;
     const Json* const mesh = item("meshes", 0);
     const Json* const primitives = mesh != nullptr ? member(*mesh, "primitives") : nullptr;
-    if (primitives == nullptr || !primitives->is_array() || primitives->size() != 1)
-      return refuse("it has not one mesh of one primitive");
+    if (primitives == nullptr || !primitives->is_array() || primitives->empty()) return refuse("it has no mesh");
+    // Only a skirt may be there besides the surface.
+    for (std::size_t k = 1; k < primitives->size(); ++k) {
+      if (k > 1 || !is_skirt((*primitives)[k])) return refuse("it has more surfaces than one");
+    }
     const Json& primitive = primitives->front();
     const Json* const attributes = member(primitive, "attributes");
     std::uint64_t accessor = 0;
     if (attributes == nullptr || member(*attributes, "POSITION") == nullptr) return refuse("it has no positions");
-    if (!read_count(*attributes, "POSITION", 0, accessor) || !read_positions(accessor)) return false;
+    if (!read_count(*attributes, "POSITION", 0, accessor) || !read_positions(accessor, tile.positions)) return false;
     if (member(*attributes, "NORMAL") != nullptr &&
         (!read_count(*attributes, "NORMAL", 0, accessor) || !read_normals(accessor)))
       return false;
-    if (!read_count(primitive, "indices", UINT64_MAX, accessor) || !read_indices(accessor, tile.triangles))
-      return false;
-    if (tile.triangles.size() % 3 != 0) return refuse("it has triangles of less than three corners");
-    return read_image(primitive, *attributes) && read_edges(primitive);
+    if (!read_triangles(primitive, tile.positions.size(), tile.triangles)) return false;
+    if (!read_image(primitive, *attributes) || !read_edges(primitive)) return false;
+    return primitives->size() == 1 || read_skirt((*primitives)[1]);
   }
 
  private:
@@ -76,7 +78,7 @@ class TileGlbReader : public GlbArrays {
     return *std::min_element(scale_.begin(), scale_.end()) > 0 || refuse("it has no node with a matrix");
   }
 
-  bool read_positions(std::uint64_t accessor) {
+  bool read_positions(std::uint64_t accessor, std::vector<std::array<double, 3>>& positions) {
     GlbItems items;
     if (!find_items(accessor, "VEC3", items)) return false;
     std::array<double, 3> scale = scale_;
@@ -93,7 +95,7 @@ class TileGlbReader : public GlbArrays {
       for (const double metres : at) {
         if (!(std::abs(metres) < 1e9)) return refuse("it has a position far from any planet");
       }
-      tile.positions.push_back({at[0], 0.0 - at[2], at[1]});
+      positions.push_back({at[0], 0.0 - at[2], at[1]});
     }
     return true;
   }
@@ -118,14 +120,30 @@ class TileGlbReader : public GlbArrays {
     return true;
   }
 
-  bool read_indices(std::uint64_t accessor, std::vector<std::uint32_t>& indices) {
+  bool read_triangles(const Json& primitive, std::size_t vertices, std::vector<std::uint32_t>& corners) {
+    std::uint64_t accessor = 0;
+    if (!read_count(primitive, "indices", UINT64_MAX, accessor) || !read_indices(accessor, vertices, corners))
+      return false;
+    return corners.size() % 3 == 0 || refuse("it has triangles of less than three corners");
+  }
+
+  bool read_skirt(const Json& primitive) {
+    const Json* const attributes = member(primitive, "attributes");
+    std::uint64_t accessor = 0;
+    if (attributes == nullptr || member(*attributes, "POSITION") == nullptr)
+      return refuse("its skirt has no positions");
+    if (!read_count(*attributes, "POSITION", 0, accessor) || !read_positions(accessor, tile.skirt)) return false;
+    return read_triangles(primitive, tile.skirt.size(), tile.skirt_triangles);
+  }
+
+  bool read_indices(std::uint64_t accessor, std::size_t vertices, std::vector<std::uint32_t>& indices) {
     GlbItems items;
     if (!find_items(accessor, "SCALAR", items)) return false;
     if (items.component_type != kUint16Component && items.component_type != kUint32Component)
       return refuse("it has indices of another type than Scarp writes");
     for (std::uint64_t k = 0; k < items.count; ++k) {
       const std::uint64_t vertex = items.index(k);
-      if (vertex >= tile.positions.size()) return refuse("it has a triangle or an edge of a vertex that is not there");
+      if (vertex >= vertices) return refuse("it has a triangle or an edge of a vertex that is not there");
       indices.push_back(static_cast<std::uint32_t>(vertex));
     }
     return true;
@@ -178,7 +196,8 @@ class TileGlbReader : public GlbArrays {
         {"left", &tile.west}, {"bottom", &tile.south}, {"right", &tile.east}, {"top", &tile.north}};
     for (const auto& [name, list] : lists) {
       std::uint64_t accessor = 0;
-      if (!read_count(*edges, name, UINT64_MAX, accessor) || !read_indices(accessor, *list)) return false;
+      if (!read_count(*edges, name, UINT64_MAX, accessor) || !read_indices(accessor, tile.positions.size(), *list))
+        return false;
     }
     return true;
   }

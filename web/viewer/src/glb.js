@@ -118,6 +118,7 @@ class Reader {
     if (!node || depth > 64) throw this.damaged('its nodes form no tree');
     const matrix = multiply(above, matrix_of(node));
     for (const primitive of this.json.meshes?.[node.mesh]?.primitives ?? []) {
+      if (primitive.extras?.scarp?.skirt) continue;  // what hangs from a tile's edges is no part of its surface
       if ((primitive.mode ?? 4) !== 4) {
         this.notes.add(`Of ${this.name} only triangles are shown: it has primitives of mode ${primitive.mode}, too.`);
         continue;
