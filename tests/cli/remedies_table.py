@@ -81,7 +81,7 @@ C("an image without place", "scarp simplify dem.tif o.glb -e 20 --drape b.png", 
 C("a raster without place, an image with one", "scarp simplify none.tif o.glb -e 0.1 --drape rgb.tif", "gdal_translate -q -srcwin 0 0 30 30 rgb.tif a.tif; mv a.tif rgb.tif", BOX)
 C("beyond 180 degrees", "scarp tile far.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:3857 -a_ullr 19990000 40000 20110000 0 dem.tif far.tif")
 C("longitudes of 1000", "scarp tile far.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 1000 41 1001 40 dem.tif far.tif", dict(BOX, FILE="far.tif"))
-C("longitudes of 1000, metres", "scarp tile far.tif g -e 20 --zoom 13 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 700000 41 700900 40 dem.tif far.tif", {"EPSG:CODE": "EPSG:3857", "FILE": "far.tif"}, way=1)
+C("longitudes of 1000, metres", "scarp tile far.tif g -e 20 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 700000 80 700160 -64 dem.tif far.tif", {"EPSG:CODE": "EPSG:3857", "FILE": "far.tif"}, way=1)
 C("a local grid of degrees", "scarp tile dem.tif g --grid local -e 20")
 O("a local grid of degrees, geographic", "scarp tile dem.tif g --grid local -e 20", "take --grid geographic", "scarp tile dem.tif g --grid geographic -e 20 --zoom 9 --vertical egm96")
 C("a local grid of a turned raster", "scarp tile turned.tif g --grid local -e 20 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:32616 -a_ullr 743600 4020000 740000 4016760 dem.tif turned.tif")
