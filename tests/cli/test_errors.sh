@@ -170,6 +170,13 @@ printf 'P2 3 3 255\n1 2 3 4 x 6 7 8 9\n' > letters.pgm
 refuses 2 "letters.pgm" "$scarp" simplify letters.pgm out.glb -e 1
 refuses 2 "" "$scarp" simplify "$dem" out.glb -e 1 --decode terrarium
 
+# A machine that does not answer, and a name that is nearly right.
+refuses 2 "http://127.0.0.1:1/x.tif: cannot be read: CURL error: Failed to connect" "$scarp" info http://127.0.0.1:1/x.tif
+cp "$dem" near.tif
+refuses 2 "near.tiff: no such file: did you mean near.tif?" "$scarp" info near.tiff
+refuses 2 "naer.tif: no such file: did you mean near.tif?" "$scarp" simplify naer.tif out.glb -e 1
+refuses 1 "OUTPUT - is standard output" "$scarp" simplify near.tif - -e 1
+
 # More than the machine's memory: refused with the figure, before the work.
 echo '<VRTDataset rasterXSize="2000000" rasterYSize="2000000"><VRTRasterBand dataType="Float32" band="1"/></VRTDataset>' > huge.vrt
 refuses 2 "TiB of memory" "$scarp" simplify huge.vrt out.glb -e 1
