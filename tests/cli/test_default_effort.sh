@@ -63,7 +63,7 @@ fast_because order 'because of --order greedy; --effort normal takes fewer trian
 fast_because strategy 'because of --edges' -e 10 --edges data
 fast_because strategy 'because of --batch' -e 10 --batch const
 python3 -c 'print("\n".join(f"{x},{y},{x * x % 17}" for x in range(20) for y in range(20)))' > points.csv
-succeeds "$scarp" simplify points.csv points.glb -e 2 --report points.json
+succeeds "$scarp" simplify points.csv points.glb --points -e 2 --report points.json
 grep -qF 'fast (scattered points are only refined)' "$logs/out" || fail "the summary of points does not tell the effort"
 [ "$(json points.json strategy effort) $(json points.json strategy why_fast)" = '"fast" "points"' ] || fail "the report of points"
 
