@@ -17,12 +17,21 @@ struct EdgeVertices {
   std::vector<std::int32_t> top, bottom, left, right;
 };
 
+/// Heights one row above and below a raster, and one column to its left and right: those that its neighbours have. NaN
+/// is nodata; an empty list is not known.
+struct BeyondEdges {
+  std::vector<float> top, bottom, left, right;
+};
+
 /// The edge of the raster as a line that nothing but the edge's own samples decides.
 ///
 /// On each edge the vertices of the mesh are those of the line, whatever the effort: none is added, removed or moved,
 /// and they have their samples' heights. Samples of the edge between two vertices lie on the line to within their
 /// bounds. Where nodata lies right behind an edge whose samples are valid, corners of the surface's outline may lie
 /// between two vertices of the line; they are more vertices, at the line's height, rounded to float32.
+///
+/// Normals at an edge are a function of what both neighbours know: its own samples, and those beyond it on either side
+/// where these are given (`beyond`). Where they are not, the surface counts as level across the edge.
 ///
 /// Breaklines may end at vertices of the line and nowhere else on an edge; the others need them given (`vertices`).
 ///
@@ -35,6 +44,8 @@ struct Border {
   /// The line itself. Corners, and the first and last sample of each run of valid ones, are vertices anyway. DEFAULT:
   /// that of simplify_edge().
   std::optional<EdgeVertices> vertices = std::nullopt;
+  /// For normals; each list as long as its edge, or empty. DEFAULT: not known. See read_beyond().
+  BeyondEdges beyond = {};
 };
 
 /// The vertices of an edge, ascending: as few as a line from sample to sample can have that passes every sample at no

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/border.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
@@ -103,6 +104,12 @@ struct ReadOptions {
 /// Fails with kInput: missing, not a raster, truncated, fewer than 2×2 samples, band out of range, no valid sample;
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
+
+/// The samples next to a part of a raster, for Border::beyond: of a `field` that read_height_field() read with an extent
+/// (ReadOptions::view), the cells next to it that the raster, or the mosaic, goes on with. Not known where it ends, and
+/// without an extent. Not filled. Fails as read_height_field().
+Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& options, const RasterInfo& info, int cols,
+                                int rows);
 
 /// Where a mesh lies in the coordinates of its raster's file.
 struct PlaceInSource {

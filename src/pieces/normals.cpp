@@ -18,6 +18,7 @@ namespace {
 struct Surroundings {
   const RowRange& held;
   std::int32_t rows;
+  const Border& border;
 
   std::int32_t cols() const { return held.samples.cols; }
   float at(Point p) const { return held.row(p.y)[p.x]; }
@@ -36,6 +37,44 @@ double turn_in_space(const Surroundings& heights, const OffsetMap& offsets, cons
     turn += up[k] * ((p[0] - p[1]) * (q[0] - q[2]) - (q[0] - q[1]) * (p[0] - p[2]));
   }
   return turn < 0 ? -1 : 1;
+}
+
+/// The slope along one of the raster's axes at a sample of a locked border: a rise over so many steps. One step without
+/// a rise where a neighbour does not know the sample beyond; no step where none beside has a height.
+struct BorderSlope {
+  double rise = 0;
+  int steps = 1;
+};
+
+BorderSlope border_slope(const Surroundings& heights, Point p, Point step) {
+  const std::int32_t last = step.x > 0 ? heights.cols() - 1 : heights.rows - 1;
+  const std::int32_t place = step.x > 0 ? p.x : p.y, along = step.x > 0 ? p.y : p.x;
+  const BeyondEdges& edges = heights.border.beyond;
+  const std::vector<float>& before = step.x > 0 ? edges.left : edges.top;
+  const std::vector<float>& after = step.x > 0 ? edges.right : edges.bottom;
+  const bool is_known = (place > 0 || !before.empty()) && (place < last || !after.empty());
+  if (!is_known) return {};
+  const auto k = static_cast<std::size_t>(along);
+  const float here = heights.at(p);
+  const float low = place > 0 ? heights.at({p.x - step.x, p.y - step.y}) : before[k];
+  const float high = place < last ? heights.at({p.x + step.x, p.y + step.y}) : after[k];
+  return {double{std::isnan(high) ? here : high} - double{std::isnan(low) ? here : low},
+          int{!std::isnan(low)} + int{!std::isnan(high)}};
+}
+
+/// Steps in place of positions: rasters with a common side number its samples in two ways.
+std::array<float, 3> border_normal(const Surroundings& heights, const Frame& frame, Point p) {
+  const auto& a = frame.affine;
+  const BorderSlope u = border_slope(heights, p, {1, 0}), v = border_slope(heights, p, {0, 1});
+  const std::array<double, 3> across{a[1] * u.steps, a[4] * u.steps, u.rise},
+      down{a[2] * v.steps, a[5] * v.steps, v.rise};
+  const std::array normal{across[1] * down[2] - across[2] * down[1], across[2] * down[0] - across[0] * down[2],
+                          across[0] * down[1] - across[1] * down[0]};
+  if (normal[2] == 0) return {0, 0, 1};
+  const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  const double scale = (normal[2] < 0 ? -1 : 1) / length;
+  return {static_cast<float>(normal[0] * scale), static_cast<float>(normal[1] * scale),
+          static_cast<float>(normal[2] * scale)};
 }
 
 /// At samples.
@@ -70,6 +109,13 @@ std::vector<float> normals_at_samples(const Surroundings& heights, const Frame& 
       const double scale = (side < 0 ? -1 : 1) / length;
       for (double component : normal) normals.push_back(static_cast<float>(component * scale));
     }
+  }
+  for (std::size_t k = 0; heights.border.is_locked && frame.is_affine() && k < samples.size(); ++k) {
+    const Point p = samples[k];
+    const bool is_inside = p.x > 0 && p.y > 0 && p.x + 1 < heights.cols() && p.y + 1 < heights.rows;
+    if (is_inside || !heights.is_usable(p)) continue;
+    const std::array<float, 3> normal = border_normal(heights, frame, p);
+    std::copy(normal.begin(), normal.end(), normals.begin() + static_cast<std::ptrdiff_t>(3 * k));
   }
   return normals;
 }
@@ -132,14 +178,14 @@ std::vector<std::uint32_t> order_by_row(const LatticePoints& at) {
 
 }  // namespace
 
-std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at) {
+std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at, const Border& border) {
   constexpr std::int32_t kReach = 2;  // of the samples around the one below a point
   std::vector<float> normals;
   std::vector<std::uint32_t> order;
   std::vector<Point> points;
   std::size_t next = 0;
   const auto swept = sweep_rows(field, kReach, [&](const RowRange& rows) -> Result<void> {
-    const Surroundings heights{rows, field.rows};
+    const Surroundings heights{rows, field.rows, border};
     if (rows.begin == 0 && rows.end == field.rows) {
       normals = normals_at(heights, field.frame, at.steps, at.points);
       return {};
@@ -163,7 +209,8 @@ std::vector<float> sample_normals(const HeightField& field, const LatticePoints&
 std::vector<float> row_normals(const RowRange& rows, const HeightField& field, std::int32_t y) {
   std::vector<Point> samples;
   for (std::int32_t x = 0; x < field.cols; ++x) samples.push_back({x, y});
-  return normals_at_samples({rows, field.rows}, field.frame, samples);
+  const Border free;
+  return normals_at_samples({rows, field.rows, free}, field.frame, samples);
 }
 
 }  // namespace scarp

@@ -27,7 +27,7 @@ bool has_attributes(const HeightField& field, const Request& options) {
 }
 
 void add_attributes(const HeightField& field, const Request& options, const LatticePoints& at, Mesh& mesh) {
-  if (options.output.normals) mesh.normals = sample_normals(field, at);
+  if (options.output.normals) mesh.normals = sample_normals(field, at, options.domain.border);
   if (options.output.uvs) mesh.uvs = sample_uvs(field.cols, field.rows, at);
   mesh.channel_count = static_cast<int>(field.channels.size());
   for (Point p : field.channels.empty() ? std::vector<Point>() : at.points) {

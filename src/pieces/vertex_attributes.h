@@ -21,7 +21,7 @@ struct LatticePoints {
 bool has_attributes(const HeightField& field, const Request& options);
 
 /// Normals and positions in the raster's image where they are asked for, and the field's channels. `field`: as it is
-/// refined. `at`: of the vertices. Throws SourceFailure.
+/// refined; of a locked border as it was given. `at`: of the vertices. Throws SourceFailure.
 void add_attributes(const HeightField& field, const Request& options, const LatticePoints& at, Mesh& mesh);
 
 }  // namespace scarp

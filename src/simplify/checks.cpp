@@ -42,6 +42,14 @@ Result<void> check_border(const HeightField& field, const SimplifyOptions& optio
   if (error && !(*error >= 0 && *error <= options.goals.max_error.value_or(HUGE_VAL) && std::isfinite(*error)))
     return usage(fmt::format("the border's max error must lie in 0 … {}, that of the mesh, not {}",
                              options.goals.max_error.value_or(HUGE_VAL), *error));
+  const auto fits = [](const std::vector<float>& beyond, int samples) {
+    return beyond.empty() || beyond.size() == static_cast<std::size_t>(samples);
+  };
+  const BeyondEdges& beyond = border.beyond;
+  if (!fits(beyond.top, field.cols) || !fits(beyond.bottom, field.cols) || !fits(beyond.left, field.rows) ||
+      !fits(beyond.right, field.rows))
+    return usage(fmt::format("heights beyond a raster's edges must be as many as its {} columns or {} rows, or none",
+                             field.cols, field.rows));
   for (const auto& [col, row] : options.features.points) {
     if (col <= 0 || row <= 0 || col >= field.cols - 1 || row >= field.rows - 1)
       return usage(fmt::format(

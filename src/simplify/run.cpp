@@ -296,7 +296,8 @@ class EngineRun {
       if (has_more) at = frozen_points(refinement_.piece().tin, refinement_.piece().lattice);
     }
     if (const double step = height_step(field_, options_); step > 0) round_heights(result.mesh, step);
-    add_attributes(clean, options_, at, result.mesh);
+    // The samples themselves: those of a locked border lie on its line here, and neighbours know them as they are.
+    add_attributes(options_.domain.border.is_locked ? field_ : clean, options_, at, result.mesh);
     result.passes.push_back({"freeze", seconds_since(start) - seconds_of_order});
     if (seconds_of_order > 0) result.passes.push_back({"order", seconds_of_order});
   }

@@ -79,6 +79,38 @@ check_meeting made 1.5 17
 cut "$dem" 403 344
 check_meeting dem 10 10
 
+# Normals on a shared side are equal: of rasters apart from the side alone, of parts of one mosaic those of the whole.
+cat > shades.py <<'PYTHON'
+import math, sys
+def read(path):
+    vertices = [line.split()[1:] for line in open(path) if line.startswith("v ")]
+    normals = [line.split()[1:] for line in open(path) if line.startswith("vn ")]
+    assert len(vertices) == len(normals) > 0
+    return {tuple(round(float(c), 6) for c in v): tuple(map(float, n)) for v, n in zip(vertices, normals)}
+west, east, whole = map(read, sys.argv[1:])
+shared = west.keys() & east.keys()
+unequal = sum(west[v] != east[v] for v in shared)
+# Y is up. At the ends of the side the whole knows samples that lie beyond both.
+last = sorted(shared, key=lambda v: v[2])
+off = [math.degrees(math.dist(west[v], whole[v])) for v in last[1:-1] if v in whole]  # acos() is coarse near 1
+print(len(shared), unequal, len(off), max(off))
+PYTHON
+succeeds "$scarp" simplify made.tif whole.obj -e 0 --normals --crs source --vertices samples
+cut made.tif 181 161
+for part in nw ne; do succeeds "$scarp" simplify $part.tif $part.obj -e 1.5 --lock-border --normals --crs source --overwrite; done
+read -r shared unequal compared off < <(python3 shades.py nw.obj ne.obj whole.obj)
+[ "$unequal" = 0 ] && holds "$shared > 10 && $off > 5" || fail "apart: $unequal of $shared normals differ, up to $off degrees from the whole's"
+west=(500000 4000800 500910 4001610) east=(500900 4000800 501810 4001610)
+for source in made.tif "nw.tif ne.tif"; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify $source nw.obj -e 1.5 --te "${west[@]}" --lock-border --normals --crs source --overwrite
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify $source ne.obj -e 1.5 --te "${east[@]}" --lock-border --normals --crs source --overwrite
+  read -r shared unequal compared off < <(python3 shades.py nw.obj ne.obj whole.obj)
+  [ "$unequal" = 0 ] && holds "$shared > 10 && $compared > 5 && $off < 0.001" ||
+    fail "of $source: $unequal of $shared normals differ, up to $off degrees from the whole's"
+done
+
 # Any -j, and strips are refused.
 succeeds "$scarp" simplify "$dem" one.glb -e 10 --effort high --lock-border -j 1
 succeeds "$scarp" simplify "$dem" two.glb -e 10 --effort high --lock-border -j 2

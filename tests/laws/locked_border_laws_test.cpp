@@ -125,16 +125,27 @@ std::vector<Edge> edges_of(const Field& field) {
   return edges;
 }
 
-/// Heights of the mesh's vertices on an edge, by step along it.
-std::map<std::size_t, double> vertices_on(const Mesh& mesh, const Field& field, const Edge& edge) {
-  std::map<std::size_t, double> found;
+/// A vertex on an edge: its height, and its normal where the mesh has any.
+struct OnEdge {
+  double z = 0;
+  std::array<float, 3> normal{};
+
+  friend bool operator==(const OnEdge&, const OnEdge&) = default;
+};
+
+/// The mesh's vertices on an edge, by step along it.
+std::map<std::size_t, OnEdge> vertices_on(const Mesh& mesh, const Field& field, const Edge& edge) {
+  std::map<std::size_t, OnEdge> found;
   const Point a = edge.points.front(), b = edge.points.back();
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const auto [x, up, z] = mesh.vertex(v);
     const double y = field.rows - 1 - up;
     const bool is_on = a.x == b.x ? x == a.x : y == a.y;
     const double step = a.x == b.x ? y : x;
-    if (is_on) found[step == std::floor(step) ? static_cast<std::size_t>(step) : std::size_t{1} << 40] = z;
+    if (!is_on) continue;
+    OnEdge& vertex = found[step == std::floor(step) ? static_cast<std::size_t>(step) : std::size_t{1} << 40];
+    vertex.z = z;
+    for (std::size_t k = 0; k < 3 && !mesh.normals.empty(); ++k) vertex.normal[k] = mesh.normals[3 * v + k];
   }
   return found;
 }
@@ -158,9 +169,9 @@ void expect_line(const Mesh& mesh, const Field& field, double max_error) {
       const auto i = static_cast<std::size_t>(vertex);
       if (!is_covered(i) && !(i > 0 && is_covered(i - 1))) continue;
       RC_ASSERT(found.count(i) == 1u);
-      RC_ASSERT(found.at(i) == edge.heights[i]);
+      RC_ASSERT(found.at(i).z == edge.heights[i]);
     }
-    for (const auto& [i, z] : found) {
+    for (const auto& [i, vertex] : found) {
       const bool is_on_line = std::binary_search(line.begin(), line.end(), static_cast<std::int32_t>(i));
       // Or two half cells meet there.
       const bool is_corner =
@@ -216,6 +227,80 @@ RC_GTEST_PROP(locked_border, rasters_simplified_apart_meet, ()) {
   const auto right = simplify(east.view(), locked(goal, any_effort()));
   RC_ASSERT(left && right);
   RC_ASSERT(vertices_on(left->mesh, west, edges_of(west)[3]) == vertices_on(right->mesh, east, edges_of(east)[2]));
+}
+
+Field transposed(const Field& field) {
+  Field turned{field.rows, field.cols, {}};
+  for (int y = 0; y < field.cols; ++y)
+    for (int x = 0; x < field.rows; ++x) turned.samples.push_back(field.raster().at({y, x}));
+  return turned;
+}
+
+std::vector<float> column(const Field& field, std::int32_t x) {
+  std::vector<float> samples;
+  for (std::int32_t y = 0; y < field.rows; ++y) samples.push_back(field.raster().at({x, y}));
+  return samples;
+}
+
+// Cut at a column or at a row; with the samples beyond or without; with nodata.
+RC_GTEST_PROP(locked_border, has_the_same_normals_on_both_sides, ()) {
+  const auto relief = *rc::gen::element(Relief::kTies, Relief::kFlat, Relief::kCliff, Relief::kReal, Relief::kRidges);
+  const Field field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(4, 40),
+                                            *rc::gen::inRange(2, 40), relief, *rc::gen::element(0.0, 0.0, 0.1));
+  const auto at = *rc::gen::inRange(1, field.cols - 1);
+  Field first = columns(field, 0, at + 1), second = columns(field, at, field.cols);
+  auto options = locked(*rc::gen::element(0.0, 1.0, 5.0), any_effort());
+  options.output.normals = true;
+  SimplifyOptions of_second = options;
+  BeyondEdges &beyond = options.domain.border.beyond, &beyond_second = of_second.domain.border.beyond;
+  const bool knows_beyond = *rc::gen::arbitrary<bool>(), is_row = *rc::gen::arbitrary<bool>();
+  std::size_t side = 3, side_second = 2;
+  if (is_row) {
+    first = transposed(first);
+    second = transposed(second);
+    side = 1;
+    side_second = 0;
+  }
+  if (knows_beyond) {
+    (is_row ? beyond.bottom : beyond.right) = column(field, at + 1);
+    (is_row ? beyond_second.top : beyond_second.left) = column(field, at - 1);
+  }
+  const auto left = simplify(first.view(), options), right = simplify(second.view(), of_second);
+  if (!left || !right) return;  // no surface
+  const auto here = vertices_on(left->mesh, first, edges_of(first)[side]);
+  for (const auto& [step, vertex] : vertices_on(right->mesh, second, edges_of(second)[side_second])) {
+    // Where nodata is beside the edge, one of both may have a vertex more, also between samples.
+    if (step >= edges_of(second)[side_second].points.size()) continue;
+    if (const auto same = here.find(step); same != here.end()) RC_ASSERT(same->second == vertex);
+  }
+}
+
+TEST(locked_border, has_the_normals_of_the_whole_raster_where_it_knows_what_is_beyond) {
+  const Field field = testing::random_field(7, 30, 20, Relief::kReal);
+  const Field west = columns(field, 0, 13);
+  auto options = locked(0, Effort::kFast);
+  options.output.normals = true;
+  const auto whole = simplify(field.view(), options);
+  const auto apart = simplify(west.view(), options);
+  options.domain.border.beyond.right = column(field, 13);
+  const auto known = simplify(west.view(), options);
+  ASSERT_TRUE(whole && apart && known);
+  Edge middle;
+  for (std::int32_t y = 0; y < field.rows; ++y) middle.points.push_back({12, y});
+  const auto wanted = vertices_on(whole->mesh, field, middle), found = vertices_on(known->mesh, west, middle);
+  std::size_t compared = 0, level = 0;
+  for (const auto& [step, vertex] : found) {
+    const auto same = wanted.find(step);
+    if (same == wanted.end() || step == 0 || step + 1 == static_cast<std::size_t>(field.rows)) continue;
+    ++compared;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(same->second.normal[k], vertex.normal[k], 1e-6f);
+  }
+  EXPECT_GT(compared, 10u);
+  // And level across the edge where it does not know it.
+  for (const auto& [step, vertex] : vertices_on(apart->mesh, west, middle)) level += vertex.normal[0] == 0;
+  EXPECT_GT(level, 10u);
+  options.domain.border.beyond.right.pop_back();
+  EXPECT_EQ(simplify(west.view(), options).error().kind, ErrorKind::kUsage);
 }
 
 TEST(locked_border, tolerances_weights_and_ignored_samples_decide_the_line_too) {
@@ -303,7 +388,8 @@ RC_GTEST_PROP(locked_border, breaklines_end_at_its_vertices, ()) {
   // The line of an edge through one of its samples.
   const auto line_through = [&](const Edge& edge, std::int32_t at) {
     const auto middle = static_cast<std::size_t>(at);
-    std::vector<std::int32_t> vertices = simplify_edge(std::span(edge.heights).first(middle + 1), *options.goals.max_error);
+    std::vector<std::int32_t> vertices =
+        simplify_edge(std::span(edge.heights).first(middle + 1), *options.goals.max_error);
     for (const std::int32_t i : simplify_edge(std::span(edge.heights).subspan(middle), *options.goals.max_error)) {
       if (i > 0) vertices.push_back(at + i);
     }

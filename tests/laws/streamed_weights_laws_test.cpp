@@ -154,7 +154,7 @@ RC_GTEST_PROP(streamed_normals, are_those_of_samples_in_memory, ()) {
         static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(sample.x);
     if (!std::isnan(field.samples[index])) at.points.push_back(p);
   }
-  const bool is_same = sample_normals(field.view(), at) == sample_normals(with_source(field.view(), source), at);
+  const bool is_same = sample_normals(field.view(), at, {}) == sample_normals(with_source(field.view(), source), at, {});
   RC_ASSERT(is_same);
 }
 

@@ -301,6 +301,13 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
   if (auto checked = check_frame_of_lines(plan.find_lines(), frame, plan.read.crs, plan.input); !checked)
     return checked;
   SimplifyOptions options = plan.simplify;
+  // Filled nodata is not the same on both sides of an edge.
+  if (options.output.normals && options.domain.border.is_locked && plan.policy == NodataPolicy::kHole) {
+    const OwnedHeightField& field = outcome.field;
+    Result<BeyondEdges> beyond = read_beyond(plan.input, plan.read, outcome.as_read, field.cols, field.rows);
+    if (!beyond) return tl::unexpected(std::move(beyond.error()));
+    options.domain.border.beyond = std::move(*beyond);
+  }
   options.goals.max_error = outcome.asked;
   options.tolerances = outcome.companions.bounds();
   options.features = outcome.features;

@@ -1,0 +1,57 @@
+// What a raster goes on with beside a part of it: strips of three rows or columns, one of which lies beyond.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "scarp/io.h"
+
+namespace scarp {
+namespace {
+
+/// Cells of the part's grid, which may lie beyond it.
+struct Cells {
+  int col = 0, row = 0, cols = 0, rows = 0;
+};
+
+/// Empty where the raster does not have all of the cells.
+Result<OwnedHeightField> read_cells(const std::string& path, ReadOptions options, const RasterInfo& info,
+                                    const Cells& cells) {
+  const std::array<double, 6>& gt = info.geotransform;
+  const auto [west, east] = std::minmax({gt[0] + gt[1] * cells.col, gt[0] + gt[1] * (cells.col + cells.cols)});
+  const auto [south, north] = std::minmax({gt[3] + gt[5] * cells.row, gt[3] + gt[5] * (cells.row + cells.rows)});
+  options.view.extent = {west, south, east, north};
+  options.fill_distance = 0;
+  options.as_values = true;  // a strip without a height is no fault
+  auto strip = read_height_field(path, options);
+  if (strip && (strip->cols != cells.cols || strip->rows != cells.rows)) return OwnedHeightField{};
+  return strip;
+}
+
+}  // namespace
+
+Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& options, const RasterInfo& info, int cols,
+                                int rows) {
+  constexpr int kWidth = 3;  // the raster has two of them at least, whatever lies beyond
+  BeyondEdges beyond;
+  if (!options.view.extent) return beyond;
+  struct Strip {
+    std::vector<float>& edge;
+    Cells cells;
+    int first, step;
+  };
+  const Strip strips[] = {{beyond.top, {0, -1, cols, kWidth}, 0, 1},
+                          {beyond.bottom, {0, rows - 2, cols, kWidth}, (kWidth - 1) * cols, 1},
+                          {beyond.left, {-1, 0, kWidth, rows}, 0, kWidth},
+                          {beyond.right, {cols - 2, 0, kWidth, rows}, kWidth - 1, kWidth}};
+  for (const Strip& strip : strips) {
+    auto read = read_cells(path, options, info, strip.cells);
+    if (!read) return tl::unexpected(std::move(read.error()));
+    if (read->samples.empty()) continue;
+    for (int k = 0; k < (strip.step == 1 ? cols : rows); ++k)
+      strip.edge.push_back(read->samples[static_cast<std::size_t>(strip.first + k * strip.step)]);
+  }
+  return beyond;
+}
+
+}  // namespace scarp
