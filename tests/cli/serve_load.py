@@ -120,7 +120,10 @@ for k, one in enumerate(friends):
 slow = [connect() for _ in range(count(500))]
 for letter in b"GET /layer.json HT":
     for one in slow:
-        one.sendall(bytes([letter]))
+        try:
+            one.sendall(bytes([letter]))
+        except OSError:
+            pass  # dropped after 10 seconds, on a slow machine
 check_health(20)
 endless = [connect() for _ in range(count(300))]
 for one in endless:
