@@ -293,6 +293,25 @@ NOT_RUN = [
     "leave --memory out, or allow",  # test_memory_limit.sh
     "does not go with --changed-since",
     "whatever --crs says",
+    # Printed by test_views.sh and test_netcdf.sh, which run what they name.
+    "rows are even in Mercator", "-a_srs EPSG:3857 -a_ullr", "if {} has the same unit, declare it first",
+    "bring it to one unit first", "if {} has the same, declare it first", "and {} make no mosaic, since {} holds",
+    "(gdalwarp {} {})", "(gdalwarp {}{} {} {})", "lies on the other side of the end of x", "heights are none on earth",
+    "as colours do that were interpolated",
+    # Printed by test_points.sh, test_point_files.sh and tests/unit/point_columns_test.cpp.
+    "if an attribute holds them, name it", "is 0 everywhere, so the heights are those", "of the attribute {}, not of {}",
+    "its attribute {} is empty; fill it in", "no number as its height", "or leave out all points without a height",
+    "names the columns of a text, and this is none", "--columns {} names two columns", "--columns {} names no {}",
+    "if x is the northing here", "--columns {} or --columns {}", "would be the height, and reaches", "is taken for the northing",
+    "{}--columns names columns by their order", "--z-field names another, and ", "or name them with --columns",
+    ": --nodata nan leaves out all points", "are all 0, so those of {} count", "are those of the column {}: --z-field",
+    "{} exactly the height {}, far {} all others",
+    # Printed by test_units.sh and test_goals.sh.
+    "makes them one unit", "says that they are metres", "x and y have no CRS and stay", "names another",
+    "is in metres by its specification",
+    # Printed by test_breaklines.sh, test_water.sh, test_shape.sh and test_tile_grids.sh.
+    "takes the heights of lines from the raster", "names an attribute with heights, and ", "which cuts nothing",
+    "so simpler lines or a larger max error leave fewer", "which makes walls: --nodata-policy fill",
     # Of view, whose page is built by npm: test_view.sh.
     "is too large for a page", "the finest level of the page is", "is not whole:", "and a page judges by a raster alone",
     "options of a raster are given", "is a set of tiles, which is shown without a raster",
