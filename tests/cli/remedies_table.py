@@ -113,8 +113,6 @@ BEYOND = CALC % ("beyond.tif", "Float64", "A*1e37") + "; gdal_translate -q -a_no
 C("beyond float32", "scarp simplify beyond.tif o.glb -e 20%", BEYOND)
 O("beyond float32, nodata", "scarp simplify one.tif o.glb -e 20", "give --nodata ", "scarp simplify one.tif o.glb -e 20 --nodata $(scarp simplify one.tif o.glb -e 20 2>&1 | grep -o 'nodata [^,]*' | cut -d' ' -f2)", CALC % ("one.tif", "Float64", "numpy.where(A==935,1e39,A)") + "; gdal_translate -q -a_nodata none one.tif b.tif; mv b.tif one.tif")
 C("too large for the memory", "scarp info huge.vrt", "echo '<VRTDataset rasterXSize=\"2000000\" rasterYSize=\"2000000\"><VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>' > huge.vrt", {"COLUMN ROW COLUMNS ROWS": "0 0 100 90"})
-C("a mask and --resolution", "scarp simplify masked.tif o.glb -e 20 --resolution 0.002", "gdal_translate -q -b 1 -mask 1 dem.tif masked.tif")
-C("south up, nodata and --resolution", "scarp simplify south.tif o.glb -e 20 --resolution 200", "gdal_translate -q -a_nodata 400 -a_ullr 740000 4016760 743600 4020000 utm.tif south.tif")
 C("two nodata values", "scarp simplify two.tif o.glb -e 20", CALC % ("two.tif", "Float32 --NoDataValue=-32768", "numpy.where(A<460,-9999,numpy.where(A>920,-32768,A))"))
 O("undeclared nodata", "scarp simplify one.tif o.glb -e 20", "give --nodata -9999", "scarp simplify one.tif o.glb -e 20 --nodata -9999", CALC % ("a.tif", "Float32", "numpy.where(A<460,-9999,A)") + "; gdal_translate -q -a_nodata none a.tif one.tif")
 C("a transparent texture", "scarp simplify dem.tif o.glb -t 500 --texture rgba.tif", "gdal_translate -q -b 1 -b 2 -b 3 -b 1 -colorinterp red,green,blue,alpha rgb.tif rgba.tif")
@@ -169,9 +167,9 @@ O("several rasters", "scarp simplify two.nc o.glb -e 20", "name one of them: .*:
 # Points and lines.
 C("degrees in CSV", "scarp simplify degrees.csv o.glb -e 5")
 C("degrees in CSV with ;", "scarp simplify d.csv o.glb -e 5", "sed 's/,/;/g' degrees.csv > d.csv")
-C("degrees in XYZ", "scarp simplify d.xyz o.glb -e 5", "sed 1d degrees.csv | tr , ' ' > d.xyz")
-C("degrees in TXT with blanks", "scarp simplify d.txt o.glb -e 5", "sed 1d degrees.csv | sed 's/,/   /g' > d.txt")
-C("degrees without header", "scarp simplify d.csv o.glb -e 5", "sed 1d degrees.csv > d.csv")
+C("degrees in XYZ", "scarp simplify d.xyz o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv | tr , ' ' > d.xyz")
+C("degrees in TXT with blanks", "scarp simplify d.txt o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv | sed 's/,/   /g' > d.txt")
+C("degrees without header", "scarp simplify d.csv o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv > d.csv")
 C("CSV and --crs", "scarp simplify plain.csv o.glb -e 1 --crs EPSG:32633", "", {"EPSG:CODE": "EPSG:32632"})
 C("points without CRS", "scarp simplify p.gpkg o.glb -e 1 --crs EPSG:32633", "ogr2ogr -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z p.gpkg plain.csv", {"EPSG:CODE": "EPSG:32632"})
 C("contours as polygons", "scarp simplify lake.geojson o.glb -e 1", then="scarp simplify NEW.gpkg o.glb -e 1 --z-field elev")
@@ -196,8 +194,6 @@ O("vector data", "scarp info l.json", "--points takes it", "scarp info l.json --
 # Units.
 FEET = "gdal_translate -q -ot Float32 dem.tif feet.tif; gdal_edit.py -units ft feet.tif 2>/dev/null || python3 -c \"from osgeo import gdal; gdal.Open('feet.tif',1).GetRasterBand(1).SetUnitType('ft')\""
 FEET_ACROSS = "gdal_translate -q -a_srs EPSG:2264 -a_ullr 2000000 700000 2012000 690000 dem.tif ft.tif"
-O("feet in space", "scarp simplify feet.tif o.glb -e 20 --crs enu", "give --z-scale 0.3048", "scarp simplify feet.tif o.glb -e 20 --crs enu --z-scale 0.3048", FEET)
-O("feet for tiles", "scarp tile feet.tif g -e 20 --zoom 9 --vertical egm96", "give --z-scale 0.3048", "scarp tile feet.tif g -e 20 --zoom 9 --vertical egm96 --z-scale 0.3048", FEET)
 O("heights far too large", "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid --z-scale 1e6", "Else give --z-scale", "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid --z-scale 1")
 
 # Options that need, or end, another.
@@ -261,8 +257,8 @@ O("3D Tiles as they are asked for", "scarp serve plan.json --port 0", "scarp til
 O("quantized-mesh on a plane", "scarp tile utm.tif g --grid local --of qm -e 20 --vertical ellipsoid", "--of 3dtiles holds a plane", "scarp tile utm.tif g --grid local --of 3dtiles -e 20 --vertical ellipsoid")
 O("a plane too large", "scarp tile large.tif g --grid local -e 200 --vertical ellipsoid", "take --grid geographic", "scarp tile large.tif g2 --grid geographic -e 200 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:32616 -a_ullr 240000 5020000 1240000 4020000 dem.tif large.tif")
 O("heights on small cells", "scarp tile none.tif g -e 1 --cell-size 1e-7", "are no land: .* Else give --z-scale", "scarp tile none.tif g -e 1e-7 --cell-size 1e-7 --z-scale 1e-6")
-O("feet across", "scarp tile ft.tif g -e 20 --zoom 9 --vertical egm96", "give --z-scale 0.30480", "scarp tile ft.tif g -e 20 --zoom 9 --vertical egm96 --z-scale 0.3048006096", FEET_ACROSS)
-O("feet across, in space", "scarp simplify ft.tif o.glb -e 20 --crs enu", "--z-scale 0.3048 makes metres of it", "scarp simplify ft.tif o.glb -e 20 --crs enu --z-scale 0.3048", FEET_ACROSS)
+O("feet across", "scarp tile ft.tif g -e 20 --zoom 9 --vertical egm96", "--z-unit m says that they are metres", "scarp tile ft.tif g -e 20 --zoom 9 --vertical egm96 --z-unit m", FEET_ACROSS)
+O("feet across, in space", "scarp simplify ft.tif o.glb -e 20 --crs enu", "--z-unit m says that they are metres", "scarp simplify ft.tif o.glb -e 20 --crs enu --z-unit m", FEET_ACROSS)
 O("feet up", "scarp simplify feet.tif o.obj -e 20 --crs EPSG:32616", "--z-scale 0.3048 makes them one unit", "scarp simplify feet.tif o.obj -e 20 --crs EPSG:32616 --z-scale 0.3048", FEET)
 O("a port in use", "scarp serve plan.json --port $(cat port)", "by --port, or 0 for any", "timeout 2 scarp serve plan.json --port 0; [ $? = 124 ]",
   PLAN + "; python3 -c \"import socket,time; s=socket.socket(); s.bind(('127.0.0.1',0)); s.listen(); print(s.getsockname()[1],flush=True); time.sleep(20)\" > port 2> /dev/null & until [ -s port ]; do sleep 0.05; done")
@@ -307,7 +303,7 @@ NOT_RUN = [
     ": --nodata nan leaves out all points", "are all 0, so those of {} count", "are those of the column {}: --z-field",
     "{} exactly the height {}, far {} all others",
     # Printed by test_units.sh and test_goals.sh.
-    "makes them one unit", "says that they are metres", "x and y have no CRS and stay", "names another",
+    "x and y have no CRS and stay", "names another",
     "is in metres by its specification",
     # Printed by test_breaklines.sh, test_water.sh, test_shape.sh and test_tile_grids.sh.
     "takes the heights of lines from the raster", "names an attribute with heights, and ", "which cuts nothing",
