@@ -216,6 +216,7 @@ RC_GTEST_PROP(views, of_unlike_rasters_have_the_samples_that_each_has_alone, ())
   std::vector<Sheet> sheets;
   std::vector<std::vector<float>> samples;
   ReadOptions all = options;
+  std::string unit_alone;
   for (int k = 0; k < 3; ++k) {
     Said said = any_said();
     said.unit = unit;
@@ -226,13 +227,14 @@ RC_GTEST_PROP(views, of_unlike_rasters_have_the_samples_that_each_has_alone, ())
     const auto alone = read_height_field(name, options);
     RC_PRE(alone.has_value());
     samples.push_back(alone->samples);
+    unit_alone = alone->info.unit;
     all.view.more.push_back(name);
   }
   const std::string first = all.view.more.front();
   all.view.more.erase(all.view.more.begin());
   const auto view = read_height_field(first, all);
   if (!view) RC_FAIL(view.error().message);
-  RC_ASSERT(view->info.unit == (all.z_scale == 1 ? unit : view->info.unit));
+  RC_ASSERT(view->info.unit == unit_alone);
   int left = 99, top = 99;
   for (const Sheet& sheet : sheets) left = std::min(left, sheet.col), top = std::min(top, sheet.row);
   std::vector<float> wanted(view->samples.size(), std::numeric_limits<float>::quiet_NaN());
