@@ -147,7 +147,9 @@ void expect_one_said(const RasterInfo& view, const RasterInfo& raster) {
   RC_ASSERT(view.scale == raster.scale);
   RC_ASSERT(view.offset == raster.offset);
   RC_ASSERT(view.nodata.has_value() == raster.nodata.has_value());
-  if (view.nodata) RC_ASSERT(text(*view.nodata) == text(*raster.nodata));
+  // GDAL moves values next to the largest float to it; what is nodata there is meant by magnitude.
+  const auto moved = [](double nodata) { return std::abs(nodata) < 3.4e38 ? nodata : double{static_cast<float>(nodata)}; };
+  if (view.nodata) RC_ASSERT(text(moved(*view.nodata)) == text(moved(*raster.nodata)));
 }
 
 /// Either a value from outside takes the place of the declared one, or not.
