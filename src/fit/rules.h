@@ -36,7 +36,7 @@ struct ShapeRule {
   bool by_angle = false;  ///< the form is the square of the smallest angle's sine instead
   double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with an edge beyond has the form 0
   double shortest_square = 0;                                       ///< no edge is too short from here on
-  bool edges_first = false;  ///< a short edge counts as a thin form: where nobody asks for a smallest angle
+  bool edge_first = false;  ///< the form yields: an edge that is too short is as bad as one so much thinner
 
   bool is_on() const { return floor > 0; }
   TriangleShape least() const { return {floor, shortest_square}; }
@@ -49,10 +49,11 @@ struct ShapeRule {
   TriangleShape of(double area, double ab, double bc, double ca) const {
     const double longest = std::max({ab, bc, ca}), edge = std::min({ab, bc, ca, shortest_square});
     if (longest > longest_square) return {0, edge};
-    double form = area * aspect / longest;
-    if (by_angle) form *= area * aspect / std::max(std::min(ab, bc), std::min(std::max(ab, bc), ca));
-    if (!edges_first || edge == shortest_square) return {form, edge};
-    return {std::min(form, floor * edge / shortest_square), shortest_square};
+    const double most =
+        edge_first && edge < shortest_square ? floor * edge / shortest_square : std::numeric_limits<double>::infinity();
+    if (!by_angle) return {std::min(most, area * aspect / longest), edge};
+    const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), ca));
+    return {std::min(most, area * aspect / longest * (area * aspect / middle)), edge};
   }
   /// Whether an edge is shorter than it may be.
   bool is_short(const FitCorner& p, const FitCorner& q) const { return square(p, q) < shortest_square; }

@@ -546,7 +546,7 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
   if (goals.min_edge) {
     const double shortest = *goals.min_edge / width * kLatticeSteps;
     rule.shortest_square = shortest * shortest * (1 + kShapeSlack);
-    rule.edges_first = goals.min_angle == 0;
+    rule.edge_first = goals.min_angle == 0;
   }
   if (!goals.max_edge) return rule;
   const double longest = *goals.max_edge / width * kLatticeSteps;
