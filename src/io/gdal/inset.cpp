@@ -3,9 +3,11 @@
 #include <ogr_geometry.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "base/caught.h"
 #include "io/gdal/session.h"
@@ -55,13 +57,76 @@ bool is_distance(double distance, const OGRGeometry& polygons) {
   return std::abs(distance) > 0x1p-40 * largest;
 }
 
-/// Null where GEOS fails. Instead of segments GEOS takes minus the length of pointed corners.
-OGRGeometry* buffer(const OGRGeometry& polygons, double distance, double sample) {
-  constexpr int kPointed = -2;
+using Place = std::array<double, 2>;
+
+Place way(const Place& from, const Place& to) { return {to[0] - from[0], to[1] - from[1]}; }
+double cross(const Place& u, const Place& v) { return u[0] * v[1] - u[1] * v[0]; }
+double length(const Place& u) { return std::hypot(u[0], u[1]); }
+
+/// A vertex in the place of all from the first to the last.
+struct Corner {
+  Place at, first, last;
+};
+
+/// Makes the middle two of the last four one, where their neighbours' edges meet, if that is on the side to which the
+/// ring was moved, and near.
+bool sharpen(std::vector<Corner>& ring, double distance) {
+  constexpr double kReach = 1.7320508;  // over the distance: a corner of 60 degrees, twice as far away as its arc
+  if (ring.size() < 4) return false;
+  Corner *const a = &ring[ring.size() - 3], *const b = a + 1;
+  const Place in = way((a - 1)->at, a->at), out = way(b->at, (b + 1)->at), edge = way(a->at, b->at);
+  const double turn = cross(in, out);
+  if (!(turn * distance < 0)) return false;
+  const double ahead = cross(edge, out) / turn, back = cross(in, edge) / turn;
+  const Place at{a->at[0] + ahead * in[0], a->at[1] + ahead * in[1]};
+  const double reach = std::max(length(way(a->first, at)), length(way(b->last, at)));
+  if (!(ahead > 0 && back > 0 && reach <= kReach * std::abs(distance))) return false;
+  *a = {at, a->first, b->last};
+  ring.erase(ring.end() - 2);
+  return true;
+}
+
+/// Arcs become corners. `distance`: by which it was moved to its left.
+OGRLinearRing sharpened(const OGRLinearRing& ring, double distance) {
+  const int count = ring.getNumPoints() - 1;
+  const auto place = [&](int k) { return Place{ring.getX(k % count), ring.getY(k % count)}; };
+  int longest = 0;  // where it begins: no arc does there
+  for (int k = 1; k < count; ++k) {
+    if (length(way(place(k), place(k + 1))) > length(way(place(longest), place(longest + 1)))) longest = k;
+  }
+  std::vector<Corner> corners;
+  for (int k = longest; k < longest + count + 2; ++k) {
+    corners.push_back({place(k), place(k), place(k)});
+    while (sharpen(corners, distance)) continue;
+  }
+  OGRLinearRing result;
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k) result.addPoint(corners[k].at[0], corners[k].at[1]);
+  result.closeRings();
+  return result;
+}
+
+/// Moved inwards; null where GEOS fails.
+Owned move_inwards(const OGRGeometry& whole, double distance, double sample) {
   constexpr double kSteps = 256, kShare = 0.125;
-  const Owned moved(polygons.Buffer(distance, std::abs(distance) < sample ? kPointed : kSegmentsPerQuarter));
-  if (!moved || sample <= 0) return moved ? moved->clone() : nullptr;
-  return moved->SimplifyPreserveTopology(std::min(sample / kSteps, kShare * std::abs(distance)));
+  const bool is_pointed = std::abs(distance) < sample;
+  Owned moved(whole.Buffer(-distance, kSegmentsPerQuarter));
+  if (!moved || sample <= 0) return moved;
+  OGRMultiPolygon parts, pointed;
+  collect_polygons(*moved, parts);
+  for (int i = 0; i < parts.getNumGeometries() && is_pointed; ++i) {
+    const OGRPolygon& round = *parts.getGeometryRef(i);
+    OGRPolygon polygon;
+    for (int k = -1; k < round.getNumInteriorRings(); ++k) {
+      const OGRLinearRing& ring = k < 0 ? *round.getExteriorRing() : *round.getInteriorRing(k);
+      const bool is_left = (k < 0) != (ring.isClockwise() != 0);
+      OGRLinearRing sharp = sharpened(ring, is_left ? distance : -distance);
+      polygon.addRing(&sharp);
+    }
+    // Across a neck corners may meet.
+    pointed.addGeometry(polygon.IsValid() ? &polygon : &round);
+  }
+  const OGRGeometry& from = is_pointed ? pointed : static_cast<const OGRGeometry&>(*moved);
+  return Owned(from.SimplifyPreserveTopology(std::min(sample / kSteps, kShare * std::abs(distance))));
 }
 
 void add_ring(const OGRLinearRing& ring, LineRole role, std::uint32_t polygon, const std::array<double, 2>& unit,
@@ -84,7 +149,7 @@ Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, co
   const bool are_valid = to_polygons(rings, unit, polygons);
   const Owned whole(are_valid ? polygons.UnionCascaded() : nullptr);
   const bool moves = whole && is_distance(distance, *whole);
-  const Owned moved(!whole ? nullptr : moves ? buffer(*whole, -distance, sample) : whole->clone());
+  const Owned moved = !whole ? nullptr : moves ? move_inwards(*whole, distance, sample) : Owned(whole->clone());
   if (!moved)
     return fail(ErrorKind::kInput,
                 fmt::format("the polygons cannot be moved inwards by {}: {}", distance, session.reason()));
