@@ -40,21 +40,14 @@ add() {
   total_skipped=$((total_skipped + $3))
 }
 
-# cpu_seconds: CPU time of the finished children so far, in seconds.
-cpu_seconds() {
-  local log=$build/times.log
-  times >"$log"  # of this shell: a pipe would have a shell of its own
-  awk 'NR == 2 { for (k = 1; k <= 2; ++k) { split($k, part, /[ms]/); taken += 60 * part[1] + part[2] } printf "%.2f", taken }' "$log"
-}
-
 # timed STAGE COMMAND...: notes the CPU time of the command in BUILD/times.
 timed() {
-  local stage=$1 before status=0
+  local stage=$1 status=0 TIMEFORMAT='%U %S'
   shift
   mkdir -p "$build/times"
-  before=$(cpu_seconds)
-  "$@" || status=$?
-  awk -v before="$before" -v after="$(cpu_seconds)" 'BEGIN { printf "%.2f\n", after - before }' >"$build/times/$stage"
+  { time "$@" >&3 2>&4; } 3>&1 4>&2 2>"$build/times/$stage" || status=$?
+  awk '{ printf "%.2f\n", $1 + $2 }' "$build/times/$stage" >"$build/times/$stage.sum"
+  mv "$build/times/$stage.sum" "$build/times/$stage"
   return $status
 }
 

@@ -25,7 +25,7 @@ std::string new_file(const std::string& extension) {
 }
 
 std::string translate_command(const std::string& options, const std::string& file) {
-  return fmt::format("gdal_translate {} {} {}", options, file_word(file), new_file(".tif"));
+  return fmt::format("gdal_translate{}{} {} {}", options.empty() ? "" : " ", options, file_word(file), new_file(".tif"));
 }
 
 std::string warp_command(const std::string& options, const std::string& file) {

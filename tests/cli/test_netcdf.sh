@@ -62,8 +62,7 @@ refuses 2 "middle.nc: its latitudes are uneven, up to 0.195 cells" "$scarp" simp
 refuses 2 "uneven_columns.nc: its longitudes are uneven" "$scarp" simplify uneven_columns.nc o.glb -e 5
 for file in mercator down_mercator fine_mercator; do
   refuses 2 "$file.nc: its rows are even in Mercator, not in latitude" "$scarp" simplify $file.nc o.glb -e 5
-  rm -f new.tif
-  eval "$(sed -n 's/.*(\(gdal_translate .*\)).*/\1/p' "$logs/err") -q"
+  eval "$(sed -n 's/.*(\(gdal_translate .*\)).*/\1/p' "$logs/err") -q" && mv NEW.tif new.tif
   succeeds "$scarp" simplify new.tif o.tif -e 0.001 --overwrite
   python3 - "$file" <<'PY' || fail "$file.nc lies elsewhere after the way out"
 import math, subprocess, sys, netcdf

@@ -29,7 +29,7 @@ cat "$dem" | "$scarp" info - --json > info.json
 "$scarp" simplify "$dem" a.glb -e 50 --report - 2> "$logs/err" | python3 -c 'import json, sys; assert json.load(sys.stdin)["max_error"] <= 50'
 grep -q '^Reached' "$logs/err" || fail "the summary is not on stderr where the report is on stdout"
 refuses 1 "OUTPUT and --report both write to standard output" "$scarp" simplify "$dem" - --of glb -e 50 --report -
-refuses 1 "cannot tell the format from -" "$scarp" simplify "$dem" - -e 50
+refuses 1 "OUTPUT - is standard output, whose name tells no format: give --of FORMAT" "$scarp" simplify "$dem" - -e 50
 refuses 2 "standard input: the file is empty" "$scarp" info - < /dev/null
 refuses 2 "standard input: not a raster" "$scarp" simplify - b.glb -e 1 < <(echo "no raster at all, but words")
 printf 'x,y,z\n0,0,1\n1,0,2\n0,1,3\n1,1,5\n0.3,0.7,2\n' > points.csv

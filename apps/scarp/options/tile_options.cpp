@@ -34,6 +34,7 @@ struct DatumWord {
   Vertical vertical;
   int epsg = 0;
 };
+constexpr int kEgm96Code = 5773;
 constexpr DatumWord kDatums[] = {{"auto", Vertical::kAuto},
                                  {"egm96", Vertical::kEgm96},
                                  {"egm2008", Vertical::kEpsg, kEgm2008},
@@ -63,6 +64,12 @@ Result<Datum> parse_vertical(const std::string& text) {
               fmt::format("--vertical {}: give auto, egm96, egm2008, ellipsoid, none, or EPSG: and the number of a "
                           "vertical CRS",
                           text));
+}
+
+/// One spelling for each datum, so that equal sets have equal bytes.
+std::string vertical_word(const std::string& text) {
+  if (text == fmt::format("EPSG:{}", kEgm96Code)) return "egm96";
+  return text == fmt::format("EPSG:{}", kEgm2008) ? "egm2008" : text;
 }
 
 /// "1737400,1737400".
@@ -363,7 +370,7 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (auto found = find_waters(job, *opened.raster); !found) return tl::unexpected(found.error());
   for (std::string& one : warn_of_walls(*opened.raster, job.plan)) opened.warnings.push_back(std::move(one));
   job.filled = opened.raster->voids().filled;
-  if (!geoid && vertical != Given("auto")) job.facts.vertical = vertical.value_or("");
+  if (!geoid && vertical != Given("auto")) job.facts.vertical = vertical_word(vertical.value_or(""));
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
   add_plane(*opened.raster, job.facts);

@@ -78,7 +78,7 @@ std::string describe_unit_difference(const Tile& first, const Tile& tile, std::s
     const std::string &named = b.unit.empty() ? a.unit : b.unit, says = "heights in " + named;
     return fmt::format("has {}, and {} {}: if {} has the same unit, declare it first (gdal_edit.py -units \"{}\" {})",
                        b.unit.empty() ? "no unit" : says, first.path, a.unit.empty() ? "no unit" : says, without.path,
-                       named, without.path);
+                       named, file_word(without.path));
   }
   const double ratio = metres_in(a.unit) == 0 ? 0 : metres_in(b.unit) / metres_in(a.unit);
   const std::string way =
@@ -102,8 +102,8 @@ std::string describe_datum_difference(const Tile& first, const Tile& tile) {
   const std::string crs = name_with_heights(named.space.crs);
   std::string way = "give rasters of one vertical datum";
   if (!crs.empty()) {
-    way = a.empty() || b.empty() ? fmt::format("if {} has the same, declare it first (gdal_edit.py -a_srs {} {})",
-                                               other.path, crs, other.path)
+    way = a.empty() || b.empty() ? fmt::format("if {} has the same, declare it first ({})", other.path,
+                                               translate_command("-a_srs " + file_word(crs), other.path))
                                  : "bring it there first " + gdalwarp(fmt::format("-t_srs {} -r bilinear", crs), tile);
   }
   return fmt::format("has {}, and {} {}: {}", say(b), first.path, say(a), way);
@@ -238,9 +238,11 @@ Result<bool> place_tiles(std::vector<Tile>& tiles) {
       return fail(
           ErrorKind::kInput,
           fmt::format("{} lies on the other side of the end of x, and once around the earth {:.3g} of a cell beside "
-                      "the grid: move it first (gdal_translate -a_ullr {:.17g} {:.17g} {:.17g} {:.17g} {} new.tif)",
-                      tile.path, off_whole(moved), x, tile.gt[3], x + tile.cols * tile.gt[1],
-                      tile.gt[3] + tile.rows * tile.gt[5], tile.path));
+                      "the grid: move it first ({})",
+                      tile.path, off_whole(moved),
+                      translate_command(fmt::format("-a_ullr {:.17g} {:.17g} {:.17g} {:.17g}", x, tile.gt[3],
+                                                    x + tile.cols * tile.gt[1], tile.gt[3] + tile.rows * tile.gt[5]),
+                                        tile.path)));
     }
     tile.col = std::llround(moved);
   }
