@@ -75,6 +75,22 @@ succeeds() {
   [ "$code" = 0 ] || fail "exit code $code instead of 0: $*"
 }
 
+# await PROCESS COMMAND...: waits until the command succeeds, however slow the machine is; fails where the process ends first.
+await() {
+  local process=$1
+  shift
+  until "$@"; do
+    kill -0 "$process" 2> /dev/null || fail "the process ended before this was true: $*"
+    sleep 0.02
+  done
+}
+
+# names_port FILE: a server has printed its address there; $port is its port.
+names_port() {
+  port=$(sed -n 's#^  at  *http://127\.0\.0\.1:\([0-9]*\)/$#\1#p' "$1")
+  [ -n "$port" ]
+}
+
 # run_within MEGABYTES COMMAND...: the command's exit code, and a failure if it takes more memory at any moment. What a
 # sanitizer takes is not the program's, and not looked at.
 run_within() {

@@ -30,7 +30,7 @@ class Fault(Exception):
 
 def shell(command, folder):
     path = f"PATH={shlex.quote(str(scarp.parent))}:$PATH:{shlex.quote(str(root / 'programs'))}; "
-    done = subprocess.run(["timeout", "60", "bash", "-c", path + command], cwd=folder, capture_output=True, text=True, errors="replace")
+    done = subprocess.run(["timeout", "600", "bash", "-c", path + command], cwd=folder, capture_output=True, text=True, errors="replace")
     printed.append(done.stdout + done.stderr)
     return done.returncode, (done.stdout + done.stderr).replace("scarp: warning: ", "")
 

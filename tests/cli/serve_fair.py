@@ -31,7 +31,7 @@ def connect(address, buffer=None):
     one = socket.socket()
     if buffer:
         one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer)
-    one.settimeout(60)
+    one.settimeout(600)
     one.bind((address, 0))
     one.connect(("127.0.0.1", port))
     return one
@@ -49,7 +49,7 @@ def add_deaf(count, path):
 
 def check_served(address, rounds):
     for k in range(rounds):
-        client = http.client.HTTPConnection("127.0.0.1", port, timeout=60, source_address=(address, 0))
+        client = http.client.HTTPConnection("127.0.0.1", port, timeout=600, source_address=(address, 0))
         for name in (names[7 * k % len(names)], names[(7 * k + 3) % len(names)]):
             client.request("GET", "/" + name, headers={"Accept-Encoding": "gzip"})
             answer = client.getresponse()

@@ -34,7 +34,7 @@ def connect(**options):
     one = socket.socket()
     for name, value in options.items():
         one.setsockopt(socket.SOL_SOCKET, getattr(socket, name), value)
-    one.settimeout(60)
+    one.settimeout(600)
     one.connect(("127.0.0.1", port))
     return one
 
@@ -81,7 +81,7 @@ def drain(one):
 
 
 def check_health(rounds):
-    client = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+    client = http.client.HTTPConnection("127.0.0.1", port, timeout=600)
     for k in range(rounds):
         name = names[7 * k % len(names)]
         client.request("GET", "/" + name, headers={"Accept-Encoding": "gzip"})

@@ -20,7 +20,7 @@ server = int(sys.argv[3]) if len(sys.argv) > 3 else None
 
 
 def connect():
-    return http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+    return http.client.HTTPConnection("127.0.0.1", port, timeout=600)
 
 
 def ask(connection, path):
@@ -99,14 +99,14 @@ def stroll(seed):
         wrong.append(error)
 
 
-slow = [socket.create_connection(("127.0.0.1", port), timeout=60) for _ in range(100)]
+slow = [socket.create_connection(("127.0.0.1", port), timeout=600) for _ in range(100)]
 for one in slow:
     one.sendall(b"GET /" + names[-1].encode() + b" HTTP/1.1\r\nHost: x\r\nX: ")
 strollers = [threading.Thread(target=stroll, args=(k,)) for k in range(50)]
 for one in strollers:
     one.start()
 for k in range(1500):
-    with socket.create_connection(("127.0.0.1", port), timeout=60) as one:
+    with socket.create_connection(("127.0.0.1", port), timeout=600) as one:
         one.sendall((b"GET /" + names[k % len(names)].encode() + b" HTTP/1.1\r\nHost: x\r\n\r\n", b"GET /", b"\0\xff\r\n\r\n")[k % 3])
 for one in strollers:
     one.join()

@@ -33,7 +33,7 @@ wrong, done, asked = [], threading.Event(), threading.Event()
 
 
 def stroll():
-    client = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+    client = http.client.HTTPConnection("127.0.0.1", port, timeout=600)
     while not done.is_set():
         for name in common + gone:
             status, body = ask(client, name)
@@ -49,7 +49,7 @@ for one in strollers:
     one.start()
 asked.wait(60)
 subprocess.run(command, check=True)
-client = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+client = http.client.HTTPConnection("127.0.0.1", port, timeout=600)
 assert ask(client, "layer.json") == (200, (new / "layer.json").read_bytes())
 for name, body in after.items():
     assert ask(client, name) == (200, body), name

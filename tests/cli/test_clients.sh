@@ -201,7 +201,7 @@ python3 judge.py jobs > jobs.json
 "$python_program" "$SCARP_SOURCE/tools/globe/serve.py" site 0 > address &
 server=$!
 trap 'kill $server; rm -rf "$root"' EXIT
-for ((k = 0; k < 100; ++k)); do [ -s address ] && break; sleep 0.1; done
+await $server test -s address
 succeeds node "$js/clients.mjs" "$(cat address)" jobs.json "$shots" "$(command -v chromium)"
 cp "$logs/out" answers.json
 python3 judge.py

@@ -13,10 +13,10 @@ open("bomb.xml", "w").write(bomb)
 open("bomb16.xml", "w", encoding="utf-16").write(bomb.replace('version="1.0"', 'version="1.0" encoding="UTF-16"'))
 PYTHON
 for bomb in bomb.xml bomb16.xml; do
-  refuses 2 "$bomb: not a raster" timeout 20 "$scarp" info "$bomb"
-  refuses 2 "$bomb: not a raster" timeout 20 "$scarp" simplify "$bomb" out.glb -e 1
-  refuses 2 "$bomb: XML that declares entities is not read" timeout 20 "$scarp" simplify "$dem" out.glb -e 50 --cutline "$bomb"
-  refuses 2 "$bomb: XML that declares entities is not read" timeout 20 "$scarp" simplify "$bomb" out.glb -e 1 --points
+  refuses 2 "$bomb: not a raster" timeout 600 "$scarp" info "$bomb"
+  refuses 2 "$bomb: not a raster" timeout 600 "$scarp" simplify "$bomb" out.glb -e 1
+  refuses 2 "$bomb: XML that declares entities is not read" timeout 600 "$scarp" simplify "$dem" out.glb -e 50 --cutline "$bomb"
+  refuses 2 "$bomb: XML that declares entities is not read" timeout 600 "$scarp" simplify "$bomb" out.glb -e 1 --points
 done
 rm ./*.xml
 

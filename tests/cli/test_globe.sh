@@ -25,7 +25,7 @@ E2
 "$python_program" "$SCARP_SOURCE/tools/globe/serve.py" globe 0 > address &
 server=$!
 trap 'kill $server; rm -rf "$root"' EXIT
-for ((k = 0; k < 100; ++k)); do [ -s address ] && break; sleep 0.1; done
+await $server test -s address
 succeeds node "$js/globe.mjs" "$(cat address)" points.json shot.png "$(command -v chromium)"
 cp "$logs/out" judged.json
 python3 - << 'E2'

@@ -15,7 +15,7 @@ serve() {
   shift
   "$@" > "$output" &
   servers="$servers $!"
-  for _ in $(seq 400); do grep -qs "http://" "$output" && break; sleep 0.05; done
+  await $! grep -qs "http://" "$output"
 }
 address_of() { grep -o 'http://[^ ]*/$' "$1"; }
 serve packages "$python_program" "$SCARP_SOURCE/tools/globe/serve.py" "$js/node_modules" 0

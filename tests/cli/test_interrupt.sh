@@ -13,14 +13,6 @@ start() {
   set +m
 }
 
-# await COMMAND...: waits for a moment of the run $pid; nothing here depends on how fast the machine is.
-await() {
-  until "$@"; do
-    kill -0 "$pid" 2> /dev/null || fail "the run ended by itself before this was true: $*"
-    sleep 0.02
-  done
-}
-
 # is_ready SIGNAL: the program takes the signal itself. Where the system does not tell: it has begun to work.
 is_ready() {
   local caught
@@ -46,7 +38,7 @@ for signal in INT TERM HUP; do
     start "$scarp" simplify big.tif out.glb -e 0 --preview p.png --report r.json \
       $([[ $moment = is_ready* ]] || echo --json-progress)
     # shellcheck disable=SC2086  # words of a command
-    await $moment
+    await "$pid" $moment
     stop $signal
     [ "$code" = 5 ] || fail "exit code $code instead of 5 after $signal when $moment"
     [ "$(wc -l < "$logs/said")" = 1 ] || fail "not one line on stderr after $signal when $moment"
@@ -68,7 +60,7 @@ fi
 # The second signal does not wait for the run to notice the first; it may still come too late to matter.
 for wait in 0 0.01 0.05; do
   start "$scarp" simplify big.tif out.glb -e 0 --json-progress
-  await is_in_pass refine
+  await "$pid" is_in_pass refine
   kill -INT "$pid"
   sleep "$wait"
   kill -INT "$pid" 2> /dev/null || true
@@ -81,7 +73,7 @@ done
 # An old file survives.
 echo mine > out.glb
 start "$scarp" simplify big.tif out.glb -e 0 --overwrite --json-progress
-await is_in_pass
+await "$pid" is_in_pass
 stop INT
 [ "$code" = 5 ] || fail "exit code $code instead of 5 with --overwrite"
 [ "$(cat out.glb)" = mine ] || fail "the old file is gone"
@@ -92,7 +84,7 @@ succeeds "$scarp" generate fractal 500 500 hills.tif --seed 7
 cut_short() {
   local signal=$1 effort=$2
   start "$scarp" simplify hills.tif cut.glb -e 0.2% --effort "$effort" --report cut.json --json-progress
-  await is_in_pass fit
+  await "$pid" is_in_pass fit
   stop "$signal"
   [ "$code" = 0 ] || fail "exit code $code after $signal in $effort effort"
   grep -q "when the interrupt ended the effort" "$logs/out" || fail "the summary does not tell of the interrupt"
@@ -105,7 +97,7 @@ cut_short TERM max
 for option in "-t 20000" "-e 0.2% --memory 200M"; do
   # shellcheck disable=SC2086  # options are meant to be split
   start "$scarp" simplify hills.tif cut.glb --effort max $option --json-progress
-  await is_in_pass
+  await "$pid" is_in_pass
   stop INT
   [ "$code" = 5 ] || fail "exit code $code instead of 5 with $option"
   [ ! -e cut.glb ] || fail "a file is left with $option"
@@ -120,6 +112,6 @@ wait "$pid" || code=$?
 [ "$code" = 5 ] || [ "$code" = 0 ] || fail "info ends with $code"
 succeeds "$scarp" simplify big.tif big.obj -e 20
 start "$scarp" measure big.tif big.obj --json-progress
-await is_ready INT
+await "$pid" is_ready INT
 stop INT
 [ "$code" = 5 ] || fail "measure ends with $code"

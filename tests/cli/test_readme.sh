@@ -19,17 +19,13 @@ PYTHON
 
 # serves COMMAND: a server says its address, and ends without a word when it is told to.
 serves() {
-  local server address= code=0
+  local server code=0
   bash -c "exec $1 --port 0" > "$logs/out" 2> "$logs/err" &
   server=$!
-  for _ in $(seq 400); do
-    address=$(sed -n 's#^  at  *\(http://.*/\)$#\1#p' "$logs/out")
-    [ -z "$address" ] && kill -0 $server 2> /dev/null || break
-    sleep 0.05
-  done
+  await $server grep -q '^  at  *http://.*/$' "$logs/out"
   kill $server 2> /dev/null || true
   wait $server || code=$?
-  [ -n "$address" ] && [ $code = 0 ] || fail "it does not serve: $1"
+  [ $code = 0 ] || fail "it does not serve: $1"
 }
 
 # printed_as_quoted FILE OUTPUT: what the guide quotes is what its commands print: each line of a block of `text`, and, behind

@@ -22,14 +22,7 @@ start() {
   "$scarp" serve "$@" --port 0 > served 2> complaints &
   server=$!
   set +m
-  port=
-  for _ in $(seq 200); do
-    port=$(sed -n 's#^  at  *http://127\.0\.0\.1:\([0-9]*\)/$#\1#p' served)
-    [ -z "$port" ] || return 0
-    kill -0 $server 2> /dev/null || fail "the server ended"
-    sleep 0.05
-  done
-  fail "the server names no port"
+  await $server names_port served
 }
 
 # stop SIGNAL: ends at once, with exit code 0 and no word.

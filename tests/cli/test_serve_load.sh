@@ -15,13 +15,7 @@ start() {
     exec "$scarp" serve "$@" --port 0 -j 2 > served 2> complaints
   ) &
   server=$!
-  port=
-  for _ in $(seq 200); do
-    port=$(sed -n 's#^  at  *http://127\.0\.0\.1:\([0-9]*\)/$#\1#p' served)
-    [ -z "$port" ] || return 0
-    sleep 0.05
-  done
-  fail "the server names no port"
+  await $server names_port served
 }
 stop() {
   kill -TERM $server

@@ -12,14 +12,7 @@ start() {
   "$scarp" serve "$@" --port 0 > served 2> complaints &
   server=$!
   set +m
-  port=
-  for _ in $(seq 400); do
-    port=$(sed -n 's#^  at  *http://127\.0\.0\.1:\([0-9]*\)/$#\1#p' served)
-    [ -z "$port" ] || return 0
-    kill -0 $server 2> /dev/null || fail "the server ended: $(cat complaints)"
-    sleep 0.05
-  done
-  fail "the server names no port"
+  await $server names_port served
 }
 stop() {
   kill -INT $server
@@ -49,12 +42,8 @@ succeeds "$scarp" tile plan utm.tif plan.json --vertical egm96 --effort fast --z
 succeeds "$scarp" tile utm.tif mapped --vertical egm96 --effort fast --zoom 10 -q
 start plan.json --memory 1M -j 2
 succeeds python3 "$client" "$port" mapped
-for _ in $(seq 1200); do
-  ! grep -q "no room for all coarse tiles" complaints || break
-  sleep 0.05
-done
+await $server grep -q "no room for all coarse tiles" complaints
 stop
-grep -q "no room for all coarse tiles" complaints || fail "the server does not tell that coarse tiles have no room"
 
 refuses 1 "--effort" "$scarp" serve plan.json --effort high
 refuses 1 "--zoom" "$scarp" serve globe --zoom 3

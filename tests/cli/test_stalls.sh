@@ -67,7 +67,7 @@ ends_soon() {
   [ "$code" = 5 ] || fail "$what: exit code $code instead of 5"
   [ "$(cat "$logs/err")" = "scarp: interrupted; nothing was written" ] || fail "$what: not the one sentence"
   [ ! -s "$logs/out" ] || fail "$what: something on stdout"
-  holds "$end - $start < 4000000000"
+  holds "$end - $start < 60000000000"
   [ -z "$(find . -type f)" ] || fail "$what: files are left: $(find . -type f)"
 }
 
@@ -86,8 +86,10 @@ done
 # Pipes that nobody writes, and that nobody reads.
 mkfifo pipe
 ends_soon "a pipe without a writer" INT "$scarp" simplify pipe out.glb -e 5
-ends_soon "standard input" HUP "$scarp" info - < <(sleep 20)
-refuses 4 "cannot write pipe: nobody reads from this pipe; start its reader first" timeout 20 "$scarp" simplify "$dem" pipe --of glb -e 50
-sleep 20 < pipe &
+exec 8< <(exec sleep 1000)
+servers="$servers $!"
+ends_soon "standard input" HUP "$scarp" info - <&8
+refuses 4 "cannot write pipe: nobody reads from this pipe; start its reader first" timeout 600 "$scarp" simplify "$dem" pipe --of glb -e 50
+sleep 1000 < pipe &
 servers="$servers $!"
 ends_soon "a pipe that is not emptied" TERM "$scarp" simplify "$dem" pipe --of stl -e 1

@@ -7,14 +7,8 @@ gdal_translate -q -r bilinear -outsize 200% 200% -ot Float32 -a_srs EPSG:4979 -a
 succeeds "$scarp" tile land.tif whole.pmtiles "${few[@]}" -q
 succeeds "$scarp" tile plan land.tif plan.json "${few[@]}" -q
 
-# waits_for_block PARTS: a block is on the disk.
-waits_for_block() {
-  for _ in $(seq 600); do
-    [ -z "$(find "$1" -name '*.part' -size +8k 2> /dev/null)" ] || return 0
-    sleep 0.01
-  done
-  fail "no block comes"
-}
+# has_block PARTS: a block is on the disk.
+has_block() { [ -n "$(find "$1" -name '*.part' -size +8k 2> /dev/null)" ]; }
 finishes() {
   succeeds "$scarp" tile finish "$1" again.pmtiles --parts "$2" --overwrite -q
   cmp whole.pmtiles again.pmtiles || fail "another set: $3"
@@ -22,7 +16,7 @@ finishes() {
 
 # Two processes make one share at the same time: the second begins at its end, and each block is kept once.
 "$scarp" tile run plan.json --parts two -j 1 > one.out 2>&1 & first=$!
-waits_for_block two
+await $first has_block two
 succeeds "$scarp" tile run plan.json --parts two -j 1
 grep -q "another process made share 1 of 1" "$logs/err" || fail "nobody tells of the other process"
 wait $first || fail "the first of two processes fails: $(cat one.out)"
@@ -33,7 +27,7 @@ for fault in "mv land.tif away.tif" "touch -d 2020-02-02 land.tif"; do
   rm -rf gone
   cp -p land.tif kept.tif
   "$scarp" tile run plan.json --parts gone -j 1 -q 2> said & process=$!
-  waits_for_block gone
+  await $process has_block gone
   $fault
   code=0
   wait $process || code=$?

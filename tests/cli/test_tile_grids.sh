@@ -51,8 +51,8 @@ succeeds "$scarp" tile check joined --source few.json -q
 "$scarp" serve few.json --port 0 > served &
 server=$!
 trap 'kill $server 2> /dev/null || true; rm -rf "$root"' EXIT
-for ((k = 0; k < 400; ++k)); do grep -q "until" served && break; sleep 0.05; done
-succeeds python3 "$client" "$(sed -n 's#^  at  *http://127\.0\.0\.1:\([0-9]*\)/$#\1#p' served)" few
+await $server names_port served
+succeeds python3 "$client" "$port" few
 kill -INT $server
 wait $server
 

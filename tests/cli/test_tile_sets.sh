@@ -33,11 +33,7 @@ for output in killed killed.pmtiles killed.mbtiles killed.3tz kept.pmtiles; do
   "$scarp" tile big.tif $output --vertical egm96 --overwrite --json-progress > /dev/null 2> progress &
   process=$!
   # Once tiles are on their way.
-  for _ in $(seq 600); do
-    if grep -q '"tiles"' progress; then break; fi
-    sleep 0.05
-  done
-  kill -0 $process || fail "the run ended too early to be killed"
+  await $process grep -q '"tiles"' progress
   kill -9 $process
   wait $process 2> /dev/null || true
   if [ $output = kept.pmtiles ]; then

@@ -8,7 +8,7 @@ import { open_page } from "./browser.mjs";
 const [address, jobs_file, shots, program] = process.argv.slice(2);
 const { browser, page, errors, elsewhere } = await open_page(address, { width: 480, height: 320 }, program);
 await page.goto(address + "clients.html");
-await page.waitForFunction(() => window.run !== undefined, null, { timeout: 60000 }).catch(error => {
+await page.waitForFunction(() => window.run !== undefined).catch(error => {
   throw new Error([error, ...errors].join("\n"));
 });
 const answers = [];

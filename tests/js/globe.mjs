@@ -9,7 +9,7 @@ const [address, points_file, shot, program] = process.argv.slice(2);
 const points = JSON.parse(readFileSync(points_file, "utf8"));
 const { browser, page, errors, elsewhere } = await open_page(address, { width: 900, height: 600 }, program);
 await page.goto(address);
-await page.waitForFunction(() => window.viewer !== undefined, null, { timeout: 120000 });
+await page.waitForFunction(() => window.viewer !== undefined);
 const result = await page.evaluate(async points => {
   const levels = {};
   for (let z = 0; z <= window.layer.maxzoom; ++z) {
@@ -24,7 +24,7 @@ const result = await page.evaluate(async points => {
   return { levels, says: document.getElementById("says").textContent };
 }, points);
 await page.waitForTimeout(2000);
-await page.waitForFunction(() => window.viewer.scene.globe.tilesLoaded, null, { timeout: 120000 });
+await page.waitForFunction(() => window.viewer.scene.globe.tilesLoaded);
 await page.waitForTimeout(1000);
 await page.screenshot({ path: shot });
 // A ray straight down from 20 km hits the ground that is drawn.
@@ -33,7 +33,7 @@ await page.evaluate(([lon, lat]) => window.viewer.camera.setView({
   orientation: { heading: 0, pitch: -Math.PI / 2, roll: 0 },
 }), points[0]);
 await page.waitForTimeout(500);
-await page.waitForFunction(() => window.viewer.scene.globe.tilesLoaded, null, { timeout: 120000 });
+await page.waitForFunction(() => window.viewer.scene.globe.tilesLoaded);
 await page.waitForTimeout(500);
 result.picked = await page.evaluate(() => {
   const { scene, camera } = window.viewer;

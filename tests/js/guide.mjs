@@ -10,7 +10,7 @@ const answers = [];
 for (const [k, address] of addresses.entries()) {
   const { browser, page, errors } = await open_page(address, { width: 640, height: 400 }, program);
   await page.goto(address);
-  await page.waitForFunction(() => window.viewer !== undefined, null, { timeout: 60000 }).catch(error => {
+  await page.waitForFunction(() => window.viewer !== undefined).catch(error => {
     throw new Error([error, ...errors].join("\n"));
   });
   const height = await page.evaluate(async place => {

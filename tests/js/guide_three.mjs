@@ -9,7 +9,7 @@ const answers = [];
 for (const [k, address] of addresses.entries()) {
   const { browser, page, errors } = await open_page(address, { width: 400, height: 300 }, program);
   await page.goto(address);
-  await page.waitForFunction(() => window.drawn > 0, null, { timeout: 60000 }).catch(error => errors.push(String(error)));
+  await page.waitForFunction(() => window.drawn > 0).catch(error => errors.push(String(error)));
   answers.push({ drawn: await page.evaluate(() => window.drawn ?? 0), errors });
   await page.screenshot({ path: `${shots}/three_${k}.png` });
   await browser.close();
