@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "scarp/tile.h"
@@ -72,7 +73,7 @@ class RaisedNodes final : public NodeSource {
       }
       return {};
     }
-    const ZeroGrid zeros(box, *zero_);
+    std::optional<ZeroGrid> zeros;  // of a part of the earth where samples are
     std::vector<float> raised;
     return source_.visit_samples(box, [&](const SampleRow& row) {
       const auto [first, end] =
@@ -82,7 +83,8 @@ class RaisedNodes final : public NodeSource {
       part.longitude += row.step_longitude * static_cast<double>(first);
       part.latitude += row.step_latitude * static_cast<double>(first);
       part.heights = row.heights.subspan(first, end - first);
-      zeros.raise(part, raised);
+      if (!zeros) zeros.emplace(box, *zero_);
+      zeros->raise(part, raised);
       part.heights = raised;
       visit(part);
     });

@@ -49,12 +49,20 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
 }
 
 void TileNodes::fill_voids(float background) {
+  const auto side = static_cast<std::size_t>(steps_) + 1;
+  const auto is_missing = [](float height) { return std::isnan(height); };
+  if (std::all_of(heights_.begin(), heights_.end(), is_missing)) {  // most tiles of coarse levels
+    has_heights_ = false;
+    is_flat_ = true;
+    voids_.assign(side * side, true);
+    std::fill(heights_.begin(), heights_.end(), background);
+    return;
+  }
   std::size_t missing = 0;
   for (std::int32_t row = 0; row <= steps_; ++row) {
     const float* const heights = &heights_[index(0, row)];
     for (std::int32_t col = 0; col <= steps_; ++col) missing += std::isnan(heights[col]);
   }
-  const auto side = static_cast<std::size_t>(steps_) + 1;
   has_heights_ = missing < side * side;
   if (missing > 0) {
     voids_.reserve(side * side);
