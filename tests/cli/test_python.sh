@@ -1,8 +1,9 @@
 #!/bin/bash
-# Scarp for Python: one wheel is installed into a fresh environment of every Python that is here, and its tests run
-# there; the package is typed; the sdist is whole; the guide's code runs.
+# Scarp for Python: the wheel is installed into a fresh environment, and its tests run there; the package is typed; the sdist
+# is whole; the guide's code runs.
 . "$(dirname "$0")/lib.sh"
 need python3 cc
+[ -x /usr/bin/python3 ] || skip "needs /usr/bin/python3"
 alone=$SCARP_BUILD/bindings/python/libscarp_c.so
 with_gdal=$SCARP_BUILD/bindings/c/libscarp_c.so
 [ -e "$alone" ] && [ -e "$with_gdal" ] || skip "needs the C library: -DSCARP_BUILD_C=ON"
@@ -20,31 +21,9 @@ tar -xzf dist/scarp-*.tar.gz -C sdist --strip-components=1
 [ -s sdist/PKG-INFO ] && [ -s sdist/source/bindings/c/scarp_c.h ] || fail "the sdist is not whole"
 diff -rq "$SCARP_SOURCE/src" sdist/source/src > "$logs/err" || fail "the sdist has other sources"
 
-# 2. Every Python: an environment of its own, the tests there. Those without numpy run what needs none.
-tested=0
-pythons() {
-  ls /usr/bin/python3 /usr/local/bin/python3 "$HOME"/.pyenv/versions/*/bin/python3 2> /dev/null | sort -u
-}
-for python in $(pythons); do
-  version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])') || continue
-  case $version in 3.[0-7] | 2.*) continue ;; esac
-  environment=env-$tested
-  if ! "$python" -m venv --system-site-packages "$environment" > "$logs/out" 2>&1; then
-    echo "Python $version: skipped, it makes no environment"
-    continue
-  fi
-  succeeds "$environment/bin/python" -m pip install --quiet --no-index --no-deps "$wheel"
-  begin=$(date +%s%N)
-  succeeds "$environment/bin/python" -c 'import scarp'
-  echo "Python $version: started and imported scarp in $((($(date +%s%N) - begin) / 1000000)) ms"
-  (cd "$SCARP_SOURCE/tests/python" && SCARP_SHARE=$((tested == 0 ? 10 : 50)) SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
-    try "$scratch/$environment/bin/python" -m unittest discover -v
-    [ "$code" = 0 ] || fail "Python $version: the tests fail"
-    tail -n 1 "$logs/err" | sed "s/^/Python $version: /"
-    grep -oE "skipped '.*'" "$logs/err" | sort | uniq -c || true)
-  tested=$((tested + 1))
-done
-[ $tested -gt 0 ] || fail "no Python was tested"
+# 2. This system's Python; the others are for test_pythons.sh.
+source "$(dirname "$0")/python_tests.sh"
+passes_in /usr/bin/python3 env "$wheel" 10 || fail "the system's Python makes no environment"
 
 # 3. With the library that has GDAL: files are the program's, byte by byte.
 if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
