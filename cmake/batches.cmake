@@ -1,7 +1,11 @@
 # scarp_batch(TARGET SIZE): compiles the target's sources in batches of at most SIZE, each of one folder, where
 # CMAKE_UNITY_BUILD is on: headers are parsed once a batch. Private names are therefore unique in a folder. A source that
-# cannot share a translation unit says so by SKIP_UNITY_BUILD_INCLUSION.
+# cannot share a translation unit says so by SKIP_UNITY_BUILD_INCLUSION. SCARP_BATCH takes the place of SIZE: builds that are
+# made once, and not optimized, compile a folder at once.
 function(scarp_batch target size)
+  if(SCARP_BATCH)
+    set(size ${SCARP_BATCH})
+  endif()
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)
   foreach(source IN LISTS sources)

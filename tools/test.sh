@@ -6,7 +6,7 @@
 # rest: what `make test-full` adds.
 #   1. Release: laws with 100 cases each; scripts of label rest: packages, installs, clients of other languages,
 #      clusters.
-#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests, and laws with 25 cases each, asserts on; of the samples
+#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests, and laws with 8 cases each, asserts on; of the samples
 #      of real rasters a share (tests/laws/sanitized.h). One process runs many tests, since each start costs. With clang
 #      this is the build of the fuzzers, so that the library is compiled once. The C library, called by C
 #      (tests/abi/door.c) and, with clang, by Python.

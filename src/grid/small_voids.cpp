@@ -23,7 +23,7 @@ namespace scarp {
 namespace {
 
 /// An 8-connected area of missing samples.
-struct Void {
+struct SmallVoid {
   int left, top, right, bottom;  ///< the last column and row included
   std::uint64_t samples = 0;
   bool is_open = false;  ///< reaches the border of what was looked at
@@ -77,13 +77,13 @@ class VoidFinder {
     return area;
   }
   const std::vector<VoidRun>& runs() const { return runs_; }
-  const Void& area(std::size_t of_run) { return voids_[root(of_run)]; }
+  const SmallVoid& area(std::size_t of_run) { return voids_[root(of_run)]; }
 
   VoidCount count(int side) {
     VoidCount count{.filled = 0, .left = 0, .least = -HUGE_VAL, .most = HUGE_VAL};
     for (std::size_t k = 0; k < voids_.size(); ++k) {
       if (root(k) != k) continue;
-      const Void& one = voids_[k];
+      const SmallVoid& one = voids_[k];
       (one.is_small(side) ? count.filled : count.left) += one.samples;
       if (one.is_small(side) || one.least > one.most) continue;
       count.least = std::max(count.least, double{one.least});
@@ -98,7 +98,7 @@ class VoidFinder {
     const std::size_t a = std::min(root(one), root(other)), b = std::max(root(one), root(other));
     if (a == b) return;
     parents_[b] = a;
-    Void &to = voids_[a], &from = voids_[b];
+    SmallVoid &to = voids_[a], &from = voids_[b];
     to = {std::min(to.left, from.left),     std::min(to.top, from.top),  std::max(to.right, from.right),
           std::max(to.bottom, from.bottom), to.samples + from.samples,   to.is_open || from.is_open,
           std::min(to.least, from.least),   std::max(to.most, from.most)};
@@ -106,7 +106,7 @@ class VoidFinder {
   /// The heights of a row at a run and beside it.
   void see(std::size_t area, std::span<const float> row, int begin, int end) {
     if (row.empty()) return;
-    Void& one = voids_[root(area)];
+    SmallVoid& one = voids_[root(area)];
     for (int col = std::max(begin - 1, 0); col < std::min(end + 1, cols_); ++col) {
       const float height = row[static_cast<std::size_t>(col)];
       if (!std::isfinite(height)) continue;
@@ -118,7 +118,7 @@ class VoidFinder {
   int cols_, row_ = 0;
   bool keep_;
   std::vector<std::size_t> parents_;
-  std::vector<Void> voids_;
+  std::vector<SmallVoid> voids_;
   std::vector<VoidRun> runs_;
   std::size_t first_above_ = 0;
   std::vector<float> last_;
@@ -141,7 +141,7 @@ struct Samples2d {
 };
 
 /// One void, by the heights around it. `runs`: its own.
-void fill(const Samples2d& samples, const Void& one, const std::vector<VoidRun>& runs, int side) {
+void fill(const Samples2d& samples, const SmallVoid& one, const std::vector<VoidRun>& runs, int side) {
   OwnedHeightField box;
   box.cols = one.right - one.left + 3;
   box.rows = one.bottom - one.top + 3;
@@ -204,7 +204,7 @@ class FilledSource final : public SampleSource {
   /// Whether a void may go on behind a border of the window that is none of the raster, and yet be small.
   bool reaches_beyond(VoidFinder& finder, int col, int row, int cols, int rows) const {
     for (const VoidRun& run : finder.runs()) {
-      const Void& one = finder.area(run.area);
+      const SmallVoid& one = finder.area(run.area);
       const bool is_long = one.right - one.left >= side_ || one.bottom - one.top >= side_;
       const bool goes_on = (one.left == 0 && col > 0) || (one.top == 0 && row > 0) ||
                            (one.right == cols - 1 && col + cols < cols_) ||

@@ -10,8 +10,7 @@ namespace scarp {
 
 namespace {
 
-constexpr std::size_t kEnds = HeightRange::kEnds;
-using Ends = std::array<HeightCount, kEnds>;
+using RareEnds = std::array<HeightCount, HeightRange::kEnds>;
 
 /// What software writes where it knows nothing.
 constexpr std::array kSigns{-999.0,   -10000.0, -32768.0, -9999.0,  -99999.0, -999999.0, -32767.0,
@@ -47,8 +46,8 @@ bool is_far(const HeightCount& here, double value, double gap, double range, std
 }
 
 /// How many of the heights at one end, from the outermost inwards, are far from all others, which reach to `other`.
-std::size_t count_far(const Ends& ends, std::size_t first, double other, std::uint64_t valid, const Scale& scale) {
-  for (std::size_t next = first + 1; next < kEnds && ends[next].samples > 0; ++next) {
+std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std::uint64_t valid, const Scale& scale) {
+  for (std::size_t next = first + 1; next < HeightRange::kEnds && ends[next].samples > 0; ++next) {
     const double range = std::abs(other - ends[next].height);
     const auto far = [&](const HeightCount& here) {
       return is_far(here, scale.value_of(here.height), std::abs(ends[next].height - here.height), range, valid);
@@ -68,7 +67,7 @@ std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, d
   const Scale of_values{scale, offset};
   std::size_t low = 0, high = 0;
   // What is far at one end may hide behind what is far at the other.
-  for (std::size_t look = 0; look < kEnds; ++look) {
+  for (std::size_t look = 0; look < HeightRange::kEnds; ++look) {
     const std::size_t before = low + high;
     low = count_far(range.lowest, low, range.highest[high].height, range.valid, of_values);
     high = count_far(range.highest, high, range.lowest[low].height, range.valid, of_values);

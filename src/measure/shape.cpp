@@ -43,14 +43,14 @@ double smallest_tangent(const PlanTriangle& plan) {
 
 double degrees_of(double tangent) { return std::atan(tangent) * (180 / std::numbers::pi); }
 
-constexpr std::size_t kTogether = 1 << 15;
+constexpr std::size_t kShapesTogether = 1 << 15;
 
-std::size_t part_count(std::size_t count) { return (count + kTogether - 1) / kTogether; }
+std::size_t part_count(std::size_t count) { return (count + kShapesTogether - 1) / kShapesTogether; }
 
 /// Calls task(part, first, end) for the parts of 0 … count − 1.
 void in_parts(std::size_t count, int threads, FunctionRef<void(std::size_t, std::size_t, std::size_t)> task) {
   parallel_for(part_count(count), threads,
-               [&](std::size_t part) { task(part, part * kTogether, std::min(count, (part + 1) * kTogether)); });
+               [&](std::size_t part) { task(part, part * kShapesTogether, std::min(count, (part + 1) * kShapesTogether)); });
 }
 
 /// No area in space, up to the rounding of the cross product.

@@ -16,7 +16,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-struct Points {
+struct SpacePoints {
   std::vector<double> x, y, z;
 
   void add(const Vector& p) {
@@ -46,7 +46,7 @@ double noise_of(const Mesh& mesh) {
 /// Samples of the grid for one metre, at most, near the raster's centre.
 double samples_per_metre(const HeightField& field) {
   const double col = field.cols / 2, row = field.rows / 2;
-  Points at;
+  SpacePoints at;
   for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {0, 1}}) {
     const auto [x, y] = field.frame.apply_affine(col - i, row - j);
     at.add({x, y, 0});
@@ -90,7 +90,7 @@ HeightField on_map(const HeightField& field) {
 }
 
 Result<Mesh> bring_to_map(const HeightField& field, const Mesh& mesh) {
-  Points at;
+  SpacePoints at;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) at.add(mesh.vertex(v));
   field.frame.space->from_space(at.x, at.y, at.z);
   const Inverse to_grid(field.frame);
@@ -125,7 +125,7 @@ Mesh seen_from_above(const HeightField& field, const Mesh& mesh) {
 
 Verticals::Verticals(const Frame& frame, const Vector& origin, const Band& band)
     : first_(band.first()), cols_(static_cast<std::size_t>(band.cols())) {
-  Points feet, tops;
+  SpacePoints feet, tops;
   for (int row = band.first(); row < band.end(); ++row) {
     for (int col = 0; col < band.cols(); ++col) {
       const auto [x, y] = frame.apply_affine(col, row);
@@ -159,7 +159,7 @@ SpaceJudge::SpaceJudge(const HeightField& field, const Mesh& mesh, const Mesh& o
 
 void SpaceJudge::find_bends(std::span<const std::uint32_t> ids) {
   const Inverse to_grid(frame_);
-  Points middles;
+  SpacePoints middles;
   const auto each_edge = [&](const auto& visit) {
     for (const std::uint32_t id : ids) {
       const std::uint32_t* corner = &mesh_.triangles[3 * std::size_t{id}];
@@ -184,7 +184,7 @@ void SpaceJudge::find_bends(std::span<const std::uint32_t> ids) {
 }
 
 void SpaceJudge::find_folds(std::span<const std::uint32_t> ids) {
-  Points tops;
+  SpacePoints tops;
   for (const std::uint32_t id : ids) {
     const Vector foot = vertex(on_map_, mesh_.triangles[3 * std::size_t{id}]);
     tops.add({foot[0], foot[1], foot[2] + kRise});

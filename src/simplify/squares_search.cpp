@@ -20,7 +20,7 @@ namespace {
 constexpr double kUsualPower = 1.3, kNearStart = 1.5;
 
 /// With fewer, chance decides which way ends with the smaller error.
-constexpr std::size_t kFewTriangles = 500;
+constexpr std::size_t kFewInPatches = 500;
 
 int exchanges_of(Effort effort) { return effort == Effort::kMax ? 60 : effort == Effort::kHigh ? 6 : 2; }
 
@@ -51,7 +51,7 @@ class SquaresSearch {
     }
     if (!best) return search_budget(options_, task_);
     if (rank(*fast) < rank(*best)) std::swap(*best, *fast);
-    if (is_saturated_ || fast->mesh.triangle_count() < kFewTriangles) {
+    if (is_saturated_ || fast->mesh.triangle_count() < kFewInPatches) {
       auto searched = search_budget(options_, task_);
       if (!searched && searched.error().kind == ErrorKind::kCancelled) return searched;
       if (searched && rank(*searched) < rank(*best)) return searched;

@@ -8,6 +8,11 @@
 
 namespace scarp {
 
+/// Divided, and rounded down. REQUIRES: by > 0.
+inline std::int64_t floor_of(std::int64_t value, std::int64_t by) {
+  return value / by - (value % by != 0 && value < 0 ? 1 : 0);
+}
+
 class NodePlaces {
  public:
   NodePlaces(const TileGrid& grid, std::int64_t per_turn) { lattice_ = {per_turn, 0, 0, 0, 0, grid}; }

@@ -12,7 +12,7 @@ namespace {
 /// Samples between two whose place is exact, each way.
 constexpr int kAnchorSamples = 16;
 /// Samples that are read at once, about.
-constexpr int kSamplesTogether = 1 << 20;
+constexpr int kRowSamplesTogether = 1 << 20;
 /// Places in a box that are looked at, each way, to find the raster's part of it.
 constexpr int kLooks = 33;
 /// Nearer to the poles than this, meridians are not side by side.
@@ -69,7 +69,7 @@ SampleRows::Window SampleRows::window_over(const Reach& reach) const {
 
 template <class Take>
 Result<void> SampleRows::read_bands(const Window& window, const Take& take) const {
-  const int together = std::max(1, kSamplesTogether / window.cols / kAnchorSamples) * kAnchorSamples;
+  const int together = std::max(1, kRowSamplesTogether / window.cols / kAnchorSamples) * kAnchorSamples;
   std::vector<float> heights;
   for (int first = 0; first < window.rows; first += together) {
     Window band = window;

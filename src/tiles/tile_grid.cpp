@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "tiles/sine.h"
 
 namespace scarp {
 namespace {
 
-constexpr double kPi = 3.141592653589793, kDegrees = 57.29577951308232;
+constexpr double kDegrees = 57.29577951308232;
 
 struct Named {
   GridKind kind;
@@ -45,7 +46,7 @@ double rounded(double cell) {
 /// alone, so that the bits are the same on every machine; within 10⁻¹³ degrees.
 double mercator_latitude(double place) {
   // φ = 2 atan(tanh(y / 2)), y = π · place; e^(−y) is the 16th power of that of y / 16, by Taylor's series.
-  const double x = -kPi * std::abs(place) / 16;
+  const double x = -std::numbers::pi * std::abs(place) / 16;
   double power = 0;
   for (int k = 14; k >= 1; --k) power = (1 + power) * x / k;
   power += 1;
@@ -140,12 +141,12 @@ NodeWindow TileGrid::window_of(TileId id, std::int32_t steps, std::int32_t halo)
 
 double TileGrid::geometric_error(int z, double semi_major) const {
   if (is_flat()) return tile_width(z, semi_major) / kErrorsOfSide;
-  return std::ldexp(semi_major * 2 * kPi * 0.25 / (65 * roots()), -z);
+  return std::ldexp(semi_major * 2 * std::numbers::pi * 0.25 / (65 * roots()), -z);
 }
 
 double TileGrid::tile_width(int z, double semi_major) const {
   if (is_flat()) return std::ldexp(static_cast<double>(local.side) * std::max(local.cell_x, local.cell_y), -z);
-  return std::ldexp(kPi * semi_major * (2.0 / roots()), -z);
+  return std::ldexp(std::numbers::pi * semi_major * (2.0 / roots()), -z);
 }
 
 }  // namespace scarp

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/int128.h"
+#include "tiles/node_places.h"
 
 namespace scarp {
 namespace {
@@ -51,7 +52,6 @@ std::vector<Place> simplify_line(const std::vector<Place>& line) {
   return kept;
 }
 
-std::int64_t floor_of(std::int64_t value, std::int64_t by) { return value / by - (value % by != 0 && value < 0 ? 1 : 0); }
 
 /// A node where a segment passes the edges of tiles, and how far along it, as a fraction.
 struct Crossing {

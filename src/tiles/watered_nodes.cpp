@@ -15,14 +15,13 @@
 namespace scarp {
 namespace {
 
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 /// Nodes a side of a box whose samples are looked at at once.
 constexpr double kMostNodesAtOnce = 1024;
 
 /// What is known of a node. Of two that claim one the greater has it.
 enum class Claim : std::uint8_t { kNone, kRim, kRiver, kLake };
 
-std::int64_t floor_of(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 std::int64_t ceil_of(std::int64_t a, std::int64_t b) { return -floor_of(-a, b); }
 
 /// What water makes of the nodes of a window.
@@ -32,7 +31,7 @@ class Claims {
       : window_(window),
         stride_(per_turn / window.per_turn),
         claims_(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows), Claim::kNone),
-        heights_(claims_.size(), kNone) {}
+        heights_(claims_.size(), kNoHeight) {}
 
   /// Nodes from the first column to the one before the last, of the fine lattice in any turn, in one of its rows.
   void add(std::int64_t row, std::int64_t first, std::int64_t end, Claim claim, float height) {
@@ -121,7 +120,7 @@ class WateredNodes final : public NodeSource {
     if (!claims.is_any()) return {};
     std::vector<float> heights(claims.heights().begin(), claims.heights().end());
     for (std::size_t i = 0; i < heights.size(); ++i) {
-      if (std::isnan(out[i])) heights[i] = kNone;
+      if (std::isnan(out[i])) heights[i] = kNoHeight;
     }
     if (auto raised = raise(window, heights); !raised) return raised;
     for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -208,7 +207,7 @@ class WateredNodes final : public NodeSource {
     const auto is_lake = [&](std::size_t corner) {
       return claims.claim(corner) == Claim::kLake && claims.height(corner) == claims.height(at);
     };
-    if (!std::all_of(corners.begin(), corners.end(), is_lake)) return kNone;
+    if (!std::all_of(corners.begin(), corners.end(), is_lake)) return kNoHeight;
     const double tx = x - static_cast<double>(i), ty = y - static_cast<double>(j);
     const double upper = raised[at] + tx * (double{raised[at + 1]} - raised[at]),
                  lower = raised[at + cols] + tx * (double{raised[at + cols + 1]} - raised[at + cols]);

@@ -15,8 +15,8 @@ namespace {
 using testing::ScratchFolder;
 using testing::write_envi;
 
-constexpr int kCols = 37, kRows = 23;
-constexpr std::uint64_t kSamples = kCols * kRows;
+constexpr int kWide = 37, kHigh = 23;
+constexpr std::uint64_t kSamples = kWide * kHigh;
 
 template <class T>
 std::vector<T> some_values(int modulus, int shift) {
@@ -27,7 +27,7 @@ std::vector<T> some_values(int modulus, int shift) {
 
 std::vector<std::uint32_t> bits_of(const HeightField& field) {
   std::vector<float> samples(kSamples);
-  EXPECT_TRUE(read_window(field, 0, 0, kCols, kRows, samples.data(), kCols));
+  EXPECT_TRUE(read_window(field, 0, 0, kWide, kHigh, samples.data(), kWide));
   // Windows of another shape must say the same.
   std::vector<float> window(5 * 8, -1.0f);
   EXPECT_TRUE(read_window(field, 9, 11, 5, 4, window.data(), 8));
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> bits_of(const HeightField& field) {
   for (const float z : samples) bits.push_back(std::isnan(z) ? 0x7fc00000 : std::bit_cast<std::uint32_t>(z));
   for (std::size_t y = 0; y < 4; ++y) {
     for (std::size_t x = 0; x < 8; ++x) {
-      const float z = window[8 * y + x], wanted = x < 5 ? samples[(11 + y) * kCols + 9 + x] : -1.0f;
+      const float z = window[8 * y + x], wanted = x < 5 ? samples[(11 + y) * kWide + 9 + x] : -1.0f;
       EXPECT_TRUE(z == wanted || (std::isnan(z) && std::isnan(wanted)));
     }
   }
@@ -86,14 +86,14 @@ void expect_same_samples(const std::string& path, ReadOptions options, bool has_
 TEST(opened_rasters, of_16_bits_have_the_samples_of_read_ones) {
   const ScratchFolder folder;
   const std::string path = folder.file("a.img");
-  write_envi<std::int16_t>(path, kCols, kRows, some_values<std::int16_t>(40000, -20000),
+  write_envi<std::int16_t>(path, kWide, kHigh, some_values<std::int16_t>(40000, -20000),
                            "data ignore value = -19999\n");
   expect_same_samples(path, {}, true);
   expect_same_samples(path, {.nodata = -20000.0}, true);
   expect_same_samples(path, {.nodata = 1e30}, true);
-  write_envi<std::uint16_t>(path, kCols, kRows, some_values<std::uint16_t>(65536, 0), "data ignore value = 0\n");
+  write_envi<std::uint16_t>(path, kWide, kHigh, some_values<std::uint16_t>(65536, 0), "data ignore value = 0\n");
   expect_same_samples(path, {}, true);
-  write_envi<std::uint8_t>(path, kCols, kRows, some_values<std::uint8_t>(256, 0), "data ignore value = 255\n");
+  write_envi<std::uint8_t>(path, kWide, kHigh, some_values<std::uint8_t>(256, 0), "data ignore value = 255\n");
   expect_same_samples(path, {}, true);
 }
 
@@ -102,7 +102,7 @@ TEST(opened_rasters, are_filled_as_fill_nodata_does_where_memory_holds_them) {
   const std::string path = folder.file("a.img");
   auto values = some_values<std::int16_t>(1000, 0);
   for (const std::size_t k : {0u, 1u, 77u, 78u, 300u}) values[k] = -1;
-  write_envi<std::int16_t>(path, kCols, kRows, values, "data ignore value = -1\n");
+  write_envi<std::int16_t>(path, kWide, kHigh, values, "data ignore value = -1\n");
   auto wanted = read_height_field(path);
   ASSERT_TRUE(wanted);
   EXPECT_EQ(fill_nodata(*wanted, 3), 5u);
@@ -125,20 +125,20 @@ TEST(opened_rasters, of_other_types_have_the_samples_of_read_ones) {
   auto floats = some_values<float>(1000, -500);
   floats[17] = std::numeric_limits<float>::infinity();
   floats[99] = NAN;
-  write_envi<float>(path, kCols, kRows, floats, "data ignore value = -7\n");
+  write_envi<float>(path, kWide, kHigh, floats, "data ignore value = -7\n");
   expect_same_samples(path, {}, false);
   auto doubles = some_values<double>(1000, -500);
   for (double& z : doubles) z += 1.0 / 3;
-  write_envi<double>(path, kCols, kRows, doubles);
+  write_envi<double>(path, kWide, kHigh, doubles);
   expect_same_samples(path, {}, false);
-  write_envi<std::int32_t>(path, kCols, kRows, some_values<std::int32_t>(100000000, 100000000));
+  write_envi<std::int32_t>(path, kWide, kHigh, some_values<std::int32_t>(100000000, 100000000));
   expect_same_samples(path, {}, false);
 }
 
 TEST(opened_rasters, with_scale_and_offset_have_the_samples_of_read_ones) {
   const ScratchFolder folder;
-  write_envi<std::int16_t>(folder.file("a.img"), kCols, kRows, some_values<std::int16_t>(2000, -1000));
-  testing::write_vrt(folder.file("a.vrt"), "a.img", kCols, kRows, "Int16", "",
+  write_envi<std::int16_t>(folder.file("a.img"), kWide, kHigh, some_values<std::int16_t>(2000, -1000));
+  testing::write_vrt(folder.file("a.vrt"), "a.img", kWide, kHigh, "Int16", "",
                      "<NoDataValue>-990</NoDataValue><Offset>12.5</Offset><Scale>0.1</Scale>");
   expect_same_samples(folder.file("a.vrt"), {}, true);
 }
@@ -149,14 +149,14 @@ TEST(opened_rasters, of_packed_colours_have_the_samples_of_read_ones) {
   const auto one = values;
   values.insert(values.end(), one.rbegin(), one.rend());
   values.insert(values.end(), one.begin(), one.end());
-  write_envi<std::uint8_t>(folder.file("a.img"), kCols, kRows, values);
+  write_envi<std::uint8_t>(folder.file("a.img"), kWide, kHigh, values);
   expect_same_samples(folder.file("a.img"), {.decode = Decode::kTerrarium}, false);
   expect_same_samples(folder.file("a.img"), {.decode = Decode::kMapbox}, false);
 }
 
 TEST(opened_rasters, that_stay_in_their_file_are_not_read_unless_their_range_is_asked_for) {
   const ScratchFolder folder;
-  write_envi<float>(folder.file("a.img"), kCols, kRows, some_values<float>(1000, 0));
+  write_envi<float>(folder.file("a.img"), kWide, kHigh, some_values<float>(1000, 0));
   const auto file = open_height_field(folder.file("a.img"), {.run = {.memory = {.limit = 1}}});
   ASSERT_TRUE(file);
   EXPECT_FALSE(file->info.has_range);
@@ -166,7 +166,7 @@ TEST(opened_rasters, that_stay_in_their_file_are_not_read_unless_their_range_is_
 TEST(opened_rasters, that_are_cut_short_name_file_and_row_when_the_row_is_asked_for) {
   const ScratchFolder folder;
   const std::string path = folder.file("a.tif");
-  write_envi<float>(folder.file("a.img"), kCols, kRows, some_values<float>(1000, 0));
+  write_envi<float>(folder.file("a.img"), kWide, kHigh, some_values<float>(1000, 0));
   if (!testing::run("gdal_translate -q -co COMPRESS=DEFLATE -co BLOCKYSIZE=1 " + folder.file("a.img") + " " + path))
     GTEST_SKIP() << "needs gdal_translate";
   const auto file = open_height_field(path, {.run = {.memory = {.limit = 1}}});
@@ -179,7 +179,7 @@ TEST(opened_rasters, that_are_cut_short_name_file_and_row_when_the_row_is_asked_
     return;
   }
   std::vector<float> samples(kSamples);
-  const auto read = read_window(*cut, 0, 0, kCols, kRows, samples.data(), kCols);
+  const auto read = read_window(*cut, 0, 0, kWide, kHigh, samples.data(), kWide);
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().kind, ErrorKind::kInput);
   EXPECT_TRUE(testing::contains(read.error().message, path)) << read.error().message;

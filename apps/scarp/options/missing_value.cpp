@@ -20,17 +20,17 @@ bool reads_as_option(const CLI::App& command, const std::string& word) {
   return is_long || find_option(command, word) != nullptr;
 }
 
-const CLI::App* find_chosen(const CLI::App& program, std::string_view name) {
+}  // namespace
+
+const CLI::App* find_command(const CLI::App& program, std::string_view name) {
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_name() == name) return command;
   }
   return nullptr;
 }
 
-}  // namespace
-
 std::optional<std::string> find_missing_value(const CLI::App& program, int argc, const char* const* argv) {
-  const CLI::App* command = argc > 1 ? find_chosen(program, argv[1]) : nullptr;
+  const CLI::App* command = argc > 1 ? find_command(program, argv[1]) : nullptr;
   if (command == nullptr) return std::nullopt;
   for (int k = 2; k + 1 < argc && std::string_view(argv[k]) != "--"; ++k) {
     const CLI::Option* option = find_option(*command, argv[k]);

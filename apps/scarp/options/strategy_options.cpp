@@ -24,12 +24,12 @@ constexpr Choice<WhyFast> kWhyFast[] = {{"order", WhyFast::kOrder},
                                         {"strategy", WhyFast::kStrategy},
                                         {"memory", WhyFast::kMemory},
                                         {"budget", WhyFast::kBudget}};
-constexpr Choice<Vertices> kVertices[] = {{"samples", Vertices::kSamples}, {"free", Vertices::kFree}};
+constexpr Choice<Vertices> kVertexWords[] = {{"samples", Vertices::kSamples}, {"free", Vertices::kFree}};
 constexpr Choice<Objective> kObjectives[] = {{"max", Objective::kMax}, {"rms", Objective::kRms}};
 constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
 constexpr Choice<Algorithm> kAlgorithms[] = {
     {"brute", Algorithm::kBruteForce}, {"local", Algorithm::kLocal}, {"heap", Algorithm::kHeap}};
-constexpr Choice<bool> kEdges[] = {{"delaunay", false}, {"data", true}};
+constexpr Choice<bool> kEdgeWords[] = {{"delaunay", false}, {"data", true}};
 constexpr Choice<EdgeScore> kScores[] = {{"sum", EdgeScore::kSum},
                                          {"max", EdgeScore::kMax},
                                          {"sqerr", EdgeScore::kSquares},
@@ -74,7 +74,7 @@ Result<Batch> parse_batch(const std::string& text) {
 Result<EdgeRule> parse_edges(const StrategyArguments& given) {
   EdgeRule rule;
   if (given.edges) {
-    const Result<bool> data = choose("--edges", *given.edges, kEdges);
+    const Result<bool> data = choose("--edges", *given.edges, kEdgeWords);
     if (!data) return tl::unexpected(data.error());
     rule.data_dependent = *data;
   }
@@ -176,7 +176,7 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options, Strategy& s
     options.quality.effort = *parsed;
   }
   if (vertices) {
-    const Result<Vertices> parsed = choose("--vertices", *vertices, kVertices);
+    const Result<Vertices> parsed = choose("--vertices", *vertices, kVertexWords);
     if (!parsed) return tl::unexpected(parsed.error());
     if (*parsed == Vertices::kFree && options.quality.effort < Effort::kHigh)
       return fail(ErrorKind::kUsage,
@@ -266,7 +266,7 @@ Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy,
   json["effort"] = effort_name(simplified.effort);
   json["why_fast"] =
       simplified.why_fast == WhyFast::kNone ? Json(nullptr) : Json(name_of(simplified.why_fast, kWhyFast));
-  json["vertices"] = name_of(simplified.vertices, kVertices);
+  json["vertices"] = name_of(simplified.vertices, kVertexWords);
   json["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
   json["cut_short"] = simplified.is_cut_short;
   json["objective"] = name_of(options.goals.objective, kObjectives);
@@ -288,7 +288,7 @@ Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy,
       break;
   }
   const EdgeRule& edges = strategy.edges;
-  json["edges"] = name_of(edges.data_dependent, kEdges);
+  json["edges"] = name_of(edges.data_dependent, kEdgeWords);
   if (!edges.data_dependent) return json;
   json["edge_score"] = name_of(edges.score, kScores);
   const double by_default = edges.score == EdgeScore::kTight ? 0.1 : 0.5;

@@ -27,7 +27,7 @@ constexpr Choice<bool> kBounds[] = {{"nodes", false}, {"samples", true}};
 enum class TileNodata { kVoids, kBackground, kFill };
 constexpr Choice<TileNodata> kTileNodata[] = {
     {"voids", TileNodata::kVoids}, {"background", TileNodata::kBackground}, {"fill", TileNodata::kFill}};
-constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
+constexpr Choice<int> kCellWords[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
 constexpr int kEgm2008 = 3855;
 struct DatumWord {
   const char* word;
@@ -218,7 +218,7 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
   settings.binds_samples = *binds;
   if (*binds) settings.cells *= 2;
   if (cells) {
-    const Result<int> count = choose("--cells", *cells, kCells);
+    const Result<int> count = choose("--cells", *cells, kCellWords);
     if (!count) return tl::unexpected(count.error());
     settings.cells = *count;
   }

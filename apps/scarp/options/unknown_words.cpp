@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "options/help.h"
+#include "options/missing_value.h"
 #include "options/option_table.h"
 #include "scarp/alike.h"
 #include "terminal/text.h"
@@ -115,13 +116,6 @@ std::string advise(const CLI::App* command, const std::string& word) {
   return advice.empty() && name.size() >= 4 ? advise_on_foreign(1) : advice;
 }
 
-const CLI::App* find_chosen(const CLI::App& program, std::string_view name) {
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == name) return command;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 std::string describe_unknown_option(const CLI::App* command, const std::string& word) {
@@ -131,7 +125,7 @@ std::string describe_unknown_option(const CLI::App* command, const std::string& 
 }
 
 std::optional<std::string> find_foreign_option(const CLI::App& program, int argc, const char* const* argv) {
-  const CLI::App* command = argc > 1 ? find_chosen(program, argv[1]) : nullptr;
+  const CLI::App* command = argc > 1 ? find_command(program, argv[1]) : nullptr;
   if (command == nullptr) return std::nullopt;
   for (int k = 2; k < argc && std::string_view(argv[k]) != "--"; ++k) {
     const std::string word = argv[k];

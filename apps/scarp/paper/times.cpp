@@ -49,14 +49,14 @@ Result<double> least(Run run) {
   return best;
 }
 
-struct Row {
+struct TimeRow {
   const Field* field;
   std::uint64_t vertices;
   const ReferenceRow* scape;  ///< null: not the paper's
 };
 
-std::vector<Row> list_rows(const Study& study) {
-  std::vector<Row> rows;
+std::vector<TimeRow> list_rows(const Study& study) {
+  std::vector<TimeRow> rows;
   if (study.fields.are_of_paper) {
     for (const ReferenceRow& row : kReferenceRows) {
       if (const Field* field = study.find(row.field)) rows.push_back({field, row.vertices, &row});
@@ -75,7 +75,7 @@ Result<void> add_seconds(Study& study) {
   const std::string machine = describe_machine();
   std::vector<std::vector<std::string>> cells;
   double million = 0;  // seconds for 1 % of a million samples, the worst of those there are
-  for (const Row& row : list_rows(study)) {
+  for (const TimeRow& row : list_rows(study)) {
     study.note(fmt::format("seconds: {}, {} vertices", row.field->key, row.vertices));
     const auto refine = [&](const EdgeRule& edges) {
       return least([&]() -> Result<double> { return study.time(*row.field, row.vertices, with_edges(edges)); });

@@ -16,7 +16,7 @@
 namespace scarp::gdal {
 namespace {
 
-using Owned = std::unique_ptr<OGRGeometry>;
+using OwnedGeometry = std::unique_ptr<OGRGeometry>;
 
 constexpr int kSegmentsPerQuarter = 8;
 
@@ -41,7 +41,7 @@ bool to_polygons(std::span<const Line> rings, const std::array<double, 2>& unit,
       for (const auto& point : rings[end].points) ring.addPoint(point[0] * unit[0], point[1] * unit[1]);
       polygon.addRing(&ring);
     }
-    const Owned valid(polygon.MakeValid());
+    const OwnedGeometry valid(polygon.MakeValid());
     if (!valid) return false;
     collect_polygons(*valid, polygons);
   }
@@ -106,10 +106,10 @@ OGRLinearRing sharpened(const OGRLinearRing& ring, double distance) {
 }
 
 /// Moved inwards; null where GEOS fails.
-Owned move_inwards(const OGRGeometry& whole, double distance, double sample) {
+OwnedGeometry move_inwards(const OGRGeometry& whole, double distance, double sample) {
   constexpr double kSteps = 256, kShare = 0.125;
   const bool is_pointed = std::abs(distance) < sample;
-  Owned moved(whole.Buffer(-distance, kSegmentsPerQuarter));
+  OwnedGeometry moved(whole.Buffer(-distance, kSegmentsPerQuarter));
   if (!moved || sample <= 0) return moved;
   OGRMultiPolygon parts, pointed;
   collect_polygons(*moved, parts);
@@ -126,7 +126,7 @@ Owned move_inwards(const OGRGeometry& whole, double distance, double sample) {
     pointed.addGeometry(polygon.IsValid() ? &polygon : &round);
   }
   const OGRGeometry& from = is_pointed ? pointed : static_cast<const OGRGeometry&>(*moved);
-  return Owned(from.SimplifyPreserveTopology(std::min(sample / kSteps, kShare * std::abs(distance))));
+  return OwnedGeometry(from.SimplifyPreserveTopology(std::min(sample / kSteps, kShare * std::abs(distance))));
 }
 
 void add_ring(const OGRLinearRing& ring, LineRole role, std::uint32_t polygon, const std::array<double, 2>& unit,
@@ -147,9 +147,9 @@ Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, co
     return fail(ErrorKind::kUsage, "polygons cannot be moved inwards: GDAL was built without GEOS, which does that");
   OGRMultiPolygon polygons;
   const bool are_valid = to_polygons(rings, unit, polygons);
-  const Owned whole(are_valid ? polygons.UnionCascaded() : nullptr);
+  const OwnedGeometry whole(are_valid ? polygons.UnionCascaded() : nullptr);
   const bool moves = whole && is_distance(distance, *whole);
-  const Owned moved = !whole ? nullptr : moves ? move_inwards(*whole, distance, sample) : Owned(whole->clone());
+  const OwnedGeometry moved = !whole ? nullptr : moves ? move_inwards(*whole, distance, sample) : OwnedGeometry(whole->clone());
   if (!moved)
     return fail(ErrorKind::kInput,
                 fmt::format("the polygons cannot be moved inwards by {}: {}", distance, session.reason()));

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint8_t kTriangleCell = 5;  // VTK's number for this kind of cell
 
 /// Numbers the arrays' places as the XML names them.
-class Places {
+class VtkPlaces {
  public:
   std::string element(const char* type, const std::string& name, std::size_t components, std::uint64_t bytes) {
     std::string text = fmt::format("<DataArray type=\"{}\" Name=\"{}\"", type, name);
@@ -84,7 +84,7 @@ void store_point_data(std::uint8_t*& at, const Mesh& mesh) {
   }
 }
 
-std::string point_data_elements(const Mesh& mesh, Places& places) {
+std::string point_data_elements(const Mesh& mesh, VtkPlaces& places) {
   const std::uint64_t count = mesh.vertex_count();
   std::string names, arrays;
   const auto add = [&](const char* type, const std::string& name, std::size_t components, std::size_t size) {
@@ -114,7 +114,7 @@ std::vector<std::uint8_t> encode(const Mesh& mesh, bool as_polydata) {
   const char* const kind = as_polydata ? "PolyData" : "UnstructuredGrid";
   const char* const cells = as_polydata ? "Polys" : "Cells";
 
-  Places places;
+  VtkPlaces places;
   std::string header = fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n{}  <{}>\n",
