@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "scarp/commands.h"
 #include "scarp/lines.h"
 
 namespace scarp {
@@ -31,7 +32,8 @@ Result<void> check_polygons(std::span<const Line> lines, const std::string& user
   const bool is_closed = first[0] == last[0] && first[1] == last[1];
   return fail(ErrorKind::kInput,
               fmt::format("{} is a {}line, and {} needs polygons{}", open->name, is_closed ? "closed " : "", user,
-                          is_closed ? ": make polygons of such lines first (ogr2ogr -nlt POLYGON NEW.gpkg FILE)"
+                          is_closed ? fmt::format(": make polygons of such lines first (ogr2ogr -nlt POLYGON {} FILE)",
+                                                  new_file(".gpkg"))
                           : otherwise.empty() ? ""
                                               : fmt::format(": {} takes lines", otherwise)));
 }

@@ -11,10 +11,12 @@ namespace scarp::cli {
 namespace {
 
 /// What there is to do. --nodata names one value, in place of the one that counts already (NaN always does).
-std::string remedy_of(const std::string& value, const std::string& kept, const std::string& path) {
+std::string remedy_of(const std::string& value, const std::string& kept, const RasterInfo& info) {
   if (kept.empty()) return "give --nodata " + value;
-  return fmt::format("--nodata takes one value, and gdalwarp -srcnodata {} -dstnodata {} {} {} makes one value of both",
-                     value, kept, file_word(path), new_file(".tif"));
+  const char* placeless = info.has_georeference ? "" : "-to SRC_METHOD=NO_GEOTRANSFORM -to DST_METHOD=NO_GEOTRANSFORM ";
+  return fmt::format(
+      "--nodata takes one value, and gdalwarp -srcnodata {} -dstnodata {} {}{} {} makes one value of both", value, kept,
+      placeless, file_word(info.path), new_file(".tif"));
 }
 
 }  // namespace
@@ -28,7 +30,7 @@ std::vector<std::string> warn_of_undeclared_nodata(const RasterInfo& info, const
     // As short as it can be without becoming another float32.
     const std::string height = fmt::format("{}", static_cast<float>(nodata.of.height));
     const std::string value = fmt::format("{}", static_cast<float>(nodata.value));
-    const std::string remedy = remedy_of(value, kept, info.path);
+    const std::string remedy = remedy_of(value, kept, info);
     if (kept.empty()) kept = value;
     sentences.push_back(
         fmt::format("{} exactly {}, far {} all others ({} to {}): if {} nodata, {}",

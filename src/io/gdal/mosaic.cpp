@@ -35,6 +35,11 @@ std::string gdalwarp(const std::string& options, const Tile& tile) {
                      file_word(tile.path), new_file(".tif"));
 }
 
+/// A command that describes a copy of the raster: many formats take no words afterwards.
+std::string edit_command(const std::string& options, const std::string& path) {
+  return fmt::format("{} && gdal_edit.py {} {}", translate_command("", path), options, new_file(".tif"));
+}
+
 Result<Tile> look_at(Session& session, const std::string& path) {
   const auto dataset = open_raster(session, path);
   if (!dataset) return tl::unexpected(dataset.error());
@@ -76,21 +81,35 @@ std::string describe_unit_difference(const Tile& first, const Tile& tile, std::s
   if (a.unit.empty() || b.unit.empty()) {
     const Tile& without = b.unit.empty() ? tile : first;
     const std::string &named = b.unit.empty() ? a.unit : b.unit, says = "heights in " + named;
-    return fmt::format("has {}, and {} {}: if {} has the same unit, declare it first (gdal_edit.py -units \"{}\" {})",
+    return fmt::format("has {}, and {} {}: if {} has the same unit, declare it first ({})",
                        b.unit.empty() ? "no unit" : says, first.path, a.unit.empty() ? "no unit" : says, without.path,
-                       named, file_word(without.path));
+                       edit_command("-units " + file_word(named), without.path));
   }
   const double ratio = metres_in(a.unit) == 0 ? 0 : metres_in(b.unit) / metres_in(a.unit);
   const std::string way =
       ratio == 0 ? "give rasters of one unit"
-                 : fmt::format(
-                       "bring it to one unit first ({} && gdal_edit.py -scale {:.17g} -offset {:.17g} -units \"{}\" {})",
-                       translate_command("", tile.path), b.scale * ratio, b.offset * ratio, a.unit, new_file(".tif"));
+                 : fmt::format("bring it to one unit first ({})",
+                               edit_command(fmt::format("-scale {:.17g} -offset {:.17g} -units {}", b.scale * ratio,
+                                                        b.offset * ratio, file_word(a.unit)),
+                                            tile.path));
   return fmt::format("has heights in {}, and {} in {}: {}", b.unit, first.path, a.unit, way);
 }
 
 /// What heights are above, as the CRS says.
 std::string heights_of(const Tile& tile) { return tile.space.is_ellipsoidal ? "the ellipsoid" : tile.space.vertical; }
+
+/// What brings the raster into the CRS of the first, with its heights.
+std::string bring_there(const Tile& first, const Tile& tile) {
+  const std::string from = heights_of(tile), to = heights_of(first);
+  const std::string with_heights = from.empty() || to.empty() ? "" : name_with_heights(first.space.crs);
+  // Where PROJ lacks a grid, gdalwarp leaves heights as they are, silently.
+  if (from != to && !from.empty() && !to.empty() &&
+      (with_heights.empty() || !Passage(tile.space.crs, first.space.crs, true).usable()))
+    return "PROJ knows no way between their heights on this machine: install its grids (projsync, or Debian's "
+           "proj-data), or give rasters of one vertical datum";
+  const std::string crs = file_word(with_heights.empty() ? crs_name(first.crs) : with_heights);
+  return "bring it there first " + gdalwarp(fmt::format("-t_srs {} -r bilinear", crs), tile);
+}
 
 std::string describe_datum_difference(const Tile& first, const Tile& tile) {
   const std::string a = heights_of(first), b = heights_of(tile);
@@ -99,12 +118,12 @@ std::string describe_datum_difference(const Tile& first, const Tile& tile) {
   };
   const Tile& named = a.empty() ? tile : first;
   const Tile& other = a.empty() ? first : tile;
-  const std::string crs = name_with_heights(named.space.crs);
   std::string way = "give rasters of one vertical datum";
-  if (!crs.empty()) {
-    way = a.empty() || b.empty() ? fmt::format("if {} has the same, declare it first ({})", other.path,
-                                               translate_command("-a_srs " + file_word(crs), other.path))
-                                 : "bring it there first " + gdalwarp(fmt::format("-t_srs {} -r bilinear", crs), tile);
+  if (!a.empty() && !b.empty()) {
+    way = bring_there(first, tile);
+  } else if (const std::string crs = name_with_heights(named.space.crs); !crs.empty()) {
+    way = fmt::format("if {} has the same, declare it first ({})", other.path,
+                      translate_command("-a_srs " + file_word(crs), other.path));
   }
   return fmt::format("has {}, and {} {}: {}", say(b), first.path, say(a), way);
 }
@@ -131,22 +150,20 @@ std::string find_difference(const Tile& first, const Tile& tile) {
           without.path,
           translate_command("-a_srs " + file_word(crs_name((tile.crs ? tile : first).crs)), without.path));
     }
-    return fmt::format("is in {}, and {} in {}: bring it there first {}", name(tile), first.path, name(first),
-                       gdalwarp(fmt::format("-t_srs {} -r bilinear", file_word(crs_name(first.crs))), tile));
+    return fmt::format("is in {}, and {} in {}: {}", name(tile), first.path, name(first), bring_there(first, tile));
   }
   if (heights_of(first) != heights_of(tile)) return describe_datum_difference(first, tile);
   if (tile.bands.size() != first.bands.size()) {
     return fmt::format("has {} bands, and {} has {}: choose one of the bands first ({})", tile.bands.size(), first.path,
-                       first.bands.size(),
-                       translate_command("-b 1", (tile.bands.size() > 1 ? tile : first).path));
+                       first.bands.size(), translate_command("-b 1", (tile.bands.size() > 1 ? tile : first).path));
   }
   for (std::size_t k = 0; k < tile.bands.size(); ++k) {
     const BandFacts &a = first.bands[k], &b = tile.bands[k];
     const Tile& hard = can_join(b.type) ? first : tile;
     if (!can_join(hard.bands[k].type))
-      return fmt::format(
-          "and {} make no mosaic, since {} holds {}: give it another type first ({})", first.path, hard.path,
-          GDALGetDataTypeName(hard.bands[k].type), translate_command("-ot Float64", hard.path));
+      return fmt::format("and {} make no mosaic, since {} holds {}: give it another type first ({})", first.path,
+                         hard.path, GDALGetDataTypeName(hard.bands[k].type),
+                         translate_command("-ot Float64", hard.path));
     if (a.is_alpha != b.is_alpha) {
       return fmt::format(
           "and {} make no mosaic, since band {} is transparency in one of them alone: give rasters of one "

@@ -197,8 +197,8 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
                         name, chosen, in_quotes(other)));
       return again;
     }
-    points.warnings.push_back(
-        fmt::format("{}: the heights are those of the column {}: --z-field {} reads the others", name, chosen, other));
+    points.warnings.push_back(fmt::format("{}: the heights are those of the column {}: --z-field {} reads the others",
+                                          name, chosen, file_word(other)));
   }
   if (columns->in_degrees || looks_like_degrees(points))
     points.warnings.push_back(fmt::format(

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "scarp/commands.h"
+
 namespace scarp {
 namespace {
 
@@ -122,9 +124,10 @@ Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& fram
                             info.path, unit.name));
   if (is_converted) info.warnings.push_back(words_of_metres(unit, info));
   if (is_converted && frame.unit_in_metres == 0 && info.has_georeference && info.crs.empty())
-    info.warnings.emplace_back(
-        "x and y have no CRS and stay as they are, while heights become metres: give the raster its CRS first "
-        "(gdal_edit.py -a_srs) if they are in another unit");
+    info.warnings.push_back(
+        fmt::format("x and y have no CRS and stay as they are, while heights become metres: give the raster its CRS "
+                    "first ({}) if they are in another unit",
+                    translate_command("-a_srs EPSG:CODE", info.path)));
   if (is_converted) {
     settled.z_scale *= unit.metres;
     if (of_file.name.empty()) info.file_unit = unit.name;
