@@ -22,11 +22,12 @@ _scarp() {
       "simplify --detect-flats" | "simplify --min-angle" | "simplify --max-edge" | "simplify --min-edge" | \
       "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | "simplify -j" | \
       "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | \
-      "simplify --z-field" | "simplify --columns" | "simplify --shape-threshold" | "simplify --supersample" | \
-      "measure --fail-above" | "measure --band" | "measure --te" | "measure --resolution" | "measure --z-scale" | \
-      "measure --z-offset" | "measure --z-unit" | "measure --cell-size" | "measure --nodata" | "measure --falloff" | \
-      "measure --inset" | "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
-      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "measure --columns" | "view --band" | \
+      "simplify --z-field" | "simplify --columns" | "simplify --boundary" | "simplify --shape-threshold" | \
+      "simplify --supersample" | "measure --fail-above" | "measure --band" | "measure --te" | \
+      "measure --resolution" | "measure --z-scale" | "measure --z-offset" | "measure --z-unit" | \
+      "measure --cell-size" | "measure --nodata" | "measure --falloff" | "measure --inset" | "measure --memory" | \
+      "measure -j" | "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | \
+      "measure --layer" | "measure --z-field" | "measure --columns" | "measure --boundary" | "view --band" | \
       "view --te" | "view --resolution" | "view --z-scale" | "view --z-offset" | "view --z-unit" | \
       "view --cell-size" | "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
       "tile --z-offset" | "tile --z-unit" | "tile --cell-size" | "tile --ellipsoid" | "tile --only" | "tile -e" | \
@@ -205,8 +206,8 @@ _scarp() {
         options+=' --max-edge --min-edge --grade --base --solid --split --memory --num-threads'
         options+=' --quiet --timing --json-progress --help --help-all --version --texture --texture-weight'
         options+=' --image --norm --channel-weights --points --duplicates --layer --z-field --columns'
-        options+=' --order --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold'
-        options+=' --supersample'
+        options+=' --boundary --order --importance --one-pass --algorithm --batch --edges --edge-score'
+        options+=' --shape-threshold --supersample'
         ;;
       measure)
         options+=' --fail-above --band --te --resolution --decode --z-scale --z-offset --z-unit'
@@ -214,7 +215,7 @@ _scarp() {
         options+=' --mask --tolerance --roi --falloff --script --cutline --inset --mask-outside'
         options+=' --memory --num-threads --quiet --json-progress --help --help-all --version --texture'
         options+=' --texture-weight --image --norm --channel-weights --points --duplicates --layer --z-field'
-        options+=' --columns'
+        options+=' --columns --boundary'
         ;;
       view)
         options+=' --band --te --resolution --decode --z-scale --z-offset --z-unit --cell-size'

@@ -39,6 +39,9 @@ struct MeasureOptions {
   /// rings are no gaps. The rings count as given, not as rounded in the mesh. Borrowed. DEFAULT: null, the whole
   /// domain.
   const Cutline* cutline = nullptr;
+  /// Of scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. Where its
+  /// border is one loop, no open edge is a gap. DEFAULT: false.
+  bool inlets = false;
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
   /// where the sample is nodata or uncovered. The span is valid during the call only.
   std::function<void(int row, std::span<const float> errors)> on_row = {};

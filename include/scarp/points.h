@@ -81,14 +81,22 @@ bool is_point_file(const std::string& path);
 /// REQUIRES: some points, finite.
 std::array<double, 2> local_origin(const PointSet& points);
 
+/// How the convex hull fits points.
+struct HullFit {
+  double bridged = 0;          ///< share of its area that lies across bays, where no points are
+  std::uint64_t slivers = 0;   ///< long steep triangles at it, where the points' rim is nearly straight
+  double boundary_length = 0;  ///< for a mesh that ends at the points instead; 0: the hull fits
+};
+
 struct SimplifiedPoints {
   Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
   std::uint64_t points = 0;      ///< as given
   std::uint64_t duplicates = 0;  ///< of them not alone at their place (equal x and y) and given up for another
-  std::uint64_t on_hull = 0;     ///< vertices of the convex hull
+  std::uint64_t on_hull = 0;     ///< corners of the hull, convex or concave
   double lattice_step = 0;       ///< of the integer lattice, in units of x and y
   std::uint64_t flat = 0;        ///< triangles whose corners lie on lines at one height
   std::uint64_t loose = 0;       ///< pieces of lines that are no edges, since they cross others of their height
+  HullFit hull_fit;              ///< without boundary_length and lines
 };
 
 /// What to reach. At least one of the goals; the first that is reached ends the run.
@@ -103,15 +111,21 @@ struct PointOptions {
   /// False: a budget that ends the run leaves the last mesh, though an earlier one may have been better. DEFAULT: true.
   bool best_of_budget = true;
   DuplicatePolicy duplicates = DuplicatePolicy::kFirst;  ///< DEFAULT: the first point of each place.
-  Run run = {};                                          ///< threads, of the proof, and progress
+  /// Above 0, in units of x and y: the mesh ends at a concave hull, whose edges are up to this long where the points
+  /// hang together without longer ones. DEFAULT: at the convex hull.
+  std::optional<double> boundary_length = std::nullopt;
+  Run run = {};  ///< threads, of the proof, and progress
 };
 
 /// Greedy insertion on scattered samples (section 2 of the 1995 paper names it, without doing it). The domain is the
-/// convex hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up
-/// to 2^30 steps: the coarsest on which the given decimals lie exactly if there is one, else the finest power of two.
-/// Different points are never taken for one: where the lattice cannot keep two apart, they are refused. Among points of
-/// equal error the one in the northernmost, then westernmost place is inserted. Points on a grid give the vertices that
-/// simplify() gives for the raster, but for ties.
+/// convex hull, or with `boundary_length` the chi-shape of Duckham et al. (2008): of the Delaunay triangulation of all
+/// points, triangles whose edge on the boundary is longer go, the longest edge first, as long as the domain stays
+/// connected, its boundary a simple polygon, and every point in it. All corners of that polygon are vertices. Each
+/// triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up to 2^30 steps: the
+/// coarsest on which the given decimals lie exactly if there is one, else the finest power of two. Different points are
+/// never taken for one: where the lattice cannot keep two apart, they are refused. Among points of equal error the one
+/// in the northernmost, then westernmost place is inserted. Points on a grid give the vertices that simplify() gives
+/// for the raster, but for ties.
 ///
 /// A line becomes a chain of edges through some of its points, among them its ends, of a ring at least three. Chains do
 /// not cross, so no triangle crosses one; what the line has between two points of its chain is within max_error of the
@@ -121,19 +135,19 @@ struct PointOptions {
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.
-/// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs, a budget with lines), with
-/// kInput (lines that meet with unlike heights, which are named, fewer than 3 places, all on one line, a value that is
-/// not finite or beyond 1e100, an extent below 1e-100, two points nearer to each other than about 2^-30 of the extent,
-/// which are named, as is the far point that makes the extent so large), with kPromise where float32 positions cannot
-/// keep the bound, kCancelled. Cost: expected O(n log m) for n points; about 50 bytes a point beside the points
-/// themselves.
+/// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs, a boundary_length that is
+/// not above 0, a budget or a boundary_length with lines), with kInput (lines that meet with unlike heights, which are
+/// named, fewer than 3 places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two
+/// points nearer to each other than about 2^-30 of the extent, which are named, as is the far point that makes the
+/// extent so large), with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m)
+/// for n points, with boundary_length O(n log n); about 50 bytes a point beside the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 /// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,
 /// max_error_at is {index of the point, 0}, and so are offenders; on_row is called once, with all points. Duplicates
 /// are given up by the same policy first. coverage_tolerance counts mean distances between points, √(area / points).
-/// Gaps are open edges within the convex hull. Same failures and cost as measure(); kUsage for
-/// MeasureOptions::tolerance; kInput for points that simplify_points() cannot keep apart.
+/// Gaps are open edges within the convex hull, but see MeasureOptions::inlets. Same failures and cost as measure();
+/// kUsage for MeasureOptions::tolerance; kInput for points that simplify_points() cannot keep apart.
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 

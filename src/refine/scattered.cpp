@@ -11,16 +11,26 @@ namespace scarp {
 
 namespace {
 
-Vertex insert_hull_corner(ScatteredDomain& domain, const SnappedPoints& points, std::uint32_t point) {
+Vertex insert_corner(ScatteredDomain& domain, const SnappedPoints& points, std::uint32_t point) {
   const Point p = points.at[point];
   return domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
 }
 
-bool is_used(const ScatteredDomain& domain, Triangle t) {
-  for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-    if (domain.point_of[domain.tin.origin(h)] == kNone) return false;
+/// Marks what is reached from the rectangle's border without crossing a constrained edge.
+void mark_beyond(Triangulation& tin) {
+  std::vector<HalfEdge> entered;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.twin(h) == kNone && !tin.is_constrained(h)) entered.push_back(h);
   }
-  return true;
+  while (!entered.empty()) {
+    const Triangle t = entered.back() / 3;
+    entered.pop_back();
+    if (tin.is_outside(t)) continue;
+    tin.set_outside(t, true);
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      if (tin.twin(h) != kNone && !tin.is_constrained(h)) entered.push_back(tin.twin(h));
+    }
+  }
 }
 
 }  // namespace
@@ -43,23 +53,25 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points) {
                                        : "all points lie at two places; a surface needs at least three places");
   const std::vector<std::uint32_t> hull = convex_hull(points.at);
   if (hull.size() < 3) return fail(ErrorKind::kInput, "all points lie on one line, so there is no surface to simplify");
-  ScatteredDomain domain{Triangulation(points.lattice.cols, points.lattice.rows), {}, 0, 4};
+  return build_domain(points, hull);
+}
+
+Result<ScatteredDomain> build_domain(const SnappedPoints& points, const std::vector<std::uint32_t>& outline) {
+  ScatteredDomain domain{Triangulation(points.lattice.cols, points.lattice.rows), {}, outline, 4};
   domain.point_of.assign(4, kNone);
-  domain.on_hull = static_cast<std::uint32_t>(hull.size());
   // Coarse to fine: one after the other around a circle, every corner would change the triangles of all before it.
-  for (std::size_t stride = std::bit_ceil(hull.size()); stride > 0; stride /= 2) {
-    for (std::size_t i = 0; i < hull.size(); i += stride) {
-      if (i % (2 * stride) != 0) insert_hull_corner(domain, points, hull[i]);
+  for (std::size_t stride = std::bit_ceil(outline.size()); stride > 0; stride /= 2) {
+    for (std::size_t i = 0; i < outline.size(); i += stride) {
+      if (i % (2 * stride) != 0) insert_corner(domain, points, outline[i]);
     }
   }
-  // The outside is found by its corners: a triangle with three corners on the hull lies in it.
-  std::vector<Vertex> vertices(hull.size());
-  for (std::size_t i = 0; i < hull.size(); ++i) vertices[i] = insert_hull_corner(domain, points, hull[i]);
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    if (!domain.tin.constrain(vertices[i], vertices[(i + 1) % hull.size()]))
-      return fail(ErrorKind::kInternal, "two edges of the convex hull cross");
+  std::vector<Vertex> vertices(outline.size());
+  for (std::size_t i = 0; i < outline.size(); ++i) vertices[i] = insert_corner(domain, points, outline[i]);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    if (!domain.tin.constrain(vertices[i], vertices[(i + 1) % outline.size()]))
+      return fail(ErrorKind::kInternal, "two edges of the points' boundary cross");
   }
-  for (Triangle t = 0; t < domain.tin.triangle_count(); ++t) domain.tin.set_outside(t, !is_used(domain, t));
+  mark_beyond(domain.tin);
   return domain;
 }
 

@@ -5,8 +5,9 @@
 // exactly these triangles, and measured by the way. A point on an edge is in the list of one of the two triangles: on
 // the edge both have the same height, and a comparison that rounding could decide is made in exact arithmetic.
 //
-// The domain is the convex hull: its corners are inserted into the rectangle of the lattice first, its edges are
-// constrained, and what lies beyond is marked outside, as beside the outline of a raster with nodata.
+// The domain is the convex hull, or a polygon within it that holds all points: its corners are inserted into the
+// rectangle of the lattice first, its edges are constrained, and what lies beyond is marked outside, as beside the
+// outline of a raster with nodata.
 //
 // Cost: expected O(n log m) for n points and m insertions.
 #pragma once
@@ -29,7 +30,7 @@ namespace scarp {
 struct ScatteredDomain {
   Triangulation tin;
   std::vector<std::uint32_t> point_of;  ///< by vertex; kNone for corners of the rectangle that are no point
-  std::uint32_t on_hull = 0;            ///< corners of the convex hull
+  std::vector<std::uint32_t> outline;   ///< the points at the corners of its boundary, positively oriented
   std::uint32_t unused = 0;             ///< vertices without a point
 
   std::uint64_t vertex_count() const { return point_of.size() - unused; }
@@ -39,6 +40,8 @@ struct ScatteredDomain {
 /// The triangulation of the convex hull's corners. Fails with kInput if there are fewer than three points or all lie on
 /// one line.
 Result<ScatteredDomain> build_domain(const SnappedPoints& points);
+/// The triangulation of the corners of a simple polygon, positively oriented, that holds all points.
+Result<ScatteredDomain> build_domain(const SnappedPoints& points, const std::vector<std::uint32_t>& outline);
 
 class ScatteredRefinement {
  public:

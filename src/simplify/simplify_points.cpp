@@ -1,5 +1,5 @@
 // Scattered points to a mesh, as a list of passes. Milestones: after `snap_points` every point has a lattice point of
-// its own; after `build_domain` the hull is fixed; after `refine` and `take_best_prefix` no vertex is added; what
+// its own; after `build_domain` the boundary is fixed; after `refine` and `take_best_prefix` no vertex is added; what
 // `prove` has seen is what is returned.
 #include <fmt/format.h>
 
@@ -18,6 +18,8 @@
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
 #include "pieces/goals.h"
+#include "refine/concave_outline.h"
+#include "refine/hull_fit.h"
 #include "refine/point_lines.h"
 #include "refine/scattered.h"
 #include "scarp/points.h"
@@ -29,10 +31,17 @@ namespace {
 Result<void> check_options(const PointOptions& options) {
   if (!options.max_error && !options.max_triangles && !options.max_vertices)
     return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
+  if (options.boundary_length && !(*options.boundary_length > 0))
+    return fail(ErrorKind::kUsage,
+                fmt::format("boundary_length must be above 0, and {} is not", *options.boundary_length));
   return check_max_error(options.max_error);
 }
 
 Result<void> check_lines(const PointSet& points, const PointOptions& options) {
+  if (!points.lines.empty() && options.boundary_length)
+    return fail(ErrorKind::kUsage,
+                "boundary_length cannot be combined with lines such as contours, which may cross what it takes away: "
+                "leave it out");
   if (points.lines.empty() || (!options.max_triangles && !options.max_vertices)) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} cannot be combined with lines such as contours, which need vertices of their own beyond "
@@ -93,7 +102,7 @@ class PointRun {
   }
 
   Result<Simplified> execute(Clock::time_point start) {
-    if (auto fits = budget_.check(size(), "the convex hull of the points alone needs", ""); !fits)
+    if (auto fits = budget_.check(size(), "the hull of the points alone needs", ""); !fits)
       return tl::unexpected(fits.error());
     Simplified result;
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
@@ -177,7 +186,7 @@ class PointRun {
     const std::vector<std::uint32_t> inserted(domain_.point_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
                                               domain_.point_of.begin() + static_cast<std::ptrdiff_t>(best_.vertices));
     refinement_.reset();
-    domain_ = *build_domain(snapped_);
+    domain_ = *build_domain(snapped_, domain_.outline);
     for (const std::uint32_t point : inserted) {
       const Point p = snapped_.at[point];
       domain_.insert(point, p, domain_.tin.locate(p, domain_.tin.last_touched()));
@@ -283,6 +292,7 @@ class PointRun {
     MeasureOptions judge;
     judge.run.threads = options_.run.threads;
     judge.run.progress = options_.run.progress;
+    judge.inlets = options_.boundary_length.has_value();
     if (options_.max_error) judge.collect_above = bound_ + allowance();
     for (;;) {
       const auto start = Clock::now();
@@ -366,6 +376,8 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
       snap_points(points, options.duplicates, is_on_lattice ? PointSteps::kFloat32 : PointSteps::kFinest);
   if (!snapped) return tl::unexpected(snapped.error());
   auto domain = build_domain(*snapped);
+  if (domain && options.boundary_length)
+    domain = build_concave_domain(*snapped, std::move(*domain), *options.boundary_length);
   if (!domain) return tl::unexpected(domain.error());
   const auto lines = PointLines::build(points, *snapped);
   if (!lines) return tl::unexpected(lines.error());
@@ -382,8 +394,9 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   SimplifiedPoints result;
   result.points = points.size();
   result.duplicates = snapped->duplicates;
-  result.on_hull = domain->on_hull;
+  result.on_hull = domain->outline.size();
   result.lattice_step = snapped->lattice.step;
+  if (!options.boundary_length && points.lines.empty()) result.hull_fit = find_hull_fit(*snapped);
   PointRun run(points, *snapped, options.float32_positions ? std::span<const double>(rounded) : snapped->z, options,
                std::move(*domain), *lines);
   auto simplified = run.execute(start);

@@ -96,6 +96,45 @@ try "$scarp" measure survey.csv grid.ply --crs source --json
 succeeds "$scarp" simplify "$dem" utm.ply -e 50 --crs EPSG:32612 -q
 refuses 1 "utm.ply names that CRS as its own, --crs overrides it" "$scarp" measure survey.csv utm.ply
 
+# A C that opens to the east: with a concave hull the mesh ends at the bay, and every point is in it.
+awk 'BEGIN { srand(3); print "x,y,z"
+  while (n < 3000) { x = rand() * 1000; y = rand() * 1000
+    if (x > 400 && y > 300 && y < 700) continue
+    printf "%.2f,%.2f,%.3f\n", 500000 + x, 4649000 + y, 300 + 20 * sin(x / 90) * cos(y / 70) + rand(); n++ } }' >bay.csv
+for name in bay.ply bay.obj bay.glb; do
+  succeeds "$scarp" simplify bay.csv "$name" -e 0.5 --boundary concave:80 --report bay.json --overwrite
+  succeeds "$scarp" measure bay.csv "$name" --fail-above 0.5 -q
+done
+refuses 3 "gaps" "$scarp" measure bay.csv bay.ply --boundary hull --fail-above 0.5 -q
+succeeds "$scarp" simplify bay.csv bay.stl -e 0.5 --boundary concave:80 -q
+succeeds "$scarp" measure bay.csv bay.stl --boundary concave:80 --fail-above 0.5 -q
+succeeds "$scarp" simplify bay.csv block.stl -e 0.5 --boundary concave:80 --base 0 -q
+succeeds "$scarp" measure bay.csv block.stl --fail-above 0.5 -q
+python3 - <<'PY' || fail "the mesh around the bay"
+import json
+r = json.load(open("bay.json"))
+assert r["max_error"] <= 0.5 and r["uncovered"] == 0 and r["samples"] == r["input"]["points"] == 3000, r
+assert r["topology"]["sound"] and r["topology"]["border_loops"] == 1 and r["input"]["boundary"] == "concave:80", r
+rows = [row.split() for row in open("bay.obj")]
+at = [(float(row[1]) + r["frame"]["origin"][0] - 500000, -float(row[3]) + r["frame"]["origin"][1] - 4649000)
+      for row in rows if row[:1] == ["v"]]
+area = 0
+for row in rows:
+    if row[:1] != ["f"]:
+        continue
+    a, b, c = (at[int(corner.split("/")[0]) - 1] for corner in row[1:])
+    area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2
+    x, y = ((a[k] + b[k] + c[k]) / 3 for k in (0, 1))
+    assert not (x > 480 and 380 < y < 620), ("a triangle across the bay", a, b, c)
+assert 0.95 * 760000 < area < 1.02 * 760000, area
+PY
+succeeds "$scarp" simplify bay.csv wide.ply -e 0.5 --boundary concave:1e9 -q
+succeeds "$scarp" simplify bay.csv convex.ply -e 0.5 -q
+python3 - <<'PY' || fail "a LENGTH beyond all edges is the convex hull"
+wide, convex = (open(name, "rb").read().split(b"end_header\n", 1)[1] for name in ("wide.ply", "convex.ply"))
+assert wide == convex
+PY
+
 # What cannot be, in one sentence, and nothing written.
 : >empty.csv
 printf 'x,y,z\n' >header.csv
@@ -132,6 +171,11 @@ refuses 1 "--preview is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --p
 refuses 1 "--normals is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --normals
 refuses 1 "--map is for rasters" "$scarp" measure survey.csv hills.glb --map p.png
 refuses 1 "--duplicates is for scattered points" "$scarp" simplify "$dem" x.glb -e 1 --duplicates mean
+for boundary in 0 concave concave: concave:0 concave:-5 concave:nan concave:inf concave:5m alpha:5; do
+  refuses 1 "--boundary $boundary is neither hull nor concave:LENGTH" \
+    "$scarp" simplify survey.csv x.glb -e 1 --boundary "$boundary"
+done
+refuses 1 "--boundary is for scattered points" "$scarp" simplify "$dem" x.glb -e 1 --boundary concave:5
 refuses 1 "--z-field is for scattered points" "$scarp" measure "$dem" hills.glb --z-field h
 refuses 1 "--duplicates best is unknown" "$scarp" simplify survey.csv x.glb -e 1 --duplicates best
 refuses 1 "10 vertices are too few" "$scarp" simplify survey.csv x.glb -p 10

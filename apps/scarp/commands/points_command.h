@@ -16,7 +16,7 @@ namespace scarp::cli {
 /// The options of every command that reads points.
 struct PointsArguments {
   bool points = false;
-  Given duplicates, layer, z_field, columns;
+  Given duplicates, layer, z_field, columns, boundary;
 
   void add_to(CLI::App& command);
   /// True if the input is to be read as points: it was asked for, or its name says so.

@@ -21,11 +21,11 @@ namespace {
 
 /// Points have no use for many of the command's options; silence would be a lie.
 Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
-  constexpr std::array<std::string_view, 22> kMeant{
+  constexpr std::array<std::string_view, 23> kMeant{
       "--max-error", "--max-triangles", "--max-points",    "--crs",         "--of",      "--base",
       "--up",        "--report",        "--overwrite",     "--num-threads", "--quiet",   "--points",
       "--layer",     "--double",        "--json-progress", "--duplicates",  "--z-field", "--fail-above",
-      "--json",      "--compress",      "--columns",       "--nodata"};
+      "--json",      "--compress",      "--columns",       "--nodata",      "--boundary"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
@@ -61,7 +61,8 @@ std::string crs_option(const SimplifyPlan& plan) {
 std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
   return plan.canonical_command + (arguments.points ? " --points" : "") +
          canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
-         canonical_option("--z-field", arguments.z_field) + canonical_option("--columns", arguments.columns);
+         canonical_option("--z-field", arguments.z_field) + canonical_option("--columns", arguments.columns) +
+         canonical_option("--boundary", arguments.boundary);
 }
 
 /// What a goal with a unit is compared with.
@@ -111,6 +112,7 @@ void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Po
   }
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
   if (arguments.columns) mesh.metadata["columns"] = *arguments.columns;
+  if (arguments.boundary) mesh.metadata["boundary"] = *arguments.boundary;
   if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
   const Measurement& measured = outcome.simplified.measurement;
   const Json error{{"asked", or_null(outcome.asked)},
@@ -141,6 +143,21 @@ Error with_path(Error error, const std::string& path) {
   return error;
 }
 
+/// Warns where the convex hull bridges bays or has slivers.
+void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
+  if (fit.boundary_length == 0) return;
+  outcome.suggested_boundary = fmt::format("concave:{:.6g}", fit.boundary_length);
+  outcome.warnings.push_back(fmt::format(
+      "{}: --boundary {} ends the mesh at the points instead (--boundary hull: no warning)",
+      fit.slivers == 0
+          ? fmt::format("{} of the mesh lies across bays of the convex hull, where no points are",
+                        format_share(fit.bridged, 1))
+          : fmt::format("the points end along nearly straight lines, where the convex hull makes {} steeper "
+                        "than 80 degrees",
+                        format_plural(fit.slivers, "sliver")),
+      outcome.suggested_boundary));
+}
+
 }  // namespace
 
 Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& given, const PointsArguments& arguments,
@@ -162,8 +179,11 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
                             given.output, shell_word(base_name(given.raster.path()))));
   const auto policy = parse_policy(arguments.duplicates);
   if (!policy) return tl::unexpected(policy.error());
+  const auto boundary_length = parse_boundary(arguments.boundary);
+  if (!boundary_length) return tl::unexpected(boundary_length.error());
 
   outcome.policy = *policy;
+  outcome.boundary = arguments.boundary.value_or("hull");
   const auto read_as = [&](const std::string& crs) {
     return read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), plan.read.nodata, runner.progress);
   };
@@ -184,6 +204,11 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
                             "beyond any budget; ask for an error with -e",
                             given.max_triangles ? "--max-triangles" : "--max-points",
                             shell_word(base_name(given.raster.path()))));
+  if (!outcome.points.lines.empty() && *boundary_length)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--boundary {} cannot be combined with lines, and {} holds them: they may cross what it "
+                            "takes away; leave it out",
+                            *arguments.boundary, shell_word(base_name(given.raster.path()))));
   if (auto checked = check_crs_of(plan.format, outcome.points.crs, ""); !checked) return checked;
   if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
     outcome.centre = local_origin(outcome.points);
@@ -207,6 +232,7 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   options.max_vertices = plan.simplify.goals.max_vertices;
   options.float32_positions = plan.format.is_float32();  // points do not lie where float32 is exact
   options.duplicates = outcome.policy;
+  options.boundary_length = *boundary_length;
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = runner.progress;
   Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
@@ -217,6 +243,7 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   outcome.lattice_step = simplified->lattice_step;
   outcome.flat = simplified->flat;
   outcome.loose = simplified->loose;
+  if (!arguments.boundary) suggest_boundary(simplified->hull_fit, outcome);
   if (outcome.loose > 0)
     outcome.warnings.push_back(
         fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
@@ -263,6 +290,8 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
   const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
   if (!policy) return tl::unexpected(policy.error());
   judged.policy = *policy;
+  const auto boundary_length = parse_boundary(remembered(arguments.boundary, "boundary"));
+  if (!boundary_length) return tl::unexpected(boundary_length.error());
   Given crs = remembered(given.crs, "crs_option");
   if (!given.crs && crs == Given("local") && way_to_source(judged.mesh)) crs = "source";
   PointsArguments asked = arguments;
@@ -287,6 +316,7 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
   MeasureOptions options;
   options.run.threads = *threads;
   options.run.progress = runner.progress;
+  options.inlets = boundary_length->has_value();
   Result<Measurement> measured = measure_points(judged.points, judged.mesh, judged.policy, options);
   if (!measured) return tl::unexpected(std::move(measured.error()));
   judged.measured = std::move(*measured);

@@ -237,6 +237,23 @@ constexpr OptionRow kSampleRows[] = {
      .help =
          "What the columns of a text hold, such as number,northing,easting,height,code, or pnezd. - is for one that "
          "is not read."},
+    {.id = kBoundary,
+     .name = "--boundary",
+     .commands = kSimplify,
+     .group = OptionGroup::kPoints,
+     .type = kText,
+     .value = "hull|concave:LENGTH",
+     .by_default = "hull",
+     .help = "Where the mesh ends: at the convex hull of the points, or at a concave one. Triangles whose edge on the "
+             "boundary is longer than LENGTH, in the unit of x and y, are left out while the mesh stays in one piece."},
+    {.id = kBoundary,
+     .name = "--boundary",
+     .commands = kMeasure,
+     .group = OptionGroup::kPoints,
+     .type = kText,
+     .value = "hull|concave:LENGTH",
+     .by_default = "what the mesh file says, else hull",
+     .help = "Where the mesh may end: at the convex hull of the points, or, in one loop, within it."},
 };
 
 }  // namespace

@@ -109,6 +109,7 @@ enum class OptionId {
   kLayer,
   kZField,
   kColumns,
+  kBoundary,
   kImportance,
   kOnePass,
   kOrder,

@@ -13,6 +13,7 @@ void PointsArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kLayer, layer);
   add_option(command, OptionId::kZField, z_field);
   add_option(command, OptionId::kColumns, columns);
+  add_option(command, OptionId::kBoundary, boundary);
 }
 
 Result<void> PointsArguments::check_single(const std::vector<std::string>& paths) const {
@@ -26,8 +27,10 @@ Result<void> PointsArguments::check_single(const std::vector<std::string>& paths
 }
 
 Result<void> PointsArguments::check_unused(const std::string& path) const {
-  const std::pair<const char*, bool> options[] = {
-      {"--duplicates", duplicates.has_value()}, {"--layer", layer.has_value()}, {"--z-field", z_field.has_value()}};
+  const std::pair<const char*, bool> options[] = {{"--duplicates", duplicates.has_value()},
+                                                  {"--layer", layer.has_value()},
+                                                  {"--z-field", z_field.has_value()},
+                                                  {"--boundary", boundary.has_value()}};
   for (const auto& [name, is_given] : options) {
     if (is_given)
       return fail(ErrorKind::kUsage,

@@ -53,6 +53,7 @@ constexpr Foreign kForeign[] = {
     {"b", "--band", ""},
     {"l", "--layer", ""},
     {"zfield z-column", "--z-field", ""},
+    {"concave concave-hull alpha alpha-shape chi-shape hull", "--boundary", "give it as --boundary concave:LENGTH"},
     {"column fields format order pnezd", "--columns", ""},
     {"clip cutlines crop-to-cutline csql cl", "--cutline", ""},
     {"lakes", "--water", ""},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "reports/report.h"
@@ -69,6 +70,19 @@ Result<DuplicatePolicy> parse_policy(const Given& text) {
                                              shell_word(*text)));
 }
 
+Result<std::optional<double>> parse_boundary(const Given& text) {
+  constexpr std::string_view kConcave = "concave:";
+  if (!text || *text == "hull") return std::optional<double>();
+  if (text->starts_with(kConcave)) {
+    const Result<double> length = parse_number("--boundary", text->substr(kConcave.size()));
+    if (length && *length > 0) return *length;
+  }
+  return fail(ErrorKind::kUsage,
+              fmt::format("--boundary {} is neither hull nor concave:LENGTH, such as concave:50: LENGTH is a number "
+                          "above 0 in the unit of x and y",
+                          shell_word(*text)));
+}
+
 std::string without_height(const PointSet& points) {
   return points.without_height == 0
              ? ""
@@ -104,6 +118,9 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   report["input"] = describe_points(outcome.points, outcome.policy, outcome.duplicates);
   report["input"]["on_hull"] = outcome.on_hull;
   report["input"]["lattice_step"] = outcome.lattice_step;
+  report["input"]["boundary"] = outcome.boundary;
+  report["input"]["suggested_boundary"] =
+      or_null(outcome.suggested_boundary.empty() ? Given() : Given(outcome.suggested_boundary));
   report["frame"] = describe_frame(outcome.points);
   if (outcome.centre) {
     report["frame"] = Json{{"crs", ""},

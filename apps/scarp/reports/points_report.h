@@ -15,6 +15,8 @@ namespace scarp::cli {
 
 Result<DuplicatePolicy> parse_policy(const Given& text);
 const char* policy_name(DuplicatePolicy policy);
+/// The LENGTH of --boundary concave:LENGTH; nothing for the convex hull.
+Result<std::optional<double>> parse_boundary(const Given& text);
 
 /// " (12 without a height left out)", or nothing.
 std::string without_height(const PointSet& points);
@@ -29,6 +31,8 @@ struct PointsOutcome : SimplifyRun {
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
   std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
   double lattice_step = 0;
+  std::string boundary = "hull";                ///< as --boundary
+  std::string suggested_boundary;               ///< empty: none
   std::optional<std::array<double, 2>> centre;  ///< of the local frame, where the mesh has one and the points have not
 
   /// What x and y of the mesh are.

@@ -149,6 +149,7 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
 
     The mesh covers their convex hull, its vertices are points, and every point is within max_error of it. `duplicates`:
     which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean".
+    `boundary="concave:50"`: the mesh ends at a concave hull, whose edges are 50 long at most where the points allow it.
     """
     out = C.c_void_p()
     lib = _abi.lib
