@@ -10,6 +10,7 @@ awk 'BEGIN { srand(7); print "x,y,z"
   print "500500.00,4649400.00,310"; print "500500.00,4649400.00,330" }' >survey.csv
 
 succeeds "$scarp" simplify survey.csv hills.glb -e 0.5 --report hills.json
+! grep -q -- --boundary "$logs/err" || fail "points scattered evenly are warned of"
 grep -q '3,002\|3002' "$logs/out" || fail "the summary does not count the points"
 grep -q 'duplicates    1, the first' "$logs/out" || fail "the summary does not count duplicates"
 python3 - <<'PY' || fail "the report"
@@ -129,7 +130,18 @@ for row in rows:
 assert 0.95 * 760000 < area < 1.02 * 760000, area
 PY
 succeeds "$scarp" simplify bay.csv wide.ply -e 0.5 --boundary concave:1e9 -q
-succeeds "$scarp" simplify bay.csv convex.ply -e 0.5 -q
+succeeds "$scarp" simplify bay.csv convex.ply -e 0.5 --report convex.json
+boundary=$(json convex.json input suggested_boundary | tr -d '"')
+grep -q "^scarp: warning: .* of the mesh lies across bays .* --boundary $boundary ends" "$logs/err" || fail "no warning of the bay"
+succeeds "$scarp" simplify bay.csv no-bay.ply -e 0.5 --boundary "$boundary" --report no-bay.json
+[ ! -s "$logs/err" ] || fail "the boundary that the warning names draws another"
+python3 - <<'PY' || fail "the boundary that the warning names"
+import json
+bay, rest = (json.load(open(name)) for name in ("convex.json", "no-bay.json"))
+assert rest["input"]["suggested_boundary"] is None and rest["input"]["on_hull"] > 2 * bay["input"]["on_hull"]
+PY
+succeeds "$scarp" simplify bay.csv hull.ply -e 0.5 --boundary hull
+[ ! -s "$logs/err" ] || fail "--boundary hull is warned of"
 python3 - <<'PY' || fail "a LENGTH beyond all edges is the convex hull"
 wide, convex = (open(name, "rb").read().split(b"end_header\n", 1)[1] for name in ("wide.ply", "convex.ply"))
 assert wide == convex
