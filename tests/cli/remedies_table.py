@@ -369,7 +369,6 @@ O("the extent of a synthetic raster", "scarp generate smooth 9 9 a.tif --te 1 2 
 # Parts of sentences that other tests make, or that name no way out.
 NOT_RUN = [
     "filling its nodata needs all samples in memory",  # of the library: the program refuses --nodata-policy before
-    "which makes walls: --nodata-policy fill",  # of a set on the globe alone, which takes 1.5 s at any size
     # Of view, whose page is built by npm: test_view.sh.
     "is too large for a page", "the finest level of the page is", "is not whole:", "and a page judges by a raster alone",
     "options of a raster are given", "is a set of tiles, which is shown without a raster",
