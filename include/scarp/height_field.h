@@ -186,6 +186,8 @@ HeightRange height_range(const HeightField& field, int threads = 1);
 /// - 0, by a twentieth of it and by at least 10, where a thousandth of the samples has it: a sea that honestly lies at
 /// 0
 ///   has a shore that is not much higher;
+/// - another whole number, such as -99, by their range, where a thousandth of the samples or more has it, 10 at least
+///   and no more than half;
 /// - any other, by 50 times their range, where at most a hundredth of the samples has it.
 /// The others must differ, and more heights than HeightRange::kEnds − 1 at one end are not seen through. Cost: O(1).
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale = 1, double offset = 0);

@@ -20,13 +20,12 @@ constexpr std::array kSigns{-999.0,   -10000.0, -32768.0, -9999.0,  -99999.0, -9
 struct Scale {
   double scale = 1, offset = 0;
 
-  /// The value of a height, which was rounded to a float32: a usual sign if it may be one.
+  /// The value of a height, which was rounded to a float32: a whole number if it may be one, as signs are.
   double value_of(double height) const {
     if (scale == 1 && offset == 0) return height;
     const double value = (height - offset) / scale;
     const double off = 2 * std::abs(height) * std::numeric_limits<float>::epsilon() / std::abs(scale);
-    const auto sign = std::find_if(kSigns.begin(), kSigns.end(), [&](double s) { return std::abs(value - s) <= off; });
-    return sign == kSigns.end() ? value : *sign;
+    return std::abs(value - std::round(value)) <= off ? std::round(value) : value;
   }
 };
 
@@ -35,13 +34,16 @@ bool is_usual_sign(double value) {
   return std::abs(value) >= kBeyond || (value != 0 && std::find(kSigns.begin(), kSigns.end(), value) != kSigns.end());
 }
 
-/// From the others, which begin `gap` away and have that range.
-bool is_far(const HeightCount& here, double value, double gap, double range, std::uint64_t valid) {
+/// From the others, which begin `gap` away and have that range. `are_many`: heights at this end.
+bool is_far(const HeightCount& here, double value, double gap, double range, std::uint64_t valid, bool are_many) {
   constexpr double kOfSigns = 0.2, kOfZero = 0.05, kLeastOfZero = 10, kOfAny = 50;
-  constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100;
+  constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100, kLeastOfWhole = 10;
   if (is_usual_sign(value) && gap >= kOfSigns * range) return true;
   if (range == 0) return false;  // two heights, of which neither is odd
   if (value == 0 && gap >= kLeastOfZero && gap >= kOfZero * range && here.samples >= valid / kShareOfZero) return true;
+  const bool is_block = value == std::round(value) && here.samples >= std::max(kLeastOfWhole, valid / kShareOfZero) &&
+                        here.samples <= valid / 2;
+  if (are_many && is_block && gap >= range) return true;
   return gap >= kOfAny * range && here.samples <= valid / kShareOfAny;
 }
 
@@ -50,7 +52,8 @@ std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std
   for (std::size_t next = first + 1; next < HeightRange::kEnds && ends[next].samples > 0; ++next) {
     const double range = std::abs(other - ends[next].height);
     const auto far = [&](const HeightCount& here) {
-      return is_far(here, scale.value_of(here.height), std::abs(ends[next].height - here.height), range, valid);
+      return is_far(here, scale.value_of(here.height), std::abs(ends[next].height - here.height), range, valid,
+                    ends.back().samples > 0);
     };
     const bool may_tell =
         range > 0 || !is_usual_sign(scale.value_of(ends[next].height));  // all others may be one height

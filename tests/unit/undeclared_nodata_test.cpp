@@ -70,6 +70,20 @@ TEST(undeclared_nodata, zeros_below_land_that_begins_far_above_are_found) {
   EXPECT_EQ(find(land_beside(0, 200, -400)).size(), 1U);
 }
 
+TEST(undeclared_nodata, a_whole_number_that_many_samples_have_stands_as_far_away_as_others_reach) {
+  for (const float value : {-99.0F, -1.0F, 255.0F, 1000.0F}) {
+    const auto found = find(land_beside(value, 140, 500));
+    ASSERT_EQ(found.size(), 1U) << value;
+    EXPECT_EQ(found[0].value, value);
+    EXPECT_EQ(found[0].of.samples, 140U);
+    EXPECT_TRUE(find(land_beside(value, 9, 500)).empty()) << "towers or pits";
+    EXPECT_TRUE(find(land_beside(value + 0.3F, 140, 500)).empty()) << "no sign";
+    EXPECT_TRUE(find(land_beside(value, 2100, 500)).empty()) << "land around a hill";
+  }
+  EXPECT_TRUE(find(land_beside(350, 140, 500)).empty()) << "a lake below a cliff";
+  EXPECT_TRUE(find({10, 10, 10, 10, 10, 10, 10, 10, 10, 10, 40, 40, 41, 41, 41, 42, 42, 42, 43, 43}).empty()) << "steps";
+}
+
 TEST(undeclared_nodata, honest_heights_are_not) {
   EXPECT_TRUE(find(land_beside(0, 900, 0.3F)).empty()) << "a sea";
   EXPECT_TRUE(find(land_beside(0, 900, 5)).empty()) << "a sea with quays";
