@@ -150,4 +150,28 @@ succeeds "$scarp" simplify "$dem" out.pgm -e 50
 grep -q '^  frame *grid coordinates' "$logs/out" || fail "a PGM knows no place"
 succeeds "$scarp" simplify navd.tif out.tif -e 50 --overwrite
 gdalinfo out.tif | grep -q 'NAVD88' || fail "the datum of heights is lost"
+# A CRS of degrees for metres, and one of metres for degrees: the way out names the right one.
+gdal_translate -q -a_srs EPSG:4326 utm.tif metres.tif
+for command in "info metres.tif" "simplify metres.tif o.glb -e 50 --overwrite" "simplify metres.tif o.obj -e 50 --crs source" \
+  "tile metres.tif o --vertical egm96"; do
+  refuses 2 "metres.tif: its CRS, EPSG:4326, has the unit degree, but its middle lies at 506045, 4005145, which is no place" \
+    "$scarp" $command
+done
+printf 'x,y,z\n500000,5400000,1\n500100,5400000,2\n500000,5400100,3\n500100,5400120,5\n' > points.csv
+ogr2ogr -q points.geojson points.csv -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z
+refuses 2 "is no place there: that is the wrong CRS; name the one that x and y are in first (ogr2ogr -a_srs EPSG:CODE NEW.gpkg points.geojson)" \
+  "$scarp" simplify points.geojson o.glb --points -e 1
+refuses 2 "metres.tif: its CRS" "$scarp" info metres.tif
+sed -i 's/EPSG:CODE/EPSG:26917/' "$logs/err"
+way_out
+succeeds "$scarp" simplify new.tif o.glb -e 50 --overwrite
+gdal_translate -q -a_srs EPSG:32616 "$dem" degrees.tif
+for command in "info degrees.tif --no-suggest" "simplify degrees.tif o.glb -e 50 --overwrite"; do
+  succeeds "$scarp" $command
+  grep -q "warning: its x and y look like degrees, but its CRS, EPSG:32616, has the unit metre" "$logs/err" || fail "degrees are metres"
+done
+way_out
+succeeds "$scarp" simplify new.tif new.ply -e 50 --overwrite
+succeeds "$scarp" simplify "$dem" dem.ply -e 50 --overwrite
+same_mesh new.ply dem.ply || fail "another mesh after the way out"
 echo "views keep what rasters say"

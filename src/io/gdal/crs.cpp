@@ -1,8 +1,10 @@
 #include "io/gdal/crs.h"
 
 #include <cpl_conv.h>
+#include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "io/gdal/cf_axes.h"
 #include "io/gdal/session.h"
@@ -104,6 +106,21 @@ std::string short_name(const Crs& crs) {
 bool same_crs(const Crs& a, const Crs& b) {
   const char* options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", nullptr};
   return a && b && OSRIsSameEx(a.get(), b.get(), options) != 0;
+}
+
+Result<void> verify_degrees(const Crs& crs, const std::array<double, 2>& centre, const std::string& path,
+                            const std::string& way) {
+  if (!crs || OSRIsGeographic(crs.get()) == 0) return {};
+  constexpr double kFarthest = 4 * std::numbers::pi, kHighest = 5 * std::numbers::pi / 9;  // 720 and 100 degrees
+  char* unit = nullptr;                                                                    // owned by the CRS
+  const double radians = OSRGetAngularUnits(crs.get(), &unit);
+  const auto [x, y] = centre;
+  if (std::abs(x) * radians <= kFarthest && std::abs(y) * radians <= kHighest) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: its CRS, {}, has the unit {}, but its middle lies at {:.9g}, {:.9g}, which is no place "
+                          "there: that is the wrong CRS; name the one that x and y are in{}",
+                          path, short_name(crs), unit != nullptr ? unit : "degree", x, y,
+                          way.empty() ? "" : fmt::format(" first ({})", way)));
 }
 
 std::shared_ptr<const PointTransform> build_transform(const Crs& from, const Crs& to) {

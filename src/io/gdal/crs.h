@@ -4,6 +4,7 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -45,6 +46,10 @@ std::string name_with_heights(const Crs& crs);
 std::string short_name(const Crs& crs);
 
 bool same_crs(const Crs& a, const Crs& b);
+
+/// kInput for a centre that is far from all degrees, in a CRS of degrees. `way`: the command that names another CRS.
+Result<void> verify_degrees(const Crs& crs, const std::array<double, 2>& centre, const std::string& path,
+                            const std::string& way);
 
 /// The way from one CRS to another, through PROJ. A handle of GDAL's serves one call at a time; idle ones wait in a
 /// pool, and a new one is made when all are out.

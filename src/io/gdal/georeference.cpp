@@ -44,6 +44,26 @@ Frame source_frame(const Georeference& geo) {
   return frame;
 }
 
+/// Coordinates that look like degrees, without a CRS or in one of lengths.
+void doubt_lengths(const Georeference& geo, RasterInfo& info) {
+  if (geo.geographic || info.format == "memory" || !looks_like_degrees(geo.pixels, geo.cols, geo.rows)) return;
+  if (!geo.crs) {
+    info.warnings.push_back(
+        fmt::format("the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if "
+                    "they are, give it that CRS first ({})",
+                    translate_command("-a_srs EPSG:4326", info.path)));
+    return;
+  }
+  if (OSRIsProjected(geo.crs.get()) == 0) return;
+  const Crs degrees = copy_crs(Crs(OSRCloneGeogCS(geo.crs.get())).get());
+  const std::string name = crs_name(degrees);
+  info.warnings.push_back(
+      fmt::format("its x and y look like degrees, but its CRS, {}, has the unit {}, of which a cell is {:.3g} wide: "
+                  "if they are degrees, that is the wrong CRS; name theirs first ({})",
+                  short_name(geo.crs), geo.unit_name, info.cell_x,
+                  translate_command("-a_srs " + (name.starts_with("EPSG:") ? name : "EPSG:4326"), info.path)));
+}
+
 void warn_of_degrees(RasterInfo& info) {
   info.warnings.push_back(
       "x and y are degrees while z is a length: the mesh is no shape in space; the frame 'local' is in "
@@ -221,18 +241,16 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
     }
     return frame;
   }
+  const std::string way = info.format == "memory" ? "" : translate_command("-a_srs EPSG:CODE", info.path);
+  if (auto verified = verify_degrees(geo.crs, geo.centre(), info.path, way); !verified)
+    return tl::unexpected(verified.error());
   if (wanted == "grid") return grid_or_cells(info.path, geo.cols, geo.rows, options);
   if (options.cell_size) {
     return fail(ErrorKind::kUsage, info.path +
                                        " has a georeference, which says how wide its cells are: leave the cell size "
                                        "out, or ask for the frame 'grid'");
   }
-  if (geo.located && !geo.crs && info.format != "memory" && looks_like_degrees(geo.pixels, geo.cols, geo.rows)) {
-    info.warnings.push_back(
-        fmt::format("the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if "
-                    "they are, give it that CRS first ({})",
-                    translate_command("-a_srs EPSG:4326", info.path)));
-  }
+  doubt_lengths(geo, info);
   const DefaultFrame otherwise = options.default_frame;
   const bool is_local =
       wanted == "local" ||

@@ -285,6 +285,8 @@ double centre_of(const std::vector<double>& values) {
 /// Degrees to metres by the two constants of the ellipsoid at the middle of the points; see grid/local_frame.cpp.
 Result<void> make_local(const Crs& crs, PointSet& points) {
   const double x = centre_of(points.x), y = centre_of(points.y);
+  const std::string way = fmt::format("ogr2ogr -a_srs EPSG:CODE {} {}", new_file(".gpkg"), file_word(points.path));
+  if (auto verified = verify_degrees(crs, {x, y}, points.path, way); !verified) return verified;
   MetresPerRadian metres{1, 1};
   if (OSRIsGeographic(crs.get()) != 0) {
     OGRErr error = OGRERR_NONE;
