@@ -87,7 +87,7 @@ struct UndeclaredNodata {
 
 /// What speaks against heights that were packed into colours, and the colours then changed or taken for others.
 struct PackedDoubts {
-  /// Samples that lie off both neighbours in their row, which are close together, by a quarter to one and a half of
+  /// Samples that lie off both neighbours in their row, which are close together, by an eighth to one and a half of
   /// what the next colour counts, where that changes: as many as interpolation or lossy compression leaves, else 0.
   std::uint64_t torn = 0;
   double torn_by = 0;      ///< the farthest of them

@@ -60,6 +60,35 @@ for scheme in terrarium mapbox; do
   succeeds "$scarp" measure $scheme.ppm $scheme.glb --decode $scheme --fail-above 0
 done
 
+# Colours that were resampled or compressed with a loss after heights were packed into them.
+gdal_translate -q -of ENVI -ot Float32 "$dem" heights.img
+python3 - <<'PYTHON'
+import array
+heights = array.array("f", open("heights.img", "rb").read())
+head = open("heights.hdr").read().replace("data type = 4", "data type = 1").replace("bands   = 1", "bands   = 3")
+for name, number in (("terrarium", lambda h: int((h + 32768) * 256)), ("mapbox", lambda h: round((h + 10000) * 10))):
+    numbers = [number(h) for h in heights]
+    open(f"packed_{name}.img", "wb").write(b"".join(bytes(n >> bits & 255 for n in numbers) for bits in (16, 8, 0)))
+    open(f"packed_{name}.hdr", "w").write(head.split("band names")[0])
+PYTHON
+for scheme in terrarium mapbox; do
+  succeeds "$scarp" info packed_$scheme.img --decode $scheme --no-suggest
+  [ ! -s "$logs/err" ] || fail "$scheme as it was made is doubted"
+  for way in "-r average -outsize 50% 50%" "-r bilinear -outsize 70% 70%" "-r bilinear -outsize 150% 150%" \
+    "-r bilinear -outsize 500% 500% -srcwin 0 0 100 100" "-of JPEG -co QUALITY=75" "-of JPEG -co QUALITY=100"; do
+    gdal_translate -q $way packed_$scheme.img changed
+    succeeds "$scarp" info changed --decode $scheme --no-suggest --json
+    grep -q "warning: .* samples jump by up to .* where a colour begins anew" "$logs/err" || fail "$scheme: $way goes unseen"
+    holds "$(json "$logs/out" input packed torn) > 24"
+  done
+  gdalwarp -q -overwrite -r bilinear -t_srs EPSG:32616 packed_$scheme.img warped.tif
+  succeeds "$scarp" info warped.tif --decode $scheme --no-suggest
+  grep -q "where a colour begins anew" "$logs/err" || fail "$scheme: gdalwarp goes unseen"
+  gdal_translate -q -co COMPRESS=JPEG -co JPEG_QUALITY=100 packed_$scheme.img changed
+  succeeds "$scarp" info changed --decode $scheme --no-suggest
+  grep -q "where a colour begins anew\|compressed with a loss (JPEG)" "$logs/err" || fail "$scheme: JPEG without YCbCr goes unseen"
+done
+
 # Bands.
 gdal_translate -q -scale 236 1076 0 100 -ot Float32 "$dem" second.tif
 if command -v gdalbuildvrt > /dev/null; then

@@ -1,6 +1,7 @@
 // Heights packed into colours that were changed, or are read by the wrong encoding.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -72,8 +73,14 @@ TEST(packed_colours, as_they_were_made_raise_no_doubt) {
   const Heights whole = [](double x, double y) { return std::round(land(x, y)); };
   const Heights cliff = [](double x, double y) { return x > 30 + 9 * std::sin(y) ? 12 : 700; };
   const Heights sea = [](double x, double y) { return land(x, y) - 4000; };
+  // Noise, whose outermost heights stand alone wherever they are.
+  const Heights forest = [](double x, double y) {
+    double sum = 0;
+    for (int k = 1; k <= 6; ++k) sum += std::sin(k * 1e4 * std::sin(x * 12.9898 + y * 78.233 + k));
+    return 100.8 + 3 * sum;
+  };
   for (const Decode decode : {Decode::kTerrarium, Decode::kMapbox}) {
-    for (const Heights& heights : {Heights(land), steep, hills, whole, cliff, sea}) {
+    for (const Heights& heights : {Heights(land), steep, hills, whole, cliff, sea, forest}) {
       const RasterInfo info = read(decode, pack(decode, heights));
       EXPECT_EQ(info.packed.torn, 0U);
       EXPECT_EQ(info.packed.seems, "");
@@ -88,6 +95,40 @@ TEST(packed_colours, that_were_interpolated_are_told_with_their_number_and_jump)
     EXPECT_GE(info.packed.torn, 24U);
     EXPECT_GE(info.packed.torn_by, decode == Decode::kTerrarium ? 64 : 6.4);
     EXPECT_TRUE(testing::warns(info, "where a colour begins anew"));
+  }
+}
+
+/// At kSide × kSide places `step` samples apart: each colour interpolated between the four around the place, and
+/// rounded.
+Colours resample(const Colours& colours, double step) {
+  Colours made;
+  for (int row = 0; row < kSide; ++row) {
+    for (int col = 0; col < kSide; ++col) {
+      const double x = col * step, y = row * step;
+      const int left = static_cast<int>(x), top = static_cast<int>(y);
+      for (int k = 0; k < 3; ++k) {
+        const auto at = [&](int c, int r) {
+          return colours[static_cast<std::size_t>((std::min(r, kSide - 1) * kSide + std::min(c, kSide - 1)) * 3 + k)];
+        };
+        const double above = at(left, top) + (x - left) * (at(left + 1, top) - at(left, top));
+        const double below = at(left, top + 1) + (x - left) * (at(left + 1, top + 1) - at(left, top + 1));
+        made.push_back(std::round(above + (y - top) * (below - above)));
+      }
+    }
+  }
+  return made;
+}
+
+TEST(packed_colours, that_were_resampled_to_any_size_are_told) {
+  const Heights hills = [](double x, double y) {
+    return 1200 + 900 * std::sin(x / 19) * std::cos(y / 23) + 9 * std::sin(x * 1.7 + y * 2.3);
+  };
+  for (const Decode decode : {Decode::kTerrarium, Decode::kMapbox}) {
+    for (const double step : {0.17, 0.3, 0.7, 0.97}) {
+      const RasterInfo info = read(decode, resample(pack(decode, hills), step));
+      EXPECT_GE(info.packed.torn, 24U) << step;
+      EXPECT_LT(info.packed.torn_by, decode == Decode::kTerrarium ? 384 : 38.4);
+    }
   }
 }
 

@@ -204,6 +204,8 @@ bool is_remote(const std::string& path) {
 
 void repeat_said(GDALDatasetH from, GDALDatasetH to) {
   constexpr const char *kPoint = "AREA_OR_POINT", *kSigned = "PIXELTYPE", *kStructure = "IMAGE_STRUCTURE";
+  for (const char* item : {"COMPRESSION", "COMPRESSION_REVERSIBILITY"})
+    GDALSetMetadataItem(to, item, GDALGetMetadataItem(from, item, kStructure), kStructure);
   GDALSetSpatialRef(to, declared_crs(from).get());
   GDALSetMetadataItem(to, kPoint, GDALGetMetadataItem(from, kPoint, nullptr), nullptr);
   for (int k = 1; k <= std::min(GDALGetRasterCount(from), GDALGetRasterCount(to)); ++k) {

@@ -5,14 +5,21 @@
 //
 // Both make a height of one whole number, 24 bits in three colours. Where a colour reaches its end it begins anew, and
 // the one before it counts one more: colours that are interpolated, or changed a little by lossy compression, jump
-// there.
+// there. Two tests find that:
+//
+//   - Lossy compression changes a colour by one, and leaves spikes of about one step of it. Spikes of land change the
+//     colour no more often than their size says.
+//   - Interpolation sweeps through a colour where it begins anew. A sample between two that are close together, on
+//     either side of such a height, is then off both in 40 % of cases or more, some below and some above. Land does
+//     not know at which heights colours begin anew: it is as rough at heights a quarter, a half and three quarters of a
+//     step above.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "io/gdal/read_samples.h"
@@ -49,6 +56,52 @@ void count_torn(std::uint32_t a, std::uint32_t b, std::uint32_t c, Findings::Col
     ++(changes ? colours.torn : colours.whole)[k];
     if (changes) colours.most[k] = std::max(colours.most[k], off);
   }
+}
+
+constexpr std::array<std::size_t, 2> kLags{1, 4};  // the second one finds what was enlarged more than three times
+
+/// Counts the middle one of three samples, of which the others are close together, at each quarter of a colour between
+/// those.
+void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t lag, std::size_t first_colour,
+                 Findings::Colours& colours) {
+  const auto [low, high] = std::minmax(a, c);
+  for (std::size_t k = first_colour; k < kColourBits.size(); ++k) {
+    const std::uint32_t step = std::uint32_t{1} << kColourBits[k];
+    const int quarter = kColourBits[k] - 2;
+    const std::uint32_t first = low >> quarter, last = high >> quarter;
+    if (first == last || high - low >= step / 2) continue;
+    const std::uint32_t off = b < low ? low - b : b > high ? b - high : 0;
+    const bool is_off = off >= step / 8 && off < step;
+    for (std::uint32_t line = first + 1; line <= last; ++line) {
+      Findings::Colours::Line& here = colours.lines[lag][k][line & 3U];
+      ++here.crossed;
+      if (!is_off) continue;
+      ++here.off;
+      if ((line & 3U) != 0) continue;
+      colours.farthest[lag][k] = std::max(colours.farthest[lag][k], off);
+      ++colours.sides[lag][k][line >> 2 & 7U][b < low ? 0 : 1];
+    }
+  }
+}
+
+/// Steps of the middle colour are 1 m in terrarium, and heights in whole metres do nothing else.
+std::size_t first_colour(Decode decode) { return decode == Decode::kTerrarium ? 1 : 0; }
+
+/// Whether there are more samples off where a colour begins anew than land leaves there.
+bool are_swept(const Findings::Colours& colours, std::size_t lag, std::size_t k) {
+  constexpr std::uint64_t kLeast = 24;
+  constexpr double kLeastShare = 0.35, kTimesOthers = 1.5, kLeastBoth = 0.16;
+  const auto& lines = colours.lines[lag][k];
+  const auto share = [](const Findings::Colours::Line& line) {
+    return line.crossed == 0 ? 0 : static_cast<double>(line.off) / static_cast<double>(line.crossed);
+  };
+  double others = 0;
+  for (std::size_t k = 1; k < lines.size(); ++k) others = std::max(others, share(lines[k]));
+  if (lines[0].off < kLeast || share(lines[0]) < std::max(kLeastShare, kTimesOthers * others)) return false;
+  // Spikes above a plain, or noise around it, are off towards the plain.
+  std::uint64_t both = 0;
+  for (const auto& [below, above] : colours.sides[lag][k]) both += 2 * std::min(below, above);
+  return static_cast<double>(both) >= kLeastBoth * static_cast<double>(lines[0].crossed);
 }
 
 /// A colour that stands for nodata: every band's declared value.
@@ -97,17 +150,29 @@ class PackedReader : public WindowReader {
       const std::uint8_t* rgb = pixels_.data() + k * depth;
       const float height = height_of(rgb, masked_ && mask_[k] == 0);
       out[row * stride + col] = height;
-      if (col == 0) before_ = here_ = kNoNumber;
+      if (col == 0) row_.clear();
       look_at_colour(rgb, std::isnan(height) ? kNoNumber : number_of(rgb));
+      if (col == w.cols - 1) look_at_row();
     }
     return true;
   }
 
  private:
+  void look_at_row() {
+    for (std::size_t lag = 0; lag < kLags.size(); ++lag) {
+      const std::size_t apart = kLags[lag];
+      for (std::size_t k = 2 * apart; k < row_.size(); ++k) {
+        const std::uint32_t a = row_[k - 2 * apart], b = row_[k - apart], c = row_[k];
+        if (a == kNoNumber || b == kNoNumber || c == kNoNumber) continue;
+        if (apart == 1) count_torn(a, b, c, findings_.colours);
+        count_lines(a, b, c, lag, first_colour(decode_), findings_.colours);
+      }
+    }
+  }
+
   void look_at_colour(const std::uint8_t* rgb, std::uint32_t number) {
     Findings::Colours& colours = findings_.colours;
-    if (before_ != kNoNumber && here_ != kNoNumber && number != kNoNumber) count_torn(before_, here_, number, colours);
-    before_ = std::exchange(here_, number);
+    row_.push_back(number);
     if (number == kNoNumber || number == 0) return;
     ++colours.valid;
     colours.on_earth += is_on_earth(decode_height(decode_, rgb)) ? 1 : 0;
@@ -135,12 +200,33 @@ class PackedReader : public WindowReader {
   bool masked_;
   std::optional<std::array<std::uint8_t, 3>> nodata_colour_;
   std::vector<std::uint8_t> pixels_, mask_;
-  std::uint32_t before_ = kNoNumber, here_ = kNoNumber;  // the last two in the row
+  std::vector<std::uint32_t> row_;
 };
 
 }  // namespace
 
-void doubt_colours(const Findings& findings, Decode decode, RasterInfo& info) {
+void Findings::Colours::add(const Colours& further) {
+  valid += further.valid;
+  on_earth += further.on_earth;
+  on_earth_otherwise += further.on_earth_otherwise;
+  for (std::size_t k = 0; k < torn.size(); ++k) {
+    torn[k] += further.torn[k];
+    whole[k] += further.whole[k];
+    most[k] = std::max(most[k], further.most[k]);
+    for (std::size_t lag = 0; lag < lines.size(); ++lag) {
+      farthest[lag][k] = std::max(farthest[lag][k], further.farthest[lag][k]);
+      for (std::size_t line = 0; line < lines[lag][k].size(); ++line) {
+        lines[lag][k][line].crossed += further.lines[lag][k][line].crossed;
+        lines[lag][k][line].off += further.lines[lag][k][line].off;
+      }
+      for (std::size_t line = 0; line < sides[lag][k].size(); ++line) {
+        for (std::size_t side = 0; side < 2; ++side) sides[lag][k][line][side] += further.sides[lag][k][line][side];
+      }
+    }
+  }
+}
+
+void doubt_colours(const Findings& findings, Decode decode, const std::string& loss, RasterInfo& info) {
   constexpr std::uint64_t kLeastTorn = 24, kTimesWhole = 12;
   const Findings::Colours& colours = findings.colours;
   if (decode == Decode::kNone) return;
@@ -153,19 +239,44 @@ void doubt_colours(const Findings& findings, Decode decode, RasterInfo& info) {
         name(decode), colours.valid - colours.on_earth, colours.valid, info.packed.seems, info.packed.seems));
     return;
   }
-  // Steps of the middle colour are 1 m in terrarium, and heights in whole metres do nothing else.
-  for (std::size_t k = decode == Decode::kTerrarium ? 1 : 0; k < kColourBits.size(); ++k) {
-    if (colours.torn[k] <= kLeastTorn + kTimesWhole * colours.whole[k]) continue;
+  for (std::size_t k = first_colour(decode); k < kColourBits.size(); ++k) {
+    std::uint64_t torn = 0;
+    std::uint32_t most = 0;
+    const auto take = [&](std::uint64_t samples, std::uint32_t farthest) {
+      torn = std::max(torn, samples);
+      most = std::max(most, farthest);
+    };
+    if (colours.torn[k] > kLeastTorn + kTimesWhole * colours.whole[k]) take(colours.torn[k], colours.most[k]);
+    for (std::size_t lag = 0; lag < kLags.size(); ++lag) {
+      if (are_swept(colours, lag, k)) take(colours.lines[lag][k][0].off, colours.farthest[lag][k]);
+    }
     const double step = decode == Decode::kTerrarium ? 1.0 / 256 : 0.1;
-    info.packed.torn += colours.torn[k];
-    info.packed.torn_by = std::max(info.packed.torn_by, step * colours.most[k]);
+    info.packed.torn += torn;
+    info.packed.torn_by = std::max(info.packed.torn_by, step * most);
   }
-  if (info.packed.torn == 0) return;
+  if (info.packed.torn == 0) {
+    if (!loss.empty())
+      info.warnings.push_back(
+          fmt::format("the colours are compressed with a loss ({}), which changes the heights packed into them by any "
+                      "amount: take tiles as they were made (PNG, lossless WebP)",
+                      loss));
+    return;
+  }
   info.warnings.push_back(fmt::format(
       "{} samples jump by up to {:.6g} m and back where a colour begins anew, as colours do that were "
       "interpolated or compressed with a loss: take tiles as they were made (PNG, lossless WebP), and resample "
       "their heights, not their colours (gdalwarp -r near)",
       info.packed.torn, info.packed.torn_by));
+}
+
+std::string find_loss(GDALDatasetH dataset) {
+  constexpr const char* kStructure = "IMAGE_STRUCTURE";
+  const char* compression = GDALGetMetadataItem(dataset, "COMPRESSION", kStructure);
+  const char* reversibility = GDALGetMetadataItem(dataset, "COMPRESSION_REVERSIBILITY", kStructure);
+  const std::string_view name = compression != nullptr ? compression : "";
+  const bool is_jpeg = name == "JPEG" || name == "YCbCr JPEG";
+  const bool is_lossy = reversibility != nullptr && std::string_view(reversibility).starts_with("LOSSY");
+  return is_jpeg || is_lossy ? std::string(name) : "";
 }
 
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path) {

@@ -173,7 +173,7 @@ Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, con
   const auto found = read_windows(session, opened.first_band(options), *reader, opened.again(options), options, field);
   if (!found) return tl::unexpected(found.error());
   add_gdal_warnings(session, field.info);
-  doubt_colours(*found, options.decode, field.info);
+  doubt_colours(*found, options.decode, find_loss(opened.plan.dataset.get()), field.info);
   if (auto done = finish_raster(field, found->infinities, options); !done) return tl::unexpected(done.error());
   if (auto held = refuse_beyond(*found, path, options); !held) return tl::unexpected(held.error());
   return std::move(field);
@@ -213,7 +213,7 @@ class FileSource : public SampleSource {
 };
 
 /// Reads all samples once, for their range and their rounding.
-Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
+Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& reader, const ReadOptions& options,
                     OwnedHeightField& field) {
   RasterInfo& info = field.info;
   HeightRange range;
@@ -225,10 +225,11 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
     return true;
   };
   const Extent extent{info.path, field.cols, field.rows};
-  if (auto done = for_each_window(session, band, extent, options.run.progress, look); !done) return done;
+  if (auto done = for_each_window(session, opened.first_band(options), extent, options.run.progress, look); !done)
+    return done;
   set_range(range, info);
   field.sample_rounding = reader.findings().rounding;
-  doubt_colours(reader.findings(), options.decode, info);
+  doubt_colours(reader.findings(), options.decode, find_loss(opened.plan.dataset.get()), info);
   if (auto finished = finish_info(field, reader.findings().infinities, options); !finished) return finished;
   return refuse_beyond(reader.findings(), info.path, options);
 }
@@ -243,7 +244,7 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
   auto reader = opened.make_reader(options);
   const bool may_surprise = options.decode != Decode::kNone || !is_float32(opened.plan.band);
   if (options.with_range || may_surprise || opened.plan.band.means.cells > 1) {
-    auto seen = survey(session, opened.first_band(options), *reader, options, field);
+    auto seen = survey(session, opened, *reader, options, field);
     if (!seen) return tl::unexpected(seen.error());
   }
   add_gdal_warnings(session, field.info);

@@ -57,19 +57,23 @@ struct Findings {
     /// Samples off both neighbours: where the colour that counts 2^8 or 2^16 changes, and where it does not.
     std::array<std::uint64_t, 2> torn{}, whole{};
     std::array<std::uint32_t, 2> most{};  ///< how far off the torn ones are
+    /// Pairs of neighbours on either side of a height where a colour begins anew, and those with a sample off both
+    /// between them; by lag, by colour, and by quarters of what the colour counts that the height is moved up by.
+    struct Line {
+      std::uint64_t crossed = 0, off = 0;
+    };
+    std::array<std::array<std::array<Line, 4>, 2>, 2> lines{};
+    std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< of those off at the height itself
+    /// Of those at the height itself: below both, and above both; by the height's last three bits.
+    std::array<std::array<std::array<std::array<std::uint64_t, 2>, 8>, 2>, 2> sides{};
+
+    void add(const Colours& further);
   } colours;
 
   /// Of windows further on.
   void add(const Findings& further) {
     infinities += further.infinities;
-    colours.valid += further.colours.valid;
-    colours.on_earth += further.colours.on_earth;
-    colours.on_earth_otherwise += further.colours.on_earth_otherwise;
-    for (std::size_t k = 0; k < colours.torn.size(); ++k) {
-      colours.torn[k] += further.colours.torn[k];
-      colours.whole[k] += further.colours.whole[k];
-      colours.most[k] = std::max(colours.most[k], further.colours.most[k]);
-    }
+    colours.add(further.colours);
     rounding = std::max(rounding, further.rounding);
     if (!beyond) beyond = further.beyond;
   }
@@ -123,9 +127,12 @@ Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOption
                         std::uint64_t& infinities);
 
 /// Adds what speaks against heights that were read from colours.
-void doubt_colours(const Findings& findings, Decode decode, RasterInfo& info);
+/// `loss`: of find_loss().
+void doubt_colours(const Findings& findings, Decode decode, const std::string& loss, RasterInfo& info);
 
 /// kInput unless the dataset has 3 or 4 bands of unsigned bytes.
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path);
+/// The compression with a loss that the file has, such as "JPEG"; else empty.
+std::string find_loss(GDALDatasetH dataset);
 
 }  // namespace scarp::gdal
