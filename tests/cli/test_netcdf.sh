@@ -6,7 +6,7 @@ need gdal_translate gdalinfo python3
 
 cat > netcdf.py <<'PY'
 import math, struct
-def write(path, y, x, degrees=True, float_axes=False):
+def write(path, y, x, degrees=True, float_axes=False, **of_z):
     """A file of netCDF's classic format with z(y, x)."""
     def padded(b): return b + b"\0" * (-len(b) % 4)
     def word(s): return struct.pack(">i", len(s)) + padded(s.encode())
@@ -17,7 +17,7 @@ def write(path, y, x, degrees=True, float_axes=False):
     axis = "f" if float_axes else "d"
     z = [100 + 50 * math.sin(i / 3) + 30 * math.cos(j / 2) for i in range(len(y)) for j in range(len(x))]
     variables = [("lat", [0], {"units": y_unit, "standard_name": names[0]}, axis, y),
-                 ("lon", [1], {"units": x_unit, "standard_name": names[1]}, axis, x), ("z", [0, 1], {"units": "m"}, "f", z)]
+                 ("lon", [1], {"units": x_unit, "standard_name": names[1]}, axis, x), ("z", [0, 1], {"units": "m", **of_z}, "f", z)]
     def header(begins):
         h = b"CDF\x01\0\0\0\0" + struct.pack(">ii", 10, 2) + word("lat") + struct.pack(">i", len(y)) + word("lon") + struct.pack(">i", len(x))
         h += attributes({"Conventions": "CF-1.6"}) + struct.pack(">ii", 11, 3)
@@ -40,6 +40,9 @@ write("down_mercator.nc", mercator(1)[::-1], [5 + i for i in range(40)])
 write("fine_mercator.nc", mercator(0.05), even)  # GDAL takes its rows for even ones
 write("uneven.nc", [70 - 2 * i - 0.02 * i * i for i in range(30)], [5 + 2 * i for i in range(40)])
 write("middle.nc", [40 + 0.1 * i + (0.02 * math.sin(i * math.pi / 7) if 1 < i < 13 or 16 < i < 28 else 0) for i in range(30)], even)
+write("down_z.nc", [40 + 0.1 * i for i in range(30)], even, positive="down")
+write("sea_floor.nc", [40 + 0.1 * i for i in range(30)], even, standard_name="sea_floor_depth_below_geoid")
+write("up_z.nc", [40 + 0.1 * i for i in range(30)], even, standard_name="height_above_geoid", positive="up")
 write("uneven_columns.nc", [40 + 0.1 * i for i in range(30)], [5 + 0.1 * i * i for i in range(40)])
 PY
 python3 netcdf.py
@@ -76,4 +79,15 @@ for i, j in [(0, 0), (7, 3), (29, 39)]:  # row i of the file, which begins in th
     assert abs(float(value) - (100 + 50 * math.sin(k / 3) + 30 * math.cos(j / 2))) < 1e-4, (i, j, value)
 PY
 done
+# Depths, as a whole and in part.
+for file in down_z sea_floor; do
+  for part in "" "--te 6 41 7 42"; do
+    succeeds "$scarp" simplify $file.nc o.tif -e 5 --overwrite $part
+    grep -q "$file.nc: .*: depths are taken for heights" "$logs/err" || fail "depths of $file.nc are heights in silence"
+    succeeds "$scarp" simplify $file.nc o.tif -e 5 --overwrite --z-scale -1 $part
+    ! grep -q "depths" "$logs/err" || fail "depths of $file.nc that are turned are warned of"
+  done
+done
+succeeds "$scarp" info up_z.nc --no-suggest
+! grep -q "depths" "$logs/err" || fail "heights are depths"
 echo "coordinates of netCDF files are even or refused"

@@ -129,6 +129,21 @@ refuses 1 "GLB is in metres by its specification" "$scarp" simplify plane.vrt no
 refuses 1 "GLB is in metres by its specification" "$scarp" simplify utm.vrt no.glb -e 6 --crs EPSG:2264
 refuses 1 "cannot be combined with --z-unit" "$scarp" simplify utm.vrt no.glb -e 6 --image --z-unit ft
 
+# Depths: a vertical CRS that counts downwards makes heights of them only by the way out.
+for crs in EPSG:32616+5715 EPSG:32616+5831; do
+  gdal_translate -q -a_srs $crs utm.vrt depths.tif
+  succeeds "$scarp" simplify depths.tif depths.obj -e 6 --overwrite --report r.json
+  grep -q 'depths.tif: its vertical CRS, .* depth.*, counts downwards: .*upside down.* --z-scale, such as -1' "$logs/err" ||
+    fail "depths in $crs are heights in silence"
+  grep -q 'counts downwards' r.json || fail "no depths in the report"
+  succeeds "$scarp" simplify depths.tif turned.obj -e 6 --overwrite --z-scale -1
+  [ ! -s "$logs/err" ] || fail "depths that are turned are warned of"
+  holds "$(awk '$1 == "v" { print $3 }' turned.obj | sort -g | tail -1) < 0"
+done
+gdal_translate -q -a_srs EPSG:32616+5715 -scale 0 1 0 -1 -ot Float32 utm.vrt below.tif
+succeeds "$scarp" info below.tif --no-suggest
+grep -q 'below.tif: its vertical CRS, .*, counts downwards, but no value is above 0' "$logs/err" || fail "heights below the sea are depths"
+
 # Tiles.
 for name in plane plane_up utm_ft; do
   succeeds "$scarp" tile $name.vrt $name --vertical none --effort fast -e 100 --zoom 10 --report r.json --overwrite

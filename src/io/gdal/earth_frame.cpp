@@ -242,6 +242,9 @@ SpaceCrs space_crs_of(const Crs& declared) {
     char* unit = nullptr;  // owned by the CRS
     space.unit.metres = OSRGetTargetLinearUnits(borrowed, "COMPD_CS|VERT_CS", &unit);
     if (unit != nullptr) space.unit.name = unit;
+    OGRAxisOrientation orientation = OAO_Other;
+    OSRGetAxis(borrowed, "COMPD_CS|VERT_CS", 0, &orientation);
+    space.is_down = orientation == OAO_Down;
   } else {
     space.is_ellipsoidal = OSRGetAxesCount(borrowed) == 3;
     if (!space.is_ellipsoidal) OSRPromoteTo3D(space.crs.get(), nullptr);
@@ -255,7 +258,7 @@ Result<Frame> earth_frame(const Georeference& geo, const std::string& wanted, Ra
   Crs earth = find_geocentric(is_tangent ? "EPSG:4978" : wanted);
   Crs flat(OSRClone(geo.crs.get()));
   OSRPromoteTo3D(flat.get(), nullptr);
-  bool is_applied = !geo.in_space.vertical.empty();
+  bool is_applied = !geo.in_space.vertical.empty() && !geo.in_space.is_down;  // z is up, whatever it was in the file
   auto way = is_applied ? find_way(geo, geo.in_space.crs, earth, true, geo.in_space.unit.metres) : nullptr;
   if (!way) {
     is_applied = false;

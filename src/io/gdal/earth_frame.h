@@ -17,6 +17,7 @@ struct SpaceCrs {
   std::string vertical;         ///< what its heights are above, such as "EGM96 height"; empty: nobody says
   HeightUnit unit;              ///< of its heights; empty name: nobody says
   bool is_ellipsoidal = false;  ///< they are above the ellipsoid
+  bool is_down = false;         ///< they are depths: the vertical axis points down
 };
 SpaceCrs space_crs_of(const Crs& declared);
 

@@ -212,6 +212,8 @@ void repeat_said(GDALDatasetH from, GDALDatasetH to) {
     GDALRasterBandH said = GDALGetRasterBand(from, k), band = GDALGetRasterBand(to, k);
     GDALSetDescription(band, GDALGetDescription(said));
     GDALSetRasterUnitType(band, GDALGetRasterUnitType(said));
+    for (const char* item : {"positive", "standard_name"})
+      GDALSetMetadataItem(band, item, GDALGetMetadataItem(said, item, nullptr), nullptr);
     int is_given = 0;
     if (const double scale = GDALGetRasterScale(said, &is_given); is_given != 0) GDALSetRasterScale(band, scale);
     if (const double offset = GDALGetRasterOffset(said, &is_given); is_given != 0) GDALSetRasterOffset(band, offset);

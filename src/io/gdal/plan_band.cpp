@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "io/gdal/read_samples.h"
 #include "scarp/commands.h"
@@ -52,6 +53,19 @@ void plan_nodata(const ReadOptions& options, BandPlan& plan, RasterInfo& info) {
   info.nodata = plan.nodata;
 }
 
+/// What the attributes of a netCDF variable say; empty unless its values count downwards.
+std::string find_depths(GDALRasterBandH band) {
+  const auto attribute = [&](const char* name) {
+    const char* value = GDALGetMetadataItem(band, name, nullptr);
+    return std::string(value != nullptr ? value : "");
+  };
+  const std::string positive = attribute("positive"), name = attribute("standard_name");
+  if (EQUAL(positive.c_str(), "down")) return "the positive of its variable is down";
+  if (!positive.empty()) return "";
+  const bool is_depth = name == "depth" || name.starts_with("sea_floor_depth_below");
+  return is_depth ? "the standard_name of its variable is " + name : "";
+}
+
 }  // namespace
 
 Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const ReadOptions& options,
@@ -91,6 +105,7 @@ Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const 
     plan.offset = 0;
   }
   info.unit = GDALGetRasterUnitType(plan.band);
+  plan.depths = find_depths(plan.band);
   return plan;
 }
 

@@ -44,6 +44,21 @@ void warn_of_units(const Frame& frame, RasterInfo& info) {
       up / across));
 }
 
+/// With the range, where that is known.
+void warn_of_depths(const Plan& plan, const ReadOptions& options, RasterInfo& info) {
+  const SpaceCrs& crs = plan.georeference.in_space;
+  const std::string reason =
+      crs.is_down ? fmt::format("its vertical CRS, {}, counts downwards", crs.vertical) : plan.band.depths;
+  if (reason.empty() || options.as_values || options.z_scale < 0) return;
+  info.warnings.push_back(
+      info.has_range && info.max <= 0
+          ? fmt::format("{}: {}, but no value is above 0: they are taken for heights, not for depths", info.path,
+                        reason)
+          : fmt::format("{}: {}: depths are taken for heights, and the mesh is upside down; turn it with a negative "
+                        "--z-scale, such as -1",
+                        info.path, reason));
+}
+
 Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
   Plan plan;
   Means means;
@@ -175,6 +190,7 @@ Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, con
   add_gdal_warnings(session, field.info);
   doubt_colours(*found, options.decode, find_loss(opened.plan.dataset.get()), field.info);
   if (auto done = finish_raster(field, found->infinities, options); !done) return tl::unexpected(done.error());
+  warn_of_depths(opened.plan, options, field.info);
   if (auto held = refuse_beyond(*found, path, options); !held) return tl::unexpected(held.error());
   return std::move(field);
 }
@@ -247,6 +263,7 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
     auto seen = survey(session, opened, *reader, options, field);
     if (!seen) return tl::unexpected(seen.error());
   }
+  warn_of_depths(opened.plan, options, field.info);
   add_gdal_warnings(session, field.info);
   field.source = std::make_shared<FileSource>(std::move(opened.plan), std::move(reader), field.info.path);
   return std::move(field);
@@ -267,6 +284,7 @@ Result<OwnedHeightField> open_field(const std::string& path, ReadOptions options
   if (!read) return tl::unexpected(read.error());
   add_gdal_warnings(session, field.info);
   if (auto finished = finish_info(field, infinities, options); !finished) return tl::unexpected(finished.error());
+  warn_of_depths(opened->plan, options, field.info);
   return std::move(field);
 }
 

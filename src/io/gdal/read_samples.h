@@ -34,6 +34,7 @@ struct BandPlan {
   std::optional<std::uint64_t> nodata_uint64;
   double scale = 1, offset = 0;  ///< height = scale·raw + offset
   Means means;
+  std::string depths;  ///< what says that the values count downwards; else empty
 };
 
 /// kInput if the band does not exist, or is complex.
