@@ -89,6 +89,7 @@ struct UndeclaredNodata {
 struct PackedDoubts {
   /// Samples that lie off both neighbours in their row, which are close together, by an eighth to one and a half of
   /// what the next colour counts, where that changes: as many as interpolation or lossy compression leaves, else 0.
+  /// Interpolation is looked for in some rows of a large raster.
   std::uint64_t torn = 0;
   double torn_by = 0;      ///< the farthest of them
   std::string seems = {};  ///< the other encoding, where most heights are none on earth as they are, and are by that

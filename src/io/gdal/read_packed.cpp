@@ -20,6 +20,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/gdal/read_samples.h"
@@ -57,6 +58,9 @@ void count_torn(std::uint32_t a, std::uint32_t b, std::uint32_t c, Findings::Col
     if (changes) colours.most[k] = std::max(colours.most[k], off);
   }
 }
+
+/// All rows of a tile, and some of a large raster, where as many samples are proof enough.
+std::int64_t every_row(int cols, int rows) { return 1 + std::int64_t{cols} * rows / (1 << 18); }
 
 constexpr std::array<std::size_t, 2> kLags{1, 4};  // the second one finds what was enlarged more than three times
 
@@ -127,7 +131,8 @@ class PackedReader : public WindowReader {
         bands_(GDALGetRasterCount(dataset)),
         red_(GDALGetRasterBand(dataset, 1)),
         masked_(bands_ == 3 && (GDALGetMaskFlags(red_) & GMF_PER_DATASET) != 0),
-        nodata_colour_(options.nodata ? std::nullopt : find_nodata_colour(dataset)) {}
+        nodata_colour_(options.nodata ? std::nullopt : find_nodata_colour(dataset)),
+        every_(every_row(GDALGetRasterXSize(dataset), GDALGetRasterYSize(dataset))) {}
 
   bool read(const Window& w, float* out, std::ptrdiff_t stride) override {
     const auto count = static_cast<std::size_t>(w.cols) * static_cast<std::size_t>(w.rows);
@@ -150,21 +155,24 @@ class PackedReader : public WindowReader {
       const std::uint8_t* rgb = pixels_.data() + k * depth;
       const float height = height_of(rgb, masked_ && mask_[k] == 0);
       out[row * stride + col] = height;
-      if (col == 0) row_.clear();
+      if (col == 0) before_ = here_ = kNoNumber;
       look_at_colour(rgb, std::isnan(height) ? kNoNumber : number_of(rgb));
-      if (col == w.cols - 1) look_at_row();
+      if (col == w.cols - 1 && (w.row + row) % every_ == 0) look_at_row(pixels_.data() + (k + 1) * depth, w.cols);
     }
     return true;
   }
 
  private:
-  void look_at_row() {
+  /// `end`: of the row's pixels.
+  void look_at_row(const std::uint8_t* end, int cols) {
+    row_.clear();
+    for (const std::uint8_t* rgb = end - std::ptrdiff_t{cols} * bands_; rgb != end; rgb += bands_)
+      row_.push_back(number_of(rgb) == 0 || (bands_ == 4 && rgb[3] == 0) ? kNoNumber : number_of(rgb));
     for (std::size_t lag = 0; lag < kLags.size(); ++lag) {
       const std::size_t apart = kLags[lag];
       for (std::size_t k = 2 * apart; k < row_.size(); ++k) {
         const std::uint32_t a = row_[k - 2 * apart], b = row_[k - apart], c = row_[k];
         if (a == kNoNumber || b == kNoNumber || c == kNoNumber) continue;
-        if (apart == 1) count_torn(a, b, c, findings_.colours);
         count_lines(a, b, c, lag, first_colour(decode_), findings_.colours);
       }
     }
@@ -172,7 +180,8 @@ class PackedReader : public WindowReader {
 
   void look_at_colour(const std::uint8_t* rgb, std::uint32_t number) {
     Findings::Colours& colours = findings_.colours;
-    row_.push_back(number);
+    if (before_ != kNoNumber && here_ != kNoNumber && number != kNoNumber) count_torn(before_, here_, number, colours);
+    before_ = std::exchange(here_, number);
     if (number == kNoNumber || number == 0) return;
     ++colours.valid;
     colours.on_earth += is_on_earth(decode_height(decode_, rgb)) ? 1 : 0;
@@ -200,7 +209,9 @@ class PackedReader : public WindowReader {
   bool masked_;
   std::optional<std::array<std::uint8_t, 3>> nodata_colour_;
   std::vector<std::uint8_t> pixels_, mask_;
+  std::uint32_t before_ = kNoNumber, here_ = kNoNumber;  // the last two in the row
   std::vector<std::uint32_t> row_;
+  std::int64_t every_;  // of how many rows one is looked at as a whole
 };
 
 }  // namespace
