@@ -16,6 +16,24 @@ Vertex insert_corner(ScatteredDomain& domain, const SnappedPoints& points, std::
   return domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
 }
 
+/// How far the corners reach across the line from the farthest of them from any corner to the farthest from that one.
+double width_across(std::span<const Point> at, const std::vector<std::uint32_t>& hull) {
+  const auto distance = [](Point a, Point b) { return std::hypot(double(b.x) - a.x, double(b.y) - a.y); };
+  const auto farthest_from = [&](Point p) {
+    return at[*std::max_element(hull.begin(), hull.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return distance(p, at[a]) < distance(p, at[b]);
+    })];
+  };
+  const Point a = farthest_from(at[hull.front()]), b = farthest_from(a);
+  std::int64_t least = 0, most = 0;
+  for (const std::uint32_t corner : hull) {
+    const std::int64_t side = orient(a, b, at[corner]);
+    least = std::min(least, side);
+    most = std::max(most, side);
+  }
+  return static_cast<double>(most - least) / distance(a, b);
+}
+
 /// Marks what is reached from the rectangle's border without crossing a constrained edge.
 void mark_beyond(Triangulation& tin) {
   std::vector<HalfEdge> entered;
@@ -53,7 +71,9 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points) {
                                        : "all points lie at two places; a surface needs at least three places");
   const std::vector<std::uint32_t> hull = convex_hull(points.at);
   if (hull.size() < 3) return fail(ErrorKind::kInput, "all points lie on one line, so there is no surface to simplify");
-  return build_domain(points, hull);
+  auto domain = build_domain(points, hull);
+  if (domain) domain->width = points.lattice.step * width_across(points.at, hull);
+  return domain;
 }
 
 Result<ScatteredDomain> build_domain(const SnappedPoints& points, const std::vector<std::uint32_t>& outline) {

@@ -32,6 +32,7 @@ struct ScatteredDomain {
   std::vector<std::uint32_t> point_of;  ///< by vertex; kNone for corners of the rectangle that are no point
   std::vector<std::uint32_t> outline;   ///< the points at the corners of its boundary, positively oriented
   std::uint32_t unused = 0;             ///< vertices without a point
+  double width = 0;  ///< how far the hull reaches across a line between two of its farthest corners, as x and y
 
   std::uint64_t vertex_count() const { return point_of.size() - unused; }
   Vertex insert(std::uint32_t point, Point at, const Triangulation::Location& location);

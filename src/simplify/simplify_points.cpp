@@ -81,6 +81,21 @@ double middle(std::span<const double> values) {
   return std::nearbyint(centre / unit) * unit;
 }
 
+/// Refuses points that rounding puts onto one line: what little lies beside it turns triangles over.
+Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, const ScatteredDomain& domain,
+                         bool is_float32) {
+  const double reach = snapped.lattice.step * std::max(snapped.lattice.cols, snapped.lattice.rows) / 2;
+  const double rounding =
+      std::max(snapped.is_exact ? 0 : snapped.lattice.step / 2, reach * (is_float32 ? 0x1p-24 : 0x1p-53));
+  if (domain.width > 4 * rounding) return {};
+  const std::string far = describe_far_points(points);
+  return fail(
+      ErrorKind::kInput,
+      fmt::format("all points lie on one line, as near as positions are rounded ({:.2g}), so there is no surface "
+                  "to simplify{}",
+                  rounding, far.empty() ? "" : "; " + far));
+}
+
 /// One run of the engine towards the goals.
 class PointRun {
  public:
@@ -376,9 +391,13 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
       snap_points(points, options.duplicates, is_on_lattice ? PointSteps::kFloat32 : PointSteps::kFinest);
   if (!snapped) return tl::unexpected(snapped.error());
   auto domain = build_domain(*snapped);
-  if (domain && options.boundary_length)
-    domain = build_concave_domain(*snapped, std::move(*domain), *options.boundary_length);
   if (!domain) return tl::unexpected(domain.error());
+  if (auto wide = check_width(points, *snapped, *domain, options.float32_positions && !is_on_lattice); !wide)
+    return tl::unexpected(wide.error());
+  if (options.boundary_length) {
+    domain = build_concave_domain(*snapped, std::move(*domain), *options.boundary_length);
+    if (!domain) return tl::unexpected(domain.error());
+  }
   const auto lines = PointLines::build(points, *snapped);
   if (!lines) return tl::unexpected(lines.error());
   for (const std::uint32_t point : lines->ends()) {
