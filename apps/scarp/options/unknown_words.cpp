@@ -77,6 +77,8 @@ std::string bare(const std::string& word) {
 
 /// Whether one of the words is this one, or, of four letters or more, `most` letters beside it.
 bool holds_word(std::string_view words, std::string_view word, std::size_t most = 0) {
+  constexpr std::size_t kLongest = 64;  // of any of them
+  if (word.size() > kLongest) return false;
   for (std::size_t begin = 0; begin < words.size();) {
     const std::size_t end = std::min(words.find(' ', begin), words.size());
     const std::string_view here = words.substr(begin, end - begin);
