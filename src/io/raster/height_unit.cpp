@@ -104,10 +104,17 @@ Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& fram
                                  : HeightUnit{info.unit, find_metres(info.unit).value_or(0)};
   HeightUnit unit = of_file;
   const double factor = std::abs(options.z_scale);
-  if (!options.z_unit.empty()) {
-    unit =
-        options.z_unit == of_file.name ? of_file : HeightUnit{options.z_unit, find_metres(options.z_unit).value_or(0)};
-  } else if (factor != 1) {
+  if (!options.z_unit.empty() && options.z_unit != of_file.name) {
+    const bool is_of_crs = options.z_unit == info.crs_unit && info.crs_unit_in_metres > 0;
+    const auto metres = is_of_crs ? std::optional(info.crs_unit_in_metres) : find_metres(options.z_unit);
+    if (!metres)
+      return fail(
+          ErrorKind::kUsage,
+          fmt::format("--z-unit '{}' is no unit of length that is known here: choose m, ft, us-ft, cm, fathom … "
+                      "or leave it out",
+                      options.z_unit));
+    unit = {options.z_unit, *metres};
+  } else if (options.z_unit.empty() && factor != 1) {
     unit = scaled_unit(factor, of_file, info);
   }
   info.unit_is_assumed = unit.name.empty();
