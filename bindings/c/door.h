@@ -47,10 +47,16 @@ constexpr const char* name_of(const scarp_points*) { return "scarp_points"; }
 constexpr const char* name_of(const scarp_options*) { return "scarp_options"; }
 constexpr const char* name_of(const scarp_report*) { return "scarp_report"; }
 
+/// Whether a size is that of a struct, of any version.
+constexpr bool is_struct_size(std::uint32_t size) {
+  constexpr std::uint32_t kLargest = 1 << 16;  // what lies in memory that nobody has written is larger, mostly
+  return size >= 2 * sizeof(std::uint32_t) && size <= kLargest;
+}
+
 /// Throws Refused for a struct whose size was never set, or set to something else.
 template <class T>
 void check_size(const T* given) {
-  if (given->struct_size >= 2 * sizeof(std::uint32_t)) return;
+  if (is_struct_size(given->struct_size)) return;
   const std::string name = name_of(given);
   throw Refused{{ErrorKind::kUsage, "the " + name + " is not initialised: its struct_size is " +
                                         std::to_string(given->struct_size) + ", and should be sizeof(" + name + ")"}};

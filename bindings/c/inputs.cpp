@@ -38,8 +38,9 @@ std::string find_fault(const scarp_field& field) {
         field.frame);
   if (!(field.sample_rounding >= 0) || std::isinf(field.sample_rounding))
     return "the field's sample_rounding must be a finite number of at least 0";
-  const auto cols = static_cast<std::uint64_t>(std::max(field.cols, 0)),
-             rows = static_cast<std::uint64_t>(std::max(field.rows, 0));
+  if (field.cols < 0 || field.rows < 0)
+    return fmt::format("the field has {} x {} samples: neither number can be negative", field.cols, field.rows);
+  const auto cols = static_cast<std::uint64_t>(field.cols), rows = static_cast<std::uint64_t>(field.rows);
   if (cols * rows > kLargestArray / sizeof(float))
     return fmt::format("the field has {} x {} samples: no array is so large", field.cols, field.rows);
   return "";
@@ -47,6 +48,8 @@ std::string find_fault(const scarp_field& field) {
 
 std::string find_fault(const scarp_points& points) {
   if (points.x == nullptr || points.y == nullptr || points.z == nullptr) return "a pointer to the coordinates is null";
+  if (points.frame < SCARP_FRAME_GRID || points.frame > SCARP_FRAME_DEGREES)
+    return fmt::format("the points' frame is {}: it is 0, or SCARP_FRAME_DEGREES (2)", points.frame);
   if (points.stride == 0)
     return "the points' stride is 0: it is 1 for arrays of x, of y and of z, and 3 for points in turn";
   if (points.count > kMostVertices)
@@ -90,7 +93,7 @@ LentInputs::LentInputs(const scarp_points* given) {
   points_.path = name_;
   points_.format = "memory";
   if (points.crs != nullptr) points_.crs = points.crs;
-  points_.description = points_.crs.empty() ? "coordinates as given" : "coordinates in " + points_.crs;
+  points_.is_geographic = points.frame == SCARP_FRAME_DEGREES;
   for (std::size_t k = 0; unfit_.empty() && k < points.count; ++k) {
     points_.x.push_back(points.x[k * points.stride]);
     points_.y.push_back(points.y[k * points.stride]);

@@ -29,7 +29,7 @@ std::string describe_all() {
               AT(scarp_field, samples), AT(scarp_field, nodata), AT(scarp_field, geotransform),
               AT(scarp_field, sample_rounding), AT(scarp_field, crs), AT(scarp_field, name), AT(scarp_field, unit)}) +
          describe_struct("scarp_points", sizeof(scarp_points),
-                         {AT(scarp_points, struct_size), AT(scarp_points, reserved), AT(scarp_points, x),
+                         {AT(scarp_points, struct_size), AT(scarp_points, frame), AT(scarp_points, x),
                           AT(scarp_points, y), AT(scarp_points, z), AT(scarp_points, count), AT(scarp_points, stride),
                           AT(scarp_points, crs), AT(scarp_points, name)}) +
          describe_struct("scarp_options", sizeof(scarp_options),

@@ -169,6 +169,7 @@ scarp_status scarp_mesh_read(const char* path, scarp_mesh** out) {
   return guarded([&]() -> scarp_status {
     if (out == nullptr || path == nullptr) return report(refuse_null("the path, or the place for the mesh,"));
     *out = nullptr;
+    if (*path == '\0') return report(ErrorKind::kUsage, "the path is empty");
     auto read = scarp::read_mesh(path);
     if (!read) return report(read.error());
     auto mesh = std::make_unique<scarp_mesh>();
@@ -253,7 +254,12 @@ scarp_status scarp_mesh_write(const scarp_mesh* mesh, const char* path, int32_t 
   return guarded([&]() -> scarp_status {
     if (mesh == nullptr || path == nullptr) return report(refuse_null("the mesh, or the path,"));
     auto chosen = scarp::cli::choose_output_format({}, path);
-    if (!chosen) return report(chosen.error());
+    if (!chosen) {
+      std::string sentence = chosen.error().message;
+      if (const auto other = sentence.find(", or --of FORMAT"); other != std::string::npos)
+        sentence.replace(other, 16, ", or take the bytes from scarp_mesh_encode()");
+      return report(chosen.error().kind, sentence);
+    }
     auto bytes = encode(*mesh, *chosen);
     if (!bytes) return report(bytes.error());
     if (auto written = scarp::write_file(path, *bytes, overwrite != 0); !written) return report(written.error());

@@ -43,7 +43,7 @@ scarp_status scarp_raster_read(const char* path, const scarp_options* options, s
 }
 
 void scarp_raster_field(const scarp_raster* raster, scarp_field* out) {
-  if (out == nullptr || out->struct_size < 2 * sizeof(uint32_t)) return;
+  if (out == nullptr || !is_struct_size(out->struct_size)) return;
   scarp_field all;
   scarp_field_init(&all, sizeof all);
   const scarp::OwnedHeightField& field = raster->field;

@@ -93,11 +93,11 @@ typedef struct scarp_field {
 /* Scattered points: z over x, y. */
 typedef struct scarp_points {
   uint32_t struct_size;
-  int32_t reserved;
+  int32_t frame; /* SCARP_FRAME_DEGREES: x and y are degrees, of WGS 84 without a CRS. DEFAULT: 0, as the CRS says. */
   const double *x, *y, *z;
   uint64_t count;
   uint64_t stride;  /* doubles from one x to the next, at least 1; 3 where points are x, y, z in turn. DEFAULT: 1. */
-  const char* crs;  /* DEFAULT: NULL */
+  const char* crs;  /* as that of a field; degrees become metres around the middle of the points. DEFAULT: NULL */
   const char* name; /* DEFAULT: NULL, "points" */
 } scarp_points;
 

@@ -45,6 +45,9 @@ Result<void> check_name(const std::string& name) {
                                                "or several meshes",
                                                name));
   }
+  if (const std::string bare = without_dashes(name); bare == "o" || bare == "out" || bare == "output")
+    return fail(ErrorKind::kUsage,
+                "option " + bare + " is unknown: a mesh is in memory, and scarp_mesh_write() makes a file of it");
   CLI::App program;
   for (const Commands command : {cli::kSimplify, cli::kMeasure, cli::kTile}) {
     const std::string sentence = cli::describe_unknown_option(cli::add_command(program, command), name);
@@ -184,7 +187,9 @@ scarp_status scarp_options_set(scarp_options* options, const char* name, const c
 }
 
 void scarp_options_clear(scarp_options* options) {
-  if (options == nullptr || options->struct_size < offsetof(scarp_options, named) + sizeof options->named) return;
+  if (options == nullptr || !is_struct_size(options->struct_size) ||
+      options->struct_size < offsetof(scarp_options, named) + sizeof options->named)
+    return;
   delete options->named;
   options->named = nullptr;
 }

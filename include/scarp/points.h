@@ -37,6 +37,7 @@ struct PointSet {
   std::vector<std::string> warnings;
   std::string columns;               ///< one line for reports: how each column was read, or where heights come from
   std::uint64_t without_height = 0;  ///< left out, as ReadPointsOptions::nodata asks for
+  bool is_geographic = false;        ///< of points that are lent: without a CRS that GDAL knows, x and y are degrees
 
   std::size_t size() const { return x.size(); }
 };

@@ -1,5 +1,7 @@
 #include "io/lent.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -58,6 +60,24 @@ std::uint64_t clean_samples(const LentRaster& raster, const ReadOptions& options
   return unfit.infinities;
 }
 
+/// Leaves out points of that height, and those whose height is not finite.
+Result<void> leave_out_nodata(double nodata, PointSet& points) {
+  if (!points.lines.empty())
+    return fail(ErrorKind::kUsage,
+                points.path + ": nodata cannot be combined with lines: leave their points out first");
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!std::isfinite(points.z[k]) || points.z[k] == nodata) continue;
+    points.x[kept] = points.x[k];
+    points.y[kept] = points.y[k];
+    points.z[kept++] = points.z[k];
+  }
+  points.without_height = points.size() - kept;
+  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(kept);
+  if (kept > 0) return {};
+  return fail(ErrorKind::kInput, points.path + ": no point has a height other than that of --nodata");
+}
+
 }  // namespace
 
 Lent::Lent(std::string name, const LentRaster& raster) { lent_things().emplace_back(std::move(name), &raster); }
@@ -68,6 +88,29 @@ Lent::~Lent() { lent_things().pop_back(); }
 const LentRaster* find_lent_raster(const std::string& name) { return find_lent<LentRaster>(name); }
 const Mesh* find_lent_mesh(const std::string& name) { return find_lent<Mesh>(name); }
 const PointSet* find_lent_points(const std::string& name) { return find_lent<PointSet>(name); }
+
+Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name, const ReadPointsOptions& options) {
+  for (const auto& [option, value] : {std::pair{"--layer", &options.layer}, std::pair{"--z-field", &options.z_field},
+                                      std::pair{"--columns", &options.columns}}) {
+    if (!value->empty())
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} is about files, and {} are in memory: leave it out", option, name));
+  }
+  if (lent.size() == 0) return fail(ErrorKind::kInput, name + ": there are no points");
+  const bool needs_crs = !options.crs.empty() && options.crs != "source" && options.crs != "grid";
+  if (needs_crs && lent.crs.empty() && !lent.is_geographic)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: these points have no CRS, so their coordinates cannot be given in '{}': ask for "
+                            "'source', or give crs with them",
+                            name, options.crs));
+  PointSet points = lent;
+  points.path = name;
+  if (options.nodata) {
+    if (auto left_out = leave_out_nodata(*options.nodata, points); !left_out) return tl::unexpected(left_out.error());
+  }
+  if (auto placed = place_lent_points(options, points); !placed) return tl::unexpected(placed.error());
+  return points;
+}
 
 Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::string& name,
                                           const ReadOptions& options) {
@@ -109,8 +152,15 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
           "so, give their CRS, such as EPSG:4326");
     }
   }
-  auto frame = raster.geotransform ? place_lent_raster(raster, options, field.info)
-                                   : ungeoreferenced_frame(name, raster.cols, raster.rows, options);
+  const bool is_placed = raster.geotransform.has_value(),
+             needs_place = !options.crs.empty() && options.crs != "grid" && options.crs != "local";
+  if (!is_placed && needs_place)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} has no georeference, so its coordinates cannot be given in '{}': ask for 'grid' or "
+                            "'local', or give transform and crs with the samples",
+                            name, options.crs));
+  auto frame = is_placed ? place_lent_raster(raster, options, field.info)
+                         : ungeoreferenced_frame(name, raster.cols, raster.rows, options);
   if (!frame) return tl::unexpected(frame.error());
   field.frame = std::move(*frame);
   const auto settled = settle_heights(options, field.frame, field.info);

@@ -1,8 +1,13 @@
 // The doors that GDAL stands behind, in a build without it.
 #ifndef SCARP_WITH_GDAL
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include "grid/local_frame.h"
 #include "io/lent.h"
@@ -85,6 +90,39 @@ Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& opt
   frame.crs = raster.crs;
   frame.description = raster.crs.empty() ? "the raster's own coordinates (no CRS)" : "coordinates in " + raster.crs;
   return frame;
+}
+
+Result<void> place_lent_points(const ReadPointsOptions& options, PointSet& points) {
+  const std::string& wanted = options.crs;
+  if (wanted == "grid")
+    return fail(ErrorKind::kUsage, points.path + ": scattered points have no grid: ask for 'source' or 'local'");
+  if (!wanted.empty() && wanted != "local" && wanted != "source")
+    return fail(ErrorKind::kUsage, points.path + ": this build of Scarp knows no CRS such as '" + wanted +
+                                       "': it was built without GDAL; ask for the frame 'source' or 'local'");
+  points.description = points.crs.empty() ? "the points' own coordinates (no CRS)" : "coordinates in " + points.crs;
+  if (wanted == "source" && points.is_geographic)
+    points.warnings.push_back(
+        "x and y are degrees while z is a length: the mesh is no shape in space; the frame 'local' is in metres");
+  if (wanted == "source" || (wanted.empty() && !points.is_geographic)) return {};
+  const auto middle = [](const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *least + (*most - *least) / 2;
+  };
+  const double x = middle(points.x), y = middle(points.y);
+  const auto [east, north] = points.is_geographic ? metres_of_unit(y) : std::array{1.0, 1.0};
+  if (!(east > 1e-3 * north))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: the middle of the points lies at {:.9g}, {:.9g}, at or beyond a pole, where no local "
+                            "frame exists",
+                            points.path, x, y));
+  for (double& value : points.x) value = (value - x) * east;
+  for (double& value : points.y) value = (value - y) * north;
+  points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y,
+                                   points.crs.empty() ? "degrees" : points.crs);
+  points.crs.clear();
+  points.is_local = true;
+  points.unit_in_metres = 1;
+  return {};
 }
 
 std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }

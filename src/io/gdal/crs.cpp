@@ -56,6 +56,16 @@ Crs find_declared_crs(const std::string& definition) {
   return Crs(crs);
 }
 
+Result<Crs> find_crs_of(const std::string& name, const std::string& definition) {
+  if (definition.empty()) return Crs();
+  Crs crs = find_declared_crs(definition);
+  if (crs) return crs;
+  return fail(ErrorKind::kUsage,
+              fmt::format("the CRS of {}, '{}', is none that GDAL knows: give a code such as EPSG:32633, WKT or a PROJ "
+                          "string",
+                          name, definition));
+}
+
 Crs find_crs(const std::string& definition) {
   Crs crs = find_declared_crs(definition);
   return crs ? flattened(crs.release()) : nullptr;

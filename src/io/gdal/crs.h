@@ -33,6 +33,8 @@ Crs copy_crs(OGRSpatialReferenceH borrowed);
 
 /// As find_crs(), with a vertical datum and the order of axes as they are.
 Crs find_declared_crs(const std::string& definition);
+/// The CRS of what is in memory, as find_declared_crs(); null for none. kUsage if GDAL does not know it.
+Result<Crs> find_crs_of(const std::string& name, const std::string& definition);
 /// From an option: "EPSG:32611", "32611", WKT, a PROJ string. Null if GDAL does not know it.
 Crs find_crs(const std::string& definition);
 

@@ -263,8 +263,11 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
   if (!geo.crs) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for 'source', 'local' or "
-                            "'grid', or give it its CRS first ({})",
-                            info.path, wanted, translate_command("-a_srs EPSG:CODE", info.path)));
+                            "'grid', or give {}",
+                            info.path, wanted,
+                            info.format == "memory"
+                                ? "crs with the samples"
+                                : "it its CRS first (" + translate_command("-a_srs EPSG:CODE", info.path) + ")"));
   }
   return is_in_space(wanted) ? earth_frame(geo, wanted, info) : projected_frame(geo, wanted, info);
 }

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "io/gdal/georeference.h"
 #include "io/gdal/session.h"
 #include "io/lent.h"
@@ -9,15 +7,10 @@ namespace scarp {
 Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info) {
   gdal::Session session;
   const std::string definition = raster.crs.empty() && raster.is_geographic ? "EPSG:4326" : raster.crs;
-  gdal::Crs declared = definition.empty() ? gdal::Crs() : gdal::find_declared_crs(definition);
-  if (!definition.empty() && !declared) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("the CRS of {}, '{}', is none that GDAL knows: give a code such as EPSG:32633, WKT or a "
-                            "PROJ string",
-                            info.path, definition));
-  }
+  const auto declared = gdal::find_crs_of(info.path, definition);
+  if (!declared) return tl::unexpected(declared.error());
   const auto geo = gdal::make_georeference(raster.cols, raster.rows, *raster.geotransform,
-                                           gdal::copy_crs(declared.get()), gdal::space_crs_of(declared));
+                                           gdal::copy_crs(declared->get()), gdal::space_crs_of(*declared));
   gdal::describe_georeference(geo, info);
   return gdal::choose_frame(geo, options, info);
 }

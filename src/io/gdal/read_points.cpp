@@ -11,6 +11,7 @@
 #include "grid/local_frame.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/vector.h"
+#include "io/lent.h"
 #include "io/points/column_names.h"
 #include "io/points/point_source.h"
 #include "scarp/commands.h"
@@ -415,6 +416,14 @@ namespace scarp {
 
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options) {
   return gdal::read(path, options);
+}
+
+Result<void> place_lent_points(const ReadPointsOptions& options, PointSet& points) {
+  gdal::Session session;
+  const bool is_unnamed = points.crs.empty() && points.is_geographic;
+  const auto crs = gdal::find_crs_of(points.path, is_unnamed ? "EPSG:4326" : points.crs);
+  if (!crs) return tl::unexpected(crs.error());
+  return gdal::place(gdal::copy_crs(crs->get()), options.crs, points);
 }
 
 bool opens_as_raster(const std::string& path) {

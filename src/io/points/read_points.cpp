@@ -122,11 +122,8 @@ void warn_of_missing_heights(PointSet& points) {
 }  // namespace
 
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
-  if (const PointSet* lent = find_lent_points(path)) {
-    if (lent->size() == 0) return fail(ErrorKind::kInput, path + ": there are no points");
-    return *lent;
-  }
-  auto points = read_by_content(path, options);
+  const PointSet* const lent = find_lent_points(path);
+  auto points = lent != nullptr ? read_lent_points(*lent, path, options) : read_by_content(path, options);
   if (points) warn_of_missing_heights(*points);
   return points;
 } catch (...) {

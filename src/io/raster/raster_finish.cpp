@@ -99,9 +99,11 @@ Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, cons
   if (field.info.valid == 0 && infinities > 0) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: none of its {} x {} samples is a height: {} beyond what a float32 holds (3.4e38), so "
-                            "give them in a larger unit first ({})",
+                            "give them in a larger unit first{}",
                             field.info.path, field.cols, field.rows, count_beyond(infinities),
-                            translate_command("-ot Float64 -scale 0 1e10 0 1", field.info.path)));
+                            field.info.format == "memory"
+                                ? ""
+                                : " (" + translate_command("-ot Float64 -scale 0 1e10 0 1", field.info.path) + ")"));
   }
   if (field.info.valid == 0) {
     return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples is a height: all are nodata",

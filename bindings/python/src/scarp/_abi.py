@@ -47,7 +47,7 @@ class Field(C.Structure):
 
 
 class Points(C.Structure):
-    _fields_ = [("struct_size", C.c_uint32), ("reserved", C.c_int32), ("x", C.c_void_p), ("y", C.c_void_p),
+    _fields_ = [("struct_size", C.c_uint32), ("frame", C.c_int32), ("x", C.c_void_p), ("y", C.c_void_p),
                 ("z", C.c_void_p), ("count", C.c_uint64), ("stride", C.c_uint64), ("crs", C.c_char_p),
                 ("name", C.c_char_p)]
 
@@ -140,7 +140,10 @@ lib.scarp_name_option(b"crs", b"frame")
 def in_words(sentence: bytes) -> str:
     """A sentence of the library: its functions by their names here."""
     text = sentence.decode("utf-8", "replace")
-    return re.sub(r"\bscarp_(\w+)\(\)", r"scarp.\1()", text) if "scarp_" in text else text
+    if "scarp_" not in text:
+        return text
+    text = re.sub(r"\bscarp_mesh_(write|encode)\(\)", r"mesh.\1()", text)
+    return re.sub(r"\bscarp_(\w+)\(\)", r"scarp.\1()", text)
 
 
 def last_error() -> str:
