@@ -234,6 +234,38 @@ static void try_errors(void) {
 }
 
 /* Numbers that no memory can hold, and structs that nobody has made. */
+/* Structs that nobody has initialised. */
+static void try_unwritten(void) {
+  scarp_mesh* mesh = NULL;
+  scarp_field field = make_field();
+  scarp_field wild_field;
+  scarp_points points;
+  scarp_options options = make_options(1), wild;
+  scarp_report report;
+  memset(&wild_field, 0xAA, sizeof wild_field);
+  memset(&points, 0xAA, sizeof points);
+  memset(&wild, 0xAA, sizeof wild);
+  memset(&report, 0xAA, sizeof report);
+  EXPECT(scarp_options_set(&wild, "effort", "high") == SCARP_USAGE);
+  EXPECT_SAYS("the scarp_options is not initialised: its struct_size is 2863311530");
+  scarp_options_clear(&wild);
+  EXPECT(scarp_simplify(&field, &wild, &mesh) == SCARP_USAGE && mesh == NULL);
+  EXPECT(scarp_simplify(&wild_field, &options, &mesh) == SCARP_USAGE && mesh == NULL);
+  EXPECT_SAYS("should be sizeof(scarp_field)");
+  EXPECT(scarp_simplify_points(&points, &options, &mesh) == SCARP_USAGE && mesh == NULL);
+  EXPECT_SAYS("should be sizeof(scarp_points)");
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_OK);
+  EXPECT(scarp_mesh_report(mesh, &report) == SCARP_USAGE);
+  EXPECT(scarp_measure(&field, mesh, NULL, &report) == SCARP_USAGE);
+  EXPECT_SAYS("should be sizeof(scarp_report)");
+  scarp_mesh_free(mesh);
+  static char name[1 << 20];
+  memset(name, 'a', sizeof name - 1);
+  EXPECT(scarp_options_set(&options, name, "1") == SCARP_USAGE);
+  EXPECT(scarp_mesh_read("", &mesh) == SCARP_USAGE && mesh == NULL);
+  EXPECT_SAYS("the path is empty");
+}
+
 static void try_lies(void) {
   const uint32_t corners[3] = {0, 1, 2};
   const double flat[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, odd[9] = {0, 0, 0, 1, 0, NAN, 0, 1, 0};
@@ -260,6 +292,11 @@ static void try_lies(void) {
   field.cols = field.rows = INT32_MAX;
   EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
   EXPECT_SAYS("2147483647 x 2147483647 samples");
+  field = make_field();
+  field.cols = -5;
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("the field has -5 x ");
+  try_unwritten();
   field = make_field();
   field.struct_size = 0;
   EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
@@ -426,6 +463,23 @@ static void try_points(void) {
   EXPECT(scarp_measure_points(&points, mesh, NULL, &report) == SCARP_OK);
   EXPECT(report.max_error <= 6 && report.samples == 500);
   scarp_mesh_free(mesh);
+#ifdef IS_NEWEST
+  points.frame = SCARP_FRAME_DEGREES;
+  for (int k = 0; k < 500; ++k) xyz[3 * k + 1] -= 44; /* latitudes around the equator */
+  EXPECT(scarp_simplify_points(&points, &options, &mesh) == SCARP_OK);
+  EXPECT(strstr(scarp_mesh_metadata(mesh, "frame"), "local metres") != NULL);
+  scarp_mesh_free(mesh);
+  points.frame = 7;
+  EXPECT(scarp_simplify_points(&points, &options, &mesh) == SCARP_USAGE);
+  EXPECT_SAYS("the points' frame is 7");
+  points.frame = 0;
+  points.crs = "garbage";
+  if (scarp_has_gdal()) {
+    EXPECT(scarp_simplify_points(&points, &options, &mesh) == SCARP_USAGE);
+    EXPECT_SAYS("the CRS of points, 'garbage', is none that GDAL knows: give a code such as EPSG:32633");
+  }
+  points.crs = NULL;
+#endif
   points.count = 2;
   EXPECT(scarp_simplify_points(&points, &options, &mesh) == SCARP_INPUT);
 }

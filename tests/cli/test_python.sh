@@ -29,7 +29,7 @@ passes_in /usr/bin/python3 env "$wheel" 10 || fail "the system's Python makes no
 if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
   export PYTHONPATH=$package/src
   (cd "$SCARP_SOURCE/tests/python" && SCARP_LIBRARY=$with_gdal SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
-    try /usr/bin/python3 -m unittest -v test_files test_arrays test_xarray
+    try /usr/bin/python3 -m unittest -v test_files test_arrays test_points test_xarray
     [ "$code" = 0 ] || fail "the tests fail with GDAL")
   if /usr/bin/python3 -c 'import matplotlib' 2> /dev/null; then
     SCARP_LIBRARY=$with_gdal succeeds /usr/bin/python3 "$SCARP_SOURCE/tools/python_guide.py"

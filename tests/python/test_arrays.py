@@ -242,7 +242,8 @@ class Arrays(unittest.TestCase):
             self.assertEqual((report.samples, report.max_error, report.uncovered), (2000, proof.max_error, 0))
         self.assertEqual(mesh.measure(points, points=True)._replace(seconds=0), report._replace(seconds=0))
         narrow = hills(40, 3)
-        raster = scarp.simplify(narrow, 2)
+        with self.assertWarnsRegex(scarp.ScarpWarning, "raster of 3 columns"):
+            raster = scarp.simplify(narrow, 2)
         place = (-0.5, 1, 0, 39.5, 0, -1)
         for more in ({"points": False}, {"transform": place}, {"nodata": -9999}, {"mask": np.ones((40, 3))}):
             self.assertEqual(scarp.measure(narrow, raster, **more).samples, 120)
@@ -315,10 +316,10 @@ class Arrays(unittest.TestCase):
         self.assertTrue(is_same(pickle.loads(pickle.dumps(bare)), bare))
         with self.assertRaises(scarp.UsageError):
             pickle.loads(pickle.dumps(bare)).report
-        unpack, (packed, place) = mesh.__reduce__()
+        unpack, (packed, *place) = mesh.__reduce__()
         for damaged in (b"", b"scarp", packed[:-1], packed + b"1", packed[:200]):
             with self.assertRaises(scarp.InputError):
-                unpack(damaged, place)
+                unpack(damaged, *place)
         for other in (scarp.Refiner(z), pickle):
             with self.assertRaises(TypeError):
                 pickle.dumps(other)

@@ -93,7 +93,7 @@ class DataArrays(unittest.TestCase):
         for one, words in ((degrees().assign_coords(lat=bent), "lat of dem has uneven steps"),
                            (degrees().assign_coords(lat=late), "lat of dem has uneven steps"),
                            (grid().assign_coords(x=torn), "x of dem has uneven steps"),
-                           (grid().assign_coords(x=np.zeros(COLS)), "x of dem has uneven steps"),
+                           (grid().assign_coords(x=np.zeros(COLS)), "x of dem is 0 everywhere"),
                            (grid().assign_coords(x=np.r_[np.nan, np.arange(COLS - 1)]), "not finite")):
             with self.assertRaisesRegex(scarp.InputError, words):
                 scarp.simplify(one, 2)

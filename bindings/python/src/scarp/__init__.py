@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import ctypes as C
 import os
+import warnings
 from typing import TYPE_CHECKING, Any, Optional
 
 from . import _abi, _call, _inputs, _values
@@ -44,8 +45,8 @@ __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Repor
 _MOST = 2**63  # as good as no limit
 
 
-def _finish(handle: Any, place: Any = None) -> Mesh:
-    mesh = Mesh(handle, place)
+def _finish(handle: Any, place: Any = None, shape: Optional[tuple[int, ...]] = None) -> Mesh:
+    mesh = Mesh(handle, place, shape)
     _call.warn(handle, 3)
     return mesh
 
@@ -124,6 +125,8 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
     without Python's lock. The same samples and options give the same bytes, here, in C and from the program.
     """
     read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
+    if transform is None and crs is None and mask is None and tolerance is None:
+        _warn_of_points(source)
     out = C.c_void_p()
     if effort is not None:
         options["effort"] = effort
@@ -138,7 +141,7 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
             _call.run(settings, progress, _abi.lib.scarp_simplify_file, read.path, settings.pointer, C.byref(out))
         else:
             _call.run(settings, progress, _abi.lib.scarp_simplify, C.byref(read.field), settings.pointer, C.byref(out))
-    return _finish(out.value, read.place())
+    return _finish(out.value, read.place(), _inputs.shape_of(source))
 
 
 def simplify_points(points: Any, max_error: float | str | None = None, *, max_triangles: Optional[int] = None,
@@ -148,8 +151,10 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
     Rows with a masked number are left out.
 
     The mesh covers their convex hull, its vertices are points, and every point is within max_error of it. `duplicates`:
-    which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean".
-    `boundary="concave:50"`: the mesh ends at a concave hull, whose edges are 50 long at most where the points allow it.
+    which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean". `nodata`: points
+    of that height, and those without a finite one, are left out. `crs` and `frame`: as in simplify(); degrees become
+    metres around the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, whose edges are 50
+    long at most where the points allow it.
     """
     out = C.c_void_p()
     lib = _abi.lib
@@ -176,7 +181,12 @@ def _points_of(points: Any, crs: Any) -> tuple[Any, Any]:
     if given.dtype.kind not in "iuf":
         raise UsageError("points are numbers, and their dtype is %s" % given.dtype)
     if given.ndim != 2 or given.shape[1] != 3:
-        raise UsageError("points are an array of (N, 3): x, y, z; not of %s" % (given.shape,))
+        more = given.ndim == 2 and given.shape[1] > 3
+        raise UsageError("points are an array of (N, 3): x, y, z; not of %s%s"
+                         % (given.shape, ": take three columns, as in points[:, :3]" if more else ""))
+    if given.dtype.kind in "iu" and given.size and max(-int(given.min()), int(given.max())) > 2**53:
+        raise InputError("a coordinate or height is beyond 2^53, where float64 holds no other integer than every second: "
+                         "subtract a base first")
     if isinstance(points, np.ma.MaskedArray):
         masked: Any = points.mask
         if masked is not np.ma.nomask:
@@ -188,17 +198,28 @@ def _points_of(points: Any, crs: Any) -> tuple[Any, Any]:
     struct.count, struct.stride = len(array), 3
     if crs is not None:
         struct.crs = _values.text_of("crs", _inputs.crs_text(crs))
+        struct.frame = _inputs.frame_of_points(crs)
     return struct, array
 
 
-def _are_points(source: Any) -> bool:
-    """Rows of three numbers; what knows its own place is a raster."""
-    if isinstance(source, (str, bytes, os.PathLike)) or hasattr(source, "coords") or hasattr(source, "read"):
+_MANY_ROWS = 16  # of three columns: more likely points than a raster
+
+
+def _warn_of_points(source: Any) -> None:
+    shape = _inputs.shape_of(source)
+    if _inputs.looks_like_points(source) and shape and shape[0] >= _MANY_ROWS:
+        warnings.warn("the array of %s is taken for a raster of 3 columns: if its rows are points x, y, z, call "
+                      "scarp.simplify_points()" % (shape,), ScarpWarning, stacklevel=3)
+
+
+def _are_points(source: Any, mesh: Mesh) -> bool:
+    """By what the mesh was made of, as far as that is known; else by the shape."""
+    shape = _inputs.shape_of(source)
+    if shape is None:
         return False
-    shape = getattr(source, "shape", None)
-    if shape is None and isinstance(source, (list, tuple)):
-        shape = (len(source), len(source[0]) if source and hasattr(source[0], "__len__") else 0)
-    return shape is not None and len(shape) == 2 and shape[1] == 3
+    if mesh.metadata("duplicates") is not None:  # what a mesh of points says
+        return True
+    return _inputs.looks_like_points(source) and shape != mesh._shape
 
 
 def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, transform: Any = None, crs: Any = None,
@@ -206,10 +227,11 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
             points: Optional[bool] = None, threads: int = 0, progress: ProgressArgument = None, **options: Any) -> Report:
     """Judges a mesh against every sample, by brute force, without knowing how it was made.
 
-    `source` and what places it: as in simplify(), or points as in simplify_points(). An array of (N, 3) is N points,
-    unless transform, nodata, mask or tolerance say that it is a raster of three columns; `points`, True or False,
-    decides otherwise. `mesh`: a Mesh, or (N, 3) vertices beside (M, 3) triangles. `fail_above=1.5` raises PromiseError
-    where a sample is farther off. Other options as those of `scarp measure`: `cutline`, `script` ... Returns a Report.
+    `source` and what places it: as in simplify(), or points as in simplify_points(). Beside a mesh of points an array
+    is points, and beside another mesh one of (N, 3) is, unless the mesh was made of an array of that shape; transform,
+    nodata, mask and tolerance say that it is a raster. `points`, True or False, decides otherwise. `mesh`: a Mesh, or
+    (N, 3) vertices beside (M, 3) triangles. `fail_above=1.5` raises PromiseError where a sample is farther off. Other
+    options as those of `scarp measure`: `cutline`, `script` ... Returns a Report.
     """
     if triangles is not None:
         mesh = Mesh.from_arrays(mesh, triangles)
@@ -219,7 +241,7 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
     struct = _abi.new_report()
     of_rasters = {"transform": transform, "nodata": nodata, "mask": mask, "tolerance": tolerance}
     given = [name for name, value in of_rasters.items() if value is not None]
-    is_points = _are_points(source) and not given if points is None else bool(points)
+    is_points = not given and _are_points(source, mesh) if points is None else bool(points)
     if is_points:
         if given:
             raise UsageError("%s is for rasters, and the source is points: leave it out" % given[0])

@@ -100,7 +100,11 @@ class Settings:
 
     def use_threads(self, threads: int) -> None:
         if threads != 0:
-            self.struct.threads = _values.whole_of("threads", threads, 0, 2**31 - 1)
+            number = _values.whole_of("threads", threads, 0, 2**63)
+            if number < 2**31:
+                self.struct.threads = number
+            else:  # the library refuses it by its own number
+                _abi.check(_abi.lib.scarp_options_set(self.pointer, b"threads", b"%d" % number))
 
     def close(self) -> None:
         if self.struct.named:

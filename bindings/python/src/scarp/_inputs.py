@@ -87,6 +87,22 @@ def _numpy() -> Any:
     return _loaded_numpy
 
 
+def shape_of(source: Any) -> Optional[tuple[int, ...]]:
+    """Of an array, or of rows; None for what knows its own place."""
+    if _is_path(source) or hasattr(source, "coords") or hasattr(source, "read"):
+        return None
+    shape = getattr(source, "shape", None)
+    if shape is None and isinstance(source, (list, tuple)):
+        shape = (len(source), len(source[0]) if source and hasattr(source[0], "__len__") else 0)
+    return None if shape is None else tuple(shape)
+
+
+def looks_like_points(source: Any) -> bool:
+    """Rows of three numbers."""
+    shape = shape_of(source)
+    return shape is not None and len(shape) == 2 and shape[1] == 3
+
+
 def _is_path(source: object) -> bool:
     return isinstance(source, (str, bytes, os.PathLike))
 
@@ -203,9 +219,14 @@ def _is_geographic(crs: Any) -> Optional[bool]:
     return None
 
 
+def frame_of_points(crs: Any) -> int:
+    """What a library that knows no CRS is told of one."""
+    return _DEGREES if not _abi.lib.scarp_has_gdal() and _is_geographic(crs) else 0
+
+
 def crs_text(crs: Any) -> str:
-    if isinstance(crs, int):
-        return "EPSG:%d" % crs
+    if hasattr(crs, "__index__"):
+        return "EPSG:%d" % int(crs)
     for name in ("to_epsg", "to_wkt", "to_string"):
         if not isinstance(crs, str) and hasattr(crs, name):
             text = getattr(crs, name)()
@@ -249,15 +270,22 @@ def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
 def _largest_rounding(np: Any, given: Any, samples: Any) -> float:
     """A few rows at once, so that it takes little memory."""
     largest = 0.0
+    wide = given.dtype if given.dtype.kind == "f" and given.dtype.itemsize > 8 else np.float64
     rows = max(1, _SMALL // max(samples.shape[1], 1))
     with np.errstate(invalid="ignore", over="ignore"):
         for first in range(0, len(samples), rows):
-            difference = np.abs(given[first:first + rows].astype(np.float64) - samples[first:first + rows])
+            difference = np.abs(given[first:first + rows].astype(wide) - samples[first:first + rows])
             most = difference.max(initial=0.0)
             if not most < np.inf:  # of voids: no roundings
                 most = difference.max(initial=0.0, where=np.isfinite(difference))
             largest = max(largest, float(most))
-    return largest
+    return largest + (_rounding_of_integers(np, given) if given.dtype.kind in "iu" else 0.0)
+
+
+def _rounding_of_integers(np: Any, given: Any) -> float:
+    """How far integers are from float64 at most, which holds all up to 2^53."""
+    farthest = max(-int(given.min(initial=0)), int(given.max(initial=0)))
+    return float(np.spacing(float(farthest))) / 2 if farthest > 2**53 else 0.0
 
 
 def _from_buffer(z: Any) -> tuple[int, int, int, Any]:

@@ -90,6 +90,11 @@ def _as_rows(array: Any, name: str) -> Any:
     return array
 
 
+def _placed_dims(array: Any) -> list[str]:
+    """Dimensions that have coordinates."""
+    return [str(dim) for dim in array.dims if dim in array.coords]
+
+
 def _line_of(np: Any, array: Any, dim: Any, name: str) -> Optional[_Axis]:
     """The coordinate along a dimension. InputError unless all of its steps are even."""
     if dim not in array.coords:
@@ -97,8 +102,8 @@ def _line_of(np: Any, array: Any, dim: Any, name: str) -> Optional[_Axis]:
     coordinate = array.coords[dim]
     values = np.asarray(coordinate.values)
     if values.dtype.kind not in "iuf":
-        raise InputError("the coordinate %s of %s is no number, but %s: drop it, as in array.drop_vars(%r)"
-                         % (dim, name, values.dtype, dim))
+        raise InputError("the coordinate %s of %s is no number, but %s: drop all, as in array.drop_vars(%r)"
+                         % (dim, name, values.dtype, _placed_dims(array)))
     kind = _kind(dim, coordinate.attrs)
     places = values.astype(np.float64)
     if not np.isfinite(places).all():
@@ -109,6 +114,9 @@ def _line_of(np: Any, array: Any, dim: Any, name: str) -> Optional[_Axis]:
     step = (places[-1] - places[0]) / (len(places) - 1) if len(places) > 1 else 1.0
     off = np.abs(places - (places[0] + step * np.arange(len(places))))
     own = 4 * float(np.finfo(values.dtype).eps) * np.abs(values).max() if values.dtype.kind == "f" else 0.0
+    if step == 0 and off.max() == 0:
+        raise InputError("the coordinate %s of %s is %.10g everywhere, so it tells no place: correct it, or drop all "
+                         "for x and y in samples, as in array.drop_vars(%r)" % (dim, name, places[0], _placed_dims(array)))
     if step == 0 or off.max() > _UNEVEN * abs(step) + own:
         steps = np.abs(np.diff(places))
         raise InputError("the coordinate %s of %s has uneven steps, %.6g to %.6g, and Scarp's rasters have cells of one "

@@ -65,15 +65,16 @@ class _Memory:
 class Mesh:
     """A triangle mesh with its proven error. Made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()."""
 
-    __slots__ = ("_handle", "_vertices", "_place", "__weakref__")
+    __slots__ = ("_handle", "_vertices", "_place", "_shape", "__weakref__")
 
-    def __init__(self, handle: int, place: Any = None) -> None:
+    def __init__(self, handle: int, place: Any = None, shape: Optional[tuple[int, ...]] = None) -> None:
         """Takes a handle of the library; for this package alone."""
         if not isinstance(handle, int):
             raise TypeError("meshes are made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()")
         self._handle = handle
         self._vertices: Any = None
         self._place = place  # report_of()'s
+        self._shape = shape  # of the array that it was made of; None: it is not known
 
     def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
         if hasattr(self, "_handle"):
@@ -228,7 +229,7 @@ class Mesh:
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_mesh_add_base(self._handle, _values.number_of("the base", z), C.byref(out)))
         assert out.value is not None
-        return Mesh(out.value, self._place)
+        return Mesh(out.value, self._place, self._shape)
 
     def to_trimesh(self, **options: Any) -> Any:
         """A trimesh.Trimesh with the same vertices and triangles."""
@@ -292,7 +293,7 @@ class Mesh:
         """All of it, for copies, other processes and the same version of Scarp; files are what write() makes."""
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_mesh_pack(self._handle, C.byref(out)))
-        return _unpack, (_abi.take_bytes(out.value), self._place)
+        return _unpack, (_abi.take_bytes(out.value), self._place, self._shape)
 
     def __repr__(self) -> str:
         counts = "%d vertices, %d triangles" % (self.vertex_count, self.triangle_count)
@@ -309,11 +310,11 @@ class Mesh:
         return facts
 
 
-def _unpack(packed: bytes, place: Any) -> Mesh:
+def _unpack(packed: bytes, place: Any, shape: Optional[tuple[int, ...]] = None) -> Mesh:
     out = C.c_void_p()
     _abi.check(_abi.lib.scarp_mesh_unpack(packed, len(packed), C.byref(out)))
     assert out.value is not None
-    return Mesh(out.value, place)
+    return Mesh(out.value, place, shape)
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:

@@ -27,6 +27,7 @@ class Refiner:
     def __init__(self, source: Any, *, band: int = 1, transform: Any = None, crs: Any = None,
                  nodata: Optional[float] = None) -> None:
         self._input = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata, wants_array=True)
+        self._shape = _inputs.shape_of(source)
         self._lock = threading.RLock()
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_refiner_create(C.byref(self._input.field), C.byref(out)))
@@ -89,7 +90,7 @@ class Refiner:
         with self._lock:
             _abi.check(_abi.lib.scarp_refiner_mesh(self._handle, C.byref(out)))
         assert out.value is not None
-        return Mesh(out.value)
+        return Mesh(out.value, None, self._shape)
 
     def __reduce__(self) -> Any:
         raise TypeError("a scarp.Refiner is neither pickled nor copied: send its mesh(), or make another of the heights")

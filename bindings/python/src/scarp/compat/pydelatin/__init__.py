@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Optional
 
-from ... import simplify
+from ... import UsageError, simplify
 
 if TYPE_CHECKING:
     from numpy import float32, uint32
@@ -57,6 +57,10 @@ class Delatin:
         #: Largest |mesh - sample|, in the units of arr.
         self.error: float = mesh.max_error
         if base_height:
+            lowest = float(mesh.vertices[:, 2].min())
+            if not -float(base_height) < lowest:
+                raise UsageError("base_height is %g, which puts the base at %g, and the lowest vertex is at %g: more than %g "
+                                 "is needed" % (base_height, -float(base_height), lowest, -lowest))
             mesh = mesh.add_base(-float(base_height))
         scale = np.array([1, 1, z_scale * z_exag])
         self.vertices: NDArray[float32] = (mesh.vertices * scale).astype(np.float32)
