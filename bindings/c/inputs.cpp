@@ -38,9 +38,8 @@ std::string find_fault(const scarp_field& field) {
         field.frame);
   if (!(field.sample_rounding >= 0) || std::isinf(field.sample_rounding))
     return "the field's sample_rounding must be a finite number of at least 0";
-  if (field.cols < 0 || field.rows < 0)
-    return fmt::format("the field has {} x {} samples: neither number can be negative", field.cols, field.rows);
-  const auto cols = static_cast<std::uint64_t>(field.cols), rows = static_cast<std::uint64_t>(field.rows);
+  const auto cols = static_cast<std::uint64_t>(std::max(field.cols, 0)),
+             rows = static_cast<std::uint64_t>(std::max(field.rows, 0));
   if (cols * rows > kLargestArray / sizeof(float))
     return fmt::format("the field has {} x {} samples: no array is so large", field.cols, field.rows);
   return "";

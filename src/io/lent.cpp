@@ -117,7 +117,10 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
   if (options.band != 1) return fail(ErrorKind::kInput, name + " has 1 band: leave the band out");
   if (options.decode != Decode::kNone || !options.view.is_whole())
     return fail(ErrorKind::kUsage, name + " is in memory: decode it, and cut or join it, before it is given");
-  const auto size = [](int side) { return static_cast<std::uint64_t>(std::max(side, 0)); };
+  if (raster.cols < 0 || raster.rows < 0)
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: {} x {} samples: neither number can be negative", name, raster.cols, raster.rows));
+  const auto size = [](int side) { return static_cast<std::uint64_t>(side); };
   if (auto sides = check_raster_sides(name, size(raster.cols), size(raster.rows)); !sides)
     return tl::unexpected(sides.error());
   if (raster.samples == nullptr) return fail(ErrorKind::kUsage, name + " has no samples: its pointer is null");

@@ -294,8 +294,8 @@ static void try_lies(void) {
   EXPECT_SAYS("2147483647 x 2147483647 samples");
   field = make_field();
   field.cols = -5;
-  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_USAGE);
-  EXPECT_SAYS("the field has -5 x ");
+  EXPECT(scarp_simplify(&field, &options, &mesh) == SCARP_INPUT);
+  EXPECT_SAYS("heights: -5 x ");
   try_unwritten();
   field = make_field();
   field.struct_size = 0;

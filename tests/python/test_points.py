@@ -100,7 +100,7 @@ class Points(unittest.TestCase):
             raster = scarp.simplify(narrow, 0.5)
         for one in (raster, pickle.loads(pickle.dumps(raster)), raster.add_base(-100)):
             self.assertEqual(scarp.measure(narrow, one).samples, 120)
-        self.assertEqual(scarp.measure(points[:41] / 50, raster, points=None).samples, 41)
+        self.assertEqual(scarp.measure(points[:41] / 50, raster, frame="source").samples, 41)
         refiner = scarp.Refiner(narrow)
         refiner.run(1)
         self.assertLessEqual(scarp.measure(narrow, refiner.mesh()).max_error, 1)
