@@ -30,7 +30,7 @@ ROOMS = {
                ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
     "io": (2, ["base", "grid", "mesh"],
-           ["alike", "commands", "cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_image", "globe_place", "gzip", "height_field", "io", "lent", "lines", "live_tiles", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tile_waters", "tiles3d", "version", "zones"],
+           ["alike", "commands", "cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_image", "globe_place", "gzip", "height_field", "io", "lent", "lines", "live_tiles", "mesh", "points", "progress", "raster_lines", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tile_waters", "tiles3d", "version", "zones"],
            "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/io.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
@@ -33,7 +34,10 @@ struct PointSet {
   std::string crs;               ///< of x and y: "EPSG:32611", WKT, or empty
   std::string description;       ///< one line for reports: what x and y are, and in which unit
   bool is_local = false;         ///< x and y are metres around the middle of the points
-  double unit_in_metres = 0;     ///< of x and y; 0 for degrees, and where nobody knows. Heights are taken for it
+  double unit_in_metres = 0;     ///< of x and y; 0 for degrees, and where nobody knows
+  /// What is known of z, as of a raster's heights: unit, unit_in_metres, unit_is_assumed, file_unit, z_scale, z_offset;
+  /// and crs_unit, crs_unit_in_metres of x and y in the file.
+  RasterInfo heights = {};
   std::vector<std::string> warnings;
   std::string columns;               ///< one line for reports: how each column was read, or where heights come from
   std::uint64_t without_height = 0;  ///< left out, as ReadPointsOptions::nodata asks for
@@ -59,6 +63,14 @@ struct ReadPointsOptions {
   /// Points of this height have none, nor have those whose height is empty or no finite number: they are left out and
   /// counted. NaN: only the latter. DEFAULT: the call fails where a height is missing.
   std::optional<double> nodata = {};
+  /// Heights and their unit, as in ReadOptions. DEFAULT of z_unit: what the name of the column or attribute says
+  /// ("elev_ft", "Elevation (mm)"), else the vertical CRS, else the unit of x and y.
+  double z_scale = 1, z_offset = 0;
+  std::string z_unit = {};
+  HeightsIn heights_in = HeightsIn::kFrame;
+  /// kLocal, for points whose `crs` nobody chose: x and y whose unit is not the metre become local metres; others stay,
+  /// and the caller moves them to local_origin(): their frame is a local one, too, for `heights_in`.
+  DefaultFrame default_frame = DefaultFrame::kMetric;
 };
 
 /// Reads points: text of columns (CSV, XYZ: separated by commas, semicolons, tabs or blanks; decimal commas where

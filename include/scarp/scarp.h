@@ -34,6 +34,7 @@
 #include "scarp/print.h"
 #include "scarp/progress.h"
 #include "scarp/quality.h"
+#include "scarp/raster_lines.h"
 #include "scarp/regions.h"
 #include "scarp/result.h"
 #include "scarp/ridges.h"

@@ -25,12 +25,25 @@ std::string new_file(const std::string& extension) {
 }
 
 std::string translate_command(const std::string& options, const std::string& file) {
-  return fmt::format("gdal_translate{}{} {} {}", options.empty() ? "" : " ", options, file_word(file), new_file(".tif"));
+  return fmt::format("gdal_translate{}{} {} {}", options.empty() ? "" : " ", options, file_word(file),
+                     new_file(".tif"));
 }
 
 std::string warp_command(const std::string& options, const std::string& file) {
   return fmt::format("gdalwarp{}{} -r bilinear -ot Float32 -dstnodata -9999 {} {}", options.empty() ? "" : " ", options,
                      file_word(file), new_file(".tif"));
+}
+
+std::string comment_out_command(const std::string& file, std::uint64_t lines) {
+  return fmt::format("sed '1,{}s/^/#/' {} > {}", lines, file_word(file), new_file(".csv"));
+}
+
+std::string uncomment_command(const std::string& file, const std::string& made) {
+  return fmt::format("sed '/^[[:blank:]]*[#%]/d; /^[[:blank:]]*\\/\\//d; /^[[:space:]]*$/d' {} > {}", file_word(file), file_word(made));
+}
+
+std::string utf8_command(const std::string& encoding, const std::string& file) {
+  return fmt::format("iconv -f {} -t UTF-8 {} > {}", encoding, file_word(file), new_file(".csv"));
 }
 
 }  // namespace scarp

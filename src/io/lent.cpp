@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grid/local_frame.h"
+#include "io/points/point_heights.h"
 #include "io/raster/crs_description.h"
 #include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
@@ -108,7 +109,10 @@ Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name,
   if (options.nodata) {
     if (auto left_out = leave_out_nodata(*options.nodata, points); !left_out) return tl::unexpected(left_out.error());
   }
-  if (auto placed = place_lent_points(options, points); !placed) return tl::unexpected(placed.error());
+  const auto vertical = place_lent_points(options, points);
+  if (!vertical) return tl::unexpected(vertical.error());
+  if (auto settled = settle_point_heights(options, *vertical, points); !settled)
+    return tl::unexpected(settled.error());
   return points;
 }
 

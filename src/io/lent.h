@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "io/raster/height_unit.h"
 #include "scarp/io.h"
 #include "scarp/lent.h"
 
@@ -24,7 +25,7 @@ Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name,
 /// Fills in what `info` tells of the place of a raster with a geotransform, and finds the frame that the options ask
 /// for. A build without GDAL knows no CRS: it refuses those that the options name.
 Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info);
-/// The same for points in memory, whose x and y become what the options ask for.
-Result<void> place_lent_points(const ReadPointsOptions& options, PointSet& points);
+/// The same for points in memory, whose x and y become what the options ask for. Returns the unit of their vertical CRS.
+Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points);
 
 }  // namespace scarp

@@ -4,6 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
+
+#include "scarp/lines.h"
 
 namespace scarp {
 
@@ -11,5 +14,8 @@ namespace scarp {
 /// have one, by the way in x and y; before the first and behind the last of them that one's, in a ring (its last place
 /// is its first) the way goes on around. Returns how many it gave: none where all heights are known, or none is.
 std::size_t fill_heights(std::span<std::array<double, 3>> places, bool is_ring);
+
+/// read_lines() with heights in units of so many metres, where the file says in which they are; 0: as they are.
+Result<LineSet> read_lines_in(const std::string& path, const ReadLinesOptions& options, double unit_in_metres);
 
 }  // namespace scarp

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "grid/local_frame.h"
+#include "io/points/point_heights.h"
 #include "io/lent.h"
+#include "io/line_heights.h"
 #include "io/mesh/mesh_file.h"
 #include "io/points/point_source.h"
 #include "io/raster/crs_description.h"
@@ -92,7 +94,7 @@ Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& opt
   return frame;
 }
 
-Result<void> place_lent_points(const ReadPointsOptions& options, PointSet& points) {
+Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points) {
   const std::string& wanted = options.crs;
   if (wanted == "grid")
     return fail(ErrorKind::kUsage, points.path + ": scattered points have no grid: ask for 'source' or 'local'");
@@ -104,24 +106,14 @@ Result<void> place_lent_points(const ReadPointsOptions& options, PointSet& point
     points.warnings.push_back(
         "x and y are degrees while z is a length: the mesh is no shape in space; the frame 'local' is in metres");
   if (wanted == "source" || (wanted.empty() && !points.is_geographic)) return {};
-  const auto middle = [](const std::vector<double>& values) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    return *least + (*most - *least) / 2;
-  };
-  const double x = middle(points.x), y = middle(points.y);
+  const auto [x, y] = middle_of(points);
   const auto [east, north] = points.is_geographic ? metres_of_unit(y) : std::array{1.0, 1.0};
   if (!(east > 1e-3 * north))
     return fail(ErrorKind::kUsage,
                 fmt::format("{}: the middle of the points lies at {:.9g}, {:.9g}, at or beyond a pole, where no local "
                             "frame exists",
                             points.path, x, y));
-  for (double& value : points.x) value = (value - x) * east;
-  for (double& value : points.y) value = (value - y) * north;
-  points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y,
-                                   points.crs.empty() ? "degrees" : points.crs);
-  points.crs.clear();
-  points.is_local = true;
-  points.unit_in_metres = 1;
+  make_local_metres({east, north}, points.crs.empty() ? "degrees" : points.crs, points);
   return {};
 }
 
@@ -144,7 +136,7 @@ Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptio
               path + ": not text of columns, and this build of Scarp reads no other points: it was built without GDAL");
 }
 
-Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions&) {
+Result<LineSet> read_lines_in(const std::string& path, const ReadLinesOptions&, double) {
   return fail(ErrorKind::kInput, path + ": this build of Scarp reads no vector data: it was built without GDAL");
 }
 

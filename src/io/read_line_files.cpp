@@ -5,15 +5,18 @@
 #include <iterator>
 #include <utility>
 
+#include "io/line_heights.h"
+#include "io/raster/height_unit.h"
 #include "scarp/commands.h"
-#include "scarp/lines.h"
+#include "scarp/raster_lines.h"
 
 namespace scarp {
+namespace {
 
-Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options) {
+Result<LineSet> read_all(std::span<const std::string> paths, const ReadLinesOptions& options, double unit_in_metres) {
   LineSet all;
   for (const std::string& path : paths) {
-    auto set = read_lines(path, options);
+    auto set = read_lines_in(path, options, unit_in_metres);
     if (!set) return tl::unexpected(std::move(set.error()));
     for (Line& line : set->lines) {
       if (line.polygon != kNoPolygon) line.polygon += all.polygons;
@@ -23,6 +26,21 @@ Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOp
     all.polygons += set->polygons;
   }
   return all;
+}
+
+}  // namespace
+
+Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options) {
+  return read_lines_in(path, options, 0);
+}
+
+Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options) {
+  return read_all(paths, options, 0);
+}
+
+Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options,
+                           const RasterInfo& raster) {
+  return read_all(paths, options, metres_in_file(raster));
 }
 
 Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise) {

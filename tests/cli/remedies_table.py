@@ -210,6 +210,8 @@ C("degrees in CSV with ;", "scarp simplify d.csv o.glb -e 5", "sed 's/,/;/g' deg
 C("degrees in XYZ", "scarp simplify d.xyz o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv | tr , ' ' > d.xyz")
 C("degrees in TXT with blanks", "scarp simplify d.txt o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv | sed 's/,/   /g' > d.txt")
 C("degrees without header", "scarp simplify d.csv o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv > d.csv")
+C("heights in feet without a CRS", "scarp simplify p.csv o.glb -e 1", "sed 1s/z/elev_ft/ plain.csv > p.csv", {"EPSG:CODE": "EPSG:32632"},
+  says="stay as they are, while heights become metres")
 C("CSV and --crs", "scarp simplify plain.csv o.glb -e 1 --crs EPSG:32633", "", {"EPSG:CODE": "EPSG:32632"})
 C("points without CRS", "scarp simplify p.gpkg o.glb -e 1 --crs EPSG:32633", "ogr2ogr -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z p.gpkg plain.csv", {"EPSG:CODE": "EPSG:32632"})
 C("contours as polygons", "scarp simplify lake.geojson o.glb -e 1", then="scarp simplify NEW.gpkg o.glb -e 1 --z-field elev")

@@ -120,4 +120,47 @@ for pair in some:0 sentinel:-9999; do
   grep -q 'points  *90 (10 without a height left out)' "$logs/out" || fail "$file: points are not counted"
   succeeds "$scarp" measure "$file" "$file.ply" --fail-above 1 -q
 done
+# One number everywhere is no height either; no third coordinate of NaN is.
+python3 - <<'PY'
+import struct
+def gpkg_like(name, z):
+    rows = [(k % 10 + k * k % 7 / 10, k // 10 + k * k % 11 / 20, 400 + k) for k in range(60)]
+    with open(name + ".csv", "w") as file:
+        file.write("WKT,altitude\n")
+        for x, y, land in rows:
+            file.write('"POINT Z (%.2f %.2f %s)",%d\n' % (x, y, z, land))
+gpkg_like("sentinels", "-9999")
+gpkg_like("constant", "7")
+try:
+    from osgeo import ogr
+    file = ogr.GetDriverByName("GPKG").CreateDataSource("nans.gpkg")
+    layer = file.CreateLayer("nans", None, ogr.wkbPoint25D)
+    layer.CreateField(ogr.FieldDefn("altitude", ogr.OFTReal))
+    for k in range(60):
+        feature, place = ogr.Feature(layer.GetLayerDefn()), ogr.Geometry(ogr.wkbPoint25D)
+        place.AddPoint(k % 10 + k * k % 7 / 10, k // 10 + k * k % 11 / 20, float("nan"))
+        feature.SetGeometry(place)
+        feature["altitude"] = 400 + k
+        layer.CreateFeature(feature)
+except ImportError:
+    pass
+PY
+if command -v ogr2ogr >/dev/null; then
+  for pair in sentinels:-9999 constant:7 nans:nan; do
+    name=${pair%:*}
+    [ $name = nans ] && { [ -e nans.gpkg ] || continue; } ||
+      ogr2ogr -q -f GPKG $name.gpkg $name.csv -a_srs EPSG:32611 -oo GEOM_POSSIBLE_NAMES=WKT -oo AUTODETECT_TYPE=YES 2>/dev/null
+    succeeds "$scarp" info $name.gpkg
+    grep -q "third coordinate is ${pair#*:} everywhere, so the heights are those of the attribute altitude" "$logs/err" || fail "$name: $(cat "$logs/err")"
+    grep -q 'heights  *400 to 459' "$logs/out" || fail "$name: the heights are not those of the attribute"
+  done
+  # The command that makes a layer of degrees works where comments stand above the header.
+  { printf '# a log\n\n'; awk 'BEGIN { print "id,lat,lon,alt"; srand(1); for (k = 0; k < 99; ++k) printf "%d,%.7f,%.7f,%.1f\n", k, 48 + rand() / 99, 11 + rand() / 99, 400 + 90 * rand() }'; } >log.csv
+  succeeds "$scarp" info log.csv
+  command=$(sed -n 's/.*make a GeoPackage with a CRS of the file (\(.*\)) for a local frame.*/\1/p' "$logs/err")
+  bash -ec "$command" || fail "the command fails: $command"
+  made=$(ls -t NEW*.gpkg | head -1)
+  succeeds "$scarp" simplify "$made" log.glb -e 5
+  grep -q 'points  *99,' "$logs/out" || fail "$command: not all points"
+fi
 echo "columns, grids and heights of points are understood or asked about"

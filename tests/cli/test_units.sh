@@ -171,6 +171,88 @@ PYTHON
 succeeds "$scarp" measure points.vrt points.glb --points --fail-above 3
 succeeds "$scarp" measure points.vrt points.glb --points --fail-above 9.85ft
 
+# Their unit is that of the vertical CRS, or of the name of a column or attribute, or what --z-unit says. LOW HIGH: the land in metres.
+land() {
+  succeeds "$scarp" simplify "${@:4}" "$1" -e 0.5m --report r.json --overwrite
+  python3 - "$1" "$2" "$3" <<'PYTHON' || fail "${*:4} $1: heights, or what is as wide as it should not be"
+import json, struct, sys
+data = open(sys.argv[1], "rb").read()
+if sys.argv[1].endswith(".glb"):
+    gltf = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+    position = gltf["accessors"][gltf["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+    low, high = position["min"], position["max"]
+else:
+    rows = [[float(w) for w in line.split()[1:4]] for line in data.decode().splitlines() if line.startswith("v ")]
+    low, high = ([f(row[k] for row in rows) for k in range(3)] for f in (min, max))
+assert 800 < high[0] - low[0] < 1100 and 800 < high[2] - low[2] < 1100, (low, high)
+assert float(sys.argv[2]) - 0.6 < low[1] < high[1] < float(sys.argv[3]) + 0.6, (low, high)
+PYTHON
+  succeeds "$scarp" measure "${@:4}" "$1" --fail-above 0.5m
+}
+if command -v ogr2ogr >/dev/null; then
+  python3 - <<'PYTHON'
+import random
+random.seed(4)
+rows = [(random.random() * 1000, random.random() * 1000, 660 + 60 * random.random()) for _ in range(200)]
+def write(name, head, scale, unit, x0, y0, stretch=1):
+    with open(name, "w") as file:
+        file.write(head + "\n")
+        for k, (x, y, z) in enumerate(rows):
+            file.write(f"{k},{x0 + x / scale:.7f},{y0 + y / scale * stretch:.7f},{z / unit:.5f}\n")
+ft, us = 0.3048, 1200 / 3937
+write("utm.csv", "no,x,y,z", 1, us, 500000, 4000000)
+write("degrees.csv", "no,x,y,z", 91000, us, -123, 35, 0.82)
+write("plane.csv", "no,x,y,z", us, 1, 6500000, 1800000)
+write("elev.csv", "no,x,y,ELEV_FT", 1, ft, 500000, 4000000)
+write("mm.csv", "no,Easting (m),Northing (m),Elevation (mm)", 1, 0.001, 500000, 4000000)
+write("feet.csv", "no,Easting (ft),Northing (ft),Elevation (ft)", ft, ft, 500000, 4000000)
+write("none.csv", "no,x,y,z", 1, ft, 500000, 4000000)
+PYTHON
+  gpkg() {
+    ogr2ogr -q "$1.gpkg" "$1.csv" -a_srs "$2" -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y ${3:+-oo Z_POSSIBLE_NAMES=$3} -oo AUTODETECT_TYPE=YES
+  }
+  gpkg utm EPSG:26910+6360 z && gpkg degrees EPSG:4326+6360 z && gpkg plane EPSG:2229+5703 z && gpkg elev EPSG:26910 ""
+  for mesh in heights.glb heights.obj; do
+    for name in utm degrees plane elev; do land $mesh 660 720 $name.gpkg; done
+    for name in mm feet; do land $mesh 660 720 $name.csv; done
+  done
+  land heights.glb 660 720 none.csv --z-unit ft
+  # The command that gives a text its CRS keeps the unit.
+  succeeds "$scarp" info elev.csv
+  refuses 1 "says nothing of its CRS" "$scarp" simplify elev.csv no.glb -e 1 --crs EPSG:26911
+  command=$(sed -n 's/.*make a GeoPackage with a CRS of it (\(.*\))$/\1/p' "$logs/err" | sed 's/EPSG:CODE/EPSG:26910/')
+  bash -ec "$command" || fail "the command fails: $command"
+  land heights.glb 660 720 NEW.gpkg
+  succeeds "$scarp" simplify plane.gpkg plane.glb -e 0.5 --overwrite
+  [ ! -s "$logs/err" ] || fail "heights that the CRS says to be metres are warned of: $(cat "$logs/err")"
+  succeeds "$scarp" simplify utm.gpkg utm.glb -e 0.5 --report r.json --overwrite
+  grep -q 'heights in US survey foot become metres' "$logs/err" || fail "nothing is told of the vertical CRS"
+  [ "$(json r.json input unit)" = '"m"' ] || fail "the report does not tell the unit of points"
+  succeeds "$scarp" simplify utm.gpkg utm.2dm -e 2ft --overwrite
+  succeeds "$scarp" measure utm.gpkg utm.2dm --fail-above 2ft
+  refuses 1 "--z-scale" "$scarp" simplify plane.gpkg no.xml -e 1
+  factor=$(sed -n 's/.*scale them by \([0-9.]*\) (--z-scale).*/\1/p' "$logs/err")
+  succeeds "$scarp" simplify plane.gpkg levels.xml -e 1 --z-scale "$factor"
+  succeeds "$scarp" measure plane.gpkg levels.xml --fail-above 1
+  succeeds "$scarp" simplify none.csv none.glb -e 2
+  refuses 1 "no unit of length" "$scarp" simplify none.csv no.glb -e 2 --z-unit K
+
+  # Breaklines in feet on a raster in metres.
+  succeeds gdal_translate -q -of GTiff -srcwin 0 0 60 46 -a_srs EPSG:32616 -a_ullr 1500000 701380 1501800 700000 "$dem" metres.tif
+  sample=$(gdallocationinfo -valonly -geoloc metres.tif 1500915 700705)
+  python3 - "$sample" $survey <<'PYTHON'
+import sys
+z = float(sys.argv[1]) / float(sys.argv[2])
+open("line.csv", "w").write(f"ELEV_USFT,WKT\n{z},\"LINESTRING Z (1500905 700705 {z},1500925 700705 {z})\"\n")
+PYTHON
+  ogr2ogr -q lines.gpkg line.csv -a_srs EPSG:32616+6360 -nlt LINESTRINGZ -oo GEOM_POSSIBLE_NAMES=WKT -oo AUTODETECT_TYPE=YES
+  for field in "" ELEV_USFT; do
+    succeeds "$scarp" simplify metres.tif lines.glb -e 5 --breaklines lines.gpkg ${field:+--breakline-z $field} --report r.json --overwrite
+    holds "$(json r.json breaklines farthest) < 60"
+    grep -q 'are multiplied by 0.3048006096, for the unit of the raster' "$logs/err" || fail "lines in feet: nothing is told"
+  done
+fi
+
 # LandXML has one unit for all: the way out that it names works.
 refuses 1 "--z-scale" "$scarp" simplify utm_ft.vrt no.xml -e 20ft
 factor=$(sed -n 's/.*scale them by \([0-9.]*\) (--z-scale).*/\1/p' "$logs/err")

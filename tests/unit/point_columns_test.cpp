@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scarp/points.h"
@@ -110,6 +112,95 @@ TEST_F(PointColumns, what_cannot_be_a_height_is_asked_for) {
   expect_survey(survey("2024-05-01 12:00:00;N;E;H"));
 }
 
+TEST_F(PointColumns, what_is_less_like_a_height_than_a_later_column_is_asked_about) {
+  for (const auto& [text, option] : {std::pair{survey("n,E,N,n,H"), "--columns pen-z or --columns penz"},
+                                     {survey("E,N,n,H"), "--columns en-z or --columns enz"},
+                                     {survey("n,E,N,0,H"), "--columns pen-z"},
+                                     {survey("n,N,E,72,H"), "--columns pne-z"},
+                                     {survey("n,E,N,0.012,0.013,H,0.02"), "--columns pen--z"},
+                                     {survey("118 35 44 E N H"), "--columns ---enz"},
+                                     {survey("n,48,E,N,H"), "--columns --enz"}})
+    EXPECT_TRUE(contains(refuse(text), option)) << text << refuse(text);
+  const std::string whole = "500042.8,4000238.7,0,87\n500045.8,4000239.7,0,88\n500049.8,4000249.7,0,91\n";
+  EXPECT_TRUE(contains(read(whole).warnings.at(0), "column 3 would be the height and is 0 everywhere"));
+  // Extras of scanners, and grids of whole numbers.
+  for (const char* silent :
+       {"1.5,2.5,7.25,251,2,1,1\n2.75,3.5,8.5,66,2,1,1\n3.5,1.5,8,59,2,1,1\n",
+        "10 20 812 0.5\n20 20 815 12.5\n10 10 813 0.7\n", "1.5 2.5 3 0.1 0.2 0.97\n2.5 3.5 4 0.1 0.3 0.9\n"})
+    EXPECT_TRUE(read(silent).warnings.empty()) << silent;
+}
+
+TEST_F(PointColumns, x_may_be_the_northing_of_a_national_grid) {
+  const auto text = [](const char* header, const char* format, double one, double other) {
+    std::string rows = header;
+    for (int k = 0; k < 5; ++k)
+      rows += fmt::format(fmt::runtime(format), k + 1, one + 7.5 * k * k, other + 9.25 * k, 80.5 + k);
+    return rows;
+  };
+  const std::vector<std::array<double, 2>> north_east{
+      {5400192.3, 3500187.5}, {5400192.3, 4500187.5}, {5650192.3, 5400187.5}, {5260192.3, -22812.5},
+      {5560192.3, 7500187.5}, {4000238.7, 500042.8},  {1200192.3, 2600187.5}};
+  for (const auto& [north, east] : north_east) {
+    EXPECT_TRUE(contains(refuse(text("", "{1},{2},{3}\n", north, east)), "--columns nez")) << north;
+    EXPECT_TRUE(read(text("", "{1},{2},{3}\n", east, north)).warnings.empty()) << north;
+    const PointSet turned = read(text("Nr,X,Y,H\n", "{0},{1},{2},{3}\n", north, east));
+    ASSERT_FALSE(turned.warnings.empty()) << north;
+    EXPECT_TRUE(contains(turned.warnings.at(0), "if x is the northing here")) << north;
+    EXPECT_TRUE(read(text("Nr,X (m),Y (m),H\n", "{0},{1},{2},{3}\n", east, north)).warnings.empty()) << north;
+  }
+  // State planes in feet.
+  EXPECT_TRUE(read(text("id,x,y,z\n", "{0},{1},{2},{3}\n", 6500187.5, 1900192.3)).warnings.empty());
+  EXPECT_TRUE(
+      contains(refuse(text("", "{0},{1},{2},{3}\n", 2200378.8, 6000153.5)), "--columns penz or --columns pnez"));
+}
+
+TEST_F(PointColumns, headers_name_units) {
+  const auto unit = [&](const std::string& header) { return read(survey("n,E,N,H", header + "\n")).heights.unit; };
+  EXPECT_EQ(unit("id,E,N,Elevation (ft)"), "ft");
+  EXPECT_EQ(unit("id,E,N,elev_ft"), "ft");
+  EXPECT_EQ(unit("id,E,N,Elevation in feet"), "feet");
+  EXPECT_EQ(unit("id,E,N,ELEVFT"), "ft");
+  EXPECT_EQ(unit("id,E,N,Elevation [mm]"), "mm");
+  EXPECT_EQ(unit("id,E,N,Height (US survey feet)"), "us survey feet");
+  EXPECT_EQ(unit("id,E,N,elev_us_ft"), "us ft");
+  EXPECT_EQ(unit("id,E,N,H (m above sea)"), "m");
+  EXPECT_EQ(unit("id,E,N,elevation"), "");
+  const PointSet feet = read(survey("n,E,N,H", "id,Easting (ft),Northing (ft),Elev (ft)\n"));
+  EXPECT_EQ(feet.unit_in_metres, 0.3048);
+  EXPECT_EQ(feet.z, kHeight);
+  const auto metres =
+      read_points(scratch_.file("p.csv"), {.heights_in = HeightsIn::kMetres, .default_frame = DefaultFrame::kLocal});
+  ASSERT_TRUE(metres);
+  EXPECT_DOUBLE_EQ(metres->z[0], kHeight[0] * 0.3048);
+  EXPECT_NEAR(metres->x[1] - metres->x[0], (kEast[1] - kEast[0]) * 0.3048, 1e-9);
+  EXPECT_EQ(metres->heights.unit, "m");
+}
+
+TEST_F(PointColumns, texts_of_another_kind_are_refused_in_a_sentence) {
+  EXPECT_TRUE(contains(refuse(survey("n,E,N,H", "Job: 17\nDate: 2024-05-01\nPoint,Easting,Northing,Elevation\n")),
+                       "put # in front of all lines up to 2 that do not (sed '1,2s/^/#/' "));
+  EXPECT_TRUE(contains(refuse(survey("n,E,N,H", "Job: 17\n")), "sed '1,1s/^/#/' "));
+  EXPECT_TRUE(
+      contains(refuse("1,4000378,862,500153,546,448,187\n2,4000384,695,500285,139,407,530\n"), "decimal comma"));
+  EXPECT_TRUE(contains(refuse("no,N,E,H\n1,4000378,862,500153,546,448,187\n2,4000384,695,500285,139,407,530\n"),
+                       "decimal comma"));
+  EXPECT_TRUE(read("500153,4000378,448,118,135,144\n500285,4000384,407,138,119,160\n").warnings.empty());
+  std::string wide = "\xff\xfe";
+  for (const char c : survey("E,N,H")) (wide += c) += '\0';
+  EXPECT_TRUE(contains(refuse(wide), "UTF-16")) << refuse(wide);
+  EXPECT_TRUE(contains(refuse(wide.substr(2)), "iconv -f UTF-16LE -t UTF-8 "));
+}
+
+TEST_F(PointColumns, a_point_far_from_all_others_is_warned_of) {
+  const std::string five =
+      "x,y,z\n500001,4000001,7\n500002,4050003,8\n500404,4000001,9\n500003,4000002,9\n500005,4000007,8\n";
+  EXPECT_TRUE(read(five).warnings.empty());
+  EXPECT_TRUE(contains(read(five + "0,0,8\n").warnings.at(0), "1 point lies at 0, 0 (point 5, counted from 0)"));
+  const std::string near = "x,y,z\n1,2,7\n3,2,8\n1,4,9\n2,3,9\n2,1,8\n";
+  EXPECT_TRUE(read(near + "200,2,8\n").warnings.empty());
+  EXPECT_TRUE(contains(read(near + "2000,2,8\n").warnings.at(0), "1 point lies at 2000, 2"));
+}
+
 TEST_F(PointColumns, what_follows_the_height_is_not_read) {
   for (const char* pattern : {"E,N,H,n", "E,N,H,255,0,13", "E,N,H,tree,n", "E N H 17 255 0 13", "E,N,H,", "E;N;H;;"})
     expect_survey(survey(pattern));
@@ -136,6 +227,7 @@ TEST_F(PointColumns, a_column_of_zeros_yields_to_another_height) {
   EXPECT_EQ(points.z, (std::vector<double>{7, 8, 9}));
   EXPECT_TRUE(contains(points.warnings.at(0), "are all 0, so those of 'elevation' count"));
   EXPECT_TRUE(contains(read("x,y,z,elevation\n1,2,1,7\n4,5,0,8\n").warnings.at(0), "--z-field elevation"));
+  EXPECT_EQ(read("x,y,z,elevation\n1,2,-9999,7\n4,5,-9999,8\n").z, (std::vector<double>{7, 8}));
 }
 
 TEST_F(PointColumns, degrees_are_told_apart_or_asked_for) {

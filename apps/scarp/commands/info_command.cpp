@@ -91,9 +91,9 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
   const std::pair<const char*, bool> given[] = {{"--band", raster_.band.has_value()},
                                                 {"--nodata", raster_.nodata.has_value() && !takes_crs},
                                                 {"--decode", raster_.decode.has_value()},
-                                                {"--z-scale", raster_.z_scale.has_value()},
-                                                {"--z-offset", raster_.z_offset.has_value()},
-                                                {"--z-unit", raster_.z_unit.has_value()},
+                                                {"--z-scale", raster_.z_scale.has_value() && !takes_crs},
+                                                {"--z-offset", raster_.z_offset.has_value() && !takes_crs},
+                                                {"--z-unit", raster_.z_unit.has_value() && !takes_crs},
                                                 {"--cell-size", raster_.cell_size.has_value()},
                                                 {"--te", !raster_.extent.empty()},
                                                 {"--resolution", raster_.resolution.has_value()},
@@ -109,14 +109,18 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
 Result<void> InfoCommand::run_points(const std::string& command_line) const {
   if (auto fits = refuse("points", true); !fits) return fits;
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  const auto nodata = parse_nodata(raster_.nodata);
-  if (!nodata) return tl::unexpected(nodata.error());
+  const auto as = raster_.parse();
+  if (!as) return tl::unexpected(as.error());
   const Result<PointSet> points = read_points(raster_.path(), {.layer = layer_.value_or(""),
                                                                .z_field = z_field_.value_or(""),
-                                                               .crs = raster_.crs.value_or(""),
+                                                               .crs = as->crs,
                                                                .progress = display.callback(),
                                                                .columns = columns_.value_or(""),
-                                                               .nodata = *nodata});
+                                                               .nodata = as->nodata,
+                                                               .z_scale = as->z_scale,
+                                                               .z_offset = as->z_offset,
+                                                               .z_unit = as->z_unit,
+                                                               .heights_in = HeightsIn::kFile});
   if (!points) return tl::unexpected(points.error());
   display.finish();
   if (!quiet_) print_warnings(points->warnings);

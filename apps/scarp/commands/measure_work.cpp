@@ -265,7 +265,7 @@ Result<Judgement> MeasureCommand::judge(const ProgressCallback& progress, const 
 }
 
 MeasurePointsArguments MeasureCommand::points_arguments() const {
-  return {raster_.path(), mesh_, raster_.crs, raster_.nodata, fail_above_, threads_, json_, quiet_, json_progress_};
+  return {raster_, mesh_, fail_above_, threads_, json_, quiet_, json_progress_};
 }
 
 Result<void> MeasureCommand::judge_points_inputs(const Runner& runner, JudgedPoints& judged) const {

@@ -29,8 +29,9 @@ struct PointsArguments {
 
 /// What `scarp measure` was asked to do with points.
 struct MeasurePointsArguments {
-  std::string path, mesh;
-  Given crs, nodata, fail_above, threads;
+  RasterArguments input;  ///< of which some options are for points, too
+  std::string mesh;
+  Given fail_above, threads;
   bool json = false, quiet = false, json_progress = false;
 };
 

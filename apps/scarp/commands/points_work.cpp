@@ -21,11 +21,11 @@ namespace {
 
 /// Points have no use for many of the command's options; silence would be a lie.
 Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
-  constexpr std::array<std::string_view, 23> kMeant{
-      "--max-error", "--max-triangles", "--max-points",    "--crs",         "--of",      "--base",
-      "--up",        "--report",        "--overwrite",     "--num-threads", "--quiet",   "--points",
-      "--layer",     "--double",        "--json-progress", "--duplicates",  "--z-field", "--fail-above",
-      "--json",      "--compress",      "--columns",       "--nodata",      "--boundary"};
+  constexpr std::array<std::string_view, 26> kMeant{
+      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",     "--up",
+      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",    "--double",
+      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",   "--compress", "--columns",
+      "--nodata",        "--z-scale",       "--z-offset",    "--z-unit",     "--boundary"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
@@ -36,20 +36,25 @@ Result<void> refuse_raster_options(const CLI::App& command, const std::string& p
   return {};
 }
 
-Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const Given& crs,
-                      std::optional<double> nodata, const ProgressCallback& progress) {
+/// `as`: how a raster would be read.
+Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const ReadOptions& as,
+                      const ProgressCallback& progress) {
   if (path.empty()) return fail(ErrorKind::kUsage, "the name of the points is empty");
-  for (const auto& [name, value] :
-       {std::pair{"--crs", &crs}, std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field},
-        std::pair{"--columns", &arguments.columns}}) {
+  for (const auto& [name, value] : {std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field},
+                                    std::pair{"--columns", &arguments.columns}}) {
     if (*value && (*value)->empty()) return fail(ErrorKind::kUsage, fmt::format("{} is empty: leave it out", name));
   }
   return read_points(path, {.layer = arguments.layer.value_or(""),
                             .z_field = arguments.z_field.value_or(""),
-                            .crs = crs.value_or(""),
+                            .crs = as.crs,
                             .progress = progress,
                             .columns = arguments.columns.value_or(""),
-                            .nodata = nodata});
+                            .nodata = as.nodata,
+                            .z_scale = as.z_scale,
+                            .z_offset = as.z_offset,
+                            .z_unit = as.z_unit,
+                            .heights_in = as.heights_in,
+                            .default_frame = as.default_frame});
 }
 
 /// As --crs; empty: local for degrees, else the points' own.
@@ -65,15 +70,6 @@ std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& a
          canonical_option("--boundary", arguments.boundary);
 }
 
-/// What a goal with a unit is compared with.
-RasterInfo heights_of(const PointSet& points) {
-  RasterInfo heights;
-  heights.unit_is_assumed = true;
-  heights.crs_unit = "the unit of x and y";
-  if (points.unit_in_metres > 0) heights.unit_in_metres = points.unit_in_metres;
-  return heights;
-}
-
 void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
   for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
 }
@@ -86,6 +82,25 @@ std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
   if (!affine.is_array() || affine.size() != 6 || !affine[0].is_number() || !affine[3].is_number()) return std::nullopt;
   if (affine[1] != 1 || affine[2] != 0 || affine[4] != 0 || affine[5] != 1) return std::nullopt;
   return std::array{affine[0].get<double>(), affine[3].get<double>()};
+}
+
+/// How the points of such a mesh are read, unless `given` says otherwise.
+Result<ReadOptions> remember_reading(const RasterArguments& given, const Mesh& mesh, const std::string& path) {
+  const auto find = [&](const char* key) {
+    const auto entry = mesh.metadata.find(key);
+    return entry == mesh.metadata.end() ? Given() : Given(entry->second);
+  };
+  RasterArguments asked = given;
+  if (find("duplicates")) asked = remember_options(given, mesh);  // what a raster was scaled by is its own
+  asked.cell_size = given.cell_size;
+  if (!given.crs) asked.crs = find("crs_option");
+  if (!given.crs && asked.crs == Given("local") && way_to_source(mesh)) asked.crs = "source";
+  if (!given.nodata) asked.nodata = find("nodata");
+  auto options = asked.parse();
+  if (!options) return options;
+  options->heights_in = find("unit") == Given("m") ? HeightsIn::kMetres : heights_in(path);
+  options->default_frame = default_frame(path) == DefaultFrame::kLocal ? DefaultFrame::kLocal : DefaultFrame::kMetric;
+  return options;
 }
 
 /// Puts a mesh in a local frame back to where the points lie: by what it says of itself, or, where a format has no
@@ -114,6 +129,10 @@ void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Po
   if (arguments.columns) mesh.metadata["columns"] = *arguments.columns;
   if (arguments.boundary) mesh.metadata["boundary"] = *arguments.boundary;
   if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
+  const RasterInfo& heights = outcome.points.heights;
+  if (heights.z_scale != 1) mesh.metadata["z_scale"] = Json(heights.z_scale).dump();
+  if (heights.z_offset != 0) mesh.metadata["z_offset"] = Json(heights.z_offset).dump();
+  if (!heights.unit.empty()) mesh.metadata["unit"] = heights.unit;
   const Measurement& measured = outcome.simplified.measurement;
   const Json error{{"asked", or_null(outcome.asked)},
                    {"max_error", measured.max_error},
@@ -184,19 +203,12 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
 
   outcome.policy = *policy;
   outcome.boundary = arguments.boundary.value_or("hull");
-  const auto read_as = [&](const std::string& crs) {
-    return read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), plan.read.nodata, runner.progress);
-  };
-  Result<PointSet> points = read_as(crs_option(plan));
+  ReadOptions as = plan.read;
+  as.crs = crs_option(plan);
+  Result<PointSet> points = read(given.raster.path(), arguments, as, runner.progress);
   if (!points) return tl::unexpected(std::move(points.error()));
-  const bool is_metric = plan.read.heights_in == HeightsIn::kMetres;
-  if (const double unit = points->unit_in_metres; is_metric && unit > 0 && unit != 1 && plan.read.crs.empty()) {
-    plan.read.crs = "local";
-    points = read_as(plan.read.crs);
-    if (!points) return tl::unexpected(std::move(points.error()));
-  }
-  if (auto fits = is_metric ? check_unit_of_frame(plan.format, points->unit_in_metres) : Result<void>(); !fits)
-    return fits;
+  if (points->is_local && plan.read.crs.empty()) plan.read.crs = "local";
+  if (auto fits = check_unit_of_frame(plan.format, points->unit_in_metres); !fits) return fits;
   outcome.points = std::move(*points);
   if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
     return fail(ErrorKind::kUsage,
@@ -209,7 +221,8 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
                 fmt::format("--boundary {} cannot be combined with lines, and {} holds them: they may cross what it "
                             "takes away; leave it out",
                             *arguments.boundary, shell_word(base_name(given.raster.path()))));
-  if (auto checked = check_crs_of(plan.format, outcome.points.crs, ""); !checked) return checked;
+  if (auto checked = check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit); !checked)
+    return checked;
   if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
     outcome.centre = local_origin(outcome.points);
   auto projections = plan_projection_files(plan, outcome.points.crs);
@@ -220,7 +233,7 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   const HeightRange heights = height_range(outcome.points);
   if (plan.error_goal) {
     if (auto fits = refuse_print("--max-error", *plan.error_goal); !fits) return fits;
-    if (auto fits = settle_goal("--max-error", heights_of(outcome.points), *plan.error_goal, outcome.warnings); !fits)
+    if (auto fits = settle_goal("--max-error", outcome.points.heights, *plan.error_goal, outcome.warnings); !fits)
       return fits;
   }
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
@@ -269,7 +282,7 @@ Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& argu
 Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments& given,
                           const PointsArguments& arguments, const Runner& runner, JudgedPoints& judged) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(command, given.path); !meant) return meant;
+  if (auto meant = refuse_raster_options(command, given.input.path()); !meant) return meant;
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   std::optional<ErrorGoal> goal;
@@ -292,20 +305,19 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
   judged.policy = *policy;
   const auto boundary_length = parse_boundary(remembered(arguments.boundary, "boundary"));
   if (!boundary_length) return tl::unexpected(boundary_length.error());
-  Given crs = remembered(given.crs, "crs_option");
-  if (!given.crs && crs == Given("local") && way_to_source(judged.mesh)) crs = "source";
   PointsArguments asked = arguments;
   asked.columns = remembered(arguments.columns, "columns");
-  const auto nodata = parse_nodata(remembered(given.nodata, "nodata"));
-  if (!nodata) return tl::unexpected(nodata.error());
-  Result<PointSet> points = read(given.path, asked, crs, *nodata, runner.progress);
-  if (!points && !given.crs && crs)
-    return tl::unexpected(explain_frame(std::move(points.error()), *crs, given.mesh, given.path));
+  const std::string path = given.input.path();
+  const auto as = remember_reading(given.input, judged.mesh, given.mesh);
+  if (!as) return tl::unexpected(as.error());
+  Result<PointSet> points = read(path, asked, *as, runner.progress);
+  if (!points && !given.input.crs && !as->crs.empty())
+    return tl::unexpected(explain_frame(std::move(points.error()), as->crs, given.mesh, path));
   if (!points) return tl::unexpected(std::move(points.error()));
   judged.points = std::move(*points);
-  if (!given.crs) put_back(judged.points, judged.mesh);
+  if (!given.input.crs) put_back(judged.points, judged.mesh);
   if (goal) {
-    if (auto fits = settle_goal("--fail-above", heights_of(judged.points), *goal, judged.points.warnings); !fits)
+    if (auto fits = settle_goal("--fail-above", judged.points.heights, *goal, judged.points.warnings); !fits)
       return fits;
     const HeightRange heights = height_range(judged.points);
     judged.fail_above = goal->absolute(heights.max - heights.min);
@@ -323,7 +335,7 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
   if (judged.measured.samples == 0)
-    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), given.path);
+    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), path);
   return {};
 }
 

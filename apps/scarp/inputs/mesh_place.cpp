@@ -126,6 +126,7 @@ RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh)
                                                     {"unit", &asked.z_unit},
                                                     {"cell_size", &asked.cell_size}};
   for (const auto& [key, option] : options) {
+    if (option == &asked.z_scale && given.z_unit) continue;  // which may hold the way from that unit to metres
     const auto entry = mesh.metadata.find(key);
     if (!*option && entry != mesh.metadata.end()) *option = entry->second;
   }

@@ -10,6 +10,7 @@
 #include "options/option_table.h"
 #include "reports/report.h"
 #include "scarp/commands.h"
+#include "scarp/raster_lines.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -119,9 +120,10 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   options.z_field = z_field.value_or("");
   options.ignore_z = are_soft;
   options.progress = progress;
-  auto lines = read_files(breaklines, options, warnings);
-  if (!lines) return tl::unexpected(std::move(lines.error()));
-  constraints.lines = std::move(*lines);
+  auto set = read_lines(breaklines, options, raster);
+  if (!set) return tl::unexpected(std::move(set.error()));
+  warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
+  constraints.lines = std::move(set->lines);
   // Their heights are the file's, as the raster's are.
   for (Line& each : constraints.lines) {
     for (auto& point : each.points) point[2] = raster.z_scale * point[2] + raster.z_offset;

@@ -131,6 +131,11 @@ HeightsIn heights_in(const std::string& mesh_path) {
   return format ? row_of(*format).heights : HeightsIn::kFrame;
 }
 
+DefaultFrame default_frame(const std::string& mesh_path) {
+  const auto format = find_mesh_format(mesh_path);
+  return format ? row_of(*format).frame : DefaultFrame::kMetric;
+}
+
 Result<void> check_unit_of_frame(const OutputFormat& format, double metres) {
   if (format.heights_in() != HeightsIn::kMetres || metres == 0 || metres == 1) return {};
   return fail(

@@ -65,6 +65,8 @@ Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, co
 
 /// In which unit heights are in a mesh file, by its name.
 HeightsIn heights_in(const std::string& mesh_path);
+/// The frame of a mesh file whose frame nobody chose, by its name.
+DefaultFrame default_frame(const std::string& mesh_path);
 /// kUsage if the format is in metres by its specification, and x and y are in units of another length (0: not known).
 Result<void> check_unit_of_frame(const OutputFormat& format, double metres);
 

@@ -175,8 +175,10 @@ std::string points_facts(const PointSet& points) {
   if (!points.columns.empty()) text += fact_line("read as", points.columns);
   if (!points.lines.empty()) text += fact_line("lines", format_count(points.lines.size()));
   text += range_line("x", box, 0) + range_line("y", box, 1);
-  text += fact_line("heights", fmt::format("{} to {}, relief {}", format_number(box.low[2]), format_number(box.high[2]),
-                                           format_number(box.high[2] - box.low[2])));
+  const std::string& unit = points.heights.unit;
+  text +=
+      fact_line("heights", fmt::format("{} to {}, relief {}{}", format_number(box.low[2]), format_number(box.high[2]),
+                                       format_number(box.high[2] - box.low[2]), unit.empty() ? "" : " " + unit));
   text += fact_line("CRS", crs_words(points.crs));
   return text + fact_line("mesh frame", points.description);
 }
@@ -186,7 +188,8 @@ Json points_facts_report(const PointSet& points, const std::string& command_line
   report["points"] = Json{{"path", points.path},         {"format", points.format},
                           {"count", points.size()},      {"crs", points.crs},
                           {"frame", points.description}, {"bounds", describe_box(box_of(points))},
-                          {"columns", points.columns},   {"without_height", points.without_height}};
+                          {"columns", points.columns},   {"without_height", points.without_height},
+                          {"unit", points.heights.unit}};
   report["warnings"] = points.warnings;
   return report;
 }

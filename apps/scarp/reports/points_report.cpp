@@ -37,6 +37,7 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
               {"min", heights.min},
               {"max", heights.max},
               {"crs", points.crs},
+              {"unit", points.heights.unit},
               {"columns", points.columns},
               {"without_height", points.without_height}};
 }

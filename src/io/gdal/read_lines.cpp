@@ -11,8 +11,10 @@
 
 #include "base/caught.h"
 #include "io/gdal/crs.h"
+#include "io/gdal/earth_frame.h"
 #include "io/gdal/vector.h"
 #include "io/line_heights.h"
+#include "io/points/column_names.h"
 #include "scarp/lines.h"
 
 namespace scarp::gdal {
@@ -253,7 +255,28 @@ Result<void> place(const Crs& crs, const std::string& wanted, LineSet& set) {
   return transform(crs, to, set);
 }
 
-Result<LineSet> read(const std::string& path, const ReadLinesOptions& options) {
+/// Heights in units of so many metres, where theirs is known.
+void convert_heights(OGRLayerH layer, std::optional<int> height_field, double unit_in_metres, LineSet& set) {
+  HeightUnit unit = space_crs_of(declared_layer_crs(layer)).unit;
+  const char* field =
+      height_field ? OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer), *height_field)) : "";
+  if (const std::string named = unit_named_in(field); !named.empty()) unit = {named, find_metres(named).value_or(0)};
+  const double factor = unit.metres / unit_in_metres;
+  if (unit.metres == 0 || factor == 1) return;
+  bool has_heights = false;
+  for (Line& line : set.lines) {
+    for (auto& point : line.points) {
+      has_heights = has_heights || !std::isnan(point[2]);
+      point[2] *= factor;
+    }
+  }
+  if (has_heights)
+    set.warnings.push_back(
+        fmt::format("{}: heights in {} are multiplied by {:.10g}, for the unit of the raster's heights", set.path,
+                    unit.name, factor));
+}
+
+Result<LineSet> read(const std::string& path, const ReadLinesOptions& options, double unit_in_metres) {
   Session session(is_remote(path));
   const auto opened = open(session, path);
   if (!opened) return tl::unexpected(opened.error());
@@ -277,6 +300,7 @@ Result<LineSet> read(const std::string& path, const ReadLinesOptions& options) {
   if (set.lines.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no lines or polygons", set.path, set.layer));
   collector.warn();
+  if (unit_in_metres > 0 && !options.ignore_z) convert_heights(*layer, height_field, unit_in_metres, set);
   const Crs crs = layer_crs(*layer);
   set.crs = crs_name(crs);
   if (auto placed = place(crs, options.crs, set); !placed) return tl::unexpected(placed.error());
@@ -289,8 +313,8 @@ Result<LineSet> read(const std::string& path, const ReadLinesOptions& options) {
 
 namespace scarp {
 
-Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options) try {
-  return gdal::read(path, options);
+Result<LineSet> read_lines_in(const std::string& path, const ReadLinesOptions& options, double unit_in_metres) try {
+  return gdal::read(path, options, unit_in_metres);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }

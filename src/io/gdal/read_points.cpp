@@ -10,9 +10,11 @@
 
 #include "grid/local_frame.h"
 #include "io/gdal/crs.h"
+#include "io/gdal/earth_frame.h"
 #include "io/gdal/vector.h"
 #include "io/lent.h"
 #include "io/points/column_names.h"
+#include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 #include "scarp/commands.h"
 
@@ -58,19 +60,30 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
 }
 
 /// What the third coordinates of a layer are. Its type may be silent on them; its features are not.
-enum class ThirdCoordinates { kNone, kAllZero, kHeights };
+struct ThirdCoordinates {
+  std::optional<double> first;  ///< none: there are no third coordinates
+  bool differ = false;          ///< NaN is like NaN
+
+  void add(OGRGeometryH geometry) {
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry) && !differ; ++i) add(OGR_G_GetGeometryRef(geometry, i));
+    const bool has_points = OGR_G_GetGeometryCount(geometry) == 0;
+    for (int i = 0; has_points && i < OGR_G_GetPointCount(geometry) && !differ; ++i) {
+      const double z = OGR_G_GetZ(geometry, i);
+      if (!first) first = z;
+      differ = z != *first && !(std::isnan(z) && std::isnan(*first));
+    }
+  }
+};
 
 ThirdCoordinates look_at_third_coordinates(OGRLayerH layer) {
-  ThirdCoordinates found = ThirdCoordinates::kNone;
+  ThirdCoordinates found;
   OGR_L_ResetReading(layer);
   while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
     if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) continue;
     if (OGR_G_Is3D(geometry) == 0) return found;
-    found = ThirdCoordinates::kAllZero;
-    OGREnvelope3D box{};
-    OGR_G_GetEnvelope3D(geometry, &box);
-    if (!(box.MinZ == 0 && box.MaxZ == 0)) return ThirdCoordinates::kHeights;
+    found.add(geometry);
+    if (found.differ) return found;
   }
   return found;
 }
@@ -106,17 +119,21 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
   const auto name_of = [&](int index) {
     return std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer), index)));
   };
+  const auto take = [&](int index) {
+    points.columns = "height: attribute " + name_of(index);
+    points.heights.unit = unit_named_in(name_of(index));
+  };
   if (!wanted.empty()) {
     const auto index = find_field(layer, path, wanted);
     if (!index) return tl::unexpected(index.error());
-    points.columns = "height: attribute " + name_of(*index);
+    take(*index);
     return *index;
   }
   const ThirdCoordinates third = look_at_third_coordinates(layer);
   points.columns = "height: third coordinate";
-  if (third == ThirdCoordinates::kHeights) return std::nullopt;
+  if (third.differ) return std::nullopt;
   const std::optional<int> named = find_named_height(layer);
-  if (!named && third == ThirdCoordinates::kNone)
+  if (!named && !third.first)
     return fail(ErrorKind::kInput,
                 fmt::format("{}: the features of the layer {} have no third coordinate, and no attribute z, height, "
                             "elevation, elev or h: name the one that holds heights with --z-field",
@@ -124,16 +141,16 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
   if (!named) {
     const std::string fields = list_of_fields(layer, false);
     points.warnings.push_back(fmt::format(
-        "{}: all heights are 0{}", path,
+        "{}: all heights are {}{}", path, *third.first,
         fields.empty() ? std::string() : ": if an attribute holds them, name it with --z-field (" + fields + ")"));
     return std::nullopt;
   }
-  points.columns = "height: attribute " + name_of(*named);
-  if (third == ThirdCoordinates::kAllZero)
+  take(*named);
+  if (third.first)
     points.warnings.push_back(
-        fmt::format("{}: the third coordinate is 0 everywhere, so the heights are those of the "
+        fmt::format("{}: the third coordinate is {} everywhere, so the heights are those of the "
                     "attribute {}: --z-field names another",
-                    path, name_of(*named)));
+                    path, *third.first, name_of(*named)));
   if (const std::string others = list_of_fields(layer, true, *named); !others.empty())
     points.warnings.push_back(
         fmt::format("{}: the heights are those of the attribute {}, not of {}: --z-field names another", path,
@@ -278,14 +295,9 @@ class PointCollector {
   std::uint64_t without_geometry_ = 0, without_extent_ = 0;
 };
 
-double centre_of(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *least + (*most - *least) / 2;
-}
-
 /// Degrees to metres by the two constants of the ellipsoid at the middle of the points; see grid/local_frame.cpp.
 Result<void> make_local(const Crs& crs, PointSet& points) {
-  const double x = centre_of(points.x), y = centre_of(points.y);
+  const auto [x, y] = middle_of(points);
   const std::string way = fmt::format("ogr2ogr -a_srs EPSG:CODE {} {}", new_file(".gpkg"), file_word(points.path));
   if (auto verified = verify_degrees(crs, {x, y}, points.path, way); !verified) return verified;
   MetresPerRadian metres{1, 1};
@@ -309,21 +321,9 @@ Result<void> make_local(const Crs& crs, PointSet& points) {
           "the points span so many degrees of latitude that east-west lengths in the local frame are off by more than "
           "5 % at their edge; choose a projected CRS if shapes matter");
   } else {
-    char* name = nullptr;  // owned by the CRS
-    const double unit = OSRGetLinearUnits(crs.get(), &name);
-    metres = {unit, unit};
-    for (double& value : points.z) value *= unit;
-    if (unit != 1)
-      points.warnings.push_back(
-          fmt::format("nobody tells the unit of the heights: they are taken for {}, as x and y are, and become metres",
-                      name != nullptr ? name : "the unit of the CRS"));
+    metres = {points.unit_in_metres, points.unit_in_metres};
   }
-  for (double& value : points.x) value = (value - x) * metres.east;
-  for (double& value : points.y) value = (value - y) * metres.north;
-  points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y, short_name(crs));
-  points.crs.clear();
-  points.is_local = true;
-  points.unit_in_metres = 1;
+  make_local_metres({metres.east, metres.north}, short_name(crs), points);
   return {};
 }
 
@@ -347,14 +347,20 @@ Result<void> project(const Crs& from, const std::string& wanted, PointSet& point
   return {};
 }
 
-Result<void> place(const Crs& crs, const std::string& wanted, PointSet& points) {
+Result<void> place(const Crs& crs, const ReadPointsOptions& options, PointSet& points) {
+  const std::string& wanted = options.crs;
   if (wanted == "grid")
     return fail(ErrorKind::kUsage, points.path + ": scattered points have no grid: ask for 'source' or 'local'");
   points.crs = crs_name(crs);
   points.description = crs ? fmt::format("coordinates in {}", short_name(crs)) : "the points' own coordinates (no CRS)";
   const bool is_geographic = crs && OSRIsGeographic(crs.get()) != 0;
-  points.unit_in_metres = !crs || is_geographic ? 0 : OSRGetLinearUnits(crs.get(), nullptr);
-  if (wanted.empty() && !is_geographic) return {};
+  if (crs && !is_geographic) {
+    char* name = nullptr;  // owned by the CRS
+    points.unit_in_metres = OSRGetLinearUnits(crs.get(), &name);
+    points.heights.crs_unit = name != nullptr ? name : "the unit of x and y";
+    points.heights.crs_unit_in_metres = points.unit_in_metres;
+  }
+  if (wanted.empty() && !is_geographic && !becomes_local(options, points.unit_in_metres)) return {};
   if (wanted == "source") {
     if (is_geographic)
       points.warnings.push_back(
@@ -404,7 +410,10 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
                                   : fmt::format("{} lines of {} are a single point each, and count as points",
                                                 collector.without_extent(), path));
   const Crs crs = layer_crs(*layer);
-  if (auto placed = place(crs, options.crs, points); !placed) return tl::unexpected(placed.error());
+  if (auto placed = place(crs, options, points); !placed) return tl::unexpected(placed.error());
+  const SpaceCrs in_space = space_crs_of(declared_layer_crs(*layer));
+  if (auto settled = settle_point_heights(options, in_space.unit, points); !settled)
+    return tl::unexpected(settled.error());
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);
   return points;
 }
@@ -418,12 +427,13 @@ Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptio
   return gdal::read(path, options);
 }
 
-Result<void> place_lent_points(const ReadPointsOptions& options, PointSet& points) {
+Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points) {
   gdal::Session session;
   const bool is_unnamed = points.crs.empty() && points.is_geographic;
   const auto crs = gdal::find_crs_of(points.path, is_unnamed ? "EPSG:4326" : points.crs);
   if (!crs) return tl::unexpected(crs.error());
-  return gdal::place(gdal::copy_crs(crs->get()), options.crs, points);
+  if (auto placed = gdal::place(*crs, options, points); !placed) return tl::unexpected(placed.error());
+  return gdal::space_crs_of(*crs).unit;
 }
 
 bool opens_as_raster(const std::string& path) {

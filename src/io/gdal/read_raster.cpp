@@ -6,6 +6,8 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -33,17 +35,6 @@ struct Plan {
   RasterInfo info;
 };
 
-/// x and y in one unit, z in another: the promise holds, the shape does not.
-void warn_of_units(const Frame& frame, RasterInfo& info) {
-  const double across = frame.unit_in_metres, up = info.unit_in_metres;
-  if (!(across > 0) || !(up > 0) || info.unit.empty() || std::abs(up / across - 1) < 1e-5) return;
-  info.warnings.push_back(fmt::format(
-      "z is in {} but x and y are in {}: if the shape matters, --z-scale {:.10g} makes them one unit", info.unit,
-      frame.kind == Frame::Kind::kProjected || info.crs_unit.empty() ? fmt::format("units of {:.10g} m", across)
-                                                                     : info.crs_unit,
-      up / across));
-}
-
 /// With the range, where that is known.
 void warn_of_depths(const Plan& plan, const ReadOptions& options, RasterInfo& info) {
   const SpaceCrs& crs = plan.georeference.in_space;
@@ -67,6 +58,10 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
   plan.dataset = std::move(*dataset);
   plan.info.path = path;
   const bool is_text = GDALGetMetadataItem(plan.dataset.get(), kTextGridKey, nullptr) != nullptr;
+  if (const char* warnings = GDALGetMetadataItem(plan.dataset.get(), kTextWarningsKey, nullptr)) {
+    std::istringstream lines(warnings);
+    for (std::string line; std::getline(lines, line);) plan.info.warnings.push_back(line);
+  }
   plan.info.format = is_text ? "XYZ" : GDALGetDriverShortName(GDALGetDatasetDriver(plan.dataset.get()));
   if (options.decode == Decode::kNone) {
     auto band = plan_band(plan.dataset.get(), path, options, plan.info);

@@ -13,6 +13,7 @@
 #include "io/gdal/crs.h"
 #include "io/gdal/memory_file.h"
 #include "io/gdal/open.h"
+#include "io/points/point_columns.h"
 #include "io/points/point_grid.h"
 #include "io/points/point_source.h"
 #include "io/spool.h"
@@ -29,7 +30,8 @@ Crs find_crs_beside(const std::string& path) {
   return dataset ? copy_crs(GDALGetSpatialRef(dataset.get())) : nullptr;
 }
 
-Result<std::string> keep_as_geotiff(const PointGrid& grid, const std::string& path) {
+Result<std::string> keep_as_geotiff(const PointGrid& grid, const std::string& unit, const std::string& warnings,
+                                    const std::string& path) {
   const auto refuse = [&] { return fail(ErrorKind::kOutput, path + ": GDAL cannot make a GeoTIFF of its nodes"); };
   const MemoryFile file("tif");
   {
@@ -39,11 +41,13 @@ Result<std::string> keep_as_geotiff(const PointGrid& grid, const std::string& pa
     GDALRasterBandH band = GDALGetRasterBand(made.get(), 1);
     GDALSetGeoTransform(made.get(), place.data());
     GDALSetRasterNoDataValue(band, std::numeric_limits<double>::quiet_NaN());
+    if (!unit.empty()) GDALSetRasterUnitType(band, unit.c_str());
     if (const Crs crs = find_crs_beside(path)) GDALSetSpatialRef(made.get(), crs.get());
     const std::string nodes =
         fmt::format("{} x {} nodes{}", grid.cols, grid.rows,
                     grid.missing == 0 ? std::string() : fmt::format(", {} of them missing", grid.missing));
     GDALSetMetadataItem(made.get(), kTextGridKey, nodes.c_str(), nullptr);
+    if (!warnings.empty()) GDALSetMetadataItem(made.get(), kTextWarningsKey, warnings.c_str(), nullptr);
     auto* heights = const_cast<double*>(grid.heights.data());
     if (GDALRasterIO(band, GF_Write, 0, 0, grid.cols, grid.rows, heights, grid.cols, grid.rows, GDT_Float64, 0, 0) !=
         CE_None)
@@ -57,12 +61,17 @@ Result<std::string> make_text_grid(const std::string& name, const std::string& p
   if (!bytes) return std::string();
   ReadPointsOptions options;
   options.nodata = std::numeric_limits<double>::quiet_NaN();  // a node without a number is missing
+  options.heights_in = HeightsIn::kFile;
   std::optional<PointGrid> grid;
+  std::string unit;
   {
     const auto points = decode_columns(*bytes, path, options);
     if (points) grid = find_grid(*points);
+    if (points) unit = points->heights.unit;
   }
-  return grid ? keep_as_geotiff(*grid, path) : std::string();
+  if (!grid) return std::string();
+  const auto columns = find_columns({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path, options);
+  return keep_as_geotiff(*grid, unit, columns ? fmt::format("{}", fmt::join(columns->warnings, "\n")) : "", path);
 }
 
 }  // namespace

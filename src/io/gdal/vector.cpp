@@ -60,6 +60,11 @@ std::string layer_names(GDALDatasetH dataset) {
   return names;
 }
 
+Crs declared_layer_crs(OGRLayerH layer) {
+  const OGRSpatialReferenceH borrowed = OGR_L_GetSpatialRef(layer);
+  return borrowed == nullptr ? nullptr : Crs(OSRClone(borrowed));
+}
+
 Crs layer_crs(OGRLayerH layer) {
   Crs crs = copy_crs(OGR_L_GetSpatialRef(layer));
   if (crs && std::string_view(OSRGetName(crs.get())).starts_with("Undefined ")) return nullptr;

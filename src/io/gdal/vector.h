@@ -34,6 +34,8 @@ Result<int> find_field(OGRLayerH layer, const std::string& path, const std::stri
 /// The names of all layers, with commas.
 std::string layer_names(GDALDatasetH dataset);
 
+/// As the layer says it, with a vertical datum; null if it has none.
+Crs declared_layer_crs(OGRLayerH layer);
 /// The CRS of a layer; none where the file says that it is undefined (GeoPackage's srs_id 0 and -1).
 Crs layer_crs(OGRLayerH layer);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/mesh/mesh_file_text.h"
+#include "io/raster/height_unit.h"
 
 namespace scarp {
 namespace {
@@ -34,12 +35,11 @@ constexpr std::array<Words, 5> kWords{kXWords, kYWords, kHeightWords, kNumberWor
 
 /// Words that say in which unit or frame, and not what.
 bool says_nothing(std::string_view word) {
-  constexpr std::string_view kIdle[] = {"m",       "ft",         "usft",        "feet",        "foot",        "meter",
-                                        "meters",  "metre",      "utm",         "metres",      "wgs84",       "etrs89",
-                                        "coord",   "coordinate", "coordinates", "point",       "ortho",       "msl",
-                                        "surface", "ground",     "value",       "ellipsoidal", "orthometric", "terrain",
-                                        "deg",     "dd",         "degree",      "degrees"};
-  return std::find(std::begin(kIdle), std::end(kIdle), word) != std::end(kIdle);
+  constexpr std::string_view kIdle[] = {
+      "utm", "wgs84", "etrs89",      "coord",         "coordinate", "coordinates", "point",  "ortho",
+      "msl", "us",    "survey",      "international", "surface",    "ground",      "value",  "intl",
+      "deg", "dd",    "ellipsoidal", "orthometric",   "terrain",    "degree",      "degrees"};
+  return std::find(std::begin(kIdle), std::end(kIdle), word) != std::end(kIdle) || find_metres(std::string(word));
 }
 
 /// Small ASCII letters; umlauts as two letters, from UTF-8 and Latin-1.
@@ -77,19 +77,51 @@ std::string spelled_out(std::string_view name) {
   return lowered(text);
 }
 
-std::string plain(std::string_view name) {
-  std::string text = spelled_out(name);
-  text.resize(std::min(text.find_first_of("([{"), text.size()));
+std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words(1);
   for (const char c : text) {
     const bool is_part = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '?';
     if (is_part) words.back() += c;
     if (!is_part && !words.back().empty()) words.emplace_back();
   }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+/// A name before its brackets and in them.
+std::array<std::string, 2> split_at_bracket(std::string_view name) {
+  const std::string text = spelled_out(name);
+  const std::size_t bracket = std::min(text.find_first_of("([{"), text.size());
+  return {text.substr(0, bracket), text.substr(bracket)};
+}
+
+/// The longest run of words that is a unit of length, the last of several: "in feet". Empty if there is none.
+std::string longest_unit(const std::vector<std::string>& words, std::size_t first) {
+  for (std::size_t size = words.size(); size > 0; --size) {
+    for (std::size_t k = words.size() - size + 1; k-- > first;) {
+      std::string run = words[k];
+      for (std::size_t i = k + 1; i < k + size; ++i) run += " " + words[i];
+      if (find_metres(run)) return run;
+    }
+  }
+  return {};
+}
+
+/// "elevft" is "elev" and "ft". The unit's place in the word; its size where there is none.
+std::size_t find_joined_unit(const std::string& word) {
+  for (std::size_t k = 3; k + 2 <= word.size(); ++k) {
+    const bool is_height =
+        std::find(std::begin(kHeightWords), std::end(kHeightWords), word.substr(0, k)) != std::end(kHeightWords);
+    if (is_height && find_metres(word.substr(k))) return k;
+  }
+  return word.size();
+}
+
+std::string plain(std::string_view name) {
   std::string joined, all;
-  for (const std::string& word : words) {
+  for (const std::string& word : words_of(split_at_bracket(name)[0])) {
     all += word;
-    if (!says_nothing(word)) joined += word;
+    if (!says_nothing(word)) joined += word.substr(0, find_joined_unit(word));
   }
   return joined.empty() ? all : joined;
 }
@@ -134,6 +166,19 @@ const char* role_name(ColumnRole role) {
 
 ColumnRole role_of(std::string_view name) { return find(name).role; }
 std::size_t rank_of(std::string_view name) { return find(name).rank; }
+
+std::string unit_named_in(std::string_view name) {
+  const auto [before, within] = split_at_bracket(name);
+  if (std::string unit = longest_unit(words_of(within), 0); !unit.empty()) return unit;
+  const std::vector<std::string> words = words_of(before);
+  if (std::string unit = longest_unit(words, 1); !unit.empty()) return unit;
+  return words.empty() ? "" : words[0].substr(find_joined_unit(words[0]));
+}
+
+bool is_axis_letter(std::string_view name) {
+  const std::string word = plain(name);
+  return word.starts_with('x') || word.starts_with('y');
+}
 
 bool names_degrees(std::string_view name) {
   const std::string word = plain(name);

@@ -22,6 +22,13 @@ ColumnRole role_of(std::string_view name);
 /// The place of a name in the list of its role: of several names for one thing the one with the least counts.
 std::size_t rank_of(std::string_view name);
 
+/// The unit of length in a name: "ft" of "Elevation (ft)" and of "ELEV_FT", "us survey feet" of "H [US survey feet]".
+/// Empty if there is none.
+std::string unit_named_in(std::string_view name);
+
+/// True for x and y themselves: "X", "y (m)", "XKoordinate". Geodesists call the northing x.
+bool is_axis_letter(std::string_view name);
+
 /// True for the names of degrees.
 bool names_degrees(std::string_view name);
 

@@ -12,13 +12,15 @@
 #include <unordered_set>
 
 #include "io/mesh/mesh_file_text.h"
+#include "io/points/column_facts.h"
 #include "io/points/column_names.h"
 #include "io/points/text_lines.h"
+#include "scarp/commands.h"
 
 namespace scarp {
 namespace {
 
-constexpr std::size_t kMostColumns = 16, kMostRows = 1 << 16;
+constexpr std::size_t kMostRows = 1 << 16;
 constexpr std::array<ColumnRole, 3> kAxes{ColumnRole::kX, ColumnRole::kY, ColumnRole::kHeight};
 
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
@@ -32,67 +34,6 @@ std::size_t count_numbers(std::string_view line, char separator) {
   while (const auto field = take_field(line, separator)) numbers += parse_field(*field, separator != ',') ? 1 : 0;
   return numbers;
 }
-
-/// What the rows show of one column.
-struct ColumnFacts {
-  std::uint64_t filled = 0, numbers = 0;
-  double low = std::numeric_limits<double>::infinity(), high = -low, first = 0, last = 0, step = 0;
-  bool are_whole = true, has_even_steps = true;
-
-  void add(std::string_view field, bool has_decimal_comma) {
-    filled += field.empty() ? 0 : 1;
-    const auto value = parse_field(field, has_decimal_comma);
-    if (!value || !std::isfinite(*value)) return;
-    if (numbers == 0) first = *value;
-    if (numbers == 1) step = *value - first;
-    if (numbers >= 1) has_even_steps = has_even_steps && std::abs(*value - last - step) <= 1e-6 * std::abs(step);
-    are_whole = are_whole && field.find_first_of(".,eE") == std::string_view::npos;
-    low = std::min(low, *value);
-    high = std::max(high, *value);
-    last = *value;
-    ++numbers;
-  }
-  bool lies_in(double from, double to) const { return low >= from && high < to; }
-  double extent() const { return high - low; }
-};
-
-struct Rows {
-  std::vector<ColumnFacts> columns;
-  std::uint64_t count = 0;
-  bool are_labels_unique = true;  ///< of the first column
-
-  bool holds_numbers(std::size_t column) const {
-    return columns[column].numbers > 0 && columns[column].numbers * 2 >= count;
-  }
-  /// The columns of numbers from the left, without the first one where it counts.
-  std::vector<std::size_t> coordinates() const {
-    std::vector<std::size_t> list;
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      if (holds_numbers(k)) list.push_back(k);
-    }
-    if (list.size() >= 4 && list[0] == 0 && first_counts(list)) list.erase(list.begin());
-    return list;
-  }
-
- private:
-  /// Numbers of points are whole and unlike, while x and y have decimals; or they go up evenly, as neither x nor y
-  /// does.
-  bool first_counts(const std::vector<std::size_t>& list) const {
-    const ColumnFacts &number = columns[0], &a = columns[list[1]], &b = columns[list[2]];
-    if (number.are_whole && !a.are_whole && !b.are_whole) return true;
-    const bool is_even = count >= 3 && number.has_even_steps && number.step != 0;
-    const bool is_transect = a.has_even_steps || b.has_even_steps;
-    return !is_transect && (is_even || (number.are_whole && are_labels_unique && is_map_pair(a, b)));
-  }
-
- public:
-  /// Coordinates of UTM and of most national grids: one of the two lies beyond a million.
-  static bool is_northing(const ColumnFacts& facts) { return facts.lies_in(1e6, 1.1e7); }
-  static bool is_easting(const ColumnFacts& facts) { return facts.lies_in(1e5, 1e6); }
-  static bool is_map_pair(const ColumnFacts& a, const ColumnFacts& b) {
-    return (is_northing(a) && is_easting(b)) || (is_easting(a) && is_northing(b));
-  }
-};
 
 Rows look_at_rows(TextLines lines, std::string_view line, const PointColumns& columns) {
   Rows rows;
@@ -156,6 +97,12 @@ void take_names(std::string_view line, char separator, PointColumns& columns) {
   for (const std::string_view field : fields_of(line, separator)) columns.names.emplace_back(field);
 }
 
+void take_units(PointColumns& columns) {
+  for (std::size_t axis = 0; axis < columns.at.size(); ++axis) {
+    if (columns.at[axis] < columns.names.size()) columns.units[axis] = unit_named_in(columns.names[columns.at[axis]]);
+  }
+}
+
 /// The option's value for columns that have these places.
 std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool has_number) {
   std::string text(std::min(count, kMostColumns), '-');
@@ -170,9 +117,9 @@ void warn_of_turned_names(const Rows& rows, PointColumns& columns) {
   const auto [x, y, height] = columns.at;
   if (std::max(x, y) >= rows.columns.size()) return;
   const ColumnFacts &across = rows.columns[x], &up = rows.columns[y];
-  if (lowered(columns.names[x]) != "x" || lowered(columns.names[y]) != "y") return;
+  if (!is_axis_letter(columns.names[x]) || !is_axis_letter(columns.names[y])) return;
   const bool are_on_map = across.low >= 1e5 && up.low >= 1e5;
-  if (!(Rows::is_northing(across) && Rows::is_easting(up)) && !(are_on_map && y < x)) return;
+  if (!fit_pair(across, up).is_north_first && !(are_on_map && y < x)) return;
   columns.warnings.push_back(
       fmt::format("x begins at {:.9g} and y at {:.9g}: if x is the northing here, as on many geodetic grids, name the "
                   "columns with --columns {}",
@@ -185,6 +132,38 @@ bool are_degrees(const ColumnFacts& a, const ColumnFacts& b, const ColumnFacts& 
          height.extent() > 10 * extent;
 }
 
+/// Which columns are x, y and the height, where others are more like them than the first three.
+Result<void> check_places(const Rows& rows, const std::vector<std::size_t>& list, const std::string& name,
+                          PointColumns& columns) {
+  const auto option_at = [&](std::size_t one, std::size_t other, std::size_t height) {
+    const ColumnFacts &a = rows.columns[one], &b = rows.columns[other];
+    const PairFit fit = fit_pair(a, b);
+    const bool is_turned =
+        (fit.is_north_first && !fit.is_east_first) || (a.lies_in(-90, 90.1) && b.lies_in(-180, 180.1) && b.high > 90.1);
+    const std::array<std::size_t, 3> at{is_turned ? other : one, is_turned ? one : other, height};
+    return "--columns " + option_for(rows.columns.size(), at, list[0] > 0);
+  };
+  if (const auto k = find_later_pair(rows, list))
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: columns {} and {} would be x and y, but {} and {} look more like them, and no header "
+                            "names the columns: give {}, or name them otherwise",
+                            name, list[0] + 1, list[1] + 1, list[*k] + 1, list[*k + 1] + 1,
+                            option_at(list[*k], list[*k + 1], list[*k + 2])));
+  const auto doubt = doubt_height(rows, list);
+  if (!doubt) return {};
+  const ColumnFacts& instead = rows.columns[doubt->instead];
+  const std::string sentence =
+      fmt::format("column {} would be the height and {}, while column {} reaches from {:.9g} to {:.9g}", list[2] + 1,
+                  doubt->why, doubt->instead + 1, instead.low, instead.high);
+  const std::string other = option_at(list[0], list[1], doubt->instead);
+  if (!doubt->is_certain) {
+    columns.warnings.push_back(fmt::format("{}: if that is the height, give {}", sentence, other));
+    return {};
+  }
+  return fail(ErrorKind::kInput, fmt::format("{}: {}, and no header names the columns: give {} or {}", name, sentence,
+                                             other, option_at(list[0], list[1], list[2])));
+}
+
 /// Which of the two columns before the height is the northing.
 Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, const std::string& name,
                         PointColumns& columns) {
@@ -195,6 +174,7 @@ Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, 
   const std::string straight_option = option_for(rows.columns.size(), columns.at, has_labels),
                     turned_option = option_for(rows.columns.size(), turned, has_labels);
   const std::string options = fmt::format("--columns {} or --columns {}", straight_option, turned_option);
+  if (auto sure = check_places(rows, list, name, columns); !sure) return sure;
   constexpr double kHighest = 1e5;  // the highest summit has 29,032 feet
   if (height.low > kHighest || height.high < -kHighest)
     return fail(ErrorKind::kInput,
@@ -212,10 +192,8 @@ Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, 
     if (is_lat_first) columns.at = turned;
     return {};
   }
-  const bool is_north_first = Rows::is_northing(a) && Rows::is_easting(b),
-             is_east_first = Rows::is_easting(a) && Rows::is_northing(b);
-  if (is_east_first || (!has_labels && !is_north_first)) return {};
-  if (!has_labels || !is_north_first)
+  if (has_labels ? is_easting(a) && is_northing(b) : !fit_pair(a, b).is_north_first) return {};
+  if (!has_labels || !is_northing(a) || !is_easting(b))
     return fail(ErrorKind::kInput,
                 fmt::format("{}: no header says which of the columns {} and {} is the easting: give {}", name,
                             list[0] + 1, list[1] + 1, options));
@@ -241,6 +219,29 @@ Result<void> read_header(std::string_view line, const std::string& name, std::ui
                           name, number, std::string_view("xyz").substr(missing, 1), in_quotes(line),
                           is_named ? options.z_field : kUsual[missing],
                           missing == 2 && !is_named ? "--z-field names another, and " : ""));
+}
+
+/// The last line of text that stands before the names of columns or before points, where the first line, `line`, is
+/// such text; else 0.
+std::uint64_t find_preface(TextLines lines, std::string_view line, const ReadPointsOptions& options) {
+  constexpr int kMostLines = 50;
+  std::size_t missing = 0;
+  PointColumns first;
+  take_names(line, find_separator(line), first);
+  if (read_names(options.z_field, first, missing)) return 0;
+  std::uint64_t last = lines.number();
+  std::string_view next;
+  for (int k = 0; k < kMostLines && lines.next(next); ++k) {
+    const char separator = find_separator(next);
+    PointColumns later;
+    take_names(next, separator, later);
+    const bool are_names = is_header(next, separator) && read_names(options.z_field, later, missing);
+    const bool are_numbers = count_numbers(next, separator) >= 3 && fields_of(line, separator).size() < 3;
+    if (are_names || are_numbers) return last;
+    if (count_numbers(next, separator) >= 3) return 0;
+    last = lines.number();
+  }
+  return 0;
 }
 
 }  // namespace
@@ -276,11 +277,25 @@ Result<PointColumns> find_columns(std::string_view text, const std::string& name
     const auto at = parse_columns(options.columns, columns.words);
     if (!at) return tl::unexpected(at.error());
     columns.at = *at;
+    if (columns.has_header) take_names(line, columns.separator, columns);
+    take_units(columns);
     return columns;
   }
   const Rows rows = look_at_rows(lines, line, columns);
+  const bool may_be_split =
+      columns.separator == ',' && (!columns.has_header || rows.columns.size() > fields_of(line, ',').size());
+  if (may_be_split && are_split_at_commas(rows))
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: numbers seem to have a decimal comma, and commas stand between the columns, too: "
+                            "separate the columns with semicolons, or write numbers with a decimal point",
+                            name));
   std::size_t missing = 0;
   if (columns.has_header) {
+    if (const std::uint64_t last = find_preface(lines, line, options); last > 0)
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: line {} names no columns and holds no point: put # in front of all lines up to {} "
+                              "that do not ({})",
+                              name, lines.number(), last, comment_out_command(name, last)));
     if (auto read = read_header(line, name, lines.number(), options, columns); !read)
       return tl::unexpected(read.error());
     warn_of_turned_names(rows, columns);
@@ -300,6 +315,7 @@ Result<PointColumns> find_columns(std::string_view text, const std::string& name
       if (auto told = tell_apart(rows, list, name, columns); !told) return tl::unexpected(told.error());
     }
   }
+  take_units(columns);
   columns.words = describe(columns, rows.columns.size());
   return columns;
 }

@@ -17,6 +17,7 @@ struct PointColumns {
   bool in_degrees = false;             ///< by the names in the header
   std::vector<std::size_t> heights{};  ///< other columns whose names say that they hold heights
   std::vector<std::string> names{};    ///< of the header; may be empty
+  std::array<std::string, 3> units{};  ///< that the header names, of x, y and height; empty: none
   std::string words{};                 ///< "1 number, 2 y, 3 x, 4 height"
   std::vector<std::string> warnings{};
 

@@ -13,6 +13,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/column_names.h"
 #include "io/points/point_columns.h"
+#include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 #include "io/points/text_lines.h"
 #include "scarp/commands.h"
@@ -119,8 +120,18 @@ Result<void> read_lines_of(TextLines lines, std::string_view line, const PointCo
   return {};
 }
 
-bool are_all_zero(const std::vector<double>& heights) {
-  return std::all_of(heights.begin(), heights.end(), [](double z) { return z == 0; });
+bool are_all_alike(const std::vector<double>& heights) {
+  return std::all_of(heights.begin(), heights.end(), [&](double z) { return z == heights.front(); });
+}
+
+/// "UTF-16" by its mark, "UTF-16LE" or "UTF-16BE" by the zeros of the first characters; else empty.
+std::string find_wide_encoding(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 4) return {};
+  const int mark = bytes[0] << 8 | bytes[1];
+  if (mark == 0xfffe || mark == 0xfeff) return "UTF-16";
+  const auto is_letter = [](int first, int second) { return first >= 9 && first < 127 && second == 0; };
+  if (is_letter(bytes[0], bytes[1]) && is_letter(bytes[2], bytes[3])) return "UTF-16LE";
+  return is_letter(bytes[1], bytes[0]) && is_letter(bytes[3], bytes[2]) ? "UTF-16BE" : "";
 }
 
 /// GDAL's reader of CSV has to be told which columns are coordinates: without it makes a table without points.
@@ -136,11 +147,37 @@ std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::
   if (columns.separator == ' ') command += " -oo MERGE_SEPARATOR=YES";
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t at = columns.at[k];
-    const std::string column = columns.has_header ? columns.names[at] : fmt::format("field_{}", at + 1);
+    if (k == 2 && !columns.units[k].empty()) continue;  // an attribute keeps the name that says it
+    const bool is_named = columns.has_header && at < columns.names.size();
+    const std::string column = is_named ? columns.names[at] : fmt::format("field_{}", at + 1);
     command += " -oo " + file_word(fmt::format("{}_POSSIBLE_NAMES={}", "XYZ"[k], column));
+  }
+  while (lines.next(line)) {
+  }
+  if (lines.has_passed()) {  // GDAL takes comments for names and points
+    const std::string made = new_file(".csv");
+    return fmt::format("{} && {} {} {}", uncomment_command(name, made), command, new_file(".gpkg"), made);
   }
   const bool is_csv = lowered(name).ends_with(".csv") || lowered(name).ends_with(".tsv");
   return fmt::format("{} {} {}{}", command, new_file(".gpkg"), is_csv ? "" : "CSV:", file_word(name));
+}
+
+tl::unexpected<Error> refuse_frame(std::span<const std::uint8_t> bytes, const std::string& name,
+                                   const ReadPointsOptions& options) {
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} says nothing of its CRS, so its coordinates cannot be given in '{}': ask for 'source', "
+                          "or make a GeoPackage with a CRS of it ({})",
+                          name, options.crs, describe_conversion(bytes, name, options, "EPSG:CODE")));
+}
+
+/// Those that the header names.
+void take_units_of(const PointColumns& columns, PointSet& points) {
+  const auto& [x, y, height] = columns.units;
+  points.heights.unit = height;
+  const double metres = find_metres(x).value_or(0);
+  if (metres == 0 || metres != find_metres(y).value_or(0)) return;
+  points.unit_in_metres = points.heights.crs_unit_in_metres = metres;
+  points.heights.crs_unit = x;
 }
 
 }  // namespace
@@ -161,16 +198,16 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
                                 const ReadPointsOptions& options) {
   if (!options.layer.empty())
     return fail(ErrorKind::kUsage, name + ": a text of columns has no layers: leave the layer out");
-  if (!options.crs.empty() && options.crs != "source")
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} says nothing of its CRS, so its coordinates cannot be given in '{}': ask for 'source', "
-                            "or make a GeoPackage with a CRS of it ({})",
-                            name, options.crs, describe_conversion(bytes, name, options, "EPSG:CODE")));
+  if (!options.crs.empty() && options.crs != "source" && options.crs != "local")
+    return refuse_frame(bytes, name, options);
   PointSet points;
   points.path = name;
   points.format = name.ends_with(".xyz") ? "XYZ" : "CSV";
   points.description = "the points' own coordinates (no CRS)";
   const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  if (const std::string encoding = find_wide_encoding(bytes); !encoding.empty())
+    return fail(ErrorKind::kInput, fmt::format("{}: text in {}, of which nothing is read: make UTF-8 of it ({})", name,
+                                               encoding, utf8_command(encoding, name)));
   TextLines lines(text);
   std::string_view line;
   if (!lines.next(line))
@@ -184,17 +221,18 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
   if (points.size() == 0) return fail(ErrorKind::kInput, name + ": no point has a height other than that of --nodata");
   points.warnings = std::move(columns->warnings);
   points.columns = columns->words;
+  take_units_of(*columns, points);
   const auto name_at = [&](std::size_t column) { return in_quotes(columns->names[column]); };
   if (!columns->heights.empty() && options.z_field.empty()) {
     const std::string chosen = name_at(columns->at[2]), other = columns->names[columns->heights.front()];
-    if (are_all_zero(points.z)) {
+    if (are_all_alike(points.z)) {
       ReadPointsOptions with_other = options;
       with_other.z_field = other;
       auto again = decode_columns(bytes, name, with_other);
       if (again)
-        again->warnings.push_back(
-            fmt::format("{}: the heights of the column {} are all 0, so those of {} count: --z-field names another",
-                        name, chosen, in_quotes(other)));
+        again->warnings.push_back(fmt::format(
+            "{}: the heights of the column {} are all {:.9g}, so those of {} count: --z-field names another", name,
+            chosen, points.z.front(), in_quotes(other)));
       return again;
     }
     points.warnings.push_back(fmt::format("{}: the heights are those of the column {}: --z-field {} reads the others",
@@ -205,6 +243,10 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
         "x and y look like degrees, which do not mix with heights: make a GeoPackage with a CRS of the file "
         "({}) for a local frame in metres",
         describe_conversion(bytes, name, options, "EPSG:4326")));
+  if (options.crs == "local" && points.unit_in_metres == 0) return refuse_frame(bytes, name, options);
+  if (options.crs == "local" || becomes_local(options, points.unit_in_metres))
+    make_local_metres({points.unit_in_metres, points.unit_in_metres}, "the points' own coordinates", points);
+  if (auto settled = settle_point_heights(options, {}, points); !settled) return tl::unexpected(settled.error());
   return points;
 }
 

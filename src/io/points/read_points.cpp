@@ -19,6 +19,7 @@
 #include "io/kinds.h"
 #include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
+#include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 #include "io/spool.h"
 #include "scarp/height_field.h"
@@ -109,14 +110,48 @@ void warn_of_missing_heights(PointSet& points) {
   heights.reserve(points.size());
   std::copy_if(points.z.begin(), points.z.end(), std::back_inserter(heights),
                [](double z) { return std::abs(z) <= std::numeric_limits<float>::max(); });
-  for (const UndeclaredNodata& missing : find_undeclared_nodata(range_of(heights))) {
+  for (const UndeclaredNodata& missing :
+       find_undeclared_nodata(range_of(heights), points.heights.z_scale, points.heights.z_offset)) {
     const bool is_one = missing.of.samples == 1;
     points.warnings.push_back(fmt::format(
         "{}: {} exactly the height {}, far {} all others ({:.6g} to {:.6g}): if {} none, --nodata {} leaves {} out",
         points.path, is_one ? "1 point has" : fmt::format("{} points have", missing.of.samples),
         static_cast<float>(missing.of.height), missing.is_high ? "above" : "below", missing.min, missing.max,
-        is_one ? "it has" : "they have", static_cast<float>(missing.of.height), is_one ? "it" : "them"));
+        is_one ? "it has" : "they have", static_cast<float>(missing.value), is_one ? "it" : "them"));
   }
+}
+
+/// The points at the place that is the farthest from all others, where those are a speck beside the way to it; points
+/// without coordinates mostly lie at 0, 0.
+void warn_of_far_points(PointSet& points) {
+  if (points.size() < 4) return;
+  const auto middle = [](std::vector<double> values) {
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    return *half;
+  };
+  const double x = middle(points.x), y = middle(points.y);
+  const auto way = [&](std::size_t i) { return std::max(std::abs(points.x[i] - x), std::abs(points.y[i] - y)); };
+  std::size_t far = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) far = way(i) > way(far) ? i : far;
+  const auto is_far = [&](std::size_t i) { return points.x[i] == points.x[far] && points.y[i] == points.y[far]; };
+  std::size_t count = 0;
+  double size = 0;  // half of that of the others
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_far(i))
+      ++count;
+    else
+      size = std::max(size, way(i));
+  }
+  const bool is_origin = points.x[far] == 0 && points.y[far] == 0;
+  const double least = 2 * size * (is_origin ? 5 : 100);
+  if (size == 0 || !(way(far) > least) || count * 4 > points.size()) return;
+  points.warnings.push_back(
+      fmt::format("{}: {} at {:.9g}, {:.9g} (point {}, counted from 0), {:.6g} away from where all others lie, within "
+                  "{:.6g}: remove {} "
+                  "if that is no place of the survey",
+                  points.path, count == 1 ? "1 point lies" : fmt::format("{} points lie", count), points.x[far],
+                  points.y[far], far, way(far), 2 * size, count == 1 ? "it" : "them"));
 }
 
 }  // namespace
@@ -125,6 +160,7 @@ Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& o
   const PointSet* const lent = find_lent_points(path);
   auto points = lent != nullptr ? read_lent_points(*lent, path, options) : read_by_content(path, options);
   if (points) warn_of_missing_heights(*points);
+  if (points) warn_of_far_points(*points);
   return points;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);

@@ -20,10 +20,13 @@ class TextLines {
   std::size_t bytes_left() const { return rest_.size(); }
   /// The comment just before the line that next() gave last, without its sign; empty if there is none.
   std::string_view comment() const { return comment_; }
+  /// True once a comment or an empty line was passed over.
+  bool has_passed() const { return has_passed_; }
 
  private:
   std::string_view rest_, comment_;
   std::uint64_t number_ = 0;
+  bool has_passed_ = false;
 };
 
 /// Takes the first field off the line; nothing if there is none left. ' ' stands for runs of blanks and tabs. Quotes

@@ -30,6 +30,13 @@ constexpr NamedLength kLengths[] = {{"m", 1},
                                     {"international feet", kFoot},
                                     {"us-ft", kSurveyFoot},
                                     {"ftus", kSurveyFoot},
+                                    {"usft", kSurveyFoot},
+                                    {"us ft", kSurveyFoot},
+                                    {"ft us", kSurveyFoot},
+                                    {"us foot", kSurveyFoot},
+                                    {"us feet", kSurveyFoot},
+                                    {"survey ft", kSurveyFoot},
+                                    {"us survey ft", kSurveyFoot},
                                     {"us survey foot", kSurveyFoot},
                                     {"us survey feet", kSurveyFoot},
                                     {"survey foot", kSurveyFoot},
@@ -146,6 +153,26 @@ Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& fram
   info.z_scale = settled.z_scale;
   info.z_offset = settled.z_offset;
   return settled;
+}
+
+void warn_of_units(const Frame& frame, RasterInfo& info) {
+  const double across = frame.unit_in_metres, up = info.unit_in_metres;
+  if (!(across > 0) || !(up > 0) || info.unit.empty() || std::abs(up / across - 1) < 1e-5) return;
+  info.warnings.push_back(fmt::format(
+      "z is in {} but x and y are in {}: if the shape matters, --z-scale {:.10g} makes them one unit", info.unit,
+      frame.kind == Frame::Kind::kProjected || info.crs_unit.empty() ? fmt::format("units of {:.10g} m", across)
+                                                                     : info.crs_unit,
+      up / across));
+}
+
+double metres_in_file(const RasterInfo& info) {
+  if (!info.file_unit.empty()) return find_metres(info.file_unit).value_or(0);
+  const double factor = std::abs(info.z_scale);
+  if (factor == 1 || !info.unit.empty()) return info.unit_in_metres;
+  // A factor that is a unit of length makes metres of it; any other makes heights of others.
+  const bool is_length =
+      std::ranges::any_of(kLengths, [&](const NamedLength& length) { return is_about(factor, length.metres); });
+  return is_length ? factor : info.unit_in_metres;
 }
 
 }  // namespace scarp

@@ -24,4 +24,9 @@ bool is_foot(double metres);
 Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& frame, RasterInfo& info,
                                    const HeightUnit& vertical = {});
 
+/// Warns of x and y in one unit and z in another: the promise holds, the shape does not.
+void warn_of_units(const Frame& frame, RasterInfo& info);
+/// Metres of the unit of the values in the file of a raster, before z_scale; 0 for words that are no known length.
+double metres_in_file(const RasterInfo& info);
+
 }  // namespace scarp

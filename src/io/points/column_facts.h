@@ -1,0 +1,64 @@
+// What the rows of a text show of its columns, and what that speaks for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scarp {
+
+inline constexpr std::size_t kMostColumns = 16;
+
+struct ColumnFacts {
+  std::uint64_t filled = 0, numbers = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low, first = 0, last = 0, step = 0;
+  bool are_whole = true, has_even_steps = true;
+  bool leads_with_zero = false;         ///< some number of several digits does
+  std::size_t narrow = 1000, wide = 0;  ///< characters
+
+  void add(std::string_view field, bool has_decimal_comma);
+  bool lies_in(double from, double to) const { return low >= from && high < to; }
+  double extent() const { return high - low; }
+};
+
+struct Rows {
+  std::vector<ColumnFacts> columns;
+  std::uint64_t count = 0;
+  bool are_labels_unique = true;  ///< of the first column
+
+  bool holds_numbers(std::size_t column) const {
+    return columns[column].numbers > 0 && columns[column].numbers * 2 >= count;
+  }
+  /// The columns of numbers from the left, without the first one where it counts.
+  std::vector<std::size_t> coordinates() const;
+};
+
+/// Which orders of a pair of columns are those of map coordinates, by their size.
+struct PairFit {
+  bool is_east_first = false, is_north_first = false;
+};
+PairFit fit_pair(const ColumnFacts& one, const ColumnFacts& other);
+/// UTM and most national grids: a northing beyond a million, and an easting below.
+bool is_northing(const ColumnFacts& facts);
+bool is_easting(const ColumnFacts& facts);
+
+/// What speaks against a column of heights.
+struct HeightDoubt {
+  std::string why;          ///< "counts", "is 0 everywhere"
+  std::size_t instead = 0;  ///< a later column that may hold them
+  bool is_certain = true;   ///< false: a warning is enough
+};
+/// `list`: the columns of numbers, the first three of which would be x, y and the height.
+std::optional<HeightDoubt> doubt_height(const Rows& rows, const std::vector<std::size_t>& list);
+
+/// The place in `list` of two columns that are x and y rather than the first two are.
+std::optional<std::size_t> find_later_pair(const Rows& rows, const std::vector<std::size_t>& list);
+
+/// True where each number has become two columns, at its decimal comma.
+bool are_split_at_commas(const Rows& rows);
+
+}  // namespace scarp

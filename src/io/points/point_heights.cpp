@@ -1,0 +1,69 @@
+#include "io/points/point_heights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "io/points/point_source.h"
+#include "scarp/commands.h"
+
+namespace scarp {
+namespace {
+
+double middle_of_axis(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *least + (*most - *least) / 2;
+}
+
+}  // namespace
+
+std::array<double, 2> middle_of(const PointSet& points) { return {middle_of_axis(points.x), middle_of_axis(points.y)}; }
+
+bool becomes_local(const ReadPointsOptions& options, double unit_in_metres) {
+  return options.crs.empty() && options.default_frame == DefaultFrame::kLocal && unit_in_metres != 0 &&
+         unit_in_metres != 1;
+}
+
+void make_local_metres(const std::array<double, 2>& metres, const std::string& whose, PointSet& points) {
+  const auto [x, y] = middle_of(points);
+  for (double& value : points.x) value = (value - x) * metres[0];
+  for (double& value : points.y) value = (value - y) * metres[1];
+  points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y, whose);
+  points.crs.clear();
+  points.is_local = true;
+  points.unit_in_metres = 1;
+}
+
+Result<void> settle_point_heights(const ReadPointsOptions& options, const HeightUnit& vertical, PointSet& points) {
+  RasterInfo& info = points.heights;
+  info.path = points.path;
+  ReadOptions wanted;
+  wanted.z_scale = options.z_scale;
+  wanted.z_offset = options.z_offset;
+  wanted.z_unit = options.z_unit;
+  wanted.heights_in = options.heights_in;
+  Frame frame;
+  const bool is_moved = options.crs.empty() && options.default_frame == DefaultFrame::kLocal;
+  const bool is_projected = !points.is_local && !options.crs.empty() && options.crs != "source";
+  frame.kind = points.is_local || is_moved ? Frame::Kind::kLocal
+               : is_projected              ? Frame::Kind::kProjected
+                                           : Frame::Kind::kSource;
+  frame.unit_in_metres = points.unit_in_metres;
+  const auto settled = settle_heights(wanted, frame, info, vertical);
+  if (!settled) return tl::unexpected(settled.error());
+  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, info);
+  if (settled->z_scale != 1 || settled->z_offset != 0) {
+    for (double& z : points.z) z = settled->z_scale * z + settled->z_offset;
+  }
+  points.warnings.insert(points.warnings.end(), info.warnings.begin(), info.warnings.end());
+  if (settled->z_scale != options.z_scale && points.unit_in_metres == 0 && points.crs.empty())
+    points.warnings.push_back(fmt::format(
+        "x and y have no CRS and stay as they are, while heights become metres: give the points their CRS first ({})",
+        is_text_of_columns(points.path)
+            ? geopackage_command(points.path, "EPSG:CODE")
+            : fmt::format("ogr2ogr -a_srs EPSG:CODE {} {}", new_file(".gpkg"), file_word(points.path))));
+  return {};
+}
+
+}  // namespace scarp
