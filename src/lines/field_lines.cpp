@@ -312,11 +312,13 @@ std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follo
   return followed;
 }
 
-/// Of breaklines with heights, before the raster takes them.
+/// Of breaklines with heights, before the raster takes them. Those at zero count tenfold: most were never given
+/// heights.
 FarthestLine find_farthest(std::span<const Line> lines, const std::array<double, 6>& affine,
                            const LineSamples& samples) {
   const MapToSamples to_samples(affine);
   FarthestLine farthest;
+  const auto weight = [](double distance, bool is_at_zero) { return (is_at_zero ? 10 : 1) * distance; };
   for (const Line& line : lines) {
     if (line.kind != LineKind::kBreakline) continue;
     double distance = -1;
@@ -326,7 +328,8 @@ FarthestLine find_farthest(std::span<const Line> lines, const std::array<double,
       if (way > distance) distance = way;  // NaN: a soft line, or beside the surface
       is_at_zero = is_at_zero && z == 0;
     }
-    if (distance < 0 || (!farthest.name.empty() && distance <= farthest.distance)) continue;
+    const bool is_farther = weight(distance, is_at_zero) > weight(farthest.distance, farthest.is_at_zero);
+    if (distance < 0 || (!farthest.name.empty() && !is_farther)) continue;
     farthest = {line.name, distance, is_at_zero};
   }
   return farthest;

@@ -77,6 +77,20 @@ refuses 1 "--line-conflict" "$scarp" simplify hills.tif x.glb -e 12 --breaklines
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict mean
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --edges data --breaklines soft.geojson
 refuses 1 "--importance cannot be combined with --breaklines" "$scarp" simplify hills.tif x.glb -e 12 --importance local --breaklines soft.geojson
+# Zeros need not lie far from low land.
+succeeds gdal_translate -q -ot Float32 -scale 0 1000 4 4.8 hills.tif low.tif
+succeeds "$scarp" simplify low.tif low.obj -e 0.5 --breaklines zero.geojson --soft-breaklines
+[ ! -s "$logs/err" ] || fail "lines without heights are warned of"
+python3 - <<'PYTHON'
+import json
+lines = json.load(open("zero.geojson"))
+del lines["features"][0]
+json.dump(lines, open("low.geojson", "w"))
+PYTHON
+succeeds "$scarp" simplify low.tif low.obj -e 0.5 --breaklines low.geojson --overwrite
+grep -Eq "warning: --breaklines: low.geojson feature 0 lies up to 4[0-9.]* from the raster, and all its heights are 0" "$logs/err" ||
+  fail "a line at height 0 on low land cuts a trench without a word"
+
 # A height that no float32 holds; lines far from the raster, which is told; a file that says that its CRS is undefined.
 python3 - <<'PYTHON'
 import json

@@ -147,7 +147,8 @@ Json describe_lines(const LineArguments& given, const Simplified& simplified) {
 void warn_of_far_lines(const Simplified& simplified, double error, std::vector<std::string>& warnings) {
   constexpr double kMostErrors = 10;
   const FarthestLine& line = simplified.farthest_line;
-  if (line.distance > kMostErrors * error) {
+  // Zeros seldom are heights, so that they need not lie far from the raster.
+  if (line.distance > (line.is_at_zero ? 1 : kMostErrors) * error) {
     warnings.push_back(fmt::format(
         "--breaklines: {} lies up to {} from the raster{}: {}--soft-breaklines takes the "
         "heights of lines from the raster",
