@@ -303,9 +303,12 @@ class BudgetSearch {
     is_at_floor_ = number == floor_ || (!has_effort_ && reached <= floor_);
     see(fits_, Sight{std::log(std::max(reached, kLeast)), std::log(used)});
     end_by(*made);
-    // Lines that follow the floor may need more than those of the number that was found to reach it.
-    const bool is_larger = has_room_ && made->mesh.triangle_count() > best_.mesh.triangle_count();
-    if (is_larger || (!is_at_floor_ && !is_better(*made))) {
+    // Lines that follow the floor may need more than those of the number that was found to reach it; and where it is
+    // but a cap, a mesh of fewer triangles may have the larger squared error.
+    const bool is_worse = has_room_ && (options_.goals.objective == Objective::kMax
+                                            ? made->mesh.triangle_count() > best_.mesh.triangle_count()
+                                            : !is_better(*made));
+    if (is_worse || (!is_at_floor_ && !is_better(*made))) {
       add_work(*made, others_);
       return {};
     }

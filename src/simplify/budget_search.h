@@ -47,8 +47,8 @@ struct BudgetTask {
 };
 
 /// The mesh with the least Simplified::judged_max_error, or judged_rmse (options.objective), of those that the search
-/// has seen within the budgets; at options.max_error, or at factor 1, if that fits; the exact one if the budgets leave
-/// room for it and nothing else is asked for.
+/// has seen within the budgets; at options.max_error, or at factor 1, if that fits: for the max error the one with the
+/// fewest triangles; the exact one if the budgets leave room for it and nothing else is asked for.
 ///
 /// Guarantees: no budget is exceeded; what is minimised is not larger than in the mesh of fast effort for the same
 /// budgets; the result is a function of what `run` returns. The search ends with at least 99 % of a budget used (97 %

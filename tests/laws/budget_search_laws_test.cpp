@@ -122,6 +122,24 @@ TEST(budget_search, a_bound_that_fits_is_the_goal) {
   EXPECT_EQ(made.mesh.positions, bounded.mesh.positions);
 }
 
+TEST(budget_search, a_squared_error_is_not_given_up_for_fewer_triangles) {
+  // Greedy insertion reaches the max error with the last triangle of the budget; efforts reach it with fewer.
+  const Field field = testing::random_field(3, 5, 18, Relief::kReal);
+  SimplifyOptions options{.goals = {.max_error = 5.0, .max_triangles = 118}, .quality = {.effort = Effort::kFast}};
+  const auto greedy = *simplify(field.view(), options);
+  ASSERT_EQ(greedy.stop, StopReason::kMaxError);
+  for (const Effort effort : {Effort::kNormal, Effort::kHigh}) {
+    options.quality.effort = effort;
+    options.goals.objective = Objective::kMax;
+    EXPECT_LT(simplify(field.view(), options)->mesh.triangle_count(), greedy.mesh.triangle_count());
+    options.goals.objective = Objective::kRms;
+    const auto made = *simplify(field.view(), options);
+    EXPECT_LE(made.measurement.rmse, greedy.measurement.rmse);
+    EXPECT_LE(made.measurement.max_error, 5);
+    EXPECT_EQ(made.stop, StopReason::kMaxError);
+  }
+}
+
 TEST(budget_search, ends_with_its_time_and_the_best_mesh_so_far) {
   const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
   const auto with = [&](const std::function<bool()>& is_time_up) {
