@@ -37,7 +37,7 @@ struct ShapeGoals {
   std::optional<double> max_edge = std::nullopt;
   /// Growth rate of edge lengths, above 0. No edge is longer than 2·(s + grade·d): s is the length of the shortest edge
   /// at any vertex, d the distance from that vertex, along edges, to the far end of the edge. An s below half a sample
-  /// (of its longer side), or below min_edge, counts as that. DEFAULT: none.
+  /// (of its longer side) counts as that. DEFAULT: none.
   std::optional<double> grade = std::nullopt;
   /// Shortest edge, in the units of the mesh's x and y, above 0, at most half of max_edge: the time step of a flow
   /// solver follows the shortest edge. All other goals come first: edges that they need stay shorter, and are counted

@@ -84,8 +84,7 @@ class ShapeRefiner {
   Result<ShapeWork> run() {
     note_all();
     if (task_.goals.grade) {
-      const double finest = std::max(kFinestSize * metric_.longer_side(), task_.goals.min_edge.value_or(0));
-      sizes_.emplace(tin_, metric_, *task_.goals.grade, finest);
+      sizes_.emplace(tin_, metric_, *task_.goals.grade, kFinestSize * metric_.longer_side());
       sizes_->measure_all(out_);
     }
     if (const double least = least_triangles(tin_, metric_, task_.goals, sizes_ ? &*sizes_ : nullptr); task_.foresee) {

@@ -94,6 +94,9 @@ succeeds "$scarp" simplify hills.tif short.obj -e 10 --up z --min-edge 3 --max-e
 holds "$(json r.json shape shorter) > 0 && $(json r.json shape longest_edge) <= 20"
 grep -q 'shape .* shorter than 3 (.* for the max error)' "$logs/out" || fail "short edges are not told"
 succeeds "$scarp" measure hills.tif short.obj --fail-above 10
+succeeds "$scarp" simplify hills.tif short.obj -e 10 --up z --min-edge 3 --grade 0.2 --report r.json --overwrite
+holds "$(json r.json shape shorter) > 0"
+grep -q 'warning: --min-edge 3: .* for the max error or grade)' "$logs/err" || fail "no warning of edges that the grade makes short"
 
 # Goals that fight: angles come before the shortest edge, lines before angles. What yields is counted and warned of.
 for effort in fast normal high; do

@@ -185,6 +185,13 @@ RC_GTEST_PROP(shape, edges_grow_no_faster_than_asked, ()) {
   SimplifyOptions options = any_run();
   options.quality.shape.grade = *rc::gen::element(0.05, 0.2, 1.0);
   if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_angle = 25;
+  // What comes after grade costs none.
+  if (*rc::gen::arbitrary<bool>())
+    options.quality.shape.min_edge = longer_side(view.frame) * *rc::gen::element(0.7, 2.0, 6.0);
+  if (*rc::gen::element(false, false, true)) {
+    options.features.breaklines.lines = any_two_lines(field);
+    options.features.breaklines.affine = {0, 1, 0, 0, 0, 1};
+  }
   const Simplified result = simplified(view, options);
   RC_ASSERT(worst_growth(result.mesh, *options.quality.shape.grade, longer_side(view.frame) / 2) <= 1);
 }
@@ -288,8 +295,7 @@ RC_GTEST_PROP(shape, goals_that_fight_yield_by_their_rank, ()) {
   const ShapeGoals& goals = options.quality.shape;
   const ShapeReport& shape = *result.shape;
   RC_ASSERT(!goals.max_edge || longest_edge(result.mesh) <= *goals.max_edge);
-  const double least = std::max(longer_side(grid_frame(field.rows)) / 2, goals.min_edge.value_or(0));
-  RC_ASSERT(!goals.grade || worst_growth(result.mesh, *goals.grade, least) <= 1);
+  RC_ASSERT(!goals.grade || worst_growth(result.mesh, *goals.grade, longer_side(grid_frame(field.rows)) / 2) <= 1);
   RC_ASSERT(count_below(result.mesh, goals.min_angle) <= shape.below);
   RC_ASSERT(shape.below <= count_below(result.mesh, goals.min_angle + 2e-4));
   RC_ASSERT(shape.shorter == (goals.min_edge ? count_shorter(result.mesh, *goals.min_edge) : 0));

@@ -42,9 +42,11 @@ std::string describe_below(const ShapeReport& shape) {
 
 /// Why edges are too short.
 std::string describe_shorter(const ShapeGoals& goals, const ShapeReport& shape) {
-  return list_counts({{shape.shorter_beside_lines, "at lines or outline"},
-                      {shape.shorter - shape.shorter_beside_lines,
-                       goals.min_angle > 0 ? "for the max error or angles" : "for the max error"}});
+  const char* elsewhere = goals.min_angle > 0 ? "for the max error or angles" : "for the max error";
+  if (goals.grade)
+    elsewhere = goals.min_angle > 0 ? "for the max error, grade or angles" : "for the max error or grade";
+  return list_counts(
+      {{shape.shorter_beside_lines, "at lines or outline"}, {shape.shorter - shape.shorter_beside_lines, elsewhere}});
 }
 
 }  // namespace
