@@ -86,7 +86,7 @@ enum class WhyFast {
 /// Which goal ended the run.
 enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 
-/// The breakline that lies farthest above or below the raster, at one of its vertices as given.
+/// The breakline farthest above or below the raster, at a vertex as given; lines that are 0 everywhere count tenfold.
 struct FarthestLine {
   std::string name;         ///< empty: none has heights
   double distance = 0;      ///< in z units
