@@ -134,6 +134,8 @@ struct RasterInfo {
   VoidCount voids = {};   ///< if has_range, or the samples are in memory
   std::string view = {};  ///< what ReadOptions::view made of the files, in words; empty for one raster as it is
   PackedDoubts packed = {};  ///< of heights packed into colours
+  std::string depths = {};     ///< what says that the values are depths, which were left so; else empty
+  bool seems_degrees = false;  ///< x and y look like degrees, though the CRS is in lengths, or there is none
 };
 
 /// A height field that owns its samples, or their source. nodata samples are NaN.

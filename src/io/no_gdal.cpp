@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "grid/local_frame.h"
-#include "io/points/point_heights.h"
 #include "io/lent.h"
 #include "io/line_heights.h"
 #include "io/mesh/mesh_file.h"
+#include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 #include "io/raster/crs_description.h"
 #include "io/raster/raster_finish.h"

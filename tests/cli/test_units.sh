@@ -135,7 +135,7 @@ for crs in EPSG:32616+5715 EPSG:32616+5831; do
   succeeds "$scarp" simplify depths.tif depths.obj -e 6 --overwrite --report r.json
   grep -q 'depths.tif: its vertical CRS, .* depth.*, counts downwards: .*upside down.* --z-scale, such as -1' "$logs/err" ||
     fail "depths in $crs are heights in silence"
-  grep -q 'counts downwards' r.json || fail "no depths in the report"
+  json r.json input depths | grep -q 'counts downwards' || fail "no depths in the report"
   succeeds "$scarp" simplify depths.tif turned.obj -e 6 --overwrite --z-scale -1
   [ ! -s "$logs/err" ] || fail "depths that are turned are warned of"
   holds "$(awk '$1 == "v" { print $3 }' turned.obj | sort -g | tail -1) < 0"

@@ -87,6 +87,8 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
   Json& undeclared = input["undeclared_nodata"] = Json::array();
   for (const UndeclaredNodata& nodata : as_read.undeclared_nodata)
     undeclared.push_back(Json{{"value", nodata.value}, {"samples", nodata.of.samples}});
+  if (!as_read.depths.empty()) input["depths"] = as_read.depths;
+  if (as_read.seems_degrees) input["seems_degrees"] = true;
   if (!as_read.packed.seems.empty() || as_read.packed.torn > 0) {
     input["packed"] = Json{{"torn", as_read.packed.torn}, {"torn_by", as_read.packed.torn_by}};
     input["packed"]["seems"] = as_read.packed.seems.empty() ? Json(nullptr) : Json(as_read.packed.seems);

@@ -47,6 +47,8 @@ Frame source_frame(const Georeference& geo) {
 /// Coordinates that look like degrees, without a CRS or in one of lengths.
 void doubt_lengths(const Georeference& geo, RasterInfo& info) {
   if (geo.geographic || info.format == "memory" || !looks_like_degrees(geo.pixels, geo.cols, geo.rows)) return;
+  if (geo.crs && OSRIsProjected(geo.crs.get()) == 0) return;
+  info.seems_degrees = true;
   if (!geo.crs) {
     info.warnings.push_back(
         fmt::format("the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if "
@@ -54,7 +56,6 @@ void doubt_lengths(const Georeference& geo, RasterInfo& info) {
                     translate_command("-a_srs EPSG:4326", info.path)));
     return;
   }
-  if (OSRIsProjected(geo.crs.get()) == 0) return;
   const Crs degrees = copy_crs(Crs(OSRCloneGeogCS(geo.crs.get())).get());
   const std::string name = crs_name(degrees);
   info.warnings.push_back(

@@ -41,6 +41,7 @@ void warn_of_depths(const Plan& plan, const ReadOptions& options, RasterInfo& in
   const std::string reason =
       crs.is_down ? fmt::format("its vertical CRS, {}, counts downwards", crs.vertical) : plan.band.depths;
   if (reason.empty() || options.as_values || options.z_scale < 0) return;
+  info.depths = reason;
   info.warnings.push_back(
       info.has_range && info.max <= 0
           ? fmt::format("{}: {}, but no value is above 0: they are taken for heights, not for depths", info.path,
