@@ -3,7 +3,7 @@
 
 usage: tools/draw_tiles.py SCARP PICTURE.png
 
-Needs matplotlib. Tiles are read by tests/cli/tiles.py, without any of Scarp's code."""
+Needs matplotlib. Tiles are read by tests/program/tiles.py, without any of Scarp's code."""
 import pathlib
 import subprocess
 import sys

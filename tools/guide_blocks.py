@@ -3,7 +3,7 @@
 
 usage: guide_blocks.py FILE LANGUAGE [NUMBER]     prints the fenced blocks of the language, or one of them (from 0)
        guide_blocks.py --check TREE               each block of docs/guide and of the READMEs of bindings has a test, which
-                                                  names its file: tests/cli/guide_blocks.tsv
+                                                  names its file: tests/program/guide_blocks.tsv
 """
 import pathlib
 import re
@@ -18,7 +18,7 @@ def blocks_of(path, language):
 
 def check(tree):
     claims = {}
-    for line in (tree / "tests/cli/guide_blocks.tsv").read_text().splitlines():
+    for line in (tree / "tests/program/guide_blocks.tsv").read_text().splitlines():
         if line and not line.startswith("#"):
             file, language, test = line.split("\t")
             claims[file, language] = test

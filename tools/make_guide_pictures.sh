@@ -137,6 +137,6 @@ view big-r1-c1.stl printing_tile.png +Z 120,-60,220 100,260,0
 
 # Tiles: as triangles, and in CesiumJS, of which the test of make globe takes the picture.
 /usr/bin/python3 "$tree/tools/draw_tiles.py" "$scarp" "$tree/docs/images/tiles_levels.png"
-SCARP_SHOTS=$scratch SCARP_BUILD=$(dirname "$(dirname "$scarp")") SCARP_SOURCE=$tree bash "$tree/tests/cli/test_globe.sh"
+SCARP_SHOTS=$scratch SCARP_BUILD=$(dirname "$(dirname "$scarp")") SCARP_SOURCE=$tree bash "$tree/tests/browsers/test_globe.sh"
 shrink globe.png 900
 mv globe.png "$out/globe_cesium.png"

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# The static site: every link and picture is there, and a browser opens its pages from disk without a request elsewhere.
+source "$(dirname "$0")/../program/lib.sh"
+need python3 node npm
+[ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ] || skip "needs the engine of make npm"
+"$SCARP_SOURCE/tools/build_viewer.sh" "$SCARP_BUILD" > build.log 2>&1 || skip "the viewer's page cannot be built: $(tail -1 build.log)"
+succeeds "$SCARP_SOURCE/tools/build_site.sh" "$SCARP_BUILD" site
+python3 - << 'E2'
+import html.parser, pathlib
+site, links = pathlib.Path("site"), 0
+
+
+class Links(html.parser.HTMLParser):
+    def handle_starttag(self, tag, attributes):
+        global links
+        for name, value in attributes:
+            if name in ("href", "src") and ":" not in value.split("/")[0]:
+                path = (self.page.parent / value.split("#")[0]) if value.split("#")[0] else self.page
+                assert path.exists(), (self.page, value)
+                links += 1
+
+
+pages = [page for page in site.rglob("*.html") if page.name not in ("try.html", "example.html")]
+for page in pages:
+    reader = Links()
+    reader.page = page
+    reader.feed(page.read_text())
+assert len(pages) > 20 and links > 300, (len(pages), links)
+print(len(pages), "pages,", links, "links")
+E2
+need chromium
+npm_judges playwright-core axe-core || skip "npm could not fetch playwright-core and axe-core"
+python3 - > jobs.json << 'E2'
+import json, os
+folder = os.path.abspath("site")
+ready = {"until": "document.readyState === 'complete'"}
+jobs = [{"page": f"{folder}/{name}", "folder": folder, "steps": [ready | {"shot": os.path.basename(name)}], "axe": True, "dark": dark}
+        for name, dark in (("index.html", False), ("docs/guide/viewer.html", True))]
+jobs.append({"page": f"{folder}/try.html", "steps": [{"until": "!document.getElementById('notice').hidden", "read": "document.getElementById('notice').textContent"}]})
+jobs.append({"page": f"{folder}/example.html", "steps": [{"until": "window.scarp_page?.drawn > 0", "read": "document.title"}]})
+print(json.dumps(jobs))
+E2
+shots=${SCARP_SHOTS:-$scratch}
+succeeds node "$js/viewer.mjs" jobs.json "$shots" "$(command -v chromium)"
+python3 - "$logs/out" << 'E2'
+import json, sys
+answers = json.load(open(sys.argv[1]))
+for answer in answers:
+    assert "failed" not in answer and not answer["errors"] and not answer["elsewhere"] and not answer["violations"], answer
+assert "Drop a GeoTIFF" in answers[2]["values"][0] and answers[3]["values"] == ["jacksboro.glb"], answers
+E2

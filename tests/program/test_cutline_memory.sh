@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# --cutline, --inset and --mask-outside with --memory: polygons cross strips whose samples stay in their file, and
+# the surface that stays is the one that would stay in memory.
+source "$(dirname "$0")/lib.sh"
+need python3 ogrinfo
+
+succeeds "$scarp" generate smooth 1000 800 hills.tif --seed 3 -q
+python3 - <<'PYTHON'
+import json, math
+def collection(name, *polygons):
+    json.dump({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring + ring[:1] for ring in rings]}}
+        for rings in polygons]}, open(name, "w"))
+star = [[550 + r * math.cos(a), 400 + 0.85 * r * math.sin(a)] for k in range(14) for a, r in [(k * math.pi / 7, 430 if k % 2 else 260)]]
+hole = [[460.3, 330.2], [640.1, 370.7], [520.6, 530.4]]
+# All along a sample's rows and columns, and where strips may meet.
+blocks = [[[[10, y], [110, y], [110, y + h], [10, y + h]]] for y, h in [(20, 80), (125, 125), (266, 1), (532, 250)]]
+collection("star.geojson", [star, hole], *blocks)
+collection("away.geojson", [[[-90, -90], [-80, -90], [-80, -80]]])
+collection("line.geojson", [[[500, 100], [600, 100.5], [550.5, 330], [500, 700.25]]])
+PYTHON
+
+small=76M # the samples alone are 3 MB, so they stay in their file, and strips are low
+cut=(--cutline star.geojson)
+succeeds "$scarp" simplify hills.tif held.obj -e 12 --up z --effort fast "${cut[@]}" --report held.json
+for effort in fast normal high max; do
+  for threads in 1 5; do
+    succeeds "$scarp" simplify hills.tif "cut$threads.obj" -e 12 --up z --effort "$effort" "${cut[@]}" --memory "$small" -j "$threads" \
+      --report r.json --overwrite
+  done
+  cmp cut1.obj cut5.obj || fail "-j 5 makes another mesh with $effort effort"
+  holds "$(json r.json max_error) <= 12"
+  [ "$(json r.json topology sound)" = true ] || fail "a cutline and $effort effort make an unsound mesh"
+  [ "$(json r.json cutline samples_outside)" = "$(json held.json cutline samples_outside)" ] ||
+    fail "$effort effort leaves other samples out than in memory"
+  python3 "$SCARP_SOURCE/tests/program/walk_lines.py" cut1.obj star.geojson 1000 800 100 || fail "rings are not in the mesh of $effort effort"
+  python3 - <<'PYTHON' || fail "the mesh of $effort effort has another area than OGR says"
+import json, subprocess
+vertices, area = [], 0
+for line in open("cut1.obj"):
+    words = line.split()
+    if words[:1] == ["v"]: vertices.append(tuple(map(float, words[1:3])))
+    if words[:1] == ["f"]:
+        a, b, c = (vertices[int(w.split("/")[0]) - 1] for w in words[1:])
+        area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2
+said = subprocess.run(["ogrinfo", "-q", "-sql", "SELECT SUM(OGR_GEOM_AREA) AS area FROM star", "star.geojson"], capture_output=True, text=True).stdout
+wanted = float(said.split("area (Real) =")[1])
+rings = [ring for f in json.load(open("star.geojson"))["features"] for ring in f["geometry"]["coordinates"]]
+length = sum(((p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2) ** 0.5 for ring in rings for p, q in zip(ring, ring[1:]))
+assert abs(area - wanted) < length / 512, (area, wanted)
+PYTHON
+done
+
+succeeds "$scarp" measure hills.tif cut1.obj "${cut[@]}" --fail-above 12 --memory "$small" --json
+mv "$logs/out" streamed.json
+succeeds "$scarp" measure hills.tif cut1.obj "${cut[@]}" --fail-above 12 --json
+mv "$logs/out" measured.json
+for key in max_error rmse samples "cutline samples_outside"; do
+  # shellcheck disable=SC2086
+  [ "$(json streamed.json $key)" = "$(json measured.json $key)" ] || fail "measure finds another $key in little memory"
+done
+
+# Beside breaklines, moved inwards, with flats and goals for angles, and nothing at all.
+succeeds "$scarp" simplify hills.tif lines.obj -e 12 --up z "${cut[@]}" --breaklines line.geojson --inset 3 --memory "$small" --report lines.json
+succeeds "$scarp" measure hills.tif lines.obj "${cut[@]}" --inset 3 --fail-above 12 --memory "$small"
+holds "$(json lines.json cutline samples_outside) > $(json held.json cutline samples_outside)"
+succeeds "$scarp" simplify hills.tif shape.obj -e 12 --up z "${cut[@]}" --min-angle 20 --memory 80M
+succeeds "$scarp" measure hills.tif shape.obj "${cut[@]}" --fail-above 12 --memory "$small"
+succeeds "$scarp" simplify hills.tif flats.obj -e 12 --up z "${cut[@]}" --detect-flats 20 --memory 80M
+succeeds "$scarp" measure hills.tif flats.obj "${cut[@]}" --fail-above 12.5 --memory "$small"
+refuses 2 "beside the raster" "$scarp" simplify hills.tif x.obj -e 12 --up z --memory "$small" \
+  --cutline away.geojson
+
+# Along cells of the grid: what is nodata in memory is nodata here.
+succeeds "$scarp" simplify hills.tif mask1.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --memory "$small" --report mask1.json
+succeeds "$scarp" simplify hills.tif mask2.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --report mask2.json
+for key in "cutline samples_outside" samples "input valid" "input min" "input max"; do
+  # shellcheck disable=SC2086
+  [ "$(json mask1.json $key)" = "$(json mask2.json $key)" ] || fail "--mask-outside leaves another $key in little memory"
+done
+succeeds "$scarp" measure hills.tif mask1.obj "${cut[@]}" --mask-outside --fail-above 12 --memory "$small"
+succeeds "$scarp" measure hills.tif mask2.obj "${cut[@]}" --mask-outside --fail-above 12 --memory "$small"

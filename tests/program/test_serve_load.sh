@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# scarp serve among thousands of clients, slow, broken and malicious ones among them: the others are answered, in bounded memory.
+source "$(dirname "$0")/lib.sh"
+need python3
+succeeds "$scarp" tile "$dem" globe --vertical egm96 --effort fast -q
+succeeds "$scarp" tile "$dem" world.pmtiles --vertical egm96 --effort fast -q
+echo mine > secret
+
+# start ARGUMENT...: a server in the background, with the number $server, at $port.
+start() {
+  # The one before may have left its port there.
+  : > served
+  (
+    [ -z "${files:-}" ] || ulimit -n "$files"
+    exec "$scarp" serve "$@" --port 0 -j 2 > served 2> complaints
+  ) &
+  server=$!
+  await $server names_port served
+}
+stop() {
+  kill -TERM $server
+  code=0
+  wait $server || code=$?
+  [ $code = 0 ] || fail "exit code $code"
+  [ ! -s complaints ] || fail "the server complains: $(cat complaints)"
+}
+trap 'kill $server 2> /dev/null || true; rm -rf "$root"' EXIT
+
+# Above the archive's own megabytes nothing is to be gained from it: it is asked for by those who do not read.
+start world.pmtiles
+succeeds python3 "$SCARP_SOURCE/tests/program/serve_load.py" "$port" globe world.pmtiles "$server"
+cat "$logs/out"
+stop
+
+# 1,000 places, and more deaf clients than that.
+python3 -c 'import random; open("globe/large.bin", "wb").write(random.Random(1).randbytes(8_000_000))'
+[ "$(ulimit -Hn)" = unlimited ] || [ "$(ulimit -Hn)" -ge 5000 ] || skip "the rest needs 5,000 open files"
+files=2000
+start globe
+succeeds python3 "$SCARP_SOURCE/tests/program/serve_fair.py" "$port" globe large.bin "$server"
+cat "$logs/out"
+stop
