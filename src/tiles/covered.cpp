@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/commands.h"
 #include "scarp/tile.h"
 
 namespace scarp {
@@ -55,12 +54,11 @@ Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<dou
   if (!(longitudes.low <= longitudes.high) || latitudes.low >= 90 || latitudes.high <= -90)
     return fail(ErrorKind::kInput, "no part of the raster lies on the globe");
   if (longitudes.low < -kFarthest || longitudes.high > kFarthest)
-    return fail(
-        ErrorKind::kInput,
-        fmt::format("longitudes of {} to {} are no place on the globe: give them within {} degrees "
-                    "({}), or their CRS if they are not degrees ({})",
-                    longitudes.low, longitudes.high, kFarthest, translate_command("-a_ullr WEST NORTH EAST SOUTH", ""),
-                    translate_command("-a_srs EPSG:CODE", "")));
+    return fail(ErrorKind::kInput,
+                fmt::format("longitudes of {} to {} are no place on the globe: give them within {} degrees "
+                            "(gdal_translate -a_ullr WEST NORTH EAST SOUTH FILE NEW.tif), or their CRS if they are not "
+                            "degrees (gdal_translate -a_srs EPSG:CODE FILE NEW.tif)",
+                            longitudes.low, longitudes.high, kFarthest));
   if (to_degrees != nullptr) {
     // Between the places looked at the raster may reach a step farther, and around a pole all round.
     longitudes.low -= longitudes.step;
