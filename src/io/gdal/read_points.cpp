@@ -432,7 +432,7 @@ Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet&
   const bool is_unnamed = points.crs.empty() && points.is_geographic;
   const auto crs = gdal::find_crs_of(points.path, is_unnamed ? "EPSG:4326" : points.crs);
   if (!crs) return tl::unexpected(crs.error());
-  if (auto placed = gdal::place(*crs, options, points); !placed) return tl::unexpected(placed.error());
+  if (auto placed = gdal::place(gdal::copy_crs(crs->get()), options, points); !placed) return tl::unexpected(placed.error());
   return gdal::space_crs_of(*crs).unit;
 }
 
