@@ -104,8 +104,9 @@ C("an image without place on the globe", "scarp tile dem.tif g --of 3dtiles --ve
 C("an image without place", "scarp simplify dem.tif o.glb -e 20 --drape b.png", "gdal_translate -q -srcwin 0 0 20 20 -of PNG rgb.tif b.png; rm b.png.aux.xml", BOX)
 C("a raster without place, an image with one", "scarp simplify none.tif o.glb -e 0.1 --drape rgb.tif", "gdal_translate -q -srcwin 0 0 30 30 rgb.tif a.tif; mv a.tif rgb.tif", BOX)
 C("beyond 180 degrees", "scarp tile far.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:3857 -a_ullr 19990000 40000 20110000 0 dem.tif far.tif")
-C("longitudes of 1000", "scarp tile far.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 1000 41 1001 40 dem.tif far.tif", dict(BOX, FILE="far.tif"))
-C("longitudes of 1000, metres", "scarp tile far.tif g -e 20 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 700000 80 700160 -64 dem.tif far.tif", {"EPSG:CODE": "EPSG:3857", "FILE": "far.tif"}, way=1)
+C("longitudes of 720", "scarp tile far.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 719.4 41 720.4 40 dem.tif far.tif", dict(BOX, FILE="far.tif"))
+C("metres called degrees", "scarp tile far.tif g -e 20 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 700000 80 700160 -64 dem.tif far.tif", {"EPSG:CODE": "EPSG:3857"})
+C("degrees called metres", "scarp simplify d32.tif o.glb -e 20", "gdal_translate -q -a_srs EPSG:32616 dem.tif d32.tif")
 C("a local grid of degrees", "scarp tile dem.tif g --grid local -e 20")
 O("a local grid of degrees, geographic", "scarp tile dem.tif g --grid local -e 20", "take --grid geographic", "scarp tile dem.tif g --grid geographic -e 20 --zoom 9 --vertical egm96")
 C("a local grid of a turned raster", "scarp tile turned.tif g --grid local -e 20 --vertical ellipsoid", "gdal_translate -q -a_srs EPSG:32616 -a_ullr 743600 4020000 740000 4016760 dem.tif turned.tif")
@@ -224,6 +225,8 @@ O("a stream as lake", "scarp simplify dem.tif o.glb -e 20 --water stream.geojson
 O("a stream as lake of tiles", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --water stream.geojson", "--rivers takes lines", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --rivers stream.geojson")
 
 LEFT = " && scarp simplify p.geojson o.glb -e 1 --nodata nan --overwrite"
+O("bays of points", "scarp simplify bay.csv o.glb -e 1", "--boundary concave:[0-9]+ ends the mesh at the points", "scarp simplify bay.csv o.glb -e 1 --boundary concave:$(scarp simplify bay.csv p.glb -e 1 2>&1 | grep -o 'concave:[0-9]*' | cut -d: -f2)",
+  "awk 'BEGIN { srand(1); print \"x,y,z\"; for (i = 0; i < 1500; ++i) { x = rand() * 100; y = rand() * 100; if (x < 30 || y < 30 || y > 70) print x \",\" y \",\" x / 9 + 3 * sin(y / 9) } }' > bay.csv")
 O("no height attribute", "scarp simplify p.geojson o.glb -e 1", "name the one that holds heights with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up", points({}, {}))
 O("an empty height", "scarp simplify p.geojson o.glb -e 1", "name another with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up" + LEFT, points({"h": None}, {"h": 1}))
 O("a height in words", "scarp simplify p.geojson o.glb -e 1", "name another with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up" + LEFT, points({"h": "a"}, {"h": "1"}))
