@@ -102,7 +102,7 @@ done
 
 # A place that is none.
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 1000 45.2 1000.3 44.9 "$dem" placed.tif
-refuses 2 "placed.tif: its CRS, EPSG:4979, has the unit degree, but its middle lies at 1000.15" "$scarp" tile placed.tif no
+refuses 2 "placed.tif: its CRS, EPSG:4326, has the unit degree, but its middle lies at 1000.15" "$scarp" tile placed.tif no
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 10 95.2 10.3 94.9 "$dem" placed.tif
 refuses 2 "placed.tif: no part of the raster lies on the globe" "$scarp" tile placed.tif no
 
