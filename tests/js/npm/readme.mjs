@@ -15,7 +15,7 @@ try {
     fs.writeFileSync(`readme_${k}.html`, `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
 <script type="importmap">${JSON.stringify({ imports })}</script><script type="module" src="readme_${k}.mjs"></script>`);
     await page.goto(`${server.address}/readme_${k}.html`);
-    await page.waitForFunction(() => window.told !== undefined).catch(error => errors.push(String(error)));
+    while (errors.length === 0 && !(await page.evaluate(() => window.told !== undefined))) await page.waitForTimeout(100);
     if (errors.length > 0) throw new Error(`block ${k}: ${errors.join('\n')}`);
   }
   console.log(`${blocks.length} blocks ran`);

@@ -22,8 +22,15 @@ export async function serve(folder) {
     if (HEADERS[first]) pathname = pathname.slice(first.length + 1);
     const file = path.join(folder, path.normalize(pathname));
     if (!fs.existsSync(file) || !fs.statSync(file).isFile()) return void response.writeHead(404).end();
-    response.writeHead(200, { 'Content-Type': TYPES[path.extname(file)] ?? 'application/octet-stream', ...HEADERS[first] });
-    fs.createReadStream(file).pipe(response);
+    const headers = { 'Content-Type': TYPES[path.extname(file)] ?? 'application/octet-stream', ...HEADERS[first] };
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? ''), { size } = fs.statSync(file);
+    if (!range || Number(range[1]) >= size) {
+      response.writeHead(200, headers);
+      return void fs.createReadStream(file).pipe(response);
+    }
+    const start = Number(range[1]), end = Math.min(Number(range[2]), size - 1);
+    response.writeHead(206, { ...headers, 'Content-Range': `bytes ${start}-${end}/${size}` });
+    fs.createReadStream(file, { start, end }).pipe(response);
   });
   await new Promise(resolve => server.listen(0, '127.0.0.1', resolve));
   return { address: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
