@@ -16,7 +16,7 @@ import resource
 import subprocess
 import sys
 
-REFERENCE = 2.0
+REFERENCE = 2.9
 SOURCE = "#include <algorithm>\n#include <iostream>\n#include <map>\n#include <regex>\nint main() { return std::regex_match(\"\", std::regex(\"a\")); }\n"
 
 
