@@ -52,6 +52,8 @@ class NodeSource {
   /// Writes cols × rows heights in metres to `out`, the northern row first, NaN where there is none. A node's height is
   /// a function of its place alone. Several threads may call it at once. Fails as the samples' source does.
   virtual Result<void> read(const NodeWindow& window, std::span<float> out) const = 0;
+  /// A part of the window outside which no node has a height; without columns or rows where none has. DEFAULT: all of it.
+  virtual NodeWindow land(const NodeWindow& window) const { return window; }
   /// Whether nodes are made of samples that visit_samples() shows. DEFAULT: false.
   virtual bool has_samples() const { return false; }
   /// Shows all samples that lie in the box, and others around it, some perhaps twice; longitudes go on beyond 180°
@@ -100,8 +102,8 @@ struct StackedSource {
   const NodeSource* nodes = nullptr;  ///< borrowed
   DegreeBox covered = {};             ///< it has no heights elsewhere
 };
-/// Several sources as one: a node has the height of the first that has one there. Cost: each source reads what those
-/// before it left open, as a rectangle.
+/// Several sources as one: a node has the height of the first that has one there. The samples are shown of one source
+/// alone. Cost: each source reads what those before it left open, as a rectangle.
 std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
 
 /// Degrees that the raster covers, half a cell around the outer samples included. Fails with kInput where its outline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/bits.h"
@@ -12,6 +13,7 @@
 namespace scarp {
 namespace {
 
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 /// Rows that a thread reads at a time.
 constexpr int kRowsTogether = 256;
 
@@ -34,21 +36,26 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
   const std::int64_t first_row = plan.grid.window_of(id, steps).row - halo;
   const std::int32_t side = nodes.side();
   const std::int64_t from = window.row, to = window.row + window.rows - 1;
-  nodes.heights_.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  nodes.heights_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), kUnknown);
   const auto row_of = [&](std::int64_t row) {
     return nodes.heights_.begin() + static_cast<std::ptrdiff_t>((row - first_row) * side);
   };
-  auto read = source.read(window, std::span(nodes.heights_)
-                                      .subspan(static_cast<std::size_t>((from - first_row) * side),
-                                               static_cast<std::size_t>(side) * static_cast<std::size_t>(window.rows)));
-  if (!read) return tl::unexpected(read.error());
+  const NodeWindow land = source.land(window);
+  const std::size_t count = static_cast<std::size_t>(land.cols) * static_cast<std::size_t>(land.rows);
+  std::vector<float> part(land.cols < side ? count : 0);
+  const std::span<float> out = land.cols < side ? std::span(part) : std::span(&*row_of(land.row), count);
+  if (auto read = count > 0 ? source.read(land, out) : Result<void>(); !read) return tl::unexpected(read.error());
+  for (std::int32_t j = 0; !part.empty() && j < land.rows; ++j)
+    std::copy_n(&part[static_cast<std::size_t>(j) * static_cast<std::size_t>(land.cols)], land.cols,
+                row_of(land.row + j) + static_cast<std::ptrdiff_t>(land.col - window.col));
   for (std::int64_t row = first_row; row < from; ++row) std::copy_n(row_of(from), side, row_of(row));
   for (std::int64_t row = to + 1; row < first_row + side; ++row) std::copy_n(row_of(to), side, row_of(row));
-  nodes.fill_voids(plan.background);
+  const auto first = static_cast<std::int32_t>(land.col - window.col) - halo;
+  nodes.fill_voids(plan.background, std::max(first, 0), std::min(first + land.cols, steps + 1));
   return nodes;
 }
 
-void TileNodes::fill_voids(float background) {
+void TileNodes::fill_voids(float background, std::int32_t first_col, std::int32_t end_col) {
   const auto side = static_cast<std::size_t>(steps_) + 1;
   const auto is_missing = [](float height) { return std::isnan(height); };
   if (std::all_of(heights_.begin(), heights_.end(), is_missing)) {  // most tiles of coarse levels
@@ -58,24 +65,21 @@ void TileNodes::fill_voids(float background) {
     std::fill(heights_.begin(), heights_.end(), background);
     return;
   }
-  std::size_t missing = 0;
+  std::size_t present = 0;
   for (std::int32_t row = 0; row <= steps_; ++row) {
     const float* const heights = &heights_[index(0, row)];
-    for (std::int32_t col = 0; col <= steps_; ++col) missing += std::isnan(heights[col]);
+    for (std::int32_t col = first_col; col < end_col; ++col) present += !std::isnan(heights[col]);
   }
-  has_heights_ = missing < side * side;
-  if (missing > 0) {
-    voids_.reserve(side * side);
+  has_heights_ = present > 0;
+  if (present < side * side) {
+    voids_.assign(side * side, true);
     for (std::int32_t row = 0; row <= steps_; ++row) {
-      for (std::int32_t col = 0; col <= steps_; ++col) voids_.push_back(std::isnan(at(col, row)));
+      for (std::int32_t col = first_col; col < end_col; ++col)
+        voids_[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(col)] = std::isnan(at(col, row));
     }
   }
-  std::size_t others = 0;
-  for (float& height : heights_) {
-    height = std::isnan(height) ? background : height;
-    others += height != background;
-  }
-  is_flat_ = others == 0;
+  for (float& height : heights_) height = std::isnan(height) ? background : height;
+  is_flat_ = std::all_of(heights_.begin(), heights_.end(), [&](float height) { return height == background; });
 }
 
 bool TileNodes::has_heights_around(double col, double row) const {
@@ -108,15 +112,17 @@ Result<HeldNodes> HeldNodes::read(const NodeWindow& window, const NodeSource& so
   HeldNodes held;
   held.source_ = &source;
   held.window_ = window;
-  const auto cols = static_cast<std::size_t>(window.cols);
-  held.heights_.resize(cols * static_cast<std::size_t>(window.rows));
-  const auto bands = static_cast<std::size_t>((window.rows + kRowsTogether - 1) / kRowsTogether);
+  const NodeWindow& land = held.land_ = source.land(window);
+  const auto cols = static_cast<std::size_t>(land.cols);
+  held.heights_.resize(cols * static_cast<std::size_t>(land.rows));
+  const auto bands =
+      held.heights_.empty() ? 0 : static_cast<std::size_t>((land.rows + kRowsTogether - 1) / kRowsTogether);
   std::vector<Result<void>> read(bands);
   parallel_for(bands, threads, [&](std::size_t k) {
-    NodeWindow band = window;
+    NodeWindow band = land;
     const int first = static_cast<int>(k) * kRowsTogether;
     band.row += first;
-    band.rows = std::min(kRowsTogether, window.rows - first);
+    band.rows = std::min(kRowsTogether, land.rows - first);
     read[k] = source.read(
         band, std::span(held.heights_)
                   .subspan(cols * static_cast<std::size_t>(first), cols * static_cast<std::size_t>(band.rows)));
@@ -134,20 +140,40 @@ bool HeldNodes::has_heights() const {
 std::uint64_t HeldNodes::hash() const {
   if (!has_heights()) return 0;
   std::uint64_t hash = 0x9e3779b97f4a7c15;
-  for (const float height : heights_) {
-    // One pattern of bits for all that are no height.
-    const std::uint32_t bits = std::isnan(height) ? 0x7fc00000 : bit_cast<std::uint32_t>(height);
-    hash = (hash ^ bits) * 0xff51afd7ed558ccd;
-    hash ^= hash >> 32;
+  std::size_t k = 0;
+  for (std::int32_t j = 0; j < land_.rows; ++j) {
+    const std::int64_t row = (land_.row - window_.row + j) * window_.cols + (land_.col - window_.col);
+    for (std::int32_t i = 0; i < land_.cols; ++i, ++k) {
+      // Skipped, so that the hash does not depend on how many nodes without a height are held.
+      if (std::isnan(heights_[k])) continue;
+      hash = (hash ^ bit_cast<std::uint32_t>(heights_[k]) ^ static_cast<std::uint64_t>(row + i) << 32) *
+             0xff51afd7ed558ccd;
+      hash ^= hash >> 32;
+    }
   }
   return std::max<std::uint64_t>(hash, 1);
 }
 
+NodeWindow HeldNodes::land(const NodeWindow& window) const {
+  NodeWindow part = window;
+  part.col = std::max(window.col, land_.col);
+  part.row = std::max(window.row, land_.row);
+  part.cols = static_cast<int>(
+      std::max<std::int64_t>(std::min(window.col + window.cols, land_.col + land_.cols) - part.col, 0));
+  part.rows = static_cast<int>(
+      std::max<std::int64_t>(std::min(window.row + window.rows, land_.row + land_.rows) - part.row, 0));
+  if (part.cols == 0 || part.rows == 0) part.cols = part.rows = 0;
+  return part;
+}
+
 Result<void> HeldNodes::read(const NodeWindow& window, std::span<float> out) const {
-  for (std::int64_t row = 0; row < window.rows; ++row) {
-    const auto from = (window.row - window_.row + row) * window_.cols + (window.col - window_.col);
-    std::copy_n(heights_.begin() + static_cast<std::ptrdiff_t>(from), window.cols,
-                out.begin() + static_cast<std::ptrdiff_t>(row * window.cols));
+  const NodeWindow part = land(window);
+  if (part.cols < window.cols || part.rows < window.rows) std::fill(out.begin(), out.end(), kUnknown);
+  for (std::int64_t j = 0; j < part.rows; ++j) {
+    const std::int64_t from = (part.row - land_.row + j) * land_.cols + (part.col - land_.col);
+    std::copy_n(
+        heights_.begin() + static_cast<std::ptrdiff_t>(from), part.cols,
+        out.begin() + static_cast<std::ptrdiff_t>((part.row - window.row + j) * window.cols + (part.col - window.col)));
   }
   return {};
 }

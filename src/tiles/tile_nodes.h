@@ -48,8 +48,8 @@ class TileNodes {
     return static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
            static_cast<std::size_t>(col + halo_);
   }
-  /// Nodes without a height get the background's.
-  void fill_voids(float background);
+  /// Nodes without a height get the background's. `first_col`, `end_col`: of its own nodes only these columns have heights.
+  void fill_voids(float background, std::int32_t first_col, std::int32_t end_col);
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 
   std::int32_t steps_ = 0, halo_ = 0;
@@ -59,16 +59,17 @@ class TileNodes {
   bool has_heights_ = false, is_flat_ = true;
 };
 
-/// Nodes that were read once for many tiles.
+/// Nodes that were read once for many tiles: those of the source's land, for the others have no heights.
 class HeldNodes final : public NodeSource {
  public:
   /// `threads` read bands of rows.
   static Result<HeldNodes> read(const NodeWindow& window, const NodeSource& source, int threads);
   bool has_heights() const;
-  /// Of all heights, in their order; 0 without any.
+  /// A hash of all heights and their places in the window; 0 without any.
   std::uint64_t hash() const;
   /// REQUIRES: the window lies in the one that is held, with columns of the same turn.
   Result<void> read(const NodeWindow& window, std::span<float> out) const override;
+  NodeWindow land(const NodeWindow& window) const override;
   /// Of the source, which is borrowed: samples are not held.
   bool has_samples() const override { return source_->has_samples(); }
   Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
@@ -77,7 +78,8 @@ class HeldNodes final : public NodeSource {
 
  private:
   const NodeSource* source_ = nullptr;
-  NodeWindow window_;
+  NodeWindow window_;  ///< what was asked for
+  NodeWindow land_;    ///< what is held of it
   std::vector<float> heights_;
 };
 

@@ -130,6 +130,9 @@ class WateredNodes final : public NodeSource {
     return {};
   }
 
+  /// Water changes heights, and makes none.
+  NodeWindow land(const NodeWindow& window) const override { return source_.land(window); }
+
   bool has_samples() const override { return source_.has_samples(); }
 
   Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {

@@ -185,11 +185,11 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
     }
     impl->sources.push_back(std::move(*source));
   }
-  if (mosaics.size() > 1) {
+  if (!impl->sources.front()->plane) {
     std::vector<StackedSource> stack;
     for (const auto& source : impl->sources) stack.push_back({&source->nodes(), source->covered});
     for (const auto& source : impl->sources) {
-      if (options.void_side == 0) break;
+      if (mosaics.size() == 1 || options.void_side == 0) break;
       if (auto filled = fill_source(*source, options.void_side); !filled) return tl::unexpected(filled.error());
       stack.push_back({&source->filled_nodes(), source->covered});
     }
