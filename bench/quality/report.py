@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/quality.md from efforts.csv, budgets.csv, peers.csv, their times, high_normal.csv,
+"""Writes the tables of bench/quality.md from efforts.csv, budgets.csv, peers.csv, their times, high_normal.csv,
 squares.csv, cliffs.csv, ridges.csv, images.csv and pictures.csv.
 
   report.py            writes them
@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-DOCUMENT = HERE.parent.parent / "docs" / "quality.md"
+DOCUMENT = HERE.parent / "quality.md"
 sys.path.insert(0, str(HERE.parent))
 from tables import fill, markdown, read_table  # noqa: E402
 

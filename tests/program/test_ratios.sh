@@ -1,5 +1,5 @@
 #!/bin/bash
-# The ratios that --help, README.md and docs/cli.md claim for efforts and budgets are those of the tables of docs/quality.md.
+# The ratios that --help, README.md and docs/cli.md claim for efforts and budgets are those of the tables of bench/quality.md.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 scarp=${SCARP_BUILD:?}/bin/scarp
@@ -10,10 +10,10 @@ root = sys.argv[1]
 read = lambda name: open(f"{root}/{name}", encoding="utf-8").read()
 joined = lambda text: re.sub(r"[\s`*]+", " ", text)
 texts = {"--help": joined(os.environ["help"]), "README.md": joined(read("README.md")), "docs/cli.md": joined(read("docs/cli.md")),
-         "docs/quality.md": joined(read("docs/quality.md"))}
+         "bench/quality.md": joined(read("bench/quality.md"))}
 
 # triangles and CPU time of each effort, in greedy insertion's
-quality = read("docs/quality.md")
+quality = read("bench/quality.md")
 rows = re.search(r"<!-- table: efforts -->(.*?)<!-- end -->", quality, re.S).group(1)
 table = {}
 for name, sparse, _, _, time in re.findall(r"^\| `([a-z ]+)` \|([^|]*)\|([^|]*)\|([^|]*)\|([^|]*)\|$", rows, re.M):
@@ -30,7 +30,7 @@ squares = re.search(r"<!-- table: squares -->(.*?)<!-- end -->", quality, re.S).
 below = [100 - 100 * float(cell) for cell in re.findall(r"^\| [a-z0-9_]+ \|.*\| ([0-9.]+) \|$", squares, re.M)]
 assert len(below) >= 10, below
 floors = re.search(r"<!-- table: high_normal -->(.*?)<!-- end -->", quality, re.S).group(1)
-assert "has more in 0 |" in floors, "docs/quality.md says that high never has more triangles than normal"
+assert "has more in 0 |" in floors, "bench/quality.md says that high never has more triangles than normal"
 N = r"([0-9.]+[0-9])"
 
 def near(claim, true, digits):
@@ -57,8 +57,8 @@ claims += [
      [(budget["normal"][0], 2), (budget["high"][0], 2)]),
     ("docs/cli.md", rf"With high the RMSE is about {N} of that of max , and the max error {N} times",
      [(budget["high rms"][2], 2), (budget["high rms"][0] / budget["high"][0], 1)]),
-    ("docs/quality.md", rf"For as many triangles high rms leaves {N} of the RMSE of high", [(budget["high rms"][2], 2)]),
-    ("docs/quality.md", rf"high rms is at least {N} % below the best of them on each", [(min(below), 0)]),
+    ("bench/quality.md", rf"For as many triangles high rms leaves {N} of the RMSE of high", [(budget["high rms"][2], 2)]),
+    ("bench/quality.md", rf"high rms is at least {N} % below the best of them on each", [(min(below), 0)]),
 ]
 told = {"--help": [], "README.md": []}
 for where, words, truths in claims:
