@@ -1,6 +1,6 @@
 #!/bin/bash
-# The tables of bench/performance.md, bench/speed/results.md, bench/quality.md and bench/tiles.md are those of the
-# numbers that are kept, and the pictures of bench/quality.md are there.
+# The tables of bench/performance.md, bench/speed/results.md, bench/quality.md, bench/quality/by_raster.md and
+# bench/tiles.md are those of the kept numbers, and the pictures of bench/quality.md are there.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }
