@@ -386,7 +386,7 @@ def main():
         elif not check:
             document.write_text(new)
     if stale:
-        print(f"{' and '.join(stale)} do not hold what the CSV files say: run bench/quality/report.py")
+        print(f"{' and '.join(stale)}: not what the CSV files say; run bench/quality/report.py")
     return int(bool(stale))
 
 
