@@ -94,7 +94,7 @@ bench:
 paper:
 	@tools/install_packages.sh build paper
 	@$(MAKE) --no-print-directory build
-	@$(BUILD)/bin/scarp paper --data $(DATA) --out docs --overwrite
+	@$(BUILD)/bin/scarp paper --data $(DATA) --out bench --overwrite
 
 install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
@@ -128,7 +128,7 @@ help:
 	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'
 	@echo 'make wasm-check  the core compiled with Emscripten, its meshes compared with native ones'
 	@echo 'make bench    the benchmarks; their tables are under version control'
-	@echo 'make paper    the experiments of the 1995 paper on the fields in DATA, written to docs/paper.md'
+	@echo 'make paper    the experiments of the 1995 paper on the fields in DATA, written to bench/paper.md'
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
 	@echo 'make format   clang-format on all sources'
 	@echo 'make tidy     clang-tidy on src/ and apps/'

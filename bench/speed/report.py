@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes results.md, and the tables of docs/performance.md, from the CSV files that run.py and bench_orders keep.
+"""Writes results.md, and the tables of bench/performance.md, from the CSV files that run.py and bench_orders keep.
 
   report.py            writes both
   report.py --check    fails if either would change
@@ -18,7 +18,7 @@ from tables import fill, markdown, read_table  # noqa: E402
 
 MACHINE = HERE / "machine.json"
 RESULTS = HERE / "results.md"
-DOCUMENT = PROJECT / "docs" / "performance.md"
+DOCUMENT = PROJECT / "bench" / "performance.md"
 PYTHON = PROJECT / "bench" / "python" / "calls.csv"
 ORDERS = PROJECT / "bench" / "quality" / "orders.csv"
 MILLION = 1_000_000

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/tiles-benchmark.md from tiles.csv, tiles_seconds.csv and ctb.csv.
+"""Writes the tables of bench/tiles.md from tiles.csv, tiles_seconds.csv and ctb.csv.
 
   report.py            writes them
   report.py --check    fails if the document would change
@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-DOCUMENT = HERE.parent.parent / "docs" / "tiles-benchmark.md"
+DOCUMENT = HERE.parent / "tiles.md"
 sys.path.insert(0, str(HERE.parent))
 from tables import fill, markdown, read_table  # noqa: E402
 

@@ -9,7 +9,7 @@
 //
 //     ·───────┬───────┬──      ─── shared border: kept vertices are a function of the samples on it
 //     │ tile  │ tile  │
-//     ├───────┼───────┼──      Measured, fixed borders cost -3 to +1.5 %: docs/performance.md.
+//     ├───────┼───────┼──      Measured, fixed borders cost -3 to +1.5 %: bench/performance.md.
 //     │ tile  │ tile  │
 //
 // A callback may post-process each strip (a row of tiles). It receives the mesh between two of the long borders with

@@ -20,7 +20,7 @@
 // triangles that wait; new triangles go on top, so work stays where the caches are warm. Triangles that keep the bound
 // are never on it.
 //
-// WHAT IT COSTS AND GAINS: docs/performance.md, "Order". Vertices within a few tenths of a per cent of greedy's on
+// WHAT IT COSTS AND GAINS: bench/performance.md, "Order". Vertices within a few tenths of a per cent of greedy's on
 // large rasters; the same promise, since the run ends in the same state: no triangle has a candidate.
 #pragma once
 

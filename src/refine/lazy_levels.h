@@ -17,7 +17,7 @@
 // order, since the run ends in the same state: every triangle was scanned and none has a candidate.
 //
 // WHERE IT IS USED (tile_order.h): on rough terrain, where the area says about as much as a scan would: there it takes
-// fewer vertices as well. On smooth terrain the dominant order takes fewer. WHAT IT GAINS: docs/performance.md,
+// fewer vertices as well. On smooth terrain the dominant order takes fewer. WHAT IT GAINS: bench/performance.md,
 // "Order".
 #pragma once
 

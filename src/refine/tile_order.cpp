@@ -7,7 +7,7 @@ namespace scarp {
 
 namespace {
 
-// Measured on 45 rasters at 0.4 to 12 % of the samples (docs/performance.md, "Order").
+// Measured on 45 rasters at 0.4 to 12 % of the samples (bench/performance.md, "Order").
 constexpr double kRough = 1.75;       // growth of bends below which areas alone tell the order
 constexpr double kModerate = 2;       // below which their square roots do
 constexpr double kDense = 0.13;       // vertices a sample: triangles of few samples, errors of no common size

@@ -11,8 +11,9 @@ body { margin: 0; background: var(--back); color: var(--text); font: 16px/1.55 s
 nav, main { max-width: 60rem; margin: 0 auto; padding: 12px 16px } nav { border-bottom: 1px solid var(--line); display: flex; flex-wrap: wrap; gap: 4px 18px }
 a { color: var(--link) } img { max-width: 100%; height: auto } pre, .table { overflow-x: auto } code { font: 14px ui-monospace, "DejaVu Sans Mono", monospace; background: var(--code); padding: 0 3px }
 pre { background: var(--code); padding: 10px 14px } pre code { padding: 0 } table { border-collapse: collapse } th, td { border: 1px solid var(--line); padding: 4px 8px; text-align: left; vertical-align: top }`;
-const pages = ['README.md', 'CHANGELOG.md', ...readdirSync(join(source, 'docs')).filter(name => name.endsWith('.md')).map(name => `docs/${name}`),
-  ...readdirSync(join(source, 'docs/guide')).filter(name => name.endsWith('.md')).map(name => `docs/guide/${name}`)];
+const pages_of = folder => readdirSync(join(source, folder), { recursive: true }).map(name => `${folder}/${name}`)
+  .filter(name => name.endsWith('.md') && !name.includes('node_modules'));
+const pages = ['README.md', 'CHANGELOG.md', ...pages_of('docs'), ...pages_of('bench')];
 const address_of = page => page === 'README.md' ? 'index.html' : page.replace(/\.md$/, '.html');
 const slug = text => text.toLowerCase().replace(/<[^>]*>/g, '').replace(/&[a-z]+;/g, '').replace(/[^\p{L}\p{N}\s_-]/gu, '').trim().replace(/\s/g, '-');
 const anchors = new Map(), wanted = [], copied = new Set(), missing = [];

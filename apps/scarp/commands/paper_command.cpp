@@ -27,20 +27,19 @@ constexpr Result<void> (*kExperiments[])(paper::Study&) = {
 void add_header(paper::Study& study) {
   study.page.heading(1, "The experiments of the 1995 paper");
   study.page.paragraph(fmt::format(
-      "Written by `scarp paper --data DIR{}` (Scarp {}; `make paper` runs it), not edited by hand. This page repeats "
-      "what is known of the experiments in M. Garland and P. S. Heckbert, *Fast Polygonal Approximation of Terrains "
-      "and Height Fields* (CMU-CS-95-181, 1995): the paper.",
+      "Written by `scarp paper --data DIR{}` (Scarp {}; `make paper` runs it), not edited by hand. It repeats the "
+      "known experiments of M. Garland and P. S. Heckbert, *Fast Polygonal Approximation of Terrains and Height "
+      "Fields* (CMU-CS-95-181, 1995): the paper.",
       study.timing ? "" : " --no-timing", version()));
   if (study.fields.are_of_paper) {
     study.page.paragraph(
-        "In brackets: the figure of Scape 1.2, the paper's own program, measured on the same fields, and Scarp's "
-        "difference from it. The figures are listed in `apps/scarp/paper/figures.h`. The fields are the paper's five: "
-        "Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in "
-        "metres, over all samples.");
+        "In brackets: the figure of Scape 1.2, the paper's own program, on the same fields "
+        "(`apps/scarp/paper/figures.h`), and Scarp's difference from it. The fields are the paper's five: Crater Lake, "
+        "Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in metres, over "
+        "all samples.");
     study.page.paragraph(
-        "Sections, pages and figures in brackets are the paper's. Of its text only the first pages, with its contents, "
-        "and the sources of its programs were at hand: other numbers of its figures are not known, and what it is said "
-        "to claim beyond these pages is marked as not verified.");
+        "Sections, pages and figures in brackets are the paper's. Only its first pages, with its contents, and the "
+        "sources of its programs were at hand; claims beyond these are marked as not verified.");
   } else {
     study.page.paragraph(
         "The folder holds none of the paper's fields, so there are no figures to compare with but for the synthetic "

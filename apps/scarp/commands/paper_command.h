@@ -20,7 +20,7 @@ class PaperCommand {
 
  private:
   CLI::App* command_;
-  std::string data_, out_ = "docs";
+  std::string data_, out_ = "bench";
   bool no_timing_ = false, overwrite_ = false, quiet_ = false;
 };
 

@@ -121,7 +121,7 @@ Result<void> add_algorithms(Study& study) {
                        ? "All three insert the same samples in the same order: the meshes are equal to the last bit."
                        : "The meshes are not all equal, which they should be.",
                    "I scans every sample before each insertion, n·m of them. II and III scan only the triangles around "
-                   "the new vertex; II then looks through all triangles for the worst, III has them in a heap."});
+                   "the new vertex; II then searches all triangles for the worst, III has them in a heap."});
   return {};
 }
 

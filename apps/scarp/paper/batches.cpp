@@ -84,19 +84,19 @@ Result<void> add_batches(Study& study) {
   }
   std::vector<std::string> remarks{
       sequential_best ? "Of the paper's rules, one at a time makes the smallest meshes on every field: a batch inserts "
-                        "samples whose error its own earlier insertions have already mended."
+                        "samples that its earlier insertions have already mended."
                       : "One at a time is not the smallest of the paper's rules on every field here."};
   if (independent_better) {
     remarks.push_back(
-        "Independent candidates need fewer vertices than any threshold on every field: none of them is stale when it "
-        "is inserted.");
+        "Independent candidates need fewer vertices than any threshold on every field: none is stale when it is "
+        "inserted.");
   }
   if (!vertices.empty()) {
     remarks.push_back(vertices.sentence("counts of vertices"));
     remarks.push_back(passes.sentence("counts of passes") +
                       (passes.largest() > 5
-                           ? " A pass ends where the largest error of the mesh then falls, and with a few dozen passes "
-                             "a single candidate on the limit, or one tie decided otherwise, moves all that follow."
+                           ? " With a few dozen passes a single candidate on the limit, or one tie decided otherwise, "
+                             "moves all that follow."
                            : ""));
   }
   study.page.list(remarks);

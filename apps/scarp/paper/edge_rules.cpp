@@ -74,8 +74,8 @@ void add_mode_table(Study& study, const ModeTrials& trials) {
   if (!scored.empty()) {
     remarks.push_back(scored.sentence("figures for q 0.5 and q 1"));
     remarks.push_back(plain.sentence("figures for q 0") +
-                      (plain.largest() > 3 ? " Scape's scan loses samples on the edges of slivers there, so that it is "
-                                             "blind to some of its own errors; here triangles are closed and lose none."
+                      (plain.largest() > 3 ? " Scape's scan loses samples on the edges of slivers there; here "
+                                             "triangles are closed and lose none."
                                            : ""));
   }
   std::size_t better = 0, best = 0;

@@ -141,8 +141,8 @@ Result<void> add_effort(Study& study) {
       study.fields.are_of_paper ? fmt::format(" (Scape: {:g} to {:g} swaps)", kSwapsLeast, kSwapsMost) : ""));
   if (!counts.empty()) {
     remarks.push_back(counts.sentence("counts of samples") +
-                      " Scape passes over samples that are vertices, Scarp looks at the corners of each triangle and "
-                      "finds an error of 0: hence the column without them.");
+                      " Scape skips samples that are vertices, Scarp scans the corners of each triangle: hence the "
+                      "column without them.");
   }
   study.page.list(remarks);
   return {};

@@ -54,8 +54,7 @@ Result<void> add_reference_rows(Study& study) {
   if (!rmse.empty()) {
     study.page.list({rmse.sentence("RMS errors"), triangles.sentence("counts of triangles"),
                      max_error.sentence("max errors") +
-                         " Ties and the first diagonal decide which of many equal candidates is taken, and the max "
-                         "error at one m depends on it; it is not monotone in m, as below."});
+                         " Ties and the first diagonal decide it, and it is not monotone in m, as below."});
   }
   return {};
 }
@@ -81,10 +80,8 @@ Result<void> add_cross_checks(Study& study) {
   study.page.heading(3, "Other programs");
   study.page.paragraph("The same greedy insertion, Delaunay, by other programs. Terra is the paper's second program.");
   study.page.table({"field", "m", "program", "max error", "RMS"}, rows);
-  study.page.list(
-      {fmt::format("The RMS errors lie within {:.1f} % of Scarp's. The max errors need not: ties, the order of the "
-                   "rows and the first diagonal decide them.",
-                   farthest)});
+  study.page.list({fmt::format(
+      "The RMS errors lie within {:.1f} % of Scarp's. The max errors need not, for the same reasons.", farthest)});
   return {};
 }
 
@@ -144,14 +141,13 @@ Result<void> add_spikes(Study& study) {
     differences.add(fmt::format("{} vertices", figure.vertices), trial->max_error, figure.max_error);
   }
   study.page.paragraph(
-      "Each insertion mends the worst sample and may spoil another a little. So the max error has spikes, where a "
-      "single sample suddenly lies under a long triangle. `scarp simplify -p` therefore returns the best mesh near its "
-      "budget. Crater:");
+      "The max error has spikes, where a single sample suddenly lies under a long triangle. So `scarp simplify -p` "
+      "returns the best mesh near its budget. Crater:");
   study.page.table({"m", "max error"}, rows);
   if (const std::string far = differences.list_far(kFarPercent); !far.empty()) {
     study.page.list(
-        {fmt::format("**Max error at {}:** less is better. Scape's run stops on a spike there; Scarp's has its spikes "
-                     "at other numbers of vertices, as the curves show.",
+        {fmt::format("**Max error at {}:** less is better. Scape's run stops on a spike; Scarp's spikes are at other "
+                     "numbers of vertices.",
                      far)});
   }
   return {};

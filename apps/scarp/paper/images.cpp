@@ -183,8 +183,8 @@ Result<void> add_images(Study& study) {
     const std::string name = image->file;
     const Result<void> added =
         study.add_picture("image_" + name.substr(0, name.find('.')),
-                          fmt::format("The middle of the image, the uniform grid, greedy insertion with Delaunay and "
-                                      "with data-dependent edges, the least squared error ({})",
+                          fmt::format("The image's middle, uniform grid, greedy insertion with Delaunay and "
+                                      "data-dependent edges, least squared error ({})",
                                       image->source),
                           std::move(png));
     if (!added) return added;
@@ -196,15 +196,13 @@ Result<void> add_images(Study& study) {
       better
           ? "Greedy insertion is better than the uniform grid on every image: its vertices go to the edges of things."
           : "Greedy insertion is not better than the uniform grid in every row. It follows the largest error, not the "
-            "mean one that PSNR is made of: vertices go to the edges of things and to their highlights, whose colours "
-            "then spread over large triangles. What a person would recognise is drawn sharply; what is smooth pays for "
-            "it.");
+            "mean one of PSNR: vertices go to edges and highlights, whose colours then spread over large triangles.");
   remarks.push_back(
-      "The last row of each image is not the paper's: `--objective rms --effort high` lowers the squared error itself, "
-      "by which vertices go and come. Vertices stay on pixels, with their colours.");
+      "The last row of each image is not the paper's: `--objective rms --effort high` lowers the squared error itself. "
+      "Vertices stay on pixels, with their colours.");
   remarks.push_back(
-      "Angles of normals: Scape's ABN for colours, the sum of the angles of red, green and blue. It asks how smooth "
-      "the picture is across an edge, not how near it is.");
+      "Angles of normals: Scape's ABN for colours, the sum of the angles of red, green and blue. It measures how "
+      "smooth the picture is across an edge, not its error.");
   study.page.list(remarks);
   return {};
 }

@@ -64,7 +64,7 @@ Result<void> add_memory(Study& study) {
   study.page.heading(2, "Memory");
   study.page.paragraph(
       "*Measured once, on the machine that wrote this page:* the peak of resident memory during `simplify()`, judging "
-      "included, above what was there with the samples (4 bytes each) before.");
+      "included, without the samples (4 bytes each).");
   study.page.table({"field", "m", "MB", "bytes a vertex"}, rows);
   if (!study.fields.are_of_paper) return {};
   study.page.paragraph(fmt::format(

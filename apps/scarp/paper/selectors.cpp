@@ -139,8 +139,8 @@ std::vector<std::string> find_remarks(const std::vector<Row>& rows, const std::v
                                 : fmt::format("Plain global error is beaten in {} of the runs.", beaten));
   remarks.push_back(describe_attenuated(rows));
   remarks.push_back(one_pass_worse == one_pass_trials
-                        ? "Every one-pass selector is worse than random points: it spends its vertices on noise and on "
-                          "rough places, and leaves large smooth shapes to a few triangles."
+                        ? "Every one-pass selector is worse than random points: it spends its vertices on noise and "
+                          "rough places, and few on large smooth shapes."
                         : fmt::format("One-pass selectors are worse than random points in {} of {} runs.",
                                       one_pass_worse, one_pass_trials));
   return remarks;
@@ -185,9 +185,8 @@ Result<void> add_selectors(Study& study) {
   study.page.heading(2, "What is worth inserting (section 3: importance measures)");
   study.page.paragraph(
       "The same Delaunay triangulation of 1 % of the samples; only their choice differs. Uniform: a sub-grid of about "
-      "as many vertices as there would be, borders included. Attenuated: the error counts for less near vertices that "
-      "are chosen already. The paper's formula for that is not known; here it is the distance from the nearest corner "
-      "of the sample's triangle, in samples.");
+      "as many vertices, borders included. Attenuated: the error counts for less near chosen vertices, here by the "
+      "distance from the nearest corner of the sample's triangle, in samples; the paper's formula is not known.");
   study.page.table(header, cells);
   std::vector<std::string> remarks = find_remarks(rows, fields);
   study.note("selectors: other random points");
@@ -200,28 +199,27 @@ Result<void> add_selectors(Study& study) {
   remarks.push_back(fmt::format("Random points in {} other draws, RMS: {}.", kOtherDraws, draws));
   if (!greedy.empty()) {
     remarks.push_back(greedy.sentence("RMS errors of plain global error"));
-    remarks.push_back(
-        drawn.sentence("RMS errors of uniform and random points") +
-        " Where they differ the points do: other random numbers, another rounding of the sub-grid's rows and columns.");
+    remarks.push_back(drawn.sentence("RMS errors of uniform and random points") +
+                      " The points differ: other random numbers, another rounding of the sub-grid's rows and columns.");
     remarks.push_back(
         ranked.sentence("RMS errors of one pass and of products") +
         (ranked.largest() > 5
-             ? " What differs is the border. Here a pair of opposite neighbours of which one is missing is left out, "
-               "so that a plane has no local error at its border either. Tried with scripts on crater and ashby, "
-               "Scape's figures for one pass come out within about 1 % where such a pair counts as 0 (4 neighbours), "
-               "and where the mean is that of the neighbours that exist (8 neighbours)."
+             ? " The border differs: here a pair of opposite neighbours of which one is missing is omitted, so that a "
+               "plane has no local error there either. On crater and ashby Scape's figures for one pass result within "
+               "about 1 % where such a pair counts as 0 (4 neighbours), and where the mean is that of the existing "
+               "neighbours (8 neighbours)."
              : ""));
   }
   if (const std::string far = drawn_max.list_far(kFarPercent); !far.empty()) {
     remarks.push_back(
-        fmt::format("**Max error of {}:** no failure. The max error of points drawn at random is that of one peak or "
-                    "gorge, which the points hit or miss: see how far it goes in the other draws.",
+        fmt::format("**Max error of {}:** no failure. One peak or gorge, which the points hit or miss, decides it, as "
+                    "in the other draws.",
                     far));
   }
   if (const std::string far = ranked_max.list_far(kFarPercent); !far.empty()) {
     remarks.push_back(
-        fmt::format("**Max error of {}:** no failure. Where whole regions get no vertex, one sample more or less, here "
-                    "from the treatment of the border, decides how far the worst of them is.",
+        fmt::format("**Max error of {}:** no failure. Where whole regions get no vertex, one sample more or less at "
+                    "the border decides the worst of them.",
                     far));
   }
   study.page.list(remarks);

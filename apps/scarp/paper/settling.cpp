@@ -45,9 +45,9 @@ Result<void> add_settling(Study& study) {
   }
   study.page.heading(3, "Swaps over the whole mesh, by squared error (L2)");
   study.page.paragraph(
-      "Algorithm IV tries swaps around each new vertex only, so its mesh is not the best that swaps can reach. "
-      "Settled: after the last insertion any edge of the mesh is swapped where that lowers the sum of squared errors "
-      "and raises no largest error, until none is left. The same vertices, 1 % of the samples.");
+      "Algorithm IV tries swaps around each new vertex only. Settled: after the last insertion any edge of the mesh is "
+      "swapped where that lowers the sum of squared errors and raises no largest error, until none is left. The same "
+      "vertices, 1 % of the samples.");
   study.page.table(header, rows);
   return {};
 }

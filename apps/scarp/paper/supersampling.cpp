@@ -50,10 +50,10 @@ Result<void> add_supersampling(Study& study) {
   }
   study.page.heading(3, "Supersampling");
   study.page.paragraph(
-      "A thin triangle holds few samples, perhaps none, and then its score says nothing. With supersampling f the "
-      "score looks at the bilinear interpolant of the samples on a lattice that is ⌈(width + height) / (2 · area · f)⌉ "
-      "times finer; what is inserted is still a sample. Sum, 1 % of the samples, not settled; thin: triangles with an "
-      "angle below 5°; scanned: samples and points of the lattice, in those of a run without.");
+      "A thin triangle holds few samples, perhaps none, for its score. With supersampling f the score uses the "
+      "bilinear interpolant of the samples on a lattice that is ⌈(width + height) / (2 · area · f)⌉ times finer; only "
+      "samples are inserted. Sum, 1 % of the samples, not settled; thin: triangles with an angle below 5°; scanned: "
+      "samples and points of the lattice, in those of a run without.");
   study.page.table(header, rows);
   study.page.list({fmt::format("Supersampling lowers the RMS{}.", outcome)});
   return {};

@@ -84,16 +84,15 @@ Result<void> add_synthetic(Study& study) {
   std::vector<std::string> remarks;
   if (const std::string far = differences.list_far(kFarPercent); !far.empty()) {
     remarks.push_back(
-        fmt::format("**Max error of {}:** less is better, and here the error is that of a judge of its own that looks "
-                    "at every sample of the finished mesh; Scape's is known to lose samples at q 0 (below).",
+        fmt::format("**Max error of {}:** less is better, and here a judge measures every sample of the finished mesh; "
+                    "Scape loses samples at q 0 (below).",
                     far));
   }
   remarks.insert(remarks.end(),
                  {differences.sentence("max errors"),
-                  "These fields are full of ties, whole heights in straight rows, and a max error at one number of "
-                  "vertices is set by how ties are decided (here by raster order): figures for the same field may lie "
-                  "far apart in percent, and still tell the same story. At q 0 Scape may besides have lost samples on "
-                  "the edges of slivers, and have kept errors that it did not see.",
+                  "These fields are full of ties, whole heights in straight rows, which decide the max error at one "
+                  "number of vertices (here by raster order), so that figures for the same field may lie far apart in "
+                  "percent. At q 0 Scape may also have lost samples on the edges of slivers, and kept their errors.",
                   "The cliff has a jump of 1000 between two columns: no edge rule helps as long as fewer vertices than "
                   "rows are allowed."});
   study.page.list(remarks);

@@ -50,12 +50,13 @@ Result<void> add_moved_heights(Study& study, const OwnedHeightField& heights, co
   if (added) added = add("Scarp's: highest minus lowest", heights, relief);
   if (added) added = add("Scarp's" + up, moved, relief);
   if (!added) return added;
-  study.page.paragraph(fmt::format("What that does: emphasis {:g}, the heights as they are and counted from elsewhere.",
-                                   kMovedEmphasis));
+  study.page.paragraph(
+      fmt::format("Both definitions of the relief: emphasis {:g}, the heights as they are and counted from elsewhere.",
+                  kMovedEmphasis));
   study.page.table({"size of the heights", "is", "RMS of heights", "max", "PSNR of colours"}, rows);
   study.page.list(
-      {"By Scape's definition land that lies higher gets other vertices, as if the emphasis were greater. By Scarp's "
-       "it does not matter how high it lies (but for the last bits of 32-bit heights)."});
+      {"By Scape's definition land that lies higher gets other vertices, as if the emphasis were greater; by Scarp's "
+       "only the last bits of 32-bit heights change."});
   return {};
 }
 
@@ -110,9 +111,8 @@ Result<void> add_textured_terrain(Study& study) {
   study.page.heading(2, "Textured terrain");
   study.page.paragraph(
       "Santa Barbara, 512 × 512 heights and an aerial photograph on the same grid; 5 % of the samples. The error is (1 "
-      "− w) |dz| + w · relief / 3 · (|dr| + |dg| + |db|), colours from 0 to 1. Scape takes the highest height for the "
-      "relief, which makes the balance depend on where heights are counted from; Scarp takes highest minus lowest. The "
-      "paper gives no figures.");
+      "− w) |dz| + w · relief / 3 · (|dr| + |dg| + |db|), colours from 0 to 1. For the relief Scape uses the highest "
+      "height, Scarp highest minus lowest. The paper gives no figures.");
   study.page.table({"vertices by", "vertices", "RMS of heights", "max", "PSNR of colours"}, rows);
   std::vector<Picture> beside{crop(draw_channels(*photo), kPictureSide, kPictureSide)};
   for (const std::size_t k : {kHeightsAlone, kBoth})
@@ -125,13 +125,11 @@ Result<void> add_textured_terrain(Study& study) {
                             std::move(*png));
   if (!added) return added;
   const Painted &alone = painted[kHeightsAlone], &both = painted[kBoth];
-  study.page.list(
-      {fmt::format("Heights and colours in one run ({}) against heights alone: PSNR {} dB, RMS of heights {}.{}",
-                   rows[kBoth].front(), with_sign(both.psnr - alone.psnr, 2),
-                   percent_of_change(both.run.measurement.rmse, alone.run.measurement.rmse),
-                   both.psnr > alone.psnr ? " Its vertices lie on edges of colour that heights alone would not find; "
-                                            "the emphasis says what that may cost in shape."
-                                          : "")});
+  study.page.list({fmt::format(
+      "Heights and colours in one run ({}) against heights alone: PSNR {} dB, RMS of heights {}.{}",
+      rows[kBoth].front(), with_sign(both.psnr - alone.psnr, 2),
+      percent_of_change(both.run.measurement.rmse, alone.run.measurement.rmse),
+      both.psnr > alone.psnr ? " Its vertices lie on edges of colour that heights alone would not find." : "")});
   return add_moved_heights(study, *heights, *photo, vertices);
 }
 

@@ -100,7 +100,7 @@ Result<void> add_seconds(Study& study) {
   study.page.heading(3, "Seconds");
   study.page.paragraph(fmt::format(
       "*Measured once, on the machine that wrote this page ({}):* CPU time of triangulation without reading and "
-      "judging, on one thread, the worst sample of all first, as the paper does it; the least of {} to {} runs.{}",
+      "judging, on one thread, in the greedy order; the least of {} to {} runs.{}",
       machine, kLeastRounds, kMostRounds,
       study.fields.are_of_paper
           ? " Scape's seconds are another machine's: one core of a cloud Xeon, g++ 12 -O2, the same part of the work."
@@ -115,8 +115,7 @@ Result<void> add_seconds(Study& study) {
                     "samples, on an SGI Indigo2 (R4400, 150 MHz), that is {:.0f} times as long; data-dependent edges "
                     "three to four times as long as Delaunay's (Scape, measured: {:g} to {:g}).",
                     kReportSeconds / million, kDataDependentTimeLeast, kDataDependentTimeMost),
-        "`scarp simplify` with its defaults is faster: it inserts in the dominant order, on all cores "
-        "([performance](performance.md)).",
+        "The default, the dominant order, is faster ([performance](performance.md)).",
     });
   }
   return {};
