@@ -1,5 +1,6 @@
 #!/bin/bash
-# The ratios that --help, README.md and docs/cli.md claim for efforts and budgets are those of the tables of docs/quality.md.
+# The ratios that --help, README.md, docs/cookbook.md and docs/cli.md claim for efforts, budgets and other programs are those of
+# the tables of docs/quality.md.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 scarp=${SCARP_BUILD:?}/bin/scarp
@@ -9,7 +10,7 @@ import os, re, sys
 root = sys.argv[1]
 read = lambda name: open(f"{root}/{name}", encoding="utf-8").read()
 joined = lambda text: re.sub(r"[\s`*]+", " ", text)
-texts = {"--help": joined(os.environ["help"]), "README.md": joined(read("README.md")), "docs/cli.md": joined(read("docs/cli.md")),
+texts = {"--help": joined(os.environ["help"]), **{name: joined(read(name)) for name in ("README.md", "docs/cookbook.md")}, "docs/cli.md": joined(read("docs/cli.md")),
          "docs/quality.md": joined(read("docs/quality.md"))}
 
 # triangles and CPU time of each effort, in greedy insertion's
@@ -46,8 +47,8 @@ claims = [
     ("--help", rf"with high {N} of the triangles of fast", [(triangles["high on samples"] / triangles["fast"], 2)]),
     ("README.md", r"(Half) the triangles of greedy insertion", [(triangles["normal"], 0.5)]),
     ("README.md", r"a (third) with --effort high", [(triangles["high"], 1 / 3)]),
-    ("README.md", r"in some ([0-9]+) times the time", [(seconds["high"] / seconds["normal"], 0)]),
-    ("README.md", rf"about {N} times the triangles", [(triangles["fast"] / triangles["normal"], 1)]),
+    ("docs/cookbook.md", r"in some ([0-9]+) times the time", [(seconds["high"] / seconds["normal"], 0)]),
+    ("docs/cookbook.md", rf"about {N} times the triangles", [(triangles["fast"] / triangles["normal"], 1)]),
 ]
 for level in "fast", "normal", "high", "max":
     claims.append(("docs/cli.md", rf"\| {level} \| [^|]* \| {N} \| ([0-9.]+) \|",
@@ -60,7 +61,7 @@ claims += [
     ("docs/quality.md", rf"For as many triangles high rms leaves {N} of the RMSE of high", [(budget["high rms"][2], 2)]),
     ("docs/quality.md", rf"high rms is at least {N} % below the best of them on each", [(min(below), 0)]),
 ]
-told = {"--help": [], "README.md": []}
+told = {"--help": [], "README.md": [], "docs/cookbook.md": []}
 for where, words, truths in claims:
     found = re.search(words, texts[where])
     assert found, f"{where} does not say: {words}"
@@ -72,7 +73,7 @@ for where, words, truths in claims:
             assert near(claim, true, digits), f"{where}: '{found.group()}' where the table says {true:.3f}"
 
 # Nothing else is claimed of triangles or time.
-for where in "--help", "README.md":
+for where in "--help", "README.md", "docs/cookbook.md":
     for found in re.finditer(r"(?i)(half|third|quarter|fifth|fourth|tenths?|twice|[0-9.]+ times|[0-9.]+ %|0\.[0-9]+) (of )?(the |more |fewer )?(triangles|time)\b",
                              texts[where]):
         inside = any(a <= found.start() and found.end() <= b for a, b in told[where])
@@ -81,5 +82,14 @@ for where in "--help", "README.md":
 for where, text in texts.items():
     for found in re.finditer(r"--edges data[^\n]{0,60}fewer[^\n]{0,40}", text):
         assert "--order greedy" in found.group(), f"{where} recommends '{found.group()}'"
+
+# The README's table of programs is an excerpt of the one of peers, turned: ratios to greedy insertion's triangles, cases with folds.
+peers = {}
+for line in re.search(r"<!-- table: peers -->(.*?)<!-- end -->", quality, re.S).group(1).strip().splitlines()[2:]:
+    name, _, ratio, _, kept, _, folds, _ = [cell.strip() for cell in line.strip("|").split("|")]
+    peers[name] = (ratio.split()[0], folds) if kept == "25 of 25" else ("bound broken", "–")
+names, _, ratios, folds = [[cell.strip() for cell in line.strip("|").split("|")][1:]
+                           for line in re.search(r"((?:^\| .*\n|^\|-.*\n){4})", read("README.md")[read("README.md").index("| same max error"):], re.M)[1].splitlines()]
+assert len(names) >= 5 and dict(zip(names, zip(ratios, folds, strict=True), strict=True)).items() <= peers.items(), (names, ratios, folds, peers)
 print("claims are those of the tables")
 PYTHON
