@@ -18,7 +18,7 @@ build:
 	@cmake --build $(BUILD) -j $(JOBS) --target scarp scarp_program $(C_TARGETS)
 
 demo:
-	@tools/install_packages.sh build run
+	@tools/install_packages.sh build
 	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
 	@cmake --build $(BUILD) -j $(JOBS) --target scarp_program
 	@! command -v npm >/dev/null || tools/build_viewer.sh $(BUILD) || echo 'The demonstration goes on without the viewer.'
@@ -74,6 +74,7 @@ test-rest:
 	@tools/test.sh rest
 
 qgis: build
+	@tools/install_packages.sh run
 	@python3 bindings/qgis/make_plugin.py $(BUILD)/bin/scarp dist/scarp_processing.zip
 	@echo "Install it in QGIS: Plugins, Manage and Install Plugins, Install from ZIP."
 

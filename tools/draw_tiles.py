@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt
 import numpy
 
 root = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(root / "tests" / "cli"))
+sys.path.insert(0, str(root / "tests" / "program"))
 from tiles import read_tile
 
 LEVEL, X, Y = 10, 544, 718  # the area: a tile of this level

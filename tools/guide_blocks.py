@@ -2,7 +2,7 @@
 """The code of a guide, for the test that runs it.
 
 usage: guide_blocks.py FILE LANGUAGE [NUMBER]     prints the fenced blocks of the language, or one of them (from 0)
-       guide_blocks.py --check TREE               each block of docs/guide and of the READMEs of bindings has a test, which
+       guide_blocks.py --check TREE               each block of docs/guide and of all READMEs has a test, which
                                                   names its file: tests/program/guide_blocks.tsv
 """
 import pathlib
@@ -23,7 +23,7 @@ def check(tree):
             file, language, test = line.split("\t")
             claims[file, language] = test
     found = set()
-    for path in sorted([*tree.glob("docs/guide/*.md"), *tree.glob("bindings/*/README.md")]):
+    for path in sorted([tree / "README.md", *tree.glob("docs/guide/*.md"), *tree.glob("bindings/*/README.md")]):
         text, file = path.read_text(encoding="utf-8"), str(path.relative_to(tree))
         found |= {(file, tag) for tag, _ in FENCE.findall(text)}
         if re.search(r"^    \S", re.sub(r"^ {4,}hint .*$", "", FENCE.sub("", text), flags=re.M), re.M):

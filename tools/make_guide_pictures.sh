@@ -50,8 +50,7 @@ view() {
   shrink "$out/$picture" 900
 }
 
-simplify dem.tif hills.glb -e 20 --preview "$tree/docs/images/jacksboro.png"
-shrink "$tree/docs/images/jacksboro.png" 900
+/usr/bin/python3 "$tree/tools/draw_panes.py" "$scarp" "$tree/docs/images/panes.png"
 
 simplify dem.tif lakes.glb -e 20 --water lakes.geojson --rivers streams.geojson --preview "$out/gis_water.png"
 shrink "$out/gis_water.png" 900

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the code of docs/guide/python.md, and of bindings/python/README.md, from top to bottom in a folder with the examples.
+"""Runs the code of docs/guide/python.md, of bindings/python/README.md and of README.md, from top to bottom in a folder with the
+examples.
 
 usage: tools/python_guide.py [--pictures]     --pictures: puts the pictures that it draws into docs/guide/images
 
@@ -18,13 +19,14 @@ matplotlib.use("Agg")
 root = pathlib.Path(__file__).resolve().parent.parent
 guide = (root / "docs" / "guide" / "python.md").read_text()
 blocks = re.findall(r"```python\n(.*?)```", guide, re.S)
-readme = re.findall(r"```python\n(.*?)```", (root / "bindings" / "python" / "README.md").read_text(), re.S)
+readmes = [re.findall(r"```python\n(.*?)```", (root / page).read_text(), re.S) for page in ("bindings/python/README.md", "README.md")]
 with tempfile.TemporaryDirectory() as folder:
     for example in (root / "data" / "examples").iterdir():
         shutil.copy(example, folder)
     os.chdir(folder)
     exec(compile("\n".join(blocks), "python.md", "exec"), {"__name__": "__main__"})
-    exec(compile("\n".join(readme), "README.md", "exec"), {"__name__": "__main__"})
+    for readme in readmes:
+        exec(compile("\n".join(readme), "README.md", "exec"), {"__name__": "__main__"})
     drawn = sorted(pathlib.Path(folder).glob("python_*.png"))
     if not drawn:
         sys.exit("the guide draws no picture")
@@ -32,4 +34,4 @@ with tempfile.TemporaryDirectory() as folder:
         for picture in drawn:
             shutil.copy(picture, root / "docs" / "guide" / "images")
     os.chdir(root)
-print("%d blocks ran, %d pictures were drawn" % (len(blocks + readme), len(drawn)))
+print("%d blocks ran, %d pictures were drawn" % (len(sum(readmes, blocks)), len(drawn)))

@@ -1,16 +1,20 @@
 #!/usr/bin/env bash
-# Every command of the README and of the guides runs as it stands, in the folder of examples, and does what it says.
+# Every command of the README, the cookbook and the guides runs as it stands, in the folder of examples, and does what it says.
 source "$(dirname "$0")/lib.sh"
 need python3 gdaldem gdalwarp
 readme=$SCARP_SOURCE/README.md
-[ "$(wc -l < "$readme")" -le 120 ] || fail "the README has more than 120 lines: $(wc -l < "$readme")"
+[ "$(wc -l < "$readme")" -le 90 ] || fail "the README has more than 90 lines: $(wc -l < "$readme")"
 PATH=$(dirname "$scarp"):$PATH
 
-# commands FILE: those of the cookbook's rows, and of indented code (with what makes their input), without comments. A line that ends in \ goes on.
+# commands FILE: those of the cookbook's rows, of indented code (with what makes their input), and of sessions (```console, behind a $),
+# without comments. A line that ends in \ goes on.
 commands() {
   python3 - "$1" <<'PYTHON'
 import re, sys
-text = re.sub(r"^```.*?^```$", "", open(sys.argv[1], encoding="utf-8").read(), flags=re.M | re.S).replace("\\\n", " ")
+text = open(sys.argv[1], encoding="utf-8").read()
+text = re.sub(r"^```console\n(.*?)^```$", lambda session: re.sub(r"^\$ ", "    ", re.sub(r"^(?!\$ ).*\n", "", session[1], flags=re.M), flags=re.M),
+              text, flags=re.M | re.S)
+text = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S).replace("\\\n", " ")
 for line in text.split("\n"):
     for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    ([a-z]+ .*)", re.sub("^    hint .*", "", line)):
         print(re.sub(r"\s+", " ", re.sub(r" +#.*", "", command)))
@@ -28,8 +32,8 @@ serves() {
   [ $code = 0 ] || fail "it does not serve: $1"
 }
 
-# printed_as_quoted FILE OUTPUT: what the guide quotes is what its commands print: each line of a block of `text`, and, behind
-# a paragraph, <!-- printed: REGEX -->, whose numbers stand in the paragraph, too.
+# printed_as_quoted FILE OUTPUT: what the guide quotes is what its commands print: each line of a block of `text`, of a session
+# without its commands, and, behind a paragraph, <!-- printed: REGEX -->, whose numbers stand in the paragraph, too.
 printed_as_quoted() {
   python3 - "$1" "$2" <<'PYTHON' || fail "$(basename "$1") quotes what its commands do not print"
 import re, sys
@@ -37,8 +41,8 @@ text, output = (open(name, encoding="utf-8").read() for name in sys.argv[1:])
 plain = lambda words: re.sub(r"\s+", " ", words).strip()
 lines = [plain(line) for line in output.split("\n")]
 faults = []
-for block in re.findall(r"^```text\n(.*?)^```$", text, re.M | re.S):
-    faults += [line for line in map(plain, block.split("\n")) if line not in lines]
+for block in re.findall(r"^```(?:text|console)\n(.*?)^```$", text, re.M | re.S):
+    faults += [line for line in map(plain, block.split("\n")) if line not in lines and not line.startswith("$ ")]
 for paragraph, pattern in re.findall(r"((?:[^\n]+\n)+?)<!-- printed: (.*?) -->", text):
     if not any(re.search(pattern, line) for line in lines):
         faults.append(pattern)
@@ -73,9 +77,12 @@ run_all() {
 }
 
 run_all "$readme"
-[ "$(wc -l < "$root/commands")" -ge 35 ] || fail "the README has only $(wc -l < "$root/commands") commands"
+[ "$(wc -l < "$root/commands")" -ge 5 ] || fail "the README has only $(wc -l < "$root/commands") commands"
+cookbook=$SCARP_SOURCE/docs/cookbook.md
+run_all "$cookbook"
+[ "$(wc -l < "$root/commands")" -ge 34 ] || fail "the cookbook has only $(wc -l < "$root/commands") commands"
 for row in Basics GIS 'Web and games' Simulation Printing 'The 1995 paper'; do
-  grep -qF "| **$row** | |" "$readme" || fail "the cookbook has no group $row"
+  grep -qF "| **$row** | |" "$cookbook" || fail "the cookbook has no group $row"
 done
 python3 "$SCARP_SOURCE/tools/guide_blocks.py" --check "$SCARP_SOURCE" || fail "a block of a guide has no test"
 python3 - "$SCARP_SOURCE/docs/guide" <<'PYTHON' || fail "library.md does not show library.cpp"
