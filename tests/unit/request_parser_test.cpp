@@ -262,7 +262,7 @@ TEST(MediaTypes, ComeFromTheEndingInAnyCase) {
 }
 
 TEST(ServeDocs, NameTheNumberOfConnections) {
-  for (const char* const name : {"/docs/cli.md", "/docs/tiles.md"}) {
+  for (const char* const name : {"/docs/cli/serve.md", "/docs/tiles.md"}) {
     std::ifstream file(source_dir() + name);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     std::smatch found;
