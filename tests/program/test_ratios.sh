@@ -1,5 +1,5 @@
 #!/bin/bash
-# The ratios that --help, README.md and docs/cli/ claim for efforts and budgets are those of the tables of docs/quality.md.
+# The ratios that --help, README.md and docs/cli.md claim for efforts and budgets are those of the tables of docs/quality.md.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 scarp=${SCARP_BUILD:?}/bin/scarp
@@ -9,8 +9,8 @@ import os, re, sys
 root = sys.argv[1]
 read = lambda name: open(f"{root}/{name}", encoding="utf-8").read()
 joined = lambda text: re.sub(r"[\s`*]+", " ", text)
-texts = {"--help": joined(os.environ["help"])}
-texts |= {name: joined(read(name)) for name in ("README.md", "docs/cli/effort.md", "docs/cli/goals.md", "docs/quality.md")}
+texts = {"--help": joined(os.environ["help"]), "README.md": joined(read("README.md")), "docs/cli.md": joined(read("docs/cli.md")),
+         "docs/quality.md": joined(read("docs/quality.md"))}
 
 # triangles and CPU time of each effort, in greedy insertion's
 quality = read("docs/quality.md")
@@ -49,6 +49,7 @@ claims = [
     ("README.md", r"in some ([0-9]+) times the time", [(seconds["high"] / seconds["normal"], 0)]),
     ("README.md", rf"about {N} times the triangles", [(triangles["fast"] / triangles["normal"], 1)]),
 ]
+texts |= {name: joined(read(name)) for name in ("docs/cli/effort.md", "docs/cli/goals.md")}
 for level in "fast", "normal", "high", "max":
     claims.append(("docs/cli/effort.md", rf"\| {level} \| [^|]* \| {N} \| ([0-9.]+) \|",
                    [(triangles[level], 2), (seconds[level], 0 if level == "max" else 1)]))

@@ -14,7 +14,7 @@ pre { background: var(--code); padding: 10px 14px } pre code { padding: 0 } tabl
 const list = folder => readdirSync(folder).filter(name => name.endsWith('.md'));
 const made_pages = list(made).map(name => `docs/${name}`);
 const pages = ['README.md', 'CHANGELOG.md', ...made_pages,
-  ...['docs', 'docs/cli', 'docs/guide'].flatMap(folder => list(join(source, folder)).map(name => `${folder}/${name}`))];
+  ...['docs', 'docs/cli', 'docs/guide', 'bench', 'bench/quality', 'bench/speed'].flatMap(folder => list(join(source, folder)).map(name => `${folder}/${name}`))];
 const path_of = page => made_pages.includes(page) ? join(made, page.slice('docs/'.length)) : join(source, page);
 const address_of = page => page === 'README.md' ? 'index.html' : page.replace(/\.md$/, '.html');
 const slug = text => text.toLowerCase().replace(/<[^>]*>/g, '').replace(/&[a-z]+;/g, '').replace(/[^\p{L}\p{N}\s_-]/gu, '').trim().replace(/\s/g, '-');
