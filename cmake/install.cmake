@@ -66,10 +66,10 @@ if(SCARP_BUILD_APPS)
   install(TARGETS scarp_program)
   # The viewer's page, where `make viewer` has built it.
   install(FILES ${PROJECT_BINARY_DIR}/share/scarp/viewer.html DESTINATION ${CMAKE_INSTALL_DATADIR}/scarp OPTIONAL)
-  install(FILES ${PROJECT_SOURCE_DIR}/docs/man/scarp.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${PROJECT_SOURCE_DIR}/completions/scarp.bash
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME scarp)
-  install(FILES ${PROJECT_SOURCE_DIR}/completions/_scarp DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-  install(FILES ${PROJECT_SOURCE_DIR}/completions/scarp.fish
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  # What apps/scarp makes of the table of options; nothing where Python was missing.
+  install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/scarp.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+  foreach(completions bash-completion/completions/scarp zsh/site-functions/_scarp fish/vendor_completions.d/scarp.fish)
+    get_filename_component(folder ${completions} DIRECTORY)
+    install(FILES ${PROJECT_BINARY_DIR}/share/${completions} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder} OPTIONAL)
+  endforeach()
 endif()

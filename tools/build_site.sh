@@ -15,4 +15,6 @@ trap 'rm -rf "$scratch"' EXIT
 "$build/bin/scarp" simplify data/jacksboro_fault.tif "$scratch/jacksboro.glb" -e 20 --quiet
 "$build/bin/scarp" view "$scratch/jacksboro.glb" data/jacksboro_fault.tif -o "$site/example.html" --overwrite --quiet
 cp web/site/build.mjs "$build/viewer/site.mjs"
-node "$build/viewer/site.mjs" . "$site"
+python3 tools/generate_docs.py "$build/bin/scarp" "$scratch"
+python3 tools/python_reference.py "$scratch/doc/scarp/python.md"
+node "$build/viewer/site.mjs" . "$site" "$scratch/doc/scarp"

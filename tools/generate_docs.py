@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes what the table of options says into the man page, the completions and the tables of docs/cli.md.
+"""Writes the man page, the completions and a page of all options from the program's table of options.
 
-usage: generate_docs.py PROGRAM [--check] [--tree TREE]
+usage: generate_docs.py PROGRAM FOLDER
 
-PROGRAM is build/bin/scarp, whose `help --json` prints the table. Completions are written as a whole. In
-docs/man/scarp.1 the lines between `options begin` and `options end` are written, in docs/cli.md the tables between
-`<!-- options COMMAND: WHAT … -->` and `<!-- end -->`, where WHAT is a group (`where-it-matters`) or an option
-(`--cutline`). With --check nothing is written: the exit code is 1, and the files that differ are named.
+PROGRAM is build/bin/scarp, whose `help --json` prints the table. FOLDER gets man/man1/scarp.1 (packaging/scarp.1.in, with
+synopsis and options), bash-completion/completions/scarp, zsh/site-functions/_scarp, fish/vendor_completions.d/scarp.fish
+and doc/scarp/options.md: the places below share/ where they are installed. The build runs it after it has linked the
+program.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import subprocess
 import sys
 
 WIDTH = 116
-NOTE = "Written by tools/generate_docs.py from `scarp help --json`, not by hand"
+NOTE = "Written by tools/generate_docs.py from `scarp help --json`"
 
 
 class Table:
@@ -25,6 +25,7 @@ class Table:
         table = json.loads(subprocess.run([program, "help", "--json"], check=True, stdout=subprocess.PIPE).stdout)
         self.commands = [command["name"] for command in table["commands"]]
         self.summaries = {command["name"]: command["help"] for command in table["commands"]}
+        self.usages = {command["name"]: command["usage"] for command in table["commands"]}
         self.options = table["options"]
 
     def of(self, command):
@@ -36,10 +37,6 @@ class Table:
 
     def arguments(self, command):
         return [option for option in self.of(command) if not option["name"].startswith("-")]
-
-
-def slug(group):
-    return re.sub("[^a-z0-9]+", "-", group.lower()).strip("-")
 
 
 def first_sentence(option):
@@ -88,14 +85,25 @@ def man_lines(table):
                 yield "\\&" + line if line[0] in ".'" else line
 
 
-def man_page(table, old):
-    begin, end = f'.\\" options begin. {NOTE}.', '.\\" options end'
-    head, rest = re.split(r'^\.\\" options begin.*\n', old, maxsplit=1, flags=re.M)
-    tail = rest[rest.index(end):]
-    return head + begin + "\n" + "\n".join(man_lines(table)) + "\n" + tail
+def synopsis_lines(table):
+    for k, command in enumerate(table.commands):
+        if k:
+            yield ".br"
+        words = ["\\fBscarp " + command.replace("-", "\\-") + "\\fR"]
+        for word in table.usages[command].split():
+            name = word.strip("[]")
+            style = "B" if name.startswith("-") else "I"
+            words.append(word.replace(name, f"\\f{style}{name}\\fR").replace("-", "\\-"))
+        yield " ".join(words)
 
 
-# docs/cli.md.
+def man_page(table):
+    template = pathlib.Path(__file__).resolve().parent.parent / "packaging" / "scarp.1.in"
+    text = template.read_text(encoding="utf-8")
+    return text.replace("@SYNOPSIS@", "\n".join(synopsis_lines(table))).replace("@OPTIONS@", "\n".join(man_lines(table)))
+
+
+# The page of all options.
 
 
 def cell(text, choices=()):
@@ -105,36 +113,26 @@ def cell(text, choices=()):
     return re.sub(r"(?<![\w`-])(--[a-z][a-z-]*|-[a-z])(?![\w-])", r"`\1`", text)
 
 
-def markdown_table(table, command, wanted, shown):
-    groups = {slug(option["group"]) for option in table.of(command)}
-    names = {option["name"] for option in table.of(command)}
-    for word in wanted:
-        if word not in groups and word not in names:
-            raise SystemExit(f"docs/cli.md: {command} has no group or option {word}")
-    rows = [option for word in wanted for option in table.of(command) if word in (slug(option["group"]), option["name"])]
-    has_default = any(option["default"] for option in rows)
-    lines = ["| option | meaning | default |", "|---|---|---|"] if has_default else ["| option | meaning |", "|---|---|"]
-    for option in rows:
-        shown.add(option["name"])
+def option_rows(options):
+    has_default = any(option["default"] for option in options)
+    yield "| option | meaning | default |" if has_default else "| option | meaning |"
+    yield "|---|---|---|" if has_default else "|---|---|"
+    for option in options:
         value = " " + option["value"].replace("|", "\\|") if option["value"] else ""
         name = (f"`{option['short']}`, " if option["short"] else "") + f"`{option['name']}{value}`"
         default = f" {cell(option['default'] or '', option['choices'])} |" if has_default else ""
-        lines.append(f"| {name} | {cell(sentences(option, False), option['choices'])} |{default}".replace("|  |", "| |"))
-    return "\n".join(lines)
+        yield f"| {name} | {cell(sentences(option, False), option['choices'])} |{default}".replace("|  |", "| |")
 
 
-def cli_page(table, old):
-    shown = set()
-
-    def fill(match):
-        words = match.group(2).split()
-        return f"{match.group(1)}\n{markdown_table(table, match.group(0).split()[2].rstrip(':'), words, shown)}\n<!-- end -->"
-
-    new = re.sub(r"(<!-- options [a-z-]+: ([a-z0-9 -]+?) -->)\n(?:[^\n]*\n)*?<!-- end -->", fill, old)
-    missing = {option["name"] for option in table.options if option["name"].startswith("-")} - shown - {"--help", "--help-all", "--version"}
-    if missing:
-        raise SystemExit(f"docs/cli.md: no table has {', '.join(sorted(missing))}")
-    return new
+def options_page(table):
+    lines = ["# Options", "", f"All commands and options of the program. {NOTE}."]
+    for command in table.commands:
+        usage = " ".join(["scarp", command, table.usages[command]]).strip()
+        lines += ["", f"## {command}", "", f"    {usage}", "", f"{table.summaries[command]}."]
+        for group in dict.fromkeys(option["group"] for option in table.of(command)):
+            options = [option for option in table.of(command) if option["group"] == group]
+            lines += ["", f"### {command}: {group[0].lower()}{group[1:]}", "", *option_rows(options)]
+    return "\n".join(lines) + "\n"
 
 
 # Completions.
@@ -163,7 +161,7 @@ def bash_kind(option):
     return f"-W '{' '.join(option['choices'])}'" if option["choices"] else ""
 
 
-def bash(table, _old):
+def bash(table):
     lines = [f"# bash completion for scarp. {NOTE}.", "", "_scarp() {",
              "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word",
              "  COMPREPLY=()", '  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do',
@@ -228,7 +226,7 @@ def zsh_line(option):
     return f"'{before}{words}[{zsh_text(first_sentence(option))}]{value}'"
 
 
-def zsh(table, _old):
+def zsh(table):
     lines = ["#compdef scarp", f"# zsh completion for scarp. {NOTE}.", "", "_scarp() {", "  if (( CURRENT == 2 )); then",
              "    local -a commands", "    commands=("]
     lines += [f"      '{command}:{zsh_text(table.summaries[command])}'" for command in table.commands]
@@ -259,7 +257,7 @@ def fish_kind(option):
     return text + f" -d {fish_text(first_sentence(option))}"
 
 
-def fish(table, _old):
+def fish(table):
     lines = [f"# fish completion for scarp. {NOTE}.", ""]
     for command in table.commands:
         lines.append(f"complete -c scarp -n __fish_use_subcommand -f -a {command} -d {fish_text(table.summaries[command])}")
@@ -275,32 +273,21 @@ def fish(table, _old):
     return "\n".join(lines) + "\n"
 
 
-FILES = {"docs/man/scarp.1": man_page, "docs/cli.md": cli_page, "completions/scarp.bash": bash,
-         "completions/_scarp": zsh, "completions/scarp.fish": fish}
+FILES = {"man/man1/scarp.1": man_page, "bash-completion/completions/scarp": bash, "zsh/site-functions/_scarp": zsh,
+         "fish/vendor_completions.d/scarp.fish": fish, "doc/scarp/options.md": options_page}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("program")
-    parser.add_argument("--check", action="store_true")
-    parser.add_argument("--tree", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
+    parser.add_argument("folder", type=pathlib.Path)
     given = parser.parse_args()
     table = Table(given.program)
-    is_wrong = False
     for name, make in FILES.items():
-        path = given.tree / name
-        old = path.read_text(encoding="utf-8")
-        new = make(table, old)
-        if new == old:
-            continue
-        if given.check:
-            print(f"{name} is not what `scarp help --json` says: run tools/generate_docs.py {given.program}")
-            is_wrong = True
-        else:
-            path.write_text(new, encoding="utf-8")
-            print(f"{name} written")
-    return 1 if is_wrong else 0
+        path = given.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(make(table), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Writes docs/python.md from the docstrings of bindings/python; --check compares only, and says what is to be done."""
+"""Writes the reference of the Python package, a page of Markdown, from the docstrings of bindings/python.
+
+usage: python_reference.py FILE.md
+"""
 import ast
 import pathlib
 import sys
@@ -73,9 +76,4 @@ for module, names in PUBLIC:
 text = "\n".join(parts).rstrip() + "\n"
 while "\n\n\n" in text:
     text = text.replace("\n\n\n", "\n\n")
-target = root / "docs" / "python.md"
-if "--check" in sys.argv[1:]:
-    if not target.exists() or target.read_text() != text:
-        sys.exit("docs/python.md is not what the docstrings say: run tools/python_reference.py")
-else:
-    target.write_text(text)
+pathlib.Path(sys.argv[1]).write_text(text, encoding="utf-8")

@@ -46,8 +46,17 @@ succeeds /usr/bin/python3 -m venv --system-site-packages by_guide
 (cd "$SCARP_SOURCE" && PATH=$scratch/by_guide/bin:$PATH PIP_NO_INDEX=1 SCARP_C_LIBRARY=$(realpath "$alone") succeeds bash -c "$install")
 succeeds by_guide/bin/python -c 'import scarp'
 
-# 4. It is typed, and its reference is what the docstrings say.
-succeeds python3 "$SCARP_SOURCE/tools/python_reference.py" --check
+# 4. It is typed, and its reference has every public name, explained.
+succeeds python3 "$SCARP_SOURCE/tools/python_reference.py" reference.md
+succeeds python3 - "$SCARP_SOURCE/bindings/python/src/scarp/__init__.py" reference.md << 'E2'
+import ast, re, sys
+tree = ast.parse(open(sys.argv[1], encoding="utf-8").read())
+names, = [ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"]
+sections = dict(re.findall(r"^## (\w+)[^\n]*\n(.*?)(?=^## |\Z)", open(sys.argv[2], encoding="utf-8").read(), re.M | re.S))
+assert len(names) > 10, names
+for name in set(names) - {"has_gdal", "__version__"}:
+    assert "```text\n" in sections.get(name, ""), f"the reference does not explain {name}"
+E2
 if command -v mypy > /dev/null; then
   (cd "$package" && try mypy --cache-dir "$scratch/mypy" --python-version 3.9
     [ "$code" = 0 ] || { cat "$logs/out" >&2; fail "mypy complains"; })

@@ -1,16 +1,26 @@
 #!/bin/bash
-# One table of options says the same to --help, the man page, the completions and docs/cli.md, and what it says of
-# choices is what the program takes. No line of Markdown is too long to read in a terminal.
+# One table of options says the same to --help, the man page, the completions and the page of all options, and the choices
+# that it lists are those that the program accepts. No line of Markdown is too long to read in a terminal.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
-man=$SCARP_SOURCE/docs/man/scarp.1
-completions=$SCARP_SOURCE/completions
+need python3
+succeeds python3 "$SCARP_SOURCE/tools/generate_docs.py" "$scarp" share
+man=share/man/man1/scarp.1
+bash_completions=share/bash-completion/completions/scarp
+zsh_completions=share/zsh/site-functions/_scarp
+fish_completions=share/fish/vendor_completions.d/scarp.fish
+# The build has made the same; a folder that holds the program alone has none.
+if [ -e "$SCARP_BUILD/share/man" ]; then
+  for file in $(cd share && find . -type f); do
+    cmp "share/$file" "$SCARP_BUILD/share/$file" || fail "the build has made another $file"
+  done
+fi
 
 # Words that stand for themselves: not the beginning of a longer option.
 names_option() { grep -Eq -- "(^|[^[:alnum:]-])$1([^[:alnum:]-]|\$)" "$2"; }
 # The man page with its escapes undone.
 sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 # fish says `-l max-error` for --max-error.
-sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$completions/scarp.fish" >fish.txt
+sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$fish_completions" >fish.txt
 
 commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
 [ "$(wc -w <<<"$commands")" = 14 ] || fail "--help lists other commands: $commands"
@@ -18,7 +28,7 @@ commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
 "$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options
 for command in $commands; do
-  for text in man.txt "$completions/scarp.bash" "$completions/_scarp" fish.txt; do
+  for text in man.txt "$bash_completions" "$zsh_completions" fish.txt; do
     grep -qw -- "$command" "$text" || fail "the command $command is missing in $text"
   done
   "$scarp" help "$command" >help.txt
@@ -33,14 +43,14 @@ for command in $commands; do
   [ "$(wc -w <<<"$options")" -ge 3 ] || fail "scarp $command --help lists hardly any option"
   for option in $options; do
     echo "$option" >>all_options
-    for text in man.txt "$completions/_scarp" fish.txt; do
+    for text in man.txt "$zsh_completions" fish.txt share/doc/scarp/options.md; do
       names_option "$option" "$text" || fail "$option of $command is missing in $text"
     done
   done
 
   # bash: what is offered after the command is exactly what --help lists.
   offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp "$2" --); COMP_CWORD=2; _scarp; printf "%s\n" "${COMPREPLY[@]}"' \
-    _ "$completions/scarp.bash" "$command" | sort)
+    _ "$bash_completions" "$command" | sort)
   [ "$offered" = "$(sort <<<"$options")" ] || fail "bash offers after $command: $offered"
 done
 # The first page fits a screen: goals first, eight examples, and the way to the rest, in which they stand last that few
@@ -57,36 +67,26 @@ grep -q -- '--help-all' help.txt || fail "scarp simplify -h does not name --help
 [ "$("$scarp" version)" = "$("$scarp" --version)" ] || fail "scarp version and scarp --version differ"
 
 offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp simplify --effort h); COMP_CWORD=3; _scarp; echo "${COMPREPLY[@]}"' \
-  _ "$completions/scarp.bash")
+  _ "$bash_completions")
 [ "$offered" = high ] || fail "bash offers after --effort: $offered"
 
-for text in man.txt "$completions/_scarp" fish.txt; do
+for text in man.txt "$zsh_completions" fish.txt; do
   for option in $(grep -v '^#' "$text" | grep -oE -- '(^|[^[:alnum:]-])--[a-z][a-z-]+' | grep -oE -- '--[a-z-]+' | sort -u); do
     grep -qxF -- "$option" all_options || fail "$text names $option, which no command has"
   done
 done
 
-bash -n "$completions/scarp.bash"
-if command -v zsh >/dev/null; then zsh -n "$completions/_scarp" || fail "zsh cannot read _scarp"; fi
-if command -v fish >/dev/null; then fish -n "$completions/scarp.fish" || fail "fish cannot read scarp.fish"; fi
+bash -n "$bash_completions"
+if command -v zsh >/dev/null; then zsh -n "$zsh_completions" || fail "zsh cannot read _scarp"; fi
+if command -v fish >/dev/null; then fish -n "$fish_completions" || fail "fish cannot read scarp.fish"; fi
 if command -v groff >/dev/null; then
   groff -man -Tutf8 -ww -z "$man" 2>man.log || fail "groff refuses the man page"
   [ ! -s man.log ] || fail "groff warns about the man page: $(head -n 3 man.log)"
 fi
 
-if command -v python3 >/dev/null; then
-  generate=$SCARP_SOURCE/tools/generate_docs.py
-  python3 "$generate" "$scarp" --check --tree "$SCARP_SOURCE" >docs.txt || fail "$(cat docs.txt)"
-  for file in docs/man/scarp.1 docs/cli.md completions/scarp.bash completions/_scarp completions/scarp.fish; do
-    mkdir -p "tree/$(dirname $file)"
-    sed 's/At most this many triangles/At most this much/; s/--max-triangles/--most-triangles/' "$SCARP_SOURCE/$file" >"tree/$file"
-  done
-  if python3 "$generate" "$scarp" --check --tree tree >docs.txt; then fail "changed files were not noticed"; fi
-  [ "$(wc -l <docs.txt)" = 5 ] || fail "five files differ: $(cat docs.txt)"
-
-  # A table of options that can be relied upon, and the choices that the program itself names.
-  "$scarp" help --json >table.json
-  python3 - table.json >choices.txt <<'END' || fail "the table of options is wrong"
+# A table of options that can be relied upon, and the choices that the program itself names.
+"$scarp" help --json >table.json
+python3 - table.json >choices.txt <<'END' || fail "the table of options is wrong"
 import json, re, sys
 table = json.load(open(sys.argv[1]))
 seen = set()
@@ -104,39 +104,38 @@ for row in table["options"]:
 names = [command["name"] for command in table["commands"]]
 assert names == [row["choices"] for row in table["options"] if row["name"] == "COMMAND"][0], names
 END
-  printf 'x,y,z\n0,0,1\n9,0,2\n0,9,3\n' >points.csv
-  while read -r command option choices; do
-    case "$command $option" in
-      "simplify --duplicates") try "$scarp" simplify points.csv out.obj -e 1 "$option" nonsense ;;
-      "measure --duplicates") continue ;; # asked after the mesh is read
-      "simplify --norm") try "$scarp" simplify "$dem" out.obj -e 1 --image "$option" nonsense ;;
-      "simplify --edge-score") try "$scarp" simplify "$dem" out.obj -e 1 --edges data "$option" nonsense ;;
-      "simplify --drape-format") try "$scarp" simplify "$dem" out.glb -e 1 --drape "$dem" "$option" nonsense ;;
-      "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines "$option" nonsense ;;
-      "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
-      simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
-      view*) try "$scarp" view out.obj "$dem" "$option" nonsense ;;
-      measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;
-      "tile-check --grid") continue ;; # asked after the set is read: test_tile_local.sh asks it
-      "tile-plan --hash") try "$scarp" tile-plan "$dem" out.json "$option" nonsense ;;
-      tile*) try "$scarp" tile "$dem" out "$option" nonsense ;;
-      serve*) try "$scarp" serve "$dem" "$option" nonsense ;;
-      info*) try "$scarp" info "$dem" "$option" nonsense ;;
-      generate*) try "$scarp" generate cliff 9 9 out.tif "$option" nonsense ;;
-    esac
-    [ "$code" = 1 ] || fail "$command $option nonsense ends with $code"
-    named=$(sed -E 's/.*choose //; s/ or /, /; s/,//g' "$logs/err" | tr ' ' '\n' | sort | xargs)
-    [ "$named" = "$(tr ' ' '\n' <<<"$choices" | sort | xargs)" ] || fail "$command $option: $choices, but the program says $named"
-  done <choices.txt
+printf 'x,y,z\n0,0,1\n9,0,2\n0,9,3\n' >points.csv
+while read -r command option choices; do
+  case "$command $option" in
+    "simplify --duplicates") try "$scarp" simplify points.csv out.obj -e 1 "$option" nonsense ;;
+    "measure --duplicates") continue ;; # asked after the mesh is read
+    "simplify --norm") try "$scarp" simplify "$dem" out.obj -e 1 --image "$option" nonsense ;;
+    "simplify --edge-score") try "$scarp" simplify "$dem" out.obj -e 1 --edges data "$option" nonsense ;;
+    "simplify --drape-format") try "$scarp" simplify "$dem" out.glb -e 1 --drape "$dem" "$option" nonsense ;;
+    "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines "$option" nonsense ;;
+    "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
+    simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
+    view*) try "$scarp" view out.obj "$dem" "$option" nonsense ;;
+    measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;
+    "tile-check --grid") continue ;; # asked after the set is read: test_tile_local.sh asks it
+    "tile-plan --hash") try "$scarp" tile-plan "$dem" out.json "$option" nonsense ;;
+    tile*) try "$scarp" tile "$dem" out "$option" nonsense ;;
+    serve*) try "$scarp" serve "$dem" "$option" nonsense ;;
+    info*) try "$scarp" info "$dem" "$option" nonsense ;;
+    generate*) try "$scarp" generate cliff 9 9 out.tif "$option" nonsense ;;
+  esac
+  [ "$code" = 1 ] || fail "$command $option nonsense ends with $code"
+  named=$(sed -E 's/.*choose //; s/ or /, /; s/,//g' "$logs/err" | tr ' ' '\n' | sort | xargs)
+  [ "$named" = "$(tr ' ' '\n' <<<"$choices" | sort | xargs)" ] || fail "$command $option: $choices, but the program says $named"
+done <choices.txt
 
-  check_words=$SCARP_SOURCE/tools/check_words.py
-  python3 "$check_words" "$SCARP_SOURCE" >words.txt || fail "a line of Markdown is too long: $(head -n 3 words.txt)"
-  mkdir pages
-  long_line=$(printf '%0161d' 0)
-  printf '| %s |\n    %s\n```\n%s\n```\n' "$long_line" "$long_line" "$long_line" >pages/fine.md
-  python3 "$check_words" pages >words.txt || fail "tables and code may have long lines: $(cat words.txt)"
-  printf 'short\n%s\n' "$long_line" >pages/planted.md
-  if python3 "$check_words" pages >words.txt; then fail "a line of 161 characters was not noticed"; fi
-  [ "$(cat words.txt)" = "planted.md:2: 161 characters, at most 160" ] || fail "wrong words: $(cat words.txt)"
-fi
-echo "man page, completions and docs/cli.md agree with the table of options"
+check_words=$SCARP_SOURCE/tools/check_words.py
+python3 "$check_words" "$SCARP_SOURCE" >words.txt || fail "a line of Markdown is too long: $(head -n 3 words.txt)"
+mkdir pages
+long_line=$(printf '%0161d' 0)
+printf '| %s |\n    %s\n```\n%s\n```\n' "$long_line" "$long_line" "$long_line" >pages/fine.md
+python3 "$check_words" pages >words.txt || fail "tables and code may have long lines: $(cat words.txt)"
+printf 'short\n%s\n' "$long_line" >pages/planted.md
+if python3 "$check_words" pages >words.txt; then fail "a line of 161 characters was not noticed"; fi
+[ "$(cat words.txt)" = "planted.md:2: 161 characters, at most 160" ] || fail "wrong words: $(cat words.txt)"
+echo "man page, completions and the page of all options agree with the table of options"

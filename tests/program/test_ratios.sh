@@ -53,14 +53,14 @@ claims = [
     ("docs/cookbook.md", r"in some ([0-9]+) times the time", [(seconds["high"] / seconds["normal"], 0)]),
     ("docs/cookbook.md", rf"about {N} times the triangles", [(triangles["fast"] / triangles["normal"], 1)]),
 ]
-texts["docs/cookbook.md"] = joined(read("docs/cookbook.md"))
+texts |= {name: joined(read(name)) for name in ("docs/cookbook.md", "docs/cli/effort.md", "docs/cli/goals.md")}
 for level in "fast", "normal", "high", "max":
-    claims.append(("docs/cli.md", rf"\| {level} \| [^|]* \| {N} \| ([0-9.]+) \|",
+    claims.append(("docs/cli/effort.md", rf"\| {level} \| [^|]* \| {N} \| ([0-9.]+) \|",
                    [(triangles[level], 2), (seconds[level], 0 if level == "max" else 1)]))
 claims += [
-    ("docs/cli.md", rf"the max error is about {N} \( ?normal ?\) or {N} \( ?high ?\) of that of greedy insertion",
+    ("docs/cli/goals.md", rf"the max error is about {N} \( ?normal ?\) or {N} \( ?high ?\) of that of greedy insertion",
      [(budget["normal"][0], 2), (budget["high"][0], 2)]),
-    ("docs/cli.md", rf"With high the RMSE is about {N} of that of max , and the max error {N} times",
+    ("docs/cli/goals.md", rf"With high the RMSE is about {N} of that of max , and the max error {N} times",
      [(budget["high rms"][2], 2), (budget["high rms"][0] / budget["high"][0], 1)]),
     ("bench/quality.md", rf"For as many triangles high rms leaves {N} of the RMSE of high", [(budget["high rms"][2], 2)]),
     ("bench/quality.md", rf"high rms is at least {N} % below the best of them on each", [(min(below), 0)]),

@@ -1,5 +1,5 @@
 // The one table of options: `--help`, `scarp help --json`, CLI11's registration, the man page, the completions and the
-// tables of docs/cli.md are made from it.
+// page of all options are made from it.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Reports as JSON. simplify, measure and info give the same things the same names; docs/cli.md lists them.
+// Reports as JSON. simplify, measure and info give the same things the same names; docs/cli/reports.md lists them.
 #pragma once
 
 #include <nlohmann/json.hpp>
