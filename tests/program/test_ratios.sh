@@ -1,5 +1,5 @@
 #!/bin/bash
-# The ratios that --help, README.md and docs/cli.md claim for efforts and budgets are those of the tables of bench/quality.md,
+# The ratios that --help, README.md, the cookbook and docs/cli claim for efforts and budgets are those of the tables of bench/quality.md,
 # and the figures of docs/how-good.md are those of the pages and tables of bench/.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
