@@ -5,7 +5,7 @@
 #       scripts of labels fast and full: program, Python, npm, viewer.
 # rest: what `make test-full` adds.
 #   1. Release: laws with 100 cases each; scripts of label rest: packages, installs, clients of other languages,
-#      clusters.
+#      other programs, clusters.
 #   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests, and laws with 8 cases each, asserts on; of the samples
 #      of real rasters a share (tests/laws/sanitized.h). One process runs many tests, since each start costs. With clang
 #      this is the build of the fuzzers, so that the library is compiled once. The C library, called by C
@@ -174,7 +174,7 @@ run_test() {
 
 run_rest() {
   announce "1/4 Release: laws with 100 cases; packages, installs, clients, clusters"
-  if timed rest_build build_stage "$build" release all; then
+  if timed rest_build build_stage "$build" release all scarp_rest_programs; then
     GTEST_FILTER=$(names_of_laws) timed rest_laws run_gtest "$build/bin/scarp_tests" 40
     run_ctest "$build" -L rest
   fi

@@ -1,14 +1,8 @@
 #!/usr/bin/env bash
-# The npm package: packed, installed into an empty project, and used in Node, in Chromium and through bundlers. Its meshes and
-# tiles are the program's.
+# The npm package: packed, installed into an empty project, and used in Node. Its meshes and tiles are the program's.
+# Browsers and bundlers: test_npm_bundlers.sh.
 source "$(dirname "$0")/../program/lib.sh"
-need em++ node npm python3 gdal_translate
-[ "$(node -p 'parseInt(process.versions.node) >= 18')" = true ] || skip "needs Node 18"
-
-package=$("$SCARP_SOURCE/tools/build_npm.sh" "$SCARP_BUILD-wasm" "$PWD/dist" 2> "$logs/err") || fail "the package cannot be built"
-cp "$SCARP_SOURCE"/tests/js/npm/* .
-echo '{ "type": "module", "private": true }' > package.json
-succeeds npm install --offline --no-audit --no-fund --ignore-scripts "$package"
+source "$(dirname "$0")/npm_package.sh"
 
 # Sizes after brotli, as they go over the wire.
 for limit in lite:53 scarp:260 full:336; do
@@ -18,14 +12,6 @@ for limit in lite:53 scarp:260 full:336; do
 done
 
 # The same meshes as the program.
-add() {  # NAME WIDTH HEIGHT ERROR
-  local effort
-  succeeds gdal_translate -q -of ENVI -ot Float32 "$1.tif" "$1.f32"
-  for effort in fast normal high; do
-    succeeds "$scarp" simplify "$1.tif" "$1_$effort.glb" -e "$4" --effort "$effort" --crs grid -q
-    echo "$1 $2 $3 $4 $effort" >> cases
-  done
-}
 while read -r name style cols rows range error; do
   succeeds "$scarp" generate "$style" "$cols" "$rows" "$name.tif" --range "$range" -q
   add "$name" "$cols" "$rows" "$error"
@@ -138,45 +124,4 @@ succeeds "$scarp" measure fine.tif fine.glb --crs source --fail-above 8 --json
 off=$(json "$logs/out" max_error)
 holds "$off - $fine < 1e-9 && $fine - $off < 1e-9"
 holds "2 * $packed_bytes < $plain_bytes && $loose_bytes < $plain_bytes"
-
-# What follows needs packages of others.
-told= bundles=()
-npm_judges gltf-validator && succeeds node "$js/validate_glb.cjs" plain.glb packed.glb loose.glb
-if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vite webpack; then
-  for installed in "$js"/node_modules/*; do [ -e "node_modules/$(basename "$installed")" ] || ln -s "$installed" node_modules/; done
-  succeeds node dropins.mjs
-  succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022,dom --typeRoots none typed.mts
-  # Without types of a browser, and as older programs look for them.
-  succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022 --typeRoots none plain.mts
-  succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module esnext --moduleResolution node10 --target es2022 --lib es2022 --typeRoots none node10.ts
-  told=$(node app.mjs)
-  succeeds node bundle.mjs formats
-  for bundler in esbuild inline vite webpack; do succeeds node bundle.mjs "$bundler"; done
-  bundles=(esbuild/index.html file:inline/index.html vite/vite.html dev:vite.html webpack/index.html)
-fi
-if command -v chromium > /dev/null && npm_judges playwright-core; then
-  cp "$js/browser.mjs" open_page.mjs
-  [ -e node_modules/playwright-core ] || ln -s "$js/node_modules/playwright-core" node_modules/
-  # The blocks of bindings/wasm/README.md.
-  readme=$SCARP_SOURCE/bindings/wasm/README.md
-  if npm_judges three esbuild && "$SCARP_SOURCE/tools/build_viewer.sh" "$SCARP_BUILD" > viewer.log 2>&1; then
-    "$js/node_modules/.bin/esbuild" "$SCARP_BUILD/viewer/node_modules/geotiff/dist-module/geotiff.js" --bundle --format=esm --log-level=error --outfile=geotiff.js
-    cp -L "$data/examples/tile.png" "$data/examples/dem.tif" .
-    succeeds node readme.mjs "$(command -v chromium)" "$readme"
-    cat "$logs/out"
-    mkdir by_readme
-    (cd by_readme && ln -s ../node_modules . && echo 'import { simplify } from "scarp"; console.log(simplify);' > app.js &&
-      PATH=$js/node_modules/.bin:$PATH succeeds bash -ec "$(python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$readme" sh)" && ls dist/scarp.wasm dist/app.js > /dev/null) ||
-      fail "the lines for esbuild"
-  fi
-  succeeds node browser.mjs "$(command -v chromium)" "$told" "${bundles[@]}"
-  cat "$logs/out"
-  if npm_judges @deck.gl/geo-layers @loaders.gl/terrain esbuild; then
-    shots=${SCARP_SHOTS:-$scratch/shots}
-    mkdir -p "$shots"
-    succeeds node deck_browser.mjs "$(command -v chromium)" "$shots"
-    echo "deck.gl: $(grep -o '"drawn"' "$logs/out" | wc -l) pictures"
-  fi
-else
-  echo "left out: Chromium"
-fi
+if npm_judges gltf-validator; then succeeds node "$js/validate_glb.cjs" plain.glb packed.glb loose.glb; fi
