@@ -1,4 +1,4 @@
-// Images laid over a raster.
+// Images draped over a raster.
 #pragma once
 
 #include <string>

@@ -19,12 +19,12 @@ std::shared_ptr<const HeightZero> egm96();
 struct ZeroGrid {
   int cols = 0, rows = 0;      ///< at least 2
   std::vector<float> heights;  ///< cols · rows, row by row; metres above the ellipsoid, NaN where they are not known
-  RasterPlace place;           ///< of the grid's nodes
+  RasterPlace place;           ///< position of the grid's nodes
 };
 
 /// Bilinear between the four nodes around a place; up to half a cell outside as at the outer nodes. Not known where one
-/// of the four is not. A grid in degrees that goes all round goes on after its last column. Fails with kUsage for other
-/// numbers of heights, and as make_node_source().
+/// of the four is not. A grid in degrees that goes all round continues after its last column. Fails with kUsage for
+/// other numbers of heights, and as make_node_source().
 Result<std::shared_ptr<const HeightZero>> make_grid_zero(ZeroGrid grid);
 
 }  // namespace scarp
