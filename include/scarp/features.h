@@ -65,15 +65,15 @@ struct Features {
 };
 
 struct FeatureFitOptions {
-  double max_error = 0;            ///< max error of the mesh to come, in z units, at least 0 and finite
-  Run run = {};                    ///< progress: of the pass "ridges"
+  double max_error = 0;  ///< max error of the mesh to come, in z units, at least 0 and finite
+  Run run = {};          ///< progress: of the pass "ridges"
 };
 
 /// The lines of a mesh of one max error, and their origins.
 struct FittedFeatures {
-  LineConstraints lines;        ///< breaklines, shores, rivers, walls, ridges, valleys
-  std::vector<River> rivers;    ///< rings, and lines without a height anywhere, are omitted
-  std::optional<Cliffs> walls;  ///< nothing where none were asked for
+  LineConstraints lines;         ///< breaklines, shores, rivers, walls, ridges, valleys
+  std::vector<River> rivers;     ///< rings, and lines without a height anywhere, are omitted
+  std::optional<Cliffs> walls;   ///< nothing where none were asked for
   std::optional<Ridges> ridges;  ///< nothing where none were asked for
 
   /// Number of given lines: without those of walls and ridges.
@@ -86,7 +86,8 @@ struct FittedFeatures {
 ///
 /// Nothing is kept of `field` and `features`. Fails with kUsage for an error below 0 or not finite, and as
 /// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.
-Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FeatureFitOptions& options);
+Result<FittedFeatures> fit_features(const HeightField& field, const Features& features,
+                                    const FeatureFitOptions& options);
 
 }  // namespace scarp
 

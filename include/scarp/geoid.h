@@ -10,9 +10,9 @@
 
 namespace scarp {
 
-/// The geoid EGM96 above the ellipsoid of WGS 84, built in: nodes 15 minutes of arc apart, in whole centimetres, bilinear
-/// between them. Within 6 mm of what PROJ makes of the same grid (egm96_15.gtx), everywhere. The same bits on every
-/// machine. Cost: 20 ms and 4 MB when it is asked for first.
+/// The geoid EGM96 above the ellipsoid of WGS 84, built in: nodes 15 minutes of arc apart, in whole centimetres,
+/// bilinear between them. Within 6 mm of what PROJ makes of the same grid (egm96_15.gtx), everywhere. The same bits on
+/// every machine. Cost: 20 ms and 4 MB when it is asked for first.
 std::shared_ptr<const HeightZero> egm96();
 
 /// A grid of a surface's heights.

@@ -24,8 +24,8 @@ class GlobeImage {
   virtual DegreeBox covered() const = 0;
   /// Approximate number of its pixels per degree: to the east, to the north.
   virtual std::array<double, 2> per_degree() const = 0;
-  /// The image in a box, side × side pixels, `ground` where it has no colour; nothing where it has none at all. The same
-  /// box has the same pixels. Fails with kInput.
+  /// The image in a box, side × side pixels, `ground` where it has no colour; nothing where it has none at all. The
+  /// same box has the same pixels. Fails with kInput.
   virtual Result<std::optional<Picture>> read(const DegreeBox& box, int side,
                                               const std::array<std::uint8_t, 3>& ground) const = 0;
 };

@@ -107,20 +107,20 @@ struct VoidCount {
 /// Metadata of a raster that was read.
 struct RasterInfo {
   std::string path;
-  std::string format;            ///< "GTiff", "PGM", "STM", …
-  std::string sample_type;       ///< type in the file: "Int16", "Float32", …
-  std::string crs;               ///< CRS of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
-  std::string crs_unit;          ///< unit of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
-  double crs_unit_in_metres = 0;  ///< 0 for degrees, and if there is no CRS
-  bool is_geographic = false;    ///< x and y of the file are degrees
-  std::string vertical;          ///< the zero of the heights, if the CRS names it: "EGM96 height"; else empty
-  bool is_ellipsoidal = false;   ///< true if heights are above the ellipsoid, by the CRS
-  std::string crs_with_heights;  ///< WKT of the CRS where `vertical` is set; else empty
-  std::string unit;              ///< unit of z if it is known; else empty
-  double unit_in_metres = 1;     ///< length of the unit of z, known or assumed (HeightsIn); 0 for words that are no
-                                 ///< known length
-  std::string file_unit;         ///< unit of the file's values, if it is known and other than `unit`; else empty
-  bool unit_is_assumed = false;  ///< true if the unit of z is not declared, or that of what was made metres
+  std::string format;       ///< "GTiff", "PGM", "STM", …
+  std::string sample_type;  ///< type in the file: "Int16", "Float32", …
+  std::string crs;          ///< CRS of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
+  std::string crs_unit;     ///< unit of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
+  double crs_unit_in_metres = 0;     ///< 0 for degrees, and if there is no CRS
+  bool is_geographic = false;        ///< x and y of the file are degrees
+  std::string vertical;              ///< the zero of the heights, if the CRS names it: "EGM96 height"; else empty
+  bool is_ellipsoidal = false;       ///< true if heights are above the ellipsoid, by the CRS
+  std::string crs_with_heights;      ///< WKT of the CRS where `vertical` is set; else empty
+  std::string unit;                  ///< unit of z if it is known; else empty
+  double unit_in_metres = 1;         ///< length of the unit of z, known or assumed (HeightsIn); 0 for words that are no
+                                     ///< known length
+  std::string file_unit;             ///< unit of the file's values, if it is known and other than `unit`; else empty
+  bool unit_is_assumed = false;      ///< true if the unit of z is not declared, or that of what was made metres
   double scale = 1, offset = 0;      ///< the file's own: such a value is scale · (what it stores) + offset
   double z_scale = 1, z_offset = 0;  ///< heights are z_scale · value + z_offset: ReadOptions, and the way to metres
   std::optional<double> nodata;      ///< the nodata value used, of the file's values
@@ -132,11 +132,11 @@ struct RasterInfo {
   std::uint64_t valid = 0;            ///< samples that are heights
   double min = 0, max = 0;            ///< range of the valid samples
   std::vector<UndeclaredNodata> undeclared_nodata;  ///< among them, if has_range
-  std::vector<std::string> warnings;  ///< sentences for the user: infinities read as nodata, …
-  VoidCount voids = {};   ///< if has_range, or the samples are in memory
+  std::vector<std::string> warnings;                ///< sentences for the user: infinities read as nodata, …
+  VoidCount voids = {};                             ///< if has_range, or the samples are in memory
   std::string view = {};  ///< the selection that ReadOptions::view made of the files, in words; empty for one raster as
                           ///< it is
-  PackedDoubts packed = {};  ///< set for heights packed into colours
+  PackedDoubts packed = {};    ///< set for heights packed into colours
   std::string depths = {};     ///< the sign that the values are depths, which were kept so; else empty
   bool seems_degrees = false;  ///< true if x and y look like degrees, though the CRS is in lengths, or there is none
 };

@@ -59,11 +59,11 @@ class GlobeRaster {
   /// Its grid of tiles, with so many cells a side of one of the finest level.
   TileGrid grid(int cells) const;
   const std::optional<RasterOnPlane>& plane() const;  ///< with a local grid
-  const RasterInfo& info() const;             ///< facts about the first raster
-  const RasterOnGlobe& place() const;         ///< position of the first raster
-  VoidCount voids() const;                    ///< RasterInfo::voids of all together
-  std::string heights_above() const;          ///< RasterOnGlobe::vertical of all, each once
-  std::vector<std::string> warnings() const;  ///< RasterInfo::warnings of all, and of find_waters()
+  const RasterInfo& info() const;                     ///< facts about the first raster
+  const RasterOnGlobe& place() const;                 ///< position of the first raster
+  VoidCount voids() const;                            ///< RasterInfo::voids of all together
+  std::string heights_above() const;                  ///< RasterOnGlobe::vertical of all, each once
+  std::vector<std::string> warnings() const;          ///< RasterInfo::warnings of all, and of find_waters()
 
  private:
   friend Result<void> find_waters(TileJob& job, GlobeRaster& raster);
@@ -125,13 +125,13 @@ struct TileJob {
   std::vector<FileStamp> files;        ///< others that they are made of, such as those that a VRT names, and of water
   ReadOptions reading;  ///< band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
   Datum datum;
-  FileStamp geoid;  ///< stamp of datum.geoid, if that is given
+  FileStamp geoid;    ///< stamp of datum.geoid, if that is given
   WaterFiles waters;  ///< sources of plan.waters
   TileFormat format = TileFormat::kQuantizedMesh;
   std::optional<TileDrape> drape = std::nullopt;
   PyramidPlan plan;
-  LayerFacts facts;                      ///< but for the version
-  std::string parts;                     ///< folder of the parts of the plan before; empty for a plan that follows none
+  LayerFacts facts;   ///< but for the version
+  std::string parts;  ///< folder of the parts of the plan before; empty for a plan that follows none
   /// Cost of each of find_blocks(), as survey_blocks() found; empty: not surveyed.
   std::vector<std::uint32_t> costs;
   std::optional<TileEstimate> estimate;  ///< no part of any key
@@ -144,8 +144,9 @@ Result<TileEncoder> open_tile_encoder(const TileJob& job);
 /// Sets job.rasters and job.files: the files of these rasters, by list_files().
 void stamp_rasters(TileJob& job, const std::vector<std::string>& paths);
 
-/// Reads job.waters, if there are any, finds their levels on the raster's nodes, and sets job.plan.waters, job.files and
-/// the raster's nodes(). Fails as read_lines() and find_tile_waters() do. REQUIRES: job.plan is set, of this raster.
+/// Reads job.waters, if there are any, finds their levels on the raster's nodes, and sets job.plan.waters, job.files
+/// and the raster's nodes(). Fails as read_lines() and find_tile_waters() do. REQUIRES: job.plan is set, of this
+/// raster.
 Result<void> find_waters(TileJob& job, GlobeRaster& raster);
 
 /// The text of a plan file: JSON. Numbers are read back exactly.
@@ -164,8 +165,8 @@ std::uint64_t settings_key_of(const TileJob& job);
 std::uint64_t sources_key_of(const TileJob& job);
 /// Reads all files for their content. Fails with kInput.
 Result<void> add_contents(TileJob& job);
-/// The first file, the geoid's included, that is not what it was when the plan was made, and what became of it: "a.tif is
-/// not there any more". Nothing if all are.
+/// The first file, the geoid's included, that is not what it was when the plan was made, and what became of it: "a.tif
+/// is not there any more". Nothing if all are.
 std::optional<std::string> find_changed(const TileJob& job);
 /// Fails with kInput for find_changed().
 Result<void> check_rasters(const TileJob& job);
@@ -178,9 +179,9 @@ Result<TileJob> follow_job(const TileJob& earlier, TileJob now);
 /// Makes `samples` tiles of the finest level, evenly over the blocks, on one thread. Fails as make_tile() does.
 Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples = 24);
 
-/// Reads all nodes once and sets job.costs: 1 for a block, and 1000 times the share of its nodes that have heights; shares
-/// are then of equal cost. Memory: some rows of a block's nodes a thread. Progress: pass "survey". Fails as the source
-/// does, and with kCancelled.
+/// Reads all nodes once and sets job.costs: 1 for a block, and 1000 times the share of its nodes that have heights;
+/// shares are then of equal cost. Memory: some rows of a block's nodes a thread. Progress: pass "survey". Fails as the
+/// source does, and with kCancelled.
 Result<void> survey_blocks(TileJob& job, const NodeSource& nodes, const Run& run = {});
 
 /// One of n shares of the blocks: consecutive ones of find_blocks(), 1 … of, of about the same cost.

@@ -100,10 +100,10 @@ struct LayerFacts {
   std::string name = "terrain";
   std::string description;
   std::string attribution;
-  std::string heights_above;          ///< the zero of the source's heights, in words; those of tiles: the ellipsoid
-  std::string vertical;               ///< Datum::vertical as an option names it; empty for kAuto and kGeoid
-  std::string body;                   ///< whose ellipsoid, as RasterOnGlobe::body
-  std::string units;                  ///< units of a local grid's cells, like RasterOnPlane::units; empty with others
+  std::string heights_above;  ///< the zero of the source's heights, in words; those of tiles: the ellipsoid
+  std::string vertical;       ///< Datum::vertical as an option names it; empty for kAuto and kGeoid
+  std::string body;           ///< whose ellipsoid, as RasterOnGlobe::body
+  std::string units;          ///< units of a local grid's cells, like RasterOnPlane::units; empty with others
   std::optional<PlaneOnGlobe> plane = std::nullopt;  ///< plane of a local grid that has a position on the globe
   std::string version = {};  ///< changes with any tile: clients ask for tiles with it, past old copies; sinks find it
 };

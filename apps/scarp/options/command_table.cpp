@@ -1,4 +1,4 @@
-// The commands, and what their help says below the options.
+// The commands, and the text of their help below the options.
 #include "options/option_table.h"
 
 namespace scarp::cli {

@@ -1,4 +1,4 @@
-// What is read, and what is written.
+// Options for the files that are read and written.
 #include "options/option_rows.h"
 
 namespace scarp::cli {

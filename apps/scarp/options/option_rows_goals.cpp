@@ -1,4 +1,4 @@
-// What a mesh must reach, and how much work Scarp does for it.
+// Options for the goals of a mesh, and for the effort.
 #include "options/option_rows.h"
 
 namespace scarp::cli {
