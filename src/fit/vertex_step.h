@@ -1,18 +1,17 @@
 // A step of one vertex to a better place, its neighbours held fast.
 //
 // Moving a vertex by (dz, dx, dy) changes the residual t (error / threshold) at a sample by λ·(dz − g·(dx, dy)): λ the
-// weight of the vertex at the sample, g the slope of the triangle. The energy Σ t⁸ is lowest where the Gauss–Newton
-// system
+// weight of the vertex at the sample, g the slope of the triangle. The energy Σ t⁸ is lowest at
+// the solution of the Gauss–Newton system
 //
-//   Σ_f A_f u_f u_fᵀ (dz, dx, dy) = −Σ_f B_f u_f,   u_f = (1, −g_f),  A_f = Σ t⁶ λ²,  B_f = Σ t⁷ λ over the samples of
-//   f
+//   Σ_f A_f u_f u_fᵀ (dz, dx, dy) = −Σ_f B_f u_f,   u_f = (1, −g_f),  A_f = Σ t⁶ λ²,  B_f = Σ t⁷ λ
 //
-// says. Where vertices are samples the place decides the height: u_f = (0, s − g_f) with s the slope of the terrain;
-// where several fields count, each adds a u_f with its own slopes.
-// The step is tried at three lengths, rounded to the lattice. At each place a free vertex gets its best height, which
-// is exact (height_step.h), or the nearest in the room that the bound allows (height_room.h). The first place wins at
-// which the energy of the star falls, or that gives a star beyond the bound its room; if there is none, a free vertex
-// may still rise or fall where it is. Vertices on a side of the rectangle slide along it; locked ones stay.
+// with sums over the samples of f. Where vertices are samples the place decides the height: u_f = (0, s − g_f) with s
+// the slope of the terrain; where several fields count, each adds a u_f with its own slopes. The step is tried at three
+// lengths, rounded to the lattice. At each place a free vertex gets its best height, which is exact (height_step.h), or
+// the nearest in the room that the bound allows (height_room.h). The first place wins at which the energy of the star
+// falls, or that gives a star beyond the bound its room; if there is none, a free vertex may still rise or fall where
+// it is. Vertices on a side of the rectangle slide along it; locked ones stay.
 //
 // With the energy Σ t² (ErrorRule::Power) the same step lowers the squared error within the bound.
 //
