@@ -32,7 +32,7 @@ struct ScanHit {
                      ///< error > threshold + guard
 };
 
-/// What a computed error must exceed to count: threshold − guard, never below 0.
+/// The limit that a computed error must exceed to count: threshold − guard, never below 0.
 inline float scan_floor(double threshold, float guard) {
   return static_cast<float>(greater(threshold - double{guard}, 0));
 }

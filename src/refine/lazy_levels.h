@@ -31,7 +31,7 @@ namespace scarp {
 
 /// How an estimated error follows the area.
 enum class AreaPower {
-  kHalf,  ///< as its square root: an error grows as a length
+  kHalf,  ///< by its square root: an error grows like a length
   kOne,
 };
 

@@ -18,7 +18,7 @@
 namespace scarp {
 namespace {
 
-constexpr double kThickness = 0.02;  // of the longest side
+constexpr double kThickness = 0.02;  // share of the longest side
 constexpr double kReserve = 0x1p-10;
 constexpr int kMostPrints = 4;
 
