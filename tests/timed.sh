@@ -1,6 +1,6 @@
 #!/bin/bash
-# timed.sh NAME SECONDS COMMAND...: the command's exit code, but 1 where it takes more than SECONDS of CPU time (0: no
-# limit). CPU time, not wall time, so that a busy machine fails nobody. The time goes to SCARP_BUILD/times/NAME, which
+# timed.sh NAME SECONDS COMMAND...: the command's exit code, but 1 where it uses more than SECONDS of CPU time (0: no
+# limit). CPU time, not wall time, so that a busy machine fails no test. The time goes to SCARP_BUILD/times/NAME, which
 # tools/test_times.py reads.
 name=$1
 most=$2

@@ -139,14 +139,14 @@ off=$(json "$logs/out" max_error)
 holds "$off - $fine < 1e-9 && $fine - $off < 1e-9"
 holds "2 * $packed_bytes < $plain_bytes && $loose_bytes < $plain_bytes"
 
-# What follows needs packages of others.
+# The following needs packages of others.
 told= bundles=()
 npm_judges gltf-validator && succeeds node "$js/validate_glb.cjs" plain.glb packed.glb loose.glb
 if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vite webpack; then
   for installed in "$js"/node_modules/*; do [ -e "node_modules/$(basename "$installed")" ] || ln -s "$installed" node_modules/; done
   succeeds node dropins.mjs
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022,dom --typeRoots none typed.mts
-  # Without types of a browser, and as older programs look for them.
+  # Without types of a browser, and as older programs search for them.
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022 --typeRoots none plain.mts
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module esnext --moduleResolution node10 --target es2022 --lib es2022 --typeRoots none node10.ts
   told=$(node app.mjs)

@@ -19,7 +19,7 @@ fi
 names_option() { grep -Eq -- "(^|[^[:alnum:]-])$1([^[:alnum:]-]|\$)" "$2"; }
 # The man page with its escapes undone.
 sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
-# fish says `-l max-error` for --max-error.
+# fish writes `-l max-error` for --max-error.
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$fish_completions" >fish.txt
 
 commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')

@@ -21,7 +21,7 @@ for line in text.split("\n"):
 PYTHON
 }
 
-# serves COMMAND: a server says its address, and ends without a word when it is told to.
+# serves COMMAND: a server prints its address, and ends without a message when stopped.
 serves() {
   local server code=0
   bash -c "exec $1 --port 0" > "$logs/out" 2> "$logs/err" &
