@@ -298,8 +298,8 @@ Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true
 /// The whole file (or pipe). kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
 /// The files that reading a raster or vector data reads: itself (without its layer, for "FILE:LAYER"), those next to it
-/// (.aux.xml, .prj, …), the sources of a VRT, and the archive that it lies in (/vsizip/z.zip/a.tif, /vsitar/…). What
-/// GDAL cannot open is itself alone. Empty for remote files, what does not exist, and in a build without GDAL.
+/// (.aux.xml, .prj, …), the sources of a VRT, and the archive that it lies in (/vsizip/z.zip/a.tif, /vsitar/…). A file
+/// that GDAL cannot open is itself alone. Empty for remote files, what does not exist, and in a build without GDAL.
 std::vector<std::string> list_files(const std::string& path);
 
 /// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in

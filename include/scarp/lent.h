@@ -28,7 +28,7 @@ struct LentRaster {
 };
 
 /// While it lives, `name` is the name of the thing for every reader that this thread calls: read_height_field() and
-/// open_height_field(), read_mesh(), read_points(). It goes before files of that name. What was lent last counts. The
+/// open_height_field(), read_mesh(), read_points(). It goes before files of that name. The object lent last counts. The
 /// thing is borrowed, and so are its samples: a field that is read holds them as OwnedHeightField::lent, uncopied, but
 /// where one of them is `nodata` or infinite, or where heights are scaled. Must end in the thread that began it, in
 /// reverse order of beginning.

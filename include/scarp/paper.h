@@ -28,8 +28,8 @@ struct PaperOptions {
 };
 
 /// Inserts the worst samples of samples in memory (Garland & Heckbert 1995, Algorithms I to III, parallel insertion and
-/// data-dependent triangulation). What is promised, what a budget means, and the proof are those of simplify() with
-/// fast effort in the greedy order; with the default strategy so is every byte of the mesh.
+/// data-dependent triangulation). The promise, the meaning of a budget, and the proof are those of simplify() with fast
+/// effort in the greedy order; with the default strategy so is every byte of the mesh.
 ///
 /// Fails as simplify() does; with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy
 /// out of range: an importance of nothing, one pass with batches or without a feature of the raster, a fraction of a

@@ -14,8 +14,8 @@ namespace scarp {
 /// Bytes of memory.
 struct Memory {
   /// Bytes that the whole process is to stay under; 0: no limit. Strips, threads and the blocks of the file are chosen
-  /// to fit. What cannot fit is refused: before the work begins, or as soon as the mesh outgrows the limit. The memory
-  /// of a call is estimated, not counted. DEFAULT: 0.
+  /// to fit. A run that cannot fit is refused: before the work begins, or as soon as the mesh outgrows the limit. The
+  /// memory of a call is estimated, not counted. DEFAULT: 0.
   std::uint64_t limit = 0;
   /// The part of the limit that others use: the program, the samples or the cache of their file. DEFAULT: 0.
   std::uint64_t taken = 0;

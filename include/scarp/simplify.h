@@ -143,7 +143,7 @@ struct Simplified {
 ///
 /// Order: towards an error goal the locally dominant order works tile by tile, on all threads; where two tiles meet, an
 /// edge that is not Delaunay is kept if the bound needs it. Budgets, and all that strategy.h offers, keep the greedy
-/// order (Algorithm III), which is one thread's work. What is promised is the same.
+/// order (Algorithm III), which is one thread's work. The promise is the same.
 ///
 /// Effort: kNormal then removes each vertex whose place the vertices around it can fill. It considers all
 /// triangulations of the ring around the vertex and uses the one with the least squared error; the cheapest vertices go
@@ -170,9 +170,9 @@ struct Simplified {
 ///
 /// Budgets are upper bounds. With more than fast effort they are met by a search for the max error whose mesh uses 99 %
 /// of them, 97 % where that would be slow, mostly in two or three runs of that effort after a greedy one; less where
-/// triangles jump because many samples share an error. What the objective names is never larger than in the greedy mesh
-/// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact). With
-/// lines or shapes, in the dominant order, and where the field has a source, so does fast effort.
+/// triangles jump because many samples share an error. The quantity of the objective is never larger than in the greedy
+/// mesh for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact).
+/// With lines or shapes, in the dominant order, and where the field has a source, so does fast effort.
 ///
 /// Objective::kRms has no search: a refined mesh of four times the triangles is reduced to the budget by the rise of
 /// the squared error, its vertices move, go and come while that falls (Lindstrom and Turk's aim, on the height field's
@@ -183,9 +183,9 @@ struct Simplified {
 ///
 /// Tolerances with a budget: if they fit, with max_error if that is given, they are the goal that ends the run
 /// (StopReason::kMaxError). Else one factor above 1 is searched for that multiplies them all, and max_error; a
-/// tolerance of 0 stays 0. What is made small is the largest |error| / tolerance, or with Objective::kRms its RMS over
-/// all samples that have one, and |error| <= Simplified::tolerance_factor · tolerance holds at every valid sample. A
-/// mask divides the max error that is searched for by its weights. Ignored samples count in neither.
+/// tolerance of 0 stays 0. The quantity minimised is the largest |error| / tolerance, or with Objective::kRms its RMS
+/// over all samples that have one, and |error| <= Simplified::tolerance_factor · tolerance holds at every valid sample.
+/// A mask divides the max error that is searched for by its weights. Ignored samples count in neither.
 ///
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's

@@ -6,8 +6,8 @@
 // Clients place vertices by the tile's bounds in degrees, linearly. So do nodes of the geographic grid lie, evenly;
 // rows of the Mercator grid are evenly apart on its map, not in degrees.
 //
-// A local grid lies on a plane, over one raster, whose samples its nodes are. What is called degrees, longitude and
-// latitude here are in it cells of the raster, to the east and to the north of its south-western sample.
+// A local grid lies on a plane, over one raster, whose samples its nodes are. Degrees, longitude and latitude are in it
+// cells of the raster, to the east and to the north of its south-western sample.
 #pragma once
 
 #include <cstdint>

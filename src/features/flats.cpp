@@ -29,7 +29,8 @@ struct Area {
   std::int32_t seen = 0;   // the last row with a part of it
 };
 
-/// Finds such areas from the top down. What is complete and large enough is handed on; nothing is kept of what is not.
+/// Finds such areas from the top down. Areas that are complete and large enough are handed on; nothing is kept of the
+/// others.
 class AreaSweep {
  public:
   explicit AreaSweep(std::uint64_t min_samples) : min_samples_(min_samples) {}
@@ -68,7 +69,7 @@ class AreaSweep {
     end_row(visit);
   }
 
-  /// Bytes of all that is kept. What is handed on is there yet, and sorted.
+  /// Bytes of all that is kept. Areas handed on are still there, and sorted.
   std::uint64_t bytes() const {
     constexpr std::uint64_t kGrowth = 2;
     return kGrowth * (sizeof(SampleRun) * runs_ + sizeof(Piece) * (pieces_.size() + above_.size())) +

@@ -6,7 +6,7 @@
 // free vertices (bench/quality/fit.cpp, Fuji and Crater Lake at 2 to 0.5 % of the relief).
 //
 // Stars of a ring overlap, so repair asks for the same flip again and again, half of the times with nothing changed in
-// between. What was refused lately is remembered by all that it depends on, and refused at once.
+// between. A flip refused lately is remembered by all that it depends on, and refused at once.
 #pragma once
 
 #include <array>

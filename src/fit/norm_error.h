@@ -1,7 +1,7 @@
 // Errors of the samples of one trial triangle, with heights and channels combined.
 //
 // Each field has a plane of its own, through its values at the corners, which are samples. The error of a sample is the
-// norm of the fields' errors, each times its scale. As for heights alone (triangle_error.h) the scan is of float32,
+// norm of the fields' errors, each times its scale. Like for heights alone (triangle_error.h) the scan is of float32,
 // eight samples at a time, and ends at the first row that breaks the bound. Within the guard of the bound, the error
 // metric of refinement decides (FitNorm::find_breach), so fitting accepts the same triangles as refinement.
 //

@@ -3,14 +3,14 @@
 // The ring is triangulated with up to a slack times the threshold. Then, a few times over, each vertex of the ring
 // makes a step (vertex_step.h) and edges around the ring are flipped (flips.h), where triangles are near the bound,
 // both led by the energy Σ t⁸ alone, until every triangle that was touched keeps the bound again, in exact arithmetic:
-// flips may push a bad triangle out of the stars of the ring, so all of them are asked. What does not come right is
-// rolled back. Hopeless cases are left early: those whose excess Σ (worst / threshold − 1) is too large to begin with,
-// or after so many rounds. It is a better criterion than the largest error, or than how fast either falls.
+// flips may push a bad triangle out of the stars of the ring, so all of them are asked. A removal that does not come
+// right is rolled back. Hopeless cases are left early: those whose excess Σ (worst / threshold − 1) is too large to
+// begin with, or after so many rounds. It is a better criterion than the largest error, or than how fast either falls.
 //
-// What follows was measured before kHighDepth got its slack of 3, its rooms and the rule of hopes, with a slack of 1.5,
-// 4 rounds and removal without relocation. Triangles against greedy, geometric means of 19 cases in which greedy needs
-// less than a quarter of the full grid: removal 0.544, with repair on samples 0.381, with free vertices 0.291; of 6
-// cases beyond 0.641, 0.606, 0.443. The price is 2 to 40 times the time of greedy insertion, the more the fewer
+// The following was measured before kHighDepth got its slack of 3, its rooms and the rule of hopes, with a slack of
+// 1.5, 4 rounds and removal without relocation. Triangles against greedy, geometric means of 19 cases in which greedy
+// needs less than a quarter of the full grid: removal 0.544, with repair on samples 0.381, with free vertices 0.291; of
+// 6 cases beyond 0.641, 0.606, 0.443. The price is 2 to 40 times the time of greedy insertion, the more the fewer
 // triangles there are. Going deeper, with vertices free at 1 % on Fuji and Crater Lake: a third round over all vertices
 // keeps 0.271 and 0.310 instead of 0.276 and 0.317; besides a slack of 2.5 and 6 rounds of repair 0.249 and 0.277, for
 // four times the time; besides the probes of every second round 0.249 and 0.271, for one and a half times that. Steps

@@ -1,6 +1,6 @@
 // The vertices that are removed with repair, and their order.
 //
-// As in removal (removal.h) the cheapest goes first (removal_queue.h), but with the slack of repair and with Σ t⁸,
+// Like in removal (removal.h) the cheapest goes first (removal_queue.h), but with the slack of repair and with Σ t⁸,
 // which weighs what is near the bound. A successful repair makes the prices of all corners of changed triangles stale.
 // Before, one sweep of flips and steps over the whole patch, under the bound itself, puts vertices and edges where
 // removal wants them: without it a second round would find what the first left.

@@ -23,7 +23,7 @@ class CutRegion {
   std::vector<Place> places(int first, int rows) const;
   /// True if a point of the grid lies in a polygon. REQUIRES: its row is in the field. Cost: O(segments in that row).
   bool holds(double x, double y) const;
-  /// True if a ring is no farther than `distance`, at most 2 · kNear. As holds().
+  /// True if a ring is no farther than `distance`, at most 2 · kNear. Otherwise like holds().
   bool is_near(double x, double y, double distance) const;
 
  private:

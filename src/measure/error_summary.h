@@ -63,8 +63,8 @@ class Histogram {
   std::vector<std::uint32_t> few_;  ///< buckets, as long as there are no pages
 
   /// Pages of counts, one for each exponent of the float, made when first needed. The first ones are neighbours, so
-  /// that most errors need no access to pages_: those of `dense_size_` buckets from `dense_from_` on. What is counted
-  /// there goes to small_ first, which needs half as much of the cache.
+  /// that most errors need no access to pages_: those of `dense_size_` buckets from `dense_from_` on. Counts there go
+  /// to small_ first, which needs half as much of the cache.
   Array<std::uint32_t> counts_;
   Array<std::uint16_t> small_;
   std::array<std::uint32_t, kPages> pages_ = no_pages();  ///< by exponent: where the page begins

@@ -1,9 +1,8 @@
 // Holes in the surface.
 //
-// A triangle whose samples all lie on its edges can go without any sample losing its cover. What gives the hole away is
-// its border: edges with one triangle, next to which the domain continues. So each open edge is cut where it crosses
-// the lattice lines, and next to the middle of each piece, a little outside, the raster is asked whether there is
-// surface.
+// A triangle whose samples all lie on its edges can go without any sample losing its cover. Its border gives the hole
+// away: edges with one triangle, next to which the domain continues. So each open edge is cut where it crosses the
+// lattice lines, and next to the middle of each piece, a little outside, the raster is asked whether there is surface.
 //
 // There may be, in a mesh without fault: where the outline was simplified, a thin wedge of nodata can part an edge from
 // the surface of another place. There the point is covered, and the edge itself lies in nodata; it is a gap only if

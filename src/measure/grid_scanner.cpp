@@ -5,9 +5,9 @@
 // so that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for
 // a row the samples between its left and right side are visited, in vectors (judge_kernels.h). Samples on a side belong
 // to both triangles. A sample's error is the barycentric mean of (corner height − sample): all weights are positive, so
-// nothing cancels that was not equal before. What may be the band's largest or break a bound is settled without
-// rounding. For a mesh in space this finds the samples near each triangle, and those uncovered; space_judge.h computes
-// the errors.
+// nothing cancels that was not equal before. An error that may be the band's largest or break a bound is settled
+// without rounding. For a mesh in space this finds the samples near each triangle, and those uncovered; space_judge.h
+// computes the errors.
 #include <bit>
 #include <cmath>
 #include <optional>

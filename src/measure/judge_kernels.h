@@ -5,7 +5,7 @@
 // sample's error is the same sequence of separately rounded operations everywhere, samples are judged row by row, and
 // sums have eight parts by column whatever the width of a vector.
 //
-// What is computed for a sample at column c of a row, with the side opposite to corner k from (x, y) along (dx, dy):
+// The computation for a sample at column c of a row, with the side opposite to corner k from (x, y) along (dx, dy):
 //   weight[k] = dx[k]·(row − y[k]) − dy[k]·(c − x[k])                  not below 0
 //   error     = (Σ weight[k]·(z[k] − sample)) · per_area              in the order of k
 // It belongs to the triangle if no weight is below −slack, and where the row has a span, if c lies in it:

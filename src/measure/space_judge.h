@@ -22,8 +22,9 @@
 
 namespace scarp::judge {
 
-/// A mesh in space as seen on the map: positions in the raster's x, y and heights. What comes as near to a 256th of a
-/// sample as rounding in the file may have moved it is put onto it. kInput for a vertex that has no place on the map.
+/// A mesh in space as seen on the map: positions in the raster's x, y and heights. A coordinate that comes as near to a
+/// 256th of a sample as rounding in the file may have moved it is put onto it. kInput for a vertex that has no place on
+/// the map.
 Result<Mesh> bring_to_map(const HeightField& field, const Mesh& mesh);
 
 /// The field without its frame in space.

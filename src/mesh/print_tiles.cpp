@@ -36,7 +36,7 @@ std::vector<int> divide(int samples, int parts) {
 }
 
 /// Along a cut at `across`, from the first sample to the last: straight, or with a tab in the middle of each print
-/// tile. As (along, across).
+/// tile. Points are (along, across).
 std::vector<Point2> draw_cut(int across, const std::vector<int>& tiles, double depth, bool dovetail) {
   std::vector<Point2> cut{{double(tiles.front()), double(across)}};
   for (std::size_t k = 0; dovetail && k + 1 < tiles.size(); ++k) {

@@ -42,7 +42,7 @@ class SampleHeights {
 };
 
 /// How vertices become positions in the frame: offsets from frame_origin(), or from that of a frame in space, rounded
-/// to float32 if asked; heights as they are, but in space. What it refers to outlives it.
+/// to float32 if asked; heights as they are, but in space. Its references outlive it.
 struct VertexPositions {
   const SampleHeights& heights;
   const VertexLattice& lattice;  ///< lattice of the vertices; their heights come before those of samples

@@ -4,9 +4,9 @@
 // raster. Once the scan of a triangle is fast, that order is the cost: the heap's next triangle lies anywhere, so that
 // every insertion waits for memory, and one insertion at a time has no second thread.
 //
-// THE IDEA. What greedy insertion gains over an arbitrary order it gains locally: a peak must come before the samples
-// on its flank, which it would make needless; a peak a kilometre away does not matter. So a candidate may be inserted
-// when it is worse than the candidates of all triangles that its insertion would remove, and of those that border them:
+// THE IDEA. Greedy insertion's gains over an arbitrary order are local: a peak must come before the samples on its
+// flank, which it would make needless; a peak a kilometre away does not matter. So a candidate may be inserted when it
+// is worse than the candidates of all triangles that its insertion would remove, and of those that border them:
 //
 //      ·───·───·        p: candidate of t
 //     ╱ ╲ ╱ ╲ ╱ ╲       cavity: triangles whose circle holds p (they will go)

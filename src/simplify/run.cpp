@@ -311,7 +311,7 @@ class EngineRun {
   }
 
   /// Breaches that the first proof would find are searched for before the mesh is put in order and its topology judged,
-  /// which need longer. What this cannot mend is left to the proof.
+  /// which need longer. The proof handles faults that this cannot mend.
   Result<void> mend_ahead(Simplified& result) {
     const auto start = Clock::now();
     const auto found = prove(field_, options_, criterion_, exact_, Look::kHeights, result);

@@ -25,7 +25,7 @@ class AnswerQueue {
   };
 
   /// `threads`: 0 for all cores. `answer` is called on several threads at once, but for one path on one at a time: who
-  /// asks for what is being made finds it made. What it throws becomes an answer of status 500.
+  /// asks for what is being made finds it made. An exception becomes an answer of status 500.
   AnswerQueue(int threads, Answer answer);
   AnswerQueue(const AnswerQueue&) = delete;
   AnswerQueue& operator=(const AnswerQueue&) = delete;

@@ -1,8 +1,8 @@
 // Common parts of all functions of the WebAssembly door: numbers, sentences, and no exception that goes out.
 //
-// JavaScript sees memory and doubles. What it hands over, and what it gets back, are structs of doubles alone, which it
-// writes and reads as one Float64Array each; a pointer among them is its address. The functions are those of
-// bindings/c/scarp_c.h on the core alone, without the program's options by name.
+// JavaScript sees memory and doubles. Arguments and results are structs of doubles alone, which it writes and reads as
+// one Float64Array each; a pointer among them is its address. The functions are those of bindings/c/scarp_c.h on the
+// core alone, without the program's options by name.
 #pragma once
 
 #include <cstdint>

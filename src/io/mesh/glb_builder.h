@@ -29,7 +29,7 @@ class GlbBuilder {
   /// A view of compressed items: readers that undo it put them into the second buffer, which no file holds.
   std::size_t add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count, std::size_t stride,
                          const char* mode, const char* filter = nullptr);
-  /// The file. Fails with kOutput for 4 GiB and more. What the pieces write from must be alive still.
+  /// The file. Fails with kOutput for 4 GiB and more. The sources of the pieces must still be alive.
   Result<std::vector<std::uint8_t>> assemble(int threads);
 
  private:

@@ -1,7 +1,7 @@
 // Reading GLB: the part of glTF 2.0 that can carry a terrain, from any writer.
 //
-// Nothing in the file is believed (glb_arrays.h): the node tree is checked against loops. What we cannot honour (Draco,
-// sparse accessors, lines, external buffers) is refused by name rather than read wrongly.
+// Nothing in the file is believed (glb_arrays.h): the node tree is checked against loops. Features that we cannot
+// honour (Draco, sparse accessors, lines, external buffers) are refused by name rather than read wrongly.
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // The command line that makes the mesh that is shown.
 
-/** One word for a POSIX shell, and no option. What no line shows becomes a question mark. */
+/** One word for a POSIX shell, and no option. A character that no line shows becomes a question mark. */
 function quote(name) {
   const word = (name.startsWith('-') ? `./${name}` : name).replace(/\p{Cc}/gu, '?');
   return /^[A-Za-z0-9._/-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;

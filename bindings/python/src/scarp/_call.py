@@ -145,8 +145,8 @@ def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseExceptio
             is_beside: bool) -> Generator[int, int, None]:
     """Its send() is called with the address of the library's progress, and returns whether to cancel.
 
-    What is raised within it is kept: in ctypes it would be printed and swallowed. Ctrl-C, and what other handlers of
-    signals raise, comes wherever Python code continues: in a function before its first `try`, but here at the
+    An exception raised within it is kept: in ctypes it would be printed and swallowed. Ctrl-C, and what other handlers
+    of signals raise, comes wherever Python code continues: in a function before its first `try`, but here at the
     `yield`."""
     answer = 0
     while True:
