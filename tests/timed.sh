@@ -9,7 +9,7 @@ shift 2
 code=$?
 mkdir -p "$SCARP_BUILD/times"
 log=$SCARP_BUILD/times/$name
-times >"$log.$$"  # of this shell: a pipe would have a shell of its own
+times >"$log.$$"  # the times of this shell: a pipe would have a shell of its own
 # The second line of `times`: user and system time of the children, such as 0m1.234s 0m0.056s.
 awk 'NR == 2 { for (k = 1; k <= 2; ++k) { split($k, part, /[ms]/); taken += 60 * part[1] + part[2] } printf "%.2f\n", taken }' \
   "$log.$$" >"$log"

@@ -1,45 +1,116 @@
 #!/usr/bin/env python3
-"""Fails if a line of Markdown is hard to read in a terminal: more than 160 characters outside tables and code blocks.
+"""Checks the words of comments, help and docs.
 
 usage: check_words.py [TREE]
+
+- No comment or docstring of FOLDERS begins with a fragment (FRAGMENTS): "Whether x" is "True if x", "Of the line" is "The
+  max error of the line", "What the mesh holds" is "The contents of the mesh".
+- No comment, docstring or help text has one of the words in WORDS, but in code: `take`, "left out", look().
+- No line of Markdown outside tables and code blocks has more than 160 characters: it would be hard to read in a terminal.
 """
 
 import pathlib
+import re
 import subprocess
 import sys
 
+import comments
+
 MAX_CHARACTERS = 160
-GENERATED = {"build", "demo", "node_modules", "shared"}  # where a tree without git has Markdown of others
+GENERATED = {"build", "demo", "node_modules", "shared"}  # where a tree without git has files of others
+FOLDERS = ("include", "src", "apps", "bindings", "web", "tests")
+FROZEN = {"tests/abi/scarp_c_1.h"}  # a header as it was released
+
+FRAGMENTS = ("Of", "What", "That", "Whether", "Where", "Which", "As")
+# Words, and the words of the field that stand for them.
+WORDS = {
+    "tell tells told telling": "print, report, show, distinguish",
+    "say says said saying": "report, declare, hold",
+    "look looks looked looking": "check, examine, read, scan, search",
+    "take takes took taken taking": "use, accept, need, read",
+    "let lets letting": "allow, keep",
+    "leave/out leaves/out leaving/out left/out": "omit, exclude",
+    "beside": "next to, with, in addition to",
+    "nobody": "no caller, no thread, unknown",
+    "lay lays laid laying": "place, drape",
+    "go/on goes/on went/on going/on gone/on": "continue",
+}
+FRAGMENT = re.compile(rf"\s*({'|'.join(FRAGMENTS)})\b", re.IGNORECASE)
+ADVICE = {word.replace("/", " "): advice for words, advice in WORDS.items() for word in words.split()}
+WORD = re.compile(r"(?<![\w.:/$-])(%s)(?![\w(:-]|\.\w|->)" % "|".join(
+    f"[{word[0].upper()}{word[0]}]{word[1:]}".replace(" ", r"\s+") for word in sorted(ADVICE, key=len, reverse=True)))
+CODE = re.compile(r"``.*?``|`[^`]*`|\"[^\"]*\"|“[^”]*”", re.DOTALL)
+HELP = re.compile(r"\.(help|brief|by_default) =((?:\s*\"(?:[^\"\\]|\\.)*\")+)")
 
 
-def list_pages(tree):
-    """The tracked pages; all pages where the tree is no checkout."""
-    listed = subprocess.run(["git", "-C", str(tree), "ls-files", "-z", "*.md"], capture_output=True, text=True)
+def list_files(tree):
+    """The tracked files; all files where the tree is no checkout."""
+    listed = subprocess.run(["git", "-C", str(tree), "ls-files", "-z"], capture_output=True, text=True)
     if listed.stdout:
         return [tree / name for name in listed.stdout.split("\0") if name]
-    folders = {path: path.relative_to(tree).parts[:-1] for path in tree.rglob("*.md")}
+    folders = {path: path.relative_to(tree).parts[:-1] for path in tree.rglob("*") if path.is_file()}
     return sorted(path for path, parts in folders.items()
                   if not any(part in GENERATED or part.startswith((".", "build-")) for part in parts))
 
 
 def find_long_lines(text):
-    """(number, length) of each line that is too long."""
+    """(number, complaint) for each line that is too long."""
     in_block = False
     for number, line in enumerate(text.split("\n"), 1):
         if line.lstrip().startswith("```"):
             in_block = not in_block
         elif not in_block and not line.startswith(("|", "    ")) and len(line) > MAX_CHARACTERS:
-            yield number, len(line)
+            yield number, f"{len(line)} characters, at most {MAX_CHARACTERS}"
+
+
+def find_words(line, text):
+    """(number, complaint) for each word of WORDS in a text that begins at `line`."""
+    plain = CODE.sub(lambda code: re.sub(r"[^\n]", "_", code.group()), text)
+    for found in WORD.finditer(plain):
+        word = " ".join(found.group().split())
+        yield line + plain.count("\n", 0, found.start()), f'"{word}": {ADVICE[word.lower()]}'
+
+
+def find_comment_faults(path, text):
+    for line, comment in comments.find_comments(path, text):
+        begin = FRAGMENT.match(comment)
+        if begin:
+            yield line, f'a comment begins with "{begin.group(1)}": use a noun or a sentence'
+        yield from find_words(line, comment)
+
+
+def find_help_faults(text):
+    for found in HELP.finditer(text):
+        line = text.count("\n", 0, found.start(2)) + 1
+        words = re.sub(r"\"((?:[^\"\\]|\\.)*)\"", r" \1 ", found.group(2)).replace('\\"', "`")
+        begin = FRAGMENT.match(words)
+        if begin and found.group(1) != "by_default":
+            yield line, f'a help text begins with "{begin.group(1)}": use a noun or a verb'
+        yield from find_words(line, words)
 
 
 def main():
     tree = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
-    pages = list_pages(tree)
-    if not pages:
-        sys.exit(f"{tree} holds no page of Markdown")
-    faults = [f"{page.relative_to(tree)}:{number}: {length} characters, at most {MAX_CHARACTERS}" for page in pages
-              if page.exists() for number, length in find_long_lines(page.read_text(encoding="utf-8"))]
-    print("\n".join(faults) if faults else f"no line of {len(pages)} pages is longer than {MAX_CHARACTERS} characters")
+    faults, pages, sources = [], 0, 0
+    for path in list_files(tree):
+        name = path.relative_to(tree)
+        if not path.exists():
+            continue
+        if path.suffix == ".md":
+            pages += 1
+            found = find_long_lines(path.read_text(encoding="utf-8"))
+        elif name.parts[0] in FOLDERS and str(name) not in FROZEN and "node_modules" not in name.parts:
+            if not comments.is_known(path):
+                continue
+            sources += 1
+            text = path.read_text(encoding="utf-8", errors="replace")
+            found = [*find_comment_faults(path, text), *(find_help_faults(text) if "option_rows" in path.name else [])]
+        else:
+            continue
+        faults += [f"{name}:{line}: {complaint}" for line, complaint in found]
+    if pages + sources == 0:
+        sys.exit(f"{tree} holds no page of Markdown and no source")
+    print("\n".join(faults) if faults else f"the words of {sources} sources and the lines of {pages} pages are fine")
     sys.exit(1 if faults else 0)
 
 

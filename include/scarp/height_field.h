@@ -138,7 +138,7 @@ struct RasterInfo {
                           ///< it is
   PackedDoubts packed = {};    ///< set for heights packed into colours
   std::string depths = {};     ///< the sign that the values are depths, which were kept so; else empty
-  bool seems_degrees = false;  ///< true if x and y look like degrees, though the CRS is in lengths, or there is none
+  bool seems_degrees = false;  ///< true if x and y resemble degrees, though the CRS is in lengths, or there is none
 };
 
 /// A height field that owns its samples, or their source. nodata samples are NaN.

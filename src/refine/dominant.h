@@ -17,7 +17,7 @@
 // Keys (error, then the point of the candidate, lower first) are a total order that knows no ids, so nothing depends on
 // where a triangle happens to be stored. From a triangle that is dominated we step to the worst one that dominates it,
 // and so on uphill: keys grow along such a walk, so it ends, at a local maximum. Walks start from a stack of the
-// triangles that wait; new triangles go on top, so that work stays in warm caches. Triangles that keep the bound are
+// triangles that wait; new ones are put on top, so that work stays in warm caches. Triangles that keep the bound are
 // never on it.
 //
 // WHAT IT COSTS AND GAINS: bench/performance.md, "Order". Vertices within a few tenths of a per cent of greedy's on

@@ -63,7 +63,7 @@ succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear "$dem" utm.tif
 succeeds "$scarp" tile utm.tif city --grid local --vertical egm96 --effort fast -q
 succeeds "$scarp" tile check ball --source "$dem" --vertical egm96 -q
 succeeds "$scarp" tile check city --source utm.tif --vertical egm96 -q
-# told SET CHANGE WORDS [OPTION...]: `root` is the first tile, `first` the first of implicit tiles, `own` Scarp's
+# `told SET CHANGE WORDS [OPTION...]`: `root` is the first tile, `first` the first of implicit tiles, `own` Scarp's
 # additions.
 told() {
   local set=$1 change=$2 words=$3
