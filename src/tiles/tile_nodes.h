@@ -79,8 +79,8 @@ class HeldNodes final : public NodeSource {
 
  private:
   const NodeSource* source_ = nullptr;
-  NodeWindow window_;  ///< what was asked for
-  NodeWindow land_;    ///< what is held of it
+  NodeWindow window_;  ///< the nodes asked for
+  NodeWindow land_;    ///< the part of them that is held
   std::vector<float> heights_;
 };
 

@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
-# The mesh is smaller by what bench/quality.md lets expect, and every sample keeps the bound.
+# The mesh is smaller by as much as bench/quality.md lists, and every sample keeps the bound.
 for error in 84 16.8 8.4; do
   succeeds "$scarp" simplify "$dem" fast.glb -e "$error" --effort fast --report fast.json --overwrite
   succeeds "$scarp" simplify "$dem" normal.glb -e "$error" --effort normal --report normal.json --overwrite
