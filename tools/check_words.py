@@ -6,7 +6,8 @@ usage: check_words.py [TREE]
 - No comment or docstring of FOLDERS begins with a fragment (FRAGMENTS): "Whether x" is "True if x", "Of the line" is "The
   max error of the line", "What the mesh holds" is "The contents of the mesh".
 - No comment, docstring or help text has one of the words in WORDS, but in code: `take`, "left out", look().
-- No line of Markdown outside tables and code blocks has more than 160 characters: it would be hard to read in a terminal.
+- No line of Markdown outside tables and code blocks has one of these words (but "take" and "look"), or more than 160
+  characters: it would be hard to read in a terminal.
 """
 
 import pathlib
@@ -35,6 +36,7 @@ WORDS = {
     "lay lays laid laying": "place, drape",
     "go/on goes/on went/on going/on gone/on": "continue",
 }
+COMMON = set("look looks looked looking take takes took taken taking".split())  # allowed in pages
 FRAGMENT = re.compile(rf"\s*({'|'.join(FRAGMENTS)})\b", re.IGNORECASE)
 ADVICE = {word.replace("/", " "): advice for words, advice in WORDS.items() for word in words.split()}
 WORD = re.compile(r"(?<![\w.:/$-])(%s)(?![\w(:-]|\.\w|->)" % "|".join(
@@ -53,22 +55,26 @@ def list_files(tree):
                   if not any(part in GENERATED or part.startswith((".", "build-")) for part in parts))
 
 
-def find_long_lines(text):
-    """(number, complaint) for each line that is too long."""
-    in_block = False
+def find_page_faults(text):
+    """(number, complaint) for each line of prose that is too long or has a word of WORDS but COMMON."""
+    in_block, prose = False, []
     for number, line in enumerate(text.split("\n"), 1):
-        if line.lstrip().startswith("```"):
-            in_block = not in_block
-        elif not in_block and not line.startswith(("|", "    ")) and len(line) > MAX_CHARACTERS:
+        is_fence = line.lstrip().startswith("```")
+        in_block ^= is_fence
+        is_prose = not (is_fence or in_block or line.startswith(("|", "    ")))
+        prose.append(line if is_prose else "")
+        if is_prose and len(line) > MAX_CHARACTERS:
             yield number, f"{len(line)} characters, at most {MAX_CHARACTERS}"
+    yield from find_words(1, "\n".join(prose), COMMON)
 
 
-def find_words(line, text):
+def find_words(line, text, allowed=frozenset()):
     """(number, complaint) for each word of WORDS in a text that begins at `line`."""
     plain = CODE.sub(lambda code: re.sub(r"[^\n]", "_", code.group()), text)
     for found in WORD.finditer(plain):
         word = " ".join(found.group().split())
-        yield line + plain.count("\n", 0, found.start()), f'"{word}": {ADVICE[word.lower()]}'
+        if word.lower() not in allowed:
+            yield line + plain.count("\n", 0, found.start()), f'"{word}": {ADVICE[word.lower()]}'
 
 
 def find_comment_faults(path, text):
@@ -98,7 +104,7 @@ def main():
             continue
         if path.suffix == ".md":
             pages += 1
-            found = find_long_lines(path.read_text(encoding="utf-8"))
+            found = find_page_faults(path.read_text(encoding="utf-8"))
         elif name.parts[0] in FOLDERS and str(name) not in FROZEN and "node_modules" not in name.parts:
             if not comments.is_known(path):
                 continue
@@ -110,7 +116,7 @@ def main():
         faults += [f"{name}:{line}: {complaint}" for line, complaint in found]
     if pages + sources == 0:
         sys.exit(f"{tree} holds no page of Markdown and no source")
-    print("\n".join(faults) if faults else f"the words of {sources} sources and the lines of {pages} pages are fine")
+    print("\n".join(faults) if faults else f"the words of {sources} sources and {pages} pages are fine")
     sys.exit(1 if faults else 0)
 
 

@@ -96,7 +96,7 @@ def main():
             tif.unlink()
             raw.unlink()
     lines = ["# Memory", "",
-             "Written by `memory.py` (see `bench/README.md`). Peak resident memory, samples included, beside what is",
+             "Written by `memory.py` (see `bench/README.md`). Peak resident memory, samples included, next to what is",
              "allowed. The engine: one thread, from samples to the frozen mesh in order; with N threads N tiles are at work.", ""]
     for order, rows in engine.items():
         lines += table(f"Engine, {order} order", rows, ALLOWED[order])
