@@ -42,7 +42,9 @@ ADVICE = {word.replace("/", " "): advice for words, advice in WORDS.items() for 
 WORD = re.compile(r"(?<![\w.:/$-])(%s)(?![\w(:-]|\.\w|->)" % "|".join(
     f"[{word[0].upper()}{word[0]}]{word[1:]}".replace(" ", r"\s+") for word in sorted(ADVICE, key=len, reverse=True)))
 CODE = re.compile(r"``.*?``|`[^`]*`|\"[^\"]*\"|“[^”]*”", re.DOTALL)
-HELP = re.compile(r"\.(help|brief|by_default) =((?:\s*\"(?:[^\"\\]|\\.)*\")+)")
+LITERAL = r"\"(?:[^\"\\\n]|\\.)*\""
+HELP = {"option_rows": re.compile(rf"\.(help|brief|by_default) =((?:\s*{LITERAL})+)"),
+        "command_table": re.compile(rf"()({LITERAL})")}  # by the beginnings of the files' names
 
 
 def list_files(tree):
@@ -85,14 +87,15 @@ def find_comment_faults(path, text):
         yield from find_words(line, comment)
 
 
-def find_help_faults(text):
-    for found in HELP.finditer(text):
-        line = text.count("\n", 0, found.start(2)) + 1
-        words = re.sub(r"\"((?:[^\"\\]|\\.)*)\"", r" \1 ", found.group(2)).replace('\\"', "`")
-        begin = FRAGMENT.match(words)
-        if begin and found.group(1) != "by_default":
-            yield line, f'a help text begins with "{begin.group(1)}": use a noun or a verb'
-        yield from find_words(line, words)
+def find_help_faults(path, text):
+    for name, pattern in HELP.items():
+        for found in pattern.finditer(text) if path.name.startswith(name) else ():
+            line = text.count("\n", 0, found.start(2)) + 1
+            words = re.sub(LITERAL, lambda literal: f" {literal.group()[1:-1]} ", found.group(2)).replace('\\"', "`")
+            begin = FRAGMENT.match(words)
+            if begin and found.group(1) in ("help", "brief"):
+                yield line, f'a help text begins with "{begin.group(1)}": use a noun or a verb'
+            yield from find_words(line, words.replace("\\n", "  "))
 
 
 def main():
@@ -110,7 +113,7 @@ def main():
                 continue
             sources += 1
             text = path.read_text(encoding="utf-8", errors="replace")
-            found = [*find_comment_faults(path, text), *(find_help_faults(text) if "option_rows" in path.name else [])]
+            found = [*find_comment_faults(path, text), *find_help_faults(path, text)]
         else:
             continue
         faults += [f"{name}:{line}: {complaint}" for line, complaint in found]
