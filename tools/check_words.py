@@ -3,8 +3,8 @@
 
 usage: check_words.py [TREE]
 
-- No comment or docstring of FOLDERS begins with a fragment (FRAGMENTS): "Whether x" is "True if x", "Of the line" is "The
-  max error of the line", "What the mesh holds" is "The contents of the mesh".
+- No comment or docstring begins with a fragment (FRAGMENTS): "Whether x" is "True if x", "Of the line" is "The max error
+  of the line", "What the mesh holds" is "The contents of the mesh".
 - No comment, docstring or help text has one of the words in WORDS, but in code: `take`, "left out", look().
 - No line of Markdown outside tables and code blocks has one of these words (but "take" and "look"), or more than 160
   characters: it would be hard to read in a terminal.
@@ -18,8 +18,7 @@ import sys
 import comments
 
 MAX_CHARACTERS = 160
-GENERATED = {"build", "demo", "node_modules", "shared"}  # where a tree without git has files of others
-FOLDERS = ("include", "src", "apps", "bindings", "web", "tests")
+GENERATED = {"build", "demo", "node_modules", "shared"}  # files of others in a tree without git
 FROZEN = {"tests/abi/scarp_c_1.h"}  # a header as it was released
 
 FRAGMENTS = ("Of", "What", "That", "Whether", "Where", "Which", "As")
@@ -108,9 +107,7 @@ def main():
         if path.suffix == ".md":
             pages += 1
             found = find_page_faults(path.read_text(encoding="utf-8"))
-        elif name.parts[0] in FOLDERS and str(name) not in FROZEN and "node_modules" not in name.parts:
-            if not comments.is_known(path):
-                continue
+        elif comments.is_known(path) and str(name) not in FROZEN:
             sources += 1
             text = path.read_text(encoding="utf-8", errors="replace")
             found = [*find_comment_faults(path, text), *find_help_faults(path, text)]

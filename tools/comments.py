@@ -11,7 +11,7 @@ import tokenize
 CPP = {".h", ".c", ".cpp", ".inc"}
 JAVASCRIPT = {".js", ".mjs", ".ts", ".mts"}
 SHELL = {".sh", ".cmake"}
-BEFORE_PATTERN = "(,=:[!&|?{};+>"  # what stands before the / of a regular expression
+BEFORE_PATTERN = "(,=:[!&|?{};+>"  # characters before the / of a regular expression
 SPECIAL = re.compile(r'//|/\*|\bR"|["\'`/]')
 RAW_STRING = re.compile(r'R"([^(]*)\(')
 

@@ -218,7 +218,7 @@ def start_table(rows):
 
 
 def order_table(rows):
-    """Of bench_orders: the highest ratios, and the summaries."""
+    """The table of bench_orders: the highest ratios, and the summaries."""
     meshes = [row for row in rows if row["samples"]]
     groups = (("below 0.1", 0, 0.1), ("0.1 to 1", 0.1, 1), ("above 1", 1, 101))
     lines = []
@@ -231,7 +231,7 @@ def order_table(rows):
 
 
 def goal_table(rows):
-    """Of goals.py."""
+    """The table of goals.py."""
     return markdown(["goal", "case", "ratio, or ms", "of", "peer"],
                     [[row["goal"], row["case"], row["value"], row["how"], row["peer"] or "–"] for row in rows])
 
@@ -263,7 +263,7 @@ def head():
 
 
 def tables():
-    """Every table by its name, those left out whose file is not there."""
+    """Every table by its name, without those whose file is not there."""
     results, orders = read_table(HERE / "results.csv"), read_table(ORDERS)
     found = {}
     if results:
