@@ -19,7 +19,7 @@ function(scarp_batch target size)
   endforeach()
   list(REMOVE_DUPLICATES rooms)
   foreach(room IN LISTS rooms)
-    # The number of batches as needed, all of about the same size.
+    # The needed number of batches, all of about the same size.
     list(LENGTH sources_of_${room} count)
     math(EXPR batches "(${count} + ${size} - 1) / ${size}")
     set(index 0)

@@ -93,7 +93,7 @@ struct TileGrid {
   std::uint32_t roots() const { return kind == GridKind::kGeographic ? 2 : 1; }
   std::uint32_t columns(int z) const { return roots() << z; }
   std::uint32_t rows(int z) const { return std::uint32_t{1} << z; }
-  /// True for the grid's tiles; on a local grid false for tiles next to the raster.
+  /// True for the grid's tiles; on a local grid false for tiles outside the raster.
   bool has(TileId id) const;
   /// Length of a tile's side in the units of u and v of its vertices. On local grids nodes are whole ones of these.
   std::int32_t side_units() const { return is_flat() ? static_cast<std::int32_t>(LocalRaster::kPlaces) : 32767; }
