@@ -1,4 +1,4 @@
-# scarp_core under Emscripten: its libraries are headers, taken from the machine's own packages through a folder of links,
+# scarp_core under Emscripten: its libraries are headers, found in the machine's own packages through a folder of links,
 # so that nothing else of /usr/include is seen.
 set(headers ${PROJECT_BINARY_DIR}/libraries)
 file(MAKE_DIRECTORY ${headers})
@@ -23,7 +23,8 @@ target_compile_options(scarp_flags INTERFACE -fwasm-exceptions -msimd128 -mbulk-
 target_compile_definitions(scarp_flags INTERFACE SCARP_WITHOUT_THREADS)
 target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=1048576)
 
-# Where meshes, their proof and a Refiner spend their time (node --cpu-prof of a module linked with --profiling-funcs).
+# Sources where meshes, their proof and a Refiner spend their time (node --cpu-prof of a module linked with
+# --profiling-funcs).
 string(JOIN "|" SCARP_HOT_SOURCES
   "/fit/(collapse|cut|flips|height_step|insertion|norm|patch|relocation|removal|repair|ring|sample|schedule|triangle|vertex)"
   /geom/scan_kernels "/grid/(height_range|samples|snapped_points|window)" "/mesh/(half_edges|order|thin_triangles)" /metric/[a-z]*_metric

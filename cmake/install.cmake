@@ -1,4 +1,4 @@
-# What `cmake --install` puts where: program, library, headers, CMake package, pkg-config file, man page, completions.
+# The places of `cmake --install`: program, library, headers, CMake package, pkg-config file, man page, completions.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS scarp EXPORT scarpTargets)
@@ -13,7 +13,7 @@ if(SCARP_BUILD_C)
   install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/scarp_c.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
 
-# find_package(scarp): the library's dependencies are looked for again on the consumer's side.
+# find_package(scarp): the library's dependencies are searched for again on the consumer's side.
 set(scarp_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/scarp)
 get_target_property(scarp_type scarp TYPE)
 if(scarp_type STREQUAL "STATIC_LIBRARY")
@@ -60,13 +60,13 @@ if(SCARP_BUILD_C)
 endif()
 
 if(SCARP_BUILD_APPS)
-  # The program finds a shared library beside it, wherever the prefix is moved to.
+  # The program finds a shared library next to it, wherever the prefix is moved to.
   file(RELATIVE_PATH scarp_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
   set_target_properties(scarp_program PROPERTIES INSTALL_RPATH "$ORIGIN/${scarp_bin_to_lib}")
   install(TARGETS scarp_program)
   # The viewer's page, where `make viewer` has built it.
   install(FILES ${PROJECT_BINARY_DIR}/share/scarp/viewer.html DESTINATION ${CMAKE_INSTALL_DATADIR}/scarp OPTIONAL)
-  # What apps/scarp makes of the table of options; nothing where Python was missing.
+  # The files that apps/scarp makes from the table of options; nothing where Python was missing.
   install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/scarp.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
   foreach(completions bash-completion/completions/scarp zsh/site-functions/_scarp fish/vendor_completions.d/scarp.fish)
     get_filename_component(folder ${completions} DIRECTORY)

@@ -1,4 +1,4 @@
-// SCARP_MOST_CPU_SECONDS: a test that takes more of the processors' time fails (`make check`, which is run before every
+// SCARP_MOST_CPU_SECONDS: a test that uses more of the processors' time fails (`make check`, which is run before every
 // commit and has to stay quick). Not by the clock: a busy machine is no fault of the test.
 #include <gtest/gtest.h>
 

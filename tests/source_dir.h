@@ -1,4 +1,4 @@
-// Where the sources are, for tests that read files of theirs.
+// The path of the sources, for tests that read files of theirs.
 #pragma once
 
 #include <string>

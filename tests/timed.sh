@@ -1,6 +1,6 @@
 #!/bin/bash
-# timed.sh NAME SECONDS COMMAND...: the command's exit code, but 1 where it takes more than SECONDS of CPU time (0: no
-# limit). CPU time, not wall time, so that a busy machine fails nobody. The time goes to SCARP_BUILD/times/NAME, which
+# timed.sh NAME SECONDS COMMAND...: the command's exit code, but 1 where it uses more than SECONDS of CPU time (0: no
+# limit). CPU time, not wall time, so that a busy machine fails no test. The time goes to SCARP_BUILD/times/NAME, which
 # tools/test_times.py reads.
 name=$1
 most=$2
@@ -9,7 +9,7 @@ shift 2
 code=$?
 mkdir -p "$SCARP_BUILD/times"
 log=$SCARP_BUILD/times/$name
-times >"$log.$$"  # of this shell: a pipe would have a shell of its own
+times >"$log.$$"  # the times of this shell: a pipe would have a shell of its own
 # The second line of `times`: user and system time of the children, such as 0m1.234s 0m0.056s.
 awk 'NR == 2 { for (k = 1; k <= 2; ++k) { split($k, part, /[ms]/); taken += 60 * part[1] + part[2] } printf "%.2f\n", taken }' \
   "$log.$$" >"$log"

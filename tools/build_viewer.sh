@@ -1,6 +1,6 @@
 #!/bin/bash
-# Builds the viewer's page, BUILD/share/scarp/viewer.html, beside BUILD/bin/scarp, which fills it in. npm fetches three.js
-# and esbuild once, into BUILD/viewer. With the npm package of `make npm` in ENGINE the page refines live, too.
+# Builds the viewer's page, BUILD/share/scarp/viewer.html, next to BUILD/bin/scarp, which fills it in. npm fetches
+# three.js and esbuild once, into BUILD/viewer. With the npm package of `make npm` in ENGINE the page refines live, too.
 #
 # usage: tools/build_viewer.sh BUILD [ENGINE]      ENGINE: BUILD-wasm/npm if it is there
 set -euo pipefail

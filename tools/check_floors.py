@@ -56,7 +56,7 @@ ROOMS = {
     "apps": (7, [], ANY, "the command line; knows `include/scarp` only"),
 }
 
-# What only some files may include: (pattern of the header, files that may, why).
+# Headers that only some files may include: (pattern of the header, files that may, why).
 RESERVED = [
     (r"(gdal|ogr|cpl|osr|vrt)[a-z_0-9]*\.h$|gdal/.*", [r"src/io/gdal/"], "GDAL is known to src/io/gdal only"),
     (r"(thread|mutex|shared_mutex|condition_variable|future|semaphore|latch|barrier|stop_token)$",
@@ -92,7 +92,7 @@ def room_of(path):
 
 
 def judge_project_include(path, room, header, tree):
-    """What is wrong with `#include "header"` in this file, or None."""
+    """The fault of `#include "header"` in this file, or None."""
     floor, may_include, public, _ = ROOMS[room]
     top = header.split("/")[0]
     if top == "scarp":

@@ -84,7 +84,7 @@ NEEDED = {name: {header, *(BRINGS.get(header) or [])} for header, names in STAND
           if not (header in BRINGS and BRINGS[header] is None)}
 
 
-# Names that no std:: marks, and what Scarp takes from other libraries.
+# Names that no std:: marks, and those that Scarp uses from other libraries.
 OTHERS = {r"\bassert\(": "cassert", r"\bfmt::": "fmt/format.h", r"\bnlohmann::": "nlohmann/json.hpp"}
 OTHER_HOMES = {"fmt/format.h": ["fmt/core.h", "fmt/chrono.h"], "nlohmann/json.hpp": ["nlohmann/json_fwd.hpp"]}
 
@@ -161,7 +161,7 @@ def main():
     for header in headers:
         for name in declared(header):
             homes[name].add(header.resolve())
-    # What a batch can hide: headers that a source of the same folder reaches.
+    # Headers that a batch can hide: those that a source of the same folder reaches.
     near = collections.defaultdict(set)
     for folder in FOLDERS:
         for path in (ROOT / folder).rglob("*.cpp"):

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Configures a build folder: with Ninja where it is there, Release unless a preset or option says otherwise.
+# Configures a build folder: with Ninja where it is there, Release unless a preset or option sets another.
 #
 # usage: tools/configure.sh FOLDER [cmake arguments, such as --preset asan]
 set -euo pipefail

@@ -1,8 +1,8 @@
 #!/bin/bash
 # Everything that is handed out, into FOLDER, with SHA256SUMS: the sources, the npm package, the wheel and the sdist of
-# Scarp for Python, the plugin for QGIS, Debian's packages. Wheel and packages carry the viewer's page. What cannot be
-# made on this machine is left out, aloud: the npm package without Emscripten, the page where npm cannot fetch, Debian's
-# packages without dpkg-buildpackage.
+# Scarp for Python, the plugin for QGIS, Debian's packages. Wheel and packages carry the viewer's page. Files that
+# cannot be made on this machine are skipped, with a message: the npm package without Emscripten, the page where npm
+# cannot fetch, Debian's packages without dpkg-buildpackage.
 #
 # usage: tools/dist.sh BUILD FOLDER      BUILD has the program and scarp_c_alone; Emscripten builds in BUILD-wasm
 set -euo pipefail
@@ -29,7 +29,7 @@ fi
 "$here/build_python.sh" "$build" "$folder" >/dev/null
 python3 "$here/../bindings/qgis/make_plugin.py" "$build/bin/scarp" "$folder/scarp_processing.zip"
 if command -v dpkg-buildpackage >/dev/null; then
-  # Without symbols for debuggers, which are larger than the packages and take longer to compile.
+  # Without symbols for debuggers, which are larger than the packages and need longer to compile.
   export DEB_BUILD_OPTIONS="nocheck noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$build/share/scarp/viewer.html
   quietly "$build/debian.log" "$here/debian_packages.sh" "$sources" "$build/debian"
   cp "$build/debian"/*.deb "$folder/"

@@ -24,7 +24,7 @@ LIGHT = numpy.array([-0.5, 0.5, 0.7])
 
 
 def shades(x, y, heights, corners):
-    """Of the triangles, lit from the north-west; heights are exaggerated twice. Degrees become metres."""
+    """Shades of the triangles, lit from the north-west; heights are exaggerated twice. Degrees become metres."""
     at = numpy.stack([x * 90000, y * 111000, 2 * heights], axis=1)
     across = numpy.cross(at[corners[:, 1]] - at[corners[:, 0]], at[corners[:, 2]] - at[corners[:, 0]])
     return numpy.clip(across @ LIGHT / numpy.linalg.norm(across, axis=1) / numpy.linalg.norm(LIGHT), 0, 1)

@@ -44,7 +44,7 @@ def first_sentence(option):
 
 
 def sentences(option, with_default=True):
-    """The help, and what the table says besides: as --help has it."""
+    """The help, and the rest of the table's row, like --help."""
     text = option["help"]
     if option["range"] and " to " in option["range"]:
         text += f" From {option['range']}."

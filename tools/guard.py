@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Is HEAD slower or larger than BASE? Builds both, times both in interleaved rounds on the same rasters, says so.
+"""Is HEAD slower or larger than BASE? Builds both, times both in interleaved rounds on the same rasters, and reports.
 
-  guard.py BASE [HEAD]       two commits; HEAD is what is checked out if left out (its last commit)
+  guard.py BASE [HEAD]       two commits; HEAD is what is checked out if omitted (its last commit)
   guard.py --bins A B        two folders of programs that are built already
 
 Compared are the triangulation's CPU time as speed_scarp reports it (instructions of the whole process where `perf` can
 count them), least of the rounds, and the peak memory of the process. A case fails where a number grew by more than a
 ratio and by more than an amount: either alone is noise, or a triviality. What fails is measured again before it counts.
-A commit without speed_scarp is timed by `scarp simplify --report` (seconds of refinement, wall clock); then the other one
-is too. Options that a program does not know are left out, and that is said. Exit code: 0 well, 1 a case failed, 2 no
-comparison.
+A commit without speed_scarp is timed by `scarp simplify --report` (seconds of refinement, wall clock); then the other
+one is too. Options that a program does not know are omitted, and that is reported. Exit code: 0 well, 1 a case failed,
+2 no comparison.
 """
 
 import argparse
@@ -105,7 +105,7 @@ class Side:
         return (self.folder / "speed_scarp").exists()
 
     def drop_unknown(self, raster, error, options):
-        """Leaves out the options, pairs of name and value, that the program does not know."""
+        """Removes the options, pairs of name and value, that the program does not know."""
         self.options = []
         for option in options:
             known = run_child([self.folder / "speed_scarp", *raster, error, *option]) is not None
@@ -237,7 +237,7 @@ def parse(arguments):
 
 
 def limits_of(options):
-    """Five million instructions take about a millisecond: the amount is that of the time."""
+    """Five million instructions need about a millisecond: the amount is that of the time."""
     return Limits(Threshold(options.time_ratio, options.time_ms / 1e3),
                   Threshold(options.memory_ratio, options.memory_mb),
                   Threshold(options.time_ratio, options.time_ms * 5e6))

@@ -3,9 +3,9 @@
 #
 # usage: tools/install_packages.sh PURPOSE...      PURPOSE: build run viewer test full globe wasm bench paper lint dist
 #
-# A machine that has them all is left alone: no network, no rights. Otherwise apt-get runs once, as root or through
-# sudo without a password; where neither is possible, the line to run is printed and the exit code is 1.
-# On a machine without apt the packages are named and the build goes on: CMake tells what it does not find.
+# A machine that has them all is left alone: no network, no rights. Otherwise apt-get runs once, as root or through sudo
+# without a password; where neither is possible, the line to run is printed and the exit code is 1.
+# On a machine without apt the packages are named and the build continues: CMake reports what it does not find.
 set -euo pipefail
 list=$(dirname "$0")/packages.txt
 

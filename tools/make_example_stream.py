@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes data/examples/streams.geojson: the way that water takes over the bundled DEM, from a valley in the north.
+"""Writes data/examples/streams.geojson: the course of water over the bundled DEM, from a valley in the north.
 
     tools/make_example_stream.py >data/examples/streams.geojson
 
-A flood rises from the border of the raster inwards, the lowest sample next (Barnes et al. 2014). Each sample drains into
-the one that it was reached from; what lies in a pit drains over its lowest sill.
+A flood rises from the border of the raster inwards, the lowest sample next (Barnes et al. 2014). Each sample drains
+into the one that it was reached from; what lies in a pit drains over its lowest sill.
 """
 import heapq
 import json
@@ -12,7 +12,7 @@ import os
 import subprocess
 
 SOURCE = -84.2830, 36.3980  # longitude, latitude
-POINTS = 170  # of the line, a sample apart
+POINTS = 170  # points of the line, a sample apart
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 text = subprocess.run(["gdal_translate", "-q", "-of", "XYZ", "data/jacksboro_fault.tif", "/vsistdout/"], check=True,

@@ -134,7 +134,7 @@ view hills.stl printing_solid.png +Z -40,-90,110 57,60,0
 simplify dem.tif big.stl -e 0.1mm --solid size=360mm,exaggerate=3 --split 2x2,joint=dovetail,gap=0.2mm
 view big-r1-c1.stl printing_tile.png +Z 120,-60,220 100,260,0
 
-# Tiles: as triangles, and in CesiumJS, of which the test of make globe takes the picture.
+# Tiles: as triangles, and in CesiumJS, whose picture comes from the test of make globe.
 /usr/bin/python3 "$tree/tools/draw_tiles.py" "$scarp" "$tree/docs/images/tiles_levels.png"
 SCARP_SHOTS=$scratch SCARP_BUILD=$(dirname "$(dirname "$scarp")") SCARP_SOURCE=$tree bash "$tree/tests/browsers/test_globe.sh"
 shrink globe.png 900

@@ -10,7 +10,7 @@ import textwrap
 
 root = pathlib.Path(__file__).resolve().parent.parent
 package = root / "bindings" / "python" / "src" / "scarp"
-# What users name, by the module that it stands in.
+# Names for users, by the module that they stand in.
 PUBLIC = [("__init__", ["simplify", "simplify_points", "measure"]), ("mesh", ["read_mesh", "Mesh", "Report"]),
           ("refiner", ["Refiner"]), ("tiles", ["tile", "Tiles"]), ("_call", ["Progress"]),
           ("errors", ["ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled",

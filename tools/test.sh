@@ -15,7 +15,7 @@
 # full: both.
 #
 # A stage that fails does not hide the next. Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp,
-# SCARP_FUZZ_SEED; tools/soak.sh takes fresh ones. The CPU seconds of each stage and script go to BUILD/times, which
+# SCARP_FUZZ_SEED; tools/soak.sh uses fresh ones. The CPU seconds of each stage and script go to BUILD/times, which
 # tools/test_times.py prints; above 3,000 s for `test` it fails.
 #
 # Environment: BUILD (build), JOBS (cores). The last line counts the tests of all stages; exit 1 if one failed.
@@ -125,7 +125,7 @@ run_callers() {
     "$scratch/out.glb"
   runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so" 2>/dev/null || true)
   if [ -e "$folder/bindings/c/libscarp_c.so" ] && [ -e "$runtime" ]; then
-    # Leaks are looked for above: an interpreter frees little at its end.
+    # Leaks are searched for above: an interpreter frees little at its end.
     basename -a tests/python/test_*.py >"$scratch/files"
     passes "the C library called by Python" env ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 \
       PYTHONPATH="$PWD/bindings/python/src" SCARP_LIBRARY="$(realpath "$folder")/bindings/c/libscarp_c.so" \

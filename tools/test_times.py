@@ -4,9 +4,9 @@
 usage: tools/test_times.py [BUILD] [--rest] [--most SECONDS]
 
 BUILD is the build folder (build). Without --rest: the stages of `make test`; with it, what `make test-full` adds. With
---most the exit code is 1 where the sum is larger, so that the growth of the tests is seen: of SECONDS on the machine on which
-a compilation takes REFERENCE CPU seconds, on every core at once. Where cores are shared or slow it takes longer, and so may the
-tests.
+--most the exit code is 1 where the sum is larger, so that the growth of the tests is seen: of SECONDS on the machine on
+which a compilation needs REFERENCE CPU seconds, on every core at once. Where cores are shared or slow it needs longer,
+and so may the tests.
 """
 import argparse
 import multiprocessing
@@ -28,7 +28,8 @@ def compile_once(_):
 
 
 def slowness():
-    """How much longer than on the machine of REFERENCE a compilation takes, on all cores at once; 1 at least."""
+    """The factor by which a compilation is slower than on the machine of REFERENCE, on all cores at once; 1 at
+    least."""
     cores = os.cpu_count() or 2
     with multiprocessing.Pool(cores) as pool:
         taken = sorted(pool.map(compile_once, range(3 * cores), chunksize=1))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs `info`, `simplify` and `measure` on every file of a folder that others made, and tells what broke.
+"""Runs `info`, `simplify` and `measure` on every file of a folder that others made, and reports failures.
 
     tools/try_files.py PROGRAM FOLDER [--jobs N] [--timeout SECONDS] [--error E]
 
 A refusal is no fault: exit codes 1 to 3, one sentence on stderr, nothing written. Faults are signals, time-outs, exit
-codes 4 and above, more than one sentence, files left in the folder of the outputs or beside the inputs, and commands
+codes 4 and above, more than one sentence, files left in the folder of the outputs or next to the inputs, and commands
 that disagree: info reads what simplify does not, or measure finds that a mesh breaks its bound. Exit 1 if there is any.
 """
 

@@ -65,7 +65,7 @@ Error end_usage(const std::string& sentence, const std::string& command) {
   return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, command)};
 }
 
-/// What CLI11 objects to, as one sentence that ends with where to read more.
+/// CLI11's complaint as one sentence that ends with where to read more.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
   std::string command, sentence;
   const CLI::App* chosen = nullptr;
@@ -167,7 +167,7 @@ int run_program(int count, char** words) {
 }
 
 /// A standard stream that the caller has closed would lend its number to the next file that is opened, which messages
-/// would then be written into. /dev/null, opened for reading, takes its place: writing to it fails as it should.
+/// would then be written into. /dev/null, opened for reading, occupies its number: writing to it fails as it should.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != stream) return;

@@ -1,9 +1,9 @@
-// The npm package beside delatin and martini: node bench/npm/run.mjs RASTER... > bench/npm/results.csv
+// The npm package compared with delatin and martini: node bench/npm/run.mjs RASTER... > bench/npm/results.csv
 //
-// RASTER: name=file:columns:rows:errors, float32 samples, such as everest=everest.f32:513:513:20,80; martini takes 2^n + 1 a side.
-// They are made by gdal_translate -of ENVI -ot Float32 -srcwin 400 300 513 513 N27E086.hgt everest.f32
-// Milliseconds are CPU time, the least of several runs after one that warms up; true errors are those of the judge of the tests. Needs
-// scarp, delatin and @mapbox/martini in node_modules.
+// RASTER: name=file:columns:rows:errors, float32 samples, such as everest=everest.f32:513:513:20,80; martini needs 2^n
+// + 1 a side. They are made by gdal_translate -of ENVI -ot Float32 -srcwin 400 300 513 513 N27E086.hgt everest.f32
+// Milliseconds are CPU time, the least of several runs after one that warms up; true errors are those of the judge of
+// the tests. Needs scarp, delatin and @mapbox/martini in node_modules.
 import fs from 'node:fs';
 import Delatin from 'delatin';
 import Martini from '@mapbox/martini';
@@ -24,7 +24,7 @@ function best(work) {
   }
   return [least.toFixed(1), result];
 }
-/// Of coordinates in samples, the first row at the top.
+/// Judges coordinates in samples, the first row at the top.
 function judgeCoords(z, width, height, coords, triangles) {
   const vertices = Array.from({ length: coords.length / 2 }, (_, v) => v);
   return judge(z, width, height, { columns: vertices.map(v => coords[2 * v]), rows: vertices.map(v => coords[2 * v + 1]),

@@ -4,7 +4,7 @@
 //
 // For each of the numbers EDGES, descending, the mesh at the moment at which at most that many edges are left: what a
 // run that stops there gives, for the order of the collapses does not depend on where it ends. Surfaces are written to
-// PREFIX.EDGES; each line tells the time until then, without that of the copies. Z_SCALE: as peer_meshopt's. POLICY: lt
+// PREFIX.EDGES; each line has the time until then, without that of the copies. Z_SCALE: as peer_meshopt's. POLICY: lt
 // (Lindstrom and Turk's cost and placement, CGAL's default) or gh (Garland and Heckbert's quadrics of planes), both
 // with CGAL's filter against normals that turn over.
 
@@ -39,7 +39,7 @@ Mesh mesh_of(const bench::Surface& surface, double z_scale) {
   return mesh;
 }
 
-/// What is left of a mesh whose removed parts have not been collected.
+/// The rest of a mesh whose removed parts have not been collected.
 bench::Surface surface_of(const Mesh& mesh, double z_scale) {
   bench::Surface surface;
   std::vector<std::uint32_t> names(mesh.number_of_vertices() + mesh.number_of_removed_vertices());
@@ -77,7 +77,7 @@ class Checkpoints {
   double spent_on_visits_ = 0;
 };
 
-/// What CGAL copies of it.
+/// The part that CGAL copies.
 struct Stop {
   Checkpoints* checkpoints;
 

@@ -1,4 +1,5 @@
-// Judges a peer's mesh with measure(): its true max error, and what of the raster it leaves uncovered or covers twice.
+// Judges a peer's mesh with measure(): its true max error, and the part of the raster that it does not cover or covers
+// twice.
 //
 //   peer_judge RASTER COLS ROWS lattice|surface MESH     one JSON line
 

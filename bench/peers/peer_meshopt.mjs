@@ -3,8 +3,8 @@
 //   node peer_meshopt.mjs RASTER COLS ROWS Z_SCALE MODE BORDER PREFIX TRIANGLES...
 //
 // For each number of TRIANGLES a mesh, PREFIX.TRIANGLES, and a line about it. Errors are measured in space: Z_SCALE is
-// what heights are multiplied with before. Small factors lay the surface flat, so that a distance in space comes near
-// to one along z. MODE: simplify; attribute (all of it in the plane, the height an attribute of weight 1); update (the
+// what heights are multiplied with before. Small factors flatten the surface, so that a distance in space comes near to
+// one along z. MODE: simplify; attribute (all of it in the plane, the height an attribute of weight 1); update (the
 // vertices that are left are moved). BORDER: free or locked.
 
 import {readFileSync, writeFileSync} from 'node:fs';
@@ -57,7 +57,7 @@ function simplify(triangles, positions, wanted) {
   return MeshoptSimplifier.simplify(triangles, positions, 3, target, anyError, flags)[0];
 }
 
-/** As surface.h reads it: two counts, points, triangles. */
+/** Written as surface.h reads it: two counts, points, triangles. */
 function writeSurface(file, left, positions) {
   const names = new Map(), points = [];
   const triangles = left.map((v) => {

@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   const double z_scale = std::atof(argv[4]);
   const std::string_view mode = argv[5];
   const bench::Surface grid = bench::full_grid(raster);
-  vtkObject::GlobalWarningDisplayOff();  // of each collapse whose least square has no single place
+  vtkObject::GlobalWarningDisplayOff();  // warnings about each collapse whose least square has no single place
   const auto mesh = mesh_of(grid, z_scale);
   for (int k = 7; k < argc; ++k) {
     const double wanted = std::atof(argv[k]), all = static_cast<double>(grid.triangles.size() / 3);

@@ -7,8 +7,8 @@
 
 A peer promises no max error, or not this one: its own parameter is searched for the smallest mesh that keeps the goal,
 as measure() judges it: every sample covered, none farther than the goal. Where no mesh that was tried covers every
-sample, it is the smallest that keeps the goal where it covers, and the table tells how many samples it leaves out. A
-row whose max error is above what was asked says that no mesh that was tried keeps the goal.
+sample, it is the smallest that keeps the goal where it covers, and the table has the number of samples that it does not
+cover. A row whose max error is above what was asked shows that no mesh that was tried keeps the goal.
 """
 
 import argparse
@@ -25,7 +25,7 @@ SPEED, QUALITY = HERE.parent / "speed", HERE.parent / "quality"
 sys.path.insert(0, str(SPEED))
 from rasters import find_file, to_raw  # noqa: E402
 
-# name: (file, window: 384 × 384 samples of the larger ones, since CGAL takes a minute a million samples and run)
+# name: (file, window: 384 × 384 samples of the larger ones, since CGAL needs a minute a million samples and run)
 RASTERS = {
     "fuji": ("fuji.tif", None),
     "crater": ("crater.tif", None),
@@ -38,8 +38,8 @@ VARIANTS = ("greedy", "fast", "normal", "high on samples", "high")
 
 # Heights are multiplied so that the relief is a share of the raster's longer side: what measures errors in space comes
 # nearer to errors along z the flatter the surface is. On crater.tif shares from 1 to 0.0016 were tried: the larger ones
-# fold the mesh and leave samples uncovered, smaller ones gain nothing more. There, too, meshoptimizer did no better
-# with its border locked, and kept its faults under PreserveFolds and RegularizeLight.
+# fold the mesh and uncover samples, smaller ones gain nothing more. There, too, meshoptimizer did no better with its
+# border locked, and kept its faults under PreserveFolds and RegularizeLight.
 FLATTENED = (0.04, 0.008)
 FINEST_ASKED = 8  # how far below the goal a peer that breaks its own max error is asked to go
 
@@ -53,7 +53,7 @@ def call(*command):
 
 
 def install(folder):
-    """What package-lock.json pins."""
+    """Installs the packages that package-lock.json pins."""
     if not (folder / "node_modules").is_dir():
         subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=folder, check=True)
 
@@ -165,7 +165,7 @@ def spread(low, high, factor):
 
 
 class Search:
-    """What has been tried of one peer with one setting on one raster: verdicts by size."""
+    """The trials of one peer with one setting on one raster: verdicts by size."""
 
     def __init__(self, case, peer, setting):
         self.case, self.peer, self.setting, self.tried = case, peer, setting, {}
@@ -174,7 +174,7 @@ class Search:
         self.tried.update(self.peer.probe(self.case, self.setting, sizes))
 
     def best_size(self, goal):
-        """Of the meshes that keep the goal, if possible of those that cover every sample, the smallest one's."""
+        """The size of the smallest mesh that keeps the goal, if possible of those that cover every sample."""
         kept = [size for size, verdict in self.tried.items() if verdict["max_error"] <= goal]
         kept = [size for size in kept if self.tried[size]["uncovered"] == 0] or kept
         return min(kept, key=lambda size: self.tried[size]["triangles"], default=None)
@@ -218,7 +218,7 @@ def search_sizes(case, peer, goals, greedy):
 
 def search_errors(case, peer, goals):
     """The same of a peer whose size is an error: about each goal, and from there to finer ones. Where none of them
-    keeps the goal, the mesh for which the goal itself was asked, whose max error then tells that it is broken."""
+    keeps the goal, the mesh for which the goal itself was asked, whose max error then shows that it is broken."""
     found = {}
     for goal in goals:
         search, size = Search(case, peer, None), round(1e9 / goal)

@@ -5,9 +5,9 @@
   squares.py --bin build/bin --only crater         some rasters, printed only
   squares.py --bin build/bin --only crater --keep  some rasters, their rows put in place of the old ones
 
-The number is what greedy insertion takes at 1 % of the relief. A peer is given the settings below; of each setting it is
+The number is that of greedy insertion at 1 % of the relief. A peer is given the settings below; of each setting it is
 the smallest mesh of at least as many triangles as Scarp's, `high rms`, and at most 1 % more. The best RMSE of its
-settings counts. Samples that a mesh leaves uncovered have no error, which is in that mesh's favour.
+settings counts. Samples that a mesh does not cover have no error, which is in that mesh's favour.
 """
 
 import argparse
@@ -18,7 +18,7 @@ from pathlib import Path
 
 from peers import FLATTENED, HERE, QUALITY, RASTERS, Case, Meshopt, call, install, read_rows
 
-PERCENT = 1  # of the relief
+PERCENT = 1  # percent of the relief
 MOST_MORE = 1.01  # a mesh of more triangles than this by Scarp's does not count: VTK's attributes stop it early on walls
 SCARP = ("normal", "normal rms", "high", "high rms")
 
@@ -35,8 +35,7 @@ RASTERS.update({
 
 
 def keep_smallest(case, sizes, triangles, least):
-    """Of the surfaces MESH.SIZE with `triangles[size]`, the smallest of at least `least`, if any; the others are
-    deleted."""
+    """The smallest surface of MESH.SIZE with `triangles[size]` of at least `least`, if any; the others are deleted."""
     best = min((size for size in sizes if triangles[size] >= least), key=lambda size: (triangles[size], size),
                default=None)
     for size in sizes:
@@ -67,7 +66,7 @@ class Cgal:
 
 
 class ByTriangles:
-    """Its size is a number of triangles, of which it may leave fewer: more are asked until it does not."""
+    """Its size is a number of triangles, of which it may reach fewer: more are asked until it does not."""
 
     def make(self, case, setting, least):
         for more in (0, 1, 2, 4, 8, 16, 64, 256):

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""What a call of scarp.simplify() costs beyond the library's own time, and what `import scarp` costs.
+"""The cost of a call of scarp.simplify() beyond the library's own time, and that of `import scarp`.
 
     PYTHONPATH=bindings/python/src SCARP_LIBRARY=build/bindings/python/libscarp_c.so python3 bench/python/calls.py
         [--side N] [--rounds N] [--in-a-row N] [--imports N] [--csv FILE]
 
 or, without the two variables, of the scarp that is installed.
 
-Calls: of N x N samples (33: 54 triangles), on one thread. All kinds take turns, some calls of each in a row (20), so
-that a busy machine is as unkind to each, and caches are as warm as in a loop. Of each: the median over the rounds (3000) of the call's time, until its mesh is freed, less the time
-that its report says simplify() took; in microseconds. "C" is scarp_simplify() and scarp_mesh_free() by ctypes, with all
-structs prepared: what it costs is the C door (options, plan, reading, metadata). "python" is what a row has beyond "C".
+Calls: of N x N samples (33: 54 triangles), on one thread. All kinds alternate, some calls of each in a row (20), so
+that a busy machine is as unkind to each, and caches are as warm as in a loop. For each: the median over the rounds
+(3000) of the call's time, until its mesh is freed, less the time of simplify() in its report; in microseconds. "C" is
+scarp_simplify() and scarp_mesh_free() by ctypes, with all structs prepared: what it costs is the C door (options, plan,
+reading, metadata). "python" is what a row has beyond "C".
 
 Imports: fresh processes by turns (20 of each); the median of their processor time in milliseconds, less that of a
 process that imports nothing.
@@ -26,7 +27,7 @@ import time
 
 
 def find_calls(side):
-    """By name: a function that makes a mesh, one that takes the library's seconds from it, one that frees it."""
+    """By name: a function that makes a mesh, one that reads the library's seconds from it, one that frees it."""
     import numpy as np
     import scarp
     from scarp import _abi

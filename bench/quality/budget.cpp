@@ -1,11 +1,11 @@
-// What effort and objective make of a budget: as many triangles as greedy insertion takes at 1 % of the relief, and at
-// 0.3 % where these are fewer than 100,000 → max error and RMSE, as measure() judges them. Times go to a table of their
-// own: this one is the same on every machine.
+// The results of effort and objective for a budget: as many triangles as greedy insertion needs at 1 % of the relief,
+// and at 0.3 % where these are fewer than 100,000 → max error and RMSE, as measure() judges them. Times go to a table
+// of their own: this one is the same on every machine.
 //
 //   scarp_budget PROJECT BUDGETS.csv SECONDS.csv [NAME...]
 //
 // All of PROJECT/bench/quality/budgets.txt, or the named ones, whose rows then are put in place of the old ones. Ends
-// with 3 as soon as a mesh has more triangles than the budget, leaves a sample uncovered or is not sound; and, when all
+// with 3 as soon as a mesh has more triangles than the budget, does not cover a sample or is not sound; and, when all
 // is done, if `high` had a larger max error than `normal` anywhere.
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@
 namespace {
 
 constexpr double kPercentsOfRelief[] = {1, 0.3};
-constexpr std::uint64_t kMostOfMore = 100'000;  ///< a second budget that is larger is left out
+constexpr std::uint64_t kMostOfMore = 100'000;  ///< a second budget that is larger is omitted
 
 constexpr const char* kHeader =
     "raster,cols,rows,valid,percent_of_relief,budget,variant,triangles,max_error,rmse,angle_p1,thin_percent\n";

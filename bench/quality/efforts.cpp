@@ -1,10 +1,10 @@
-// What each effort makes of an error: rasters × goals × variants → triangles, their ratio to greedy insertion, errors
-// and angles as measure() judges them. Times go to a table of their own: this one is the same on every machine.
+// The results of each effort for an error: rasters × goals × variants → triangles, their ratio to greedy insertion,
+// errors and angles as measure() judges them. Times go to a table of their own: this one is the same on every machine.
 //
 //   scarp_efforts PROJECT EFFORTS.csv SECONDS.csv [NAME...]
 //
 // All of PROJECT/bench/quality/efforts.txt, or the named ones, whose rows then are put in place of the old ones. Ends
-// with 3 as soon as a mesh breaks its bound, leaves a sample uncovered, or is not sound.
+// with 3 as soon as a mesh breaks its bound, does not cover a sample, or is not sound.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// What the programs of bench/quality read and write.
+// The inputs and outputs of the programs of bench/quality.
 #pragma once
 
 #include <cstdio>
@@ -12,7 +12,7 @@
 
 namespace bench {
 
-/// The project's own copy in data/, else the one in $SCARP_SHARED/data or beside the project in ../shared/data.
+/// The project's own copy in data/, else the one in $SCARP_SHARED/data or next to the project in ../shared/data.
 inline std::optional<std::string> find_raster(const std::filesystem::path& project, const std::string& name) {
   const char* variable = std::getenv("SCARP_SHARED");
   const std::filesystem::path shared = variable != nullptr ? std::filesystem::path(variable) : project / "../shared";
@@ -33,7 +33,7 @@ inline std::vector<std::string> read_names(const std::filesystem::path& list) {
   return names;
 }
 
-/// Says why; the program's exit code where something is not there.
+/// Prints the reason; returns the program's exit code where something is missing.
 inline int fail_with(const std::string& sentence) {
   std::fprintf(stderr, "%s\n", sentence.c_str());
   return 2;

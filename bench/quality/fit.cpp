@@ -1,5 +1,5 @@
 // Triangles and time with removal after refinement, at goals from coarse to fine, on one thread. Ratios are to the
-// greedy mesh at the same max error, and to the time that it takes.
+// greedy mesh at the same max error, and to its time.
 //
 //   scarp_fit PROJECT SIDE [RASTER]...     patches of SIDE samples; 0: as the library chooses
 //
@@ -30,7 +30,7 @@ constexpr double kErrorsOfRelief[] = {0.05, 0.02, 0.01, 0.005, 0.002};
 constexpr const char* kRasters[] = {"fuji.tif", "crater.tif", "jacksboro_fault.tif", "bigtujunga30m.tif",
                                     "nrw_dom1_essen.tif"};
 
-/// Of this process: other programs on the machine count less.
+/// CPU time of this process: other programs on the machine count less.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Stage {
@@ -58,7 +58,7 @@ Stage refine_greedily(const scarp::Raster& raster, const scarp::Frame& frame, do
   return stage;
 }
 
-/// As the library does by default; nothing where it would rather be greedy.
+/// Refines like the library by default; nothing where it would rather be greedy.
 Stage refine_in_tiles(const scarp::HeightField& field, const scarp::Raster& raster, double error) {
   Stage stage;
   const double start = cpu_seconds();

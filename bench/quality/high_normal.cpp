@@ -1,4 +1,4 @@
-// Whether `high` ever takes more triangles than `normal` for the same max error, and what its default floor of shapes
+// Checks if `high` ever needs more triangles than `normal` for the same max error, and what its default floor of shapes
 // yields: rasters and generated fields × errors → triangles, max errors, RMSE, thin triangles, as measure() judges
 // them.
 //
@@ -6,8 +6,8 @@
 //
 // All of PROJECT/bench/quality/rasters.txt and the fields below, or the named ones, whose rows then are put in place of
 // the old ones. `hard` is high with --min-shape 0.1, which does not yield; it is run where a raster is small. Ends with
-// 3 as soon as a mesh breaks its bound, leaves a sample uncovered or is not sound; and, when all is done, if `high`
-// took more triangles than `normal` anywhere.
+// 3 as soon as a mesh breaks its bound, does not cover a sample or is not sound; and, when all is done, if `high`
+// needed more triangles than `normal` anywhere.
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ constexpr const char* kHeader =
 /// Heights of samples by column and row.
 using Shape = float (*)(int col, int row);
 
-/// Whole numbers that look random and are the same everywhere.
+/// Whole numbers that appear random and are the same everywhere.
 std::uint32_t scramble(std::uint32_t a, std::uint32_t b) {
   std::uint32_t x = a * 0x9E3779B1U ^ (b + 0x7F4A7C15U) * 0x85EBCA77U;
   x = (x ^ x >> 15) * 0xC2B2AE3DU;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Max error and PSNR of images as meshes of at most 4000 vertices, beside a uniform grid of as many, to images.csv.
+"""Max error and PSNR of images as meshes of at most 4000 vertices, compared with a uniform grid of as many, to
+images.csv.
 
     bench/quality/images.py build/bin/scarp DATA [IMAGE...] > bench/quality/images.csv
 

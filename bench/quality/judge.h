@@ -18,7 +18,7 @@ namespace bench {
 
 inline constexpr int kGeneratedSide = 768;
 
-/// Of this process, all its threads: other programs on the machine count less.
+/// CPU time of this process, all its threads: other programs on the machine count less.
 inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// A raster of find_raster(), or a style of `scarp generate`.
@@ -31,7 +31,7 @@ inline scarp::Result<scarp::OwnedHeightField> read_field(const std::filesystem::
   return scarp::read_height_field(*path);
 }
 
-/// What is wrong with a mesh that promised max_error; nothing if nothing is.
+/// The fault of a mesh that promised max_error; nothing if nothing is.
 inline std::string find_fault(const scarp::Measurement& judged, double max_error) {
   // Planes through vertices between samples are no numbers of double.
   constexpr double kRounding = 1 + 1e-12;
@@ -44,7 +44,7 @@ inline std::string find_fault(const scarp::Measurement& judged, double max_error
 struct Made {
   scarp::Measurement judged;
   double seconds = 0;
-  double thin_percent = 0;  ///< of its triangles, those whose smallest angle, seen from above, is below 5 degrees
+  double thin_percent = 0;  ///< share of its triangles whose smallest angle, seen from above, is below 5 degrees
 };
 
 inline double smallest_angle(const scarp::Mesh& mesh, std::size_t triangle) {

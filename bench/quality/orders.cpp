@@ -1,5 +1,5 @@
-// Vertices in the locally dominant order beside those in the greedy one, at goals from coarse to fine. No times in it:
-// the file only changes when the meshes do.
+// Vertices in the locally dominant order compared with those in the greedy one, at goals from coarse to fine. No times
+// in it: the file only changes when the meshes do.
 //
 //   scarp_orders PROJECT RESULTS.csv     the rasters of PROJECT/bench/quality/rasters.txt of a million samples or more,
 //                                        and those of orders.txt

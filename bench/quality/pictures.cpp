@@ -19,11 +19,11 @@ struct Scene {
   const char* file;
   int first_col, first_row, side;
   double max_error;      ///< in z units
-  int pixels;            ///< of the picture's longer side, at most, its legend included
+  int pixels;            ///< pixels of the picture's longer side, at most, its legend included
   std::uint64_t budget;  ///< triangles that both objectives get; 0: neither is drawn
 };
 
-/// What the table tells of a picture.
+/// The table's row for a picture.
 struct Row {
   std::string scene, variant, goal;
 };
@@ -47,7 +47,7 @@ scarp::OwnedHeightField cut(const scarp::OwnedHeightField& field, const Scene& s
   return window;
 }
 
-/// The mesh of some variant, drawn and told in the table; the program's exit code.
+/// The mesh of some variant, drawn and listed in the table; the program's exit code.
 int draw(const Scene& scene, const scarp::OwnedHeightField& window, const scarp::SimplifyOptions& options,
          const Row& row, const std::string& folder, std::string& table) {
   const auto made = scarp::simplify(window, options);

@@ -61,7 +61,7 @@ class Efforts:
         self.efforts = [effort for effort in values(rows, "effort") if effort != "greedy"]
 
     def ratios(self, effort, column, which):
-        """Of a column, to the same of greedy insertion, over the cases of one kind."""
+        """Ratios of a column to the same of greedy insertion, over the cases of one kind."""
         return [float(case[effort][column]) / float(case["greedy"][column]) for case in self.cases.values()
                 if effort in case and which(case["greedy"])]
 
@@ -212,7 +212,7 @@ class Squares:
                          if program not in ("Scarp greedy", "Scarp high rms")]
 
     def best(self, case):
-        """Of the other programs, the least RMSE in that of Scarp."""
+        """The least RMSE of the other programs, relative to that of Scarp."""
         return min(float(row["ratio"]) for program, row in case.items() if not program.startswith("Scarp"))
 
     def table(self):
@@ -248,7 +248,7 @@ class HighNormal:
         self.cases = by_case(self.rows, "variant")
 
     def worst(self):
-        """Where high saves least."""
+        """The case where high saves least."""
         def ratio(case):
             return int(case["high"]["triangles"]) / int(case["normal"]["triangles"])
 
@@ -263,7 +263,7 @@ class HighNormal:
         return markdown(["raster", "max error", "`normal`", "`high`", "ratio", "`high --min-shape 0.1`"], lines)
 
     def angles(self):
-        """Of terrain, and of the rest: what the floor yields."""
+        """The angles of terrain, and of the rest: the effect of the floor."""
         kinds = [("relief of land, sea floor and Mars", [case for (raster, _), case in self.cases.items()
                                                         if "hard" in case and is_terrain(raster)]),
                  ("houses, steps and walls", [case for (raster, _), case in self.cases.items()
@@ -351,7 +351,7 @@ def picture_table(rows):
 
 
 def tables():
-    """Every table by its name, those left out whose file is not there."""
+    """Every table by its name, without those whose file is not there."""
     efforts, peers, found = Efforts(), Peers(), {}
     if efforts.rows:
         found.update(efforts=efforts.summary(), triangles=efforts.triangles(), angles=efforts.angles())

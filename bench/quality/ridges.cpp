@@ -1,8 +1,9 @@
-// What lines along ridges and valleys do to meshes of the same max error: triangles; the error where water gathers and
-// where it parts; and how much of the network of streams the mesh keeps. Streams are the samples through which at least
-// 100 others drain, by steepest descent over the raster filled to its spills (D8; priority flood), divides the same on
-// the raster upside down: both know nothing of how the lines were found. A stream is kept where the mesh, sampled on
-// the raster's grid, has one within a sample of it. No times in it: the file only changes when the meshes do.
+// The effect of lines along ridges and valleys on meshes of the same max error: triangles; the error where water
+// gathers and where it parts; and how much of the network of streams the mesh keeps. Streams are the samples through
+// which at least 100 others drain, by steepest descent over the raster filled to its spills (D8; priority flood),
+// divides the same on the raster upside down: both know nothing of how the lines were found. A stream is kept where the
+// mesh, sampled on the raster's grid, has one within a sample of it. No times in it: the file only changes when the
+// meshes do.
 //
 //   scarp_ridges PROJECT RESULTS.csv [RASTER]...     the height asked of ridges is twice the max error
 
@@ -34,7 +35,7 @@ constexpr Case kCases[] = {{"fuji.tif", {20, 50}},          {"bigtujunga30m.tif"
                            {"bigtujunga30m.tif", {20, 50}}, {"jacksboro_fault.tif", {20, 50}},
                            {"crater.tif", {10, 25}},        {"gabilan_lidar_1m.tif", {0.5, 1}}};
 
-/// Where water runs over a grid of heights.
+/// The flow of water over a grid of heights.
 class Drainage {
  public:
   Drainage(const std::vector<float>& heights, int cols, int rows)
@@ -133,7 +134,7 @@ std::vector<float> turned(std::vector<float> heights) {
   return heights;
 }
 
-/// The share of the marks that have one of `others` beside them, or in their place.
+/// The share of the marks that have one of `others` next to them, or in their place.
 double share_kept(const Marks& marks, const Marks& others, int cols, int rows) {
   std::size_t all = 0, kept = 0;
   for (int row = 0; row < rows; ++row) {

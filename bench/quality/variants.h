@@ -1,4 +1,4 @@
-// What the tables of effort compare: greedy insertion, and the ways in which simplify() makes less of it.
+// The variants in the tables of effort: greedy insertion, and the ways in which simplify() makes less of it.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 namespace bench {
 
 struct Variant {
-  std::string_view name;  ///< of the row; no two the same
+  std::string_view name;  ///< name of the row; no two the same
   scarp::Order order;
   scarp::Effort effort;
-  std::string_view vertices;  ///< where they lie: "samples" or anywhere, "free"
+  std::string_view vertices;  ///< places of the vertices: "samples" or anywhere, "free"
   double most_greedy_triangles = std::numeric_limits<double>::infinity();  ///< not run where greedy needs more
 };
 
@@ -27,9 +27,9 @@ inline constexpr Variant kVariants[] = {
     {"max", scarp::Order::kAuto, scarp::Effort::kMax, "free", 100'000},
 };
 
-/// What a budget is given to.
+/// The variants that are given a budget.
 struct BudgetVariant {
-  std::string_view name;  ///< of the row; no two the same
+  std::string_view name;  ///< name of the row; no two the same
   scarp::Effort effort;
   scarp::Objective objective;
   double most_budget = std::numeric_limits<double>::infinity();  ///< not run where more triangles are allowed

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Measures the goals of speed that Scarp was given, in ratios; keeps goals.csv beside this file.
+"""Measures the goals of speed that Scarp was given, in ratios; keeps goals.csv next to this file.
 
 The engine's goals are multiples of a peer's time. The peer is any program that is called as speed_scarp is, RASTER COLS
-ROWS ERROR, triangulates on one thread and prints "cpu_seconds" in JSON; without one it is delatin. All ratios are of CPU
-time (least of the rounds, programs by turns), but for "2 threads": wall clock, which says nothing on a busy machine.
+ROWS ERROR, triangulates on one thread and prints "cpu_seconds" in JSON; without one it is delatin. All ratios are of
+CPU time (least of the rounds, programs by turns), but for "2 threads": wall clock, which means nothing on a busy
+machine.
 
   goals.py --bin build/bin [--peer PROGRAM --peer-name hmm] [--only GOAL...] [--rounds N]
 """

@@ -3,7 +3,7 @@
 
     make_vrt.py RASTER SIDE OUTPUT.vrt      make_vrt.py moon_gld100_caucasus_4096.tif 60000 moon60000.vrt
 
-RASTER's band 1 must be Int16. Beside OUTPUT it writes four tiled, compressed GeoTIFFs (RASTER and its mirrors), which
+RASTER's band 1 must be Int16. Next to OUTPUT it writes four tiled, compressed GeoTIFFs (RASTER and its mirrors), which
 several VRTs in one folder share. Needs gdal_translate and gdalinfo.
 """
 import array

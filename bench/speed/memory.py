@@ -2,9 +2,9 @@
 """Peak memory, fitted as bytes per sample, bytes per vertex and a constant, held against what is allowed; writes
 memory.md.
 
-First the engine alone in both orders, one thread, from samples to the frozen mesh (speed_memory: its own baseline taken
-off), then, where the program is built, a whole `scarp simplify --effort fast` run from GeoTIFF to GLB (peak of the process
-less that of the same run on 16×16 samples).
+First the engine alone in both orders, one thread, from samples to the frozen mesh (speed_memory: its own baseline
+subtracted), then, where the program is built, a whole `scarp simplify --effort fast` run from GeoTIFF to GLB (peak of
+the process less that of the same run on 16×16 samples).
 
   memory.py --bin build/bin
 """
@@ -96,7 +96,7 @@ def main():
             tif.unlink()
             raw.unlink()
     lines = ["# Memory", "",
-             "Written by `memory.py` (see `bench/README.md`). Peak resident memory, samples included, beside what is",
+             "Written by `memory.py` (see `bench/README.md`). Peak resident memory, samples included, next to what is",
              "allowed. The engine: one thread, from samples to the frozen mesh in order; with N threads N tiles are at work.", ""]
     for order, rows in engine.items():
         lines += table(f"Engine, {order} order", rows, ALLOWED[order])

@@ -26,7 +26,7 @@ RASTERS = {
 }
 
 # The errors that keep about these shares of the samples in the greedy order, as run.py --find gave them, rounded to
-# three digits. The small rasters leave the second out.
+# three digits. The small rasters omit the second.
 SHARES = (0.001, 0.004, 0.01, 0.05)
 ERRORS = {
     "jacksboro": (274, 92.4, 30),
@@ -47,7 +47,7 @@ LARGE = 2_000_000
 
 
 def find_file(name):
-    """The project's own copy of a raster, else the one beside the project; None if neither is there."""
+    """The project's own copy of a raster, else the one next to the project; None if neither is there."""
     for folder in (PROJECT / "data", SHARED):
         if (folder / name).is_file():
             return folder / name

@@ -1,4 +1,5 @@
-// What the programs of bench/speed share: raw rasters, clocks, the line they report, and the mesh file for the judge.
+// Common parts of the programs of bench/speed: raw rasters, clocks, the line they report, and the mesh file for the
+// judge.
 #pragma once
 
 #include <sys/resource.h>
@@ -44,7 +45,7 @@ inline RawRaster read_raw(const char* path, const char* cols, const char* rows) 
   return raster;
 }
 
-/// What the warm-up works on: the raster itself, or its upper left 512×512 samples where it has more than 2 million.
+/// The input of the warm-up: the raster itself, or its upper left 512×512 samples where it has more than 2 million.
 inline RawRaster warm_up_part(const RawRaster& raster) {
   if (raster.samples.size() <= 2'000'000) return raster;
   RawRaster part;
@@ -87,7 +88,7 @@ inline RawMesh read_raw_mesh(const char* path) {
   return mesh;
 }
 
-/// What a stretch of work took, all threads together.
+/// Times of a stretch of work, all threads together.
 struct Times {
   double wall = 0, user = 0, system = 0;  // seconds
   double page_faults = 0;                 // pages mapped: exact where the kernel only samples system time

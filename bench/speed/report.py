@@ -218,7 +218,7 @@ def start_table(rows):
 
 
 def order_table(rows):
-    """Of bench_orders: the highest ratios, and the summaries."""
+    """The table of bench_orders: the highest ratios, and the summaries."""
     meshes = [row for row in rows if row["samples"]]
     groups = (("below 0.1", 0, 0.1), ("0.1 to 1", 0.1, 1), ("above 1", 1, 101))
     lines = []
@@ -231,7 +231,7 @@ def order_table(rows):
 
 
 def goal_table(rows):
-    """Of goals.py."""
+    """The table of goals.py."""
     return markdown(["goal", "case", "ratio, or ms", "of", "peer"],
                     [[row["goal"], row["case"], row["value"], row["how"], row["peer"] or "–"] for row in rows])
 
@@ -247,7 +247,7 @@ def head():
     return [
         "# Speed of the triangulation",
         "",
-        "Written by `report.py` from the CSV files beside it (see `bench/README.md`). \"Scarp\" is the dominant order, its",
+        "Written by `report.py` from the CSV files next to it (see `bench/README.md`). \"Scarp\" is the dominant order, its",
         "default; \"greedy\" is its own engine for the greedy order. Ratios are a program's time divided by Scarp's, above 1",
         "where Scarp is faster: the minima of all rounds and (the medians). One thread, triangulation only. CPU time is",
         "the process's own, of all its threads (node collects garbage in others). Wall clock also counts waiting for a",
@@ -263,7 +263,7 @@ def head():
 
 
 def tables():
-    """Every table by its name, those left out whose file is not there."""
+    """Every table by its name, without those whose file is not there."""
     results, orders = read_table(HERE / "results.csv"), read_table(ORDERS)
     found = {}
     if results:
@@ -301,7 +301,7 @@ SECTIONS = (
      "By side of the tiles, each started from two triangles; against the raster as one tile (last column, vertices)."),
     ("starts", "Starts: coarse starts against two triangles",
      "By side of the tiles: vertices more or less, and how many times faster (one run)."),
-    ("goals", "Goals", "What `goals.py` measured, and from which times: its functions of these names tell what each is."),
+    ("goals", "Goals", "What `goals.py` measured, and from which times: its functions of these names define each of them."),
 )
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Times triangulation only (but for "programs"), in interleaved rounds; keeps CSV tables beside this file and writes results.md from them.
+"""Times triangulation only (but for "programs"), in interleaved rounds; keeps CSV tables next to this file and writes
+results.md from them.
 
   peers    Scarp's two orders, delatin (node), VTK, one verification of Scarp's mesh     results.csv
   kernels  the instruction sets of this machine, forced one by one                       kernels.csv
@@ -52,7 +53,7 @@ def call(command, **environment):
 
 
 class Bench:
-    """Where the programs are and how often they run."""
+    """The paths of the programs and the number of their runs."""
 
     def __init__(self, options, scratch):
         self.bin, self.scratch, self.options = options.bin, Path(scratch), options

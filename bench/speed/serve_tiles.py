@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Times tiles that scarp serve makes when they are asked for: python3 serve_tiles.py SCARP RASTER [OPTION...]
 
-Asks for up to 40 tiles of each level, spread over it: as soon as the server answers, when nobody has made them, and
+Asks for up to 40 tiles of each level, spread over it: as soon as the server answers, when they are not made yet, and
 again, when they are kept; then of another server, once it has prepared its coarse levels. One client on loopback, one
 answer at a time. Prints milliseconds a tile, median and 95th percentile.
 """
@@ -40,7 +40,7 @@ class Server:
         self.process.wait()
 
     def ask(self, path):
-        """Milliseconds, the bytes, and what is said of the bound."""
+        """Milliseconds, the bytes, and the bound in the answer."""
         begun = time.monotonic()
         self.client.request("GET", path, headers={"Accept-Encoding": "gzip"})
         answer = self.client.getresponse()

@@ -42,7 +42,7 @@ class Drawing {
   Point any() { return at(between(0, kSize), between(0, kSize)); }
   static Point at(double x, double y) { return {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}; }
 
-  /// Walks of a hundred segments of two samples, a few of which leave the raster.
+  /// Walks of a hundred segments of two samples, a few of which go out of the raster.
   scarp::Polylines walks(int count) {
     scarp::Polylines lines;
     std::vector<Point> line;
@@ -126,7 +126,7 @@ struct Times {
   double cpu = 1e9, wall = 1e9;  ///< seconds of all cores together, and by the clock
 };
 
-/// Of what the program does: reading the raster, simplify(), writing the mesh. Nothing if that fails.
+/// Times of the program's work: reading the raster, simplify(), writing the mesh. Nothing if that fails.
 std::optional<Times> time_mesh(const std::string& raster, const scarp::SimplifyOptions& options,
                                scarp::Simplified& mesh) {
   using Clock = std::chrono::steady_clock;
@@ -194,8 +194,7 @@ scarp::OwnedHeightField crop(const scarp::OwnedHeightField& whole, int col, int 
   return window;
 }
 
-/// On one terrain, for bounds that leave fewer triangles than the lines ask for up to such as leave several times as
-/// many.
+/// On one terrain, for bounds with fewer triangles than the lines need up to bounds with several times as many.
 bool time_terrain(const char* terrain, const scarp::OwnedHeightField& field, const std::vector<double>& errors) {
   std::vector<Kind> kinds{{"none", {}},
                           {"1,000 walks", soft_lines(Drawing().walks(1000), field.cols)},

@@ -3,9 +3,9 @@
 //   speed_proof RASTER COLS ROWS ERROR [--effort fast|normal|high] [--frame grid|degrees] [--repeat N] [--threads N]
 //
 // degrees: positions are rounded to float32 offsets, as `--crs source` writes GLB. One JSON line. "seconds" are those
-// of measure() without topology (the proof of simplify()), "topology_seconds" those that the topology takes beside it.
-// The least CPU time of N calls (5), after one unseen. Divided by the seconds of speed_verify for the same raster and
-// error this says how far the judge is from one scan of the triangles.
+// of measure() without topology (the proof of simplify()), "topology_seconds" those of the topology in addition. The
+// least CPU time of N calls (5), after one unseen. Divided by the seconds of speed_verify for the same raster and error
+// this shows how far the judge is from one scan of the triangles.
 
 #include <algorithm>
 #include <limits>

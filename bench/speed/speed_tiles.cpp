@@ -1,5 +1,5 @@
-// What tiles and coarse starts cost and gain: the dominant order in tiles of a given side, each started from two
-// triangles, beside the engine with the same side, which starts from a coarser raster where that pays.
+// The costs and gains of tiles and coarse starts: the dominant order in tiles of a given side, each started from two
+// triangles, compared with the engine with the same side, which starts from a coarser raster where that pays.
 //
 //   speed_tiles RASTER COLS ROWS ERROR SIDE...     one JSON line a side; a side above the raster's: one tile
 //

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Terrain tiles of Scarp beside those of martini: triangles, bytes, true errors, and edges where neighbours differ.
+"""Terrain tiles of Scarp compared with those of martini: triangles, bytes, true errors, and edges where neighbours
+differ.
 
   tiles.py SCARP DATA     SCARP: the program; DATA: the open set of rasters. Writes tiles.csv and tiles_seconds.csv.
 
-The raster is a part of srtm3_sierra_nevada_basin_range.tif, resampled to the nodes of level 12, 64 cells a tile, so that
-all start from the same numbers. Each tile is encoded as quantized-mesh, decoded, and judged at every node below it.
-Needs numpy, gdal-bin, node and npm."""
+The raster is a part of srtm3_sierra_nevada_basin_range.tif, resampled to the nodes of level 12, 64 cells a tile, so
+that all start from the same numbers. Each tile is encoded as quantized-mesh, decoded, and judged at every node below
+it. Needs numpy, gdal-bin, node and npm."""
 
 import csv
 import gzip
@@ -26,7 +27,7 @@ LEVELS = (12, 10, 8)
 
 
 def geometric_error(z):
-    """What clients assume of a level, metres."""
+    """The error that clients assume for a level, in metres."""
     return 6378137 * 2 * numpy.pi * 0.25 / (65 * 2) / 2 ** z
 
 
@@ -80,7 +81,7 @@ class Tile:
             errors = numpy.abs(a * za + b * zb + (1 - a - b) * zc - part)[inside]
             covered[north:south + 1, west:east + 1] |= inside
             worst = max(worst, errors.max(initial=0))
-        # Rounded positions leave nodes on a tilted edge a hair outside; all others are judged.
+        # Rounded positions put nodes on a tilted edge a hair outside; all others are judged.
         assert covered.mean() > 0.995, covered.mean()
         return worst
 
@@ -127,7 +128,7 @@ class Area:
         self.nodes = numpy.fromfile(scratch / "area.raw", "<f4").reshape(SIDE, SIDE)
 
     def places(self, z):
-        """Of the tiles of a level: names, and the nodes below."""
+        """The tiles of a level: names, and the nodes below."""
         tiles, cells = ACROSS << z - LEVEL, CELLS << FINEST - z
         for row in range(tiles):
             for column in range(tiles):

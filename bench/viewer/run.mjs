@@ -1,13 +1,15 @@
-// How long the viewer takes to its first picture, and to answer its slider: node bench/viewer/run.mjs PAGE.html [RUNS] [CHROMIUM] > results.csv
+// The time of the viewer to its first picture, and to answer its slider: node bench/viewer/run.mjs PAGE.html [RUNS]
+// [CHROMIUM] > results.csv
 //
-// PAGE: what `scarp view MESH RASTER` wrote with the engine inside. Each run is a new Chromium, which draws by software. Wall clock, pixels
-// read back: from the page's navigation to its first picture, and from an input of the slider to the picture of its mesh. Needs playwright-core.
+// PAGE: what `scarp view MESH RASTER` wrote with the engine inside. Each run is a new Chromium, which draws by
+// software. Wall clock, pixels read back: from the page's navigation to its first picture, and from an input of the
+// slider to the picture of its mesh. Needs playwright-core.
 import os from 'node:os';
 import { pathToFileURL } from 'node:url';
 import { open_page } from '../../tests/js/browser.mjs';
 
 const [file, runs = '5', program] = process.argv.slice(2);
-/// Steps of an eighth of an octave: finer ones go on from the mesh before, a coarser one begins again.
+/// Steps of an eighth of an octave: finer ones continue from the mesh before, a coarser one begins again.
 const DRAG = [16, 18, 20, 22, 24, 26, 28, 21, 25];
 
 /// In the page, before its script: `first`, and `drag(step)`.

@@ -1,4 +1,4 @@
-// What every function of the C door shares: statuses, sentences, structs of any age, and no exception that leaves.
+// Common parts of all functions of the C door: statuses, sentences, structs of any age, and no exception that goes out.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::string in_words_of_door(const std::string& sentence);
 Result<void> name_option(const std::string& name, const std::string& shown);
 /// "--num-threads" of "threads": an option by its name here; empty where no option has another name here.
 std::string find_named_here(const std::string& name);
-/// Of the exception that is being handled.
+/// Reports the exception that is being handled.
 scarp_status report_exception();
 
 /// Runs `work`, which returns a scarp_status.
@@ -47,9 +47,9 @@ constexpr const char* name_of(const scarp_points*) { return "scarp_points"; }
 constexpr const char* name_of(const scarp_options*) { return "scarp_options"; }
 constexpr const char* name_of(const scarp_report*) { return "scarp_report"; }
 
-/// Whether a size is that of a struct, of any version.
+/// True if a size is that of a struct, of any version.
 constexpr bool is_struct_size(std::uint32_t size) {
-  constexpr std::uint32_t kLargest = 1 << 16;  // what lies in memory that nobody has written is larger, mostly
+  constexpr std::uint32_t kLargest = 1 << 16;  // values in uninitialised memory are larger, mostly
   return size >= 2 * sizeof(std::uint32_t) && size <= kLargest;
 }
 
@@ -62,7 +62,7 @@ void check_size(const T* given) {
                                         std::to_string(given->struct_size) + ", and should be sizeof(" + name + ")"}};
 }
 
-/// What the caller knows of a struct; the rest as init leaves it.
+/// The caller's part of a struct; the rest has the defaults of init.
 template <class T>
 T known(const T* given, void (*init)(T*, std::uint32_t)) {
   T all;

@@ -28,7 +28,7 @@ LentRaster raster_of(const scarp_field& field) {
 
 constexpr std::uint64_t kLargestArray = std::numeric_limits<std::ptrdiff_t>::max();  // bytes
 
-/// Why no memory can hold what the struct says; empty where it can.
+/// The reason why no memory can hold the contents of the struct; empty if it can.
 std::string find_fault(const scarp_field& field) {
   if (field.samples == nullptr) return "the pointer to the samples is null";
   if (field.frame < SCARP_FRAME_GRID || field.frame > SCARP_FRAME_DEGREES)

@@ -1,4 +1,4 @@
-// The structs of the door as what readers take for files.
+// The structs of the door as inputs that readers treat as files.
 #pragma once
 
 #include <optional>

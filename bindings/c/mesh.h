@@ -1,4 +1,4 @@
-// What a scarp_mesh holds.
+// The contents of a scarp_mesh.
 #pragma once
 
 #include <mutex>
@@ -21,9 +21,9 @@ struct scarp_bytes {
 struct scarp_mesh {
   scarp::Mesh mesh;  ///< z up
   std::optional<scarp_report> report;
-  scarp::cli::OutputFormat format;  ///< that it was made for
+  scarp::cli::OutputFormat format;  ///< format that it was made for
   scarp::cli::Given up;
-  std::string crs;  ///< that was asked for
+  std::string crs;  ///< CRS that was asked for
   bool is_print = false, doubles = false;
   scarp::GlbOptions glb;
   std::string warnings;

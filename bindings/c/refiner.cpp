@@ -23,7 +23,7 @@ namespace {
 constexpr int kStepsUnwatched = 64;
 constexpr double kMinInterval = 0.1;  // seconds
 
-/// Of the work, which goes with the vertices, and they with the square of the error.
+/// Share of the work, which grows with the vertices, and they with the square of the error.
 double share_of(const Refiner& steps, double first_error, double max_error, std::uint64_t first,
                 std::uint64_t max_vertices) {
   const double now = steps.max_error();

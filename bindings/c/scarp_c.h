@@ -13,12 +13,12 @@
  *
  * Rules that hold for all of it:
  *   - A function that can fail returns a scarp_status, and its output is NULL or untouched then. scarp_last_error() has
- *     one sentence, which names the culprit and the way out. No exception leaves the library, and it prints nothing.
+ *     one sentence, which names the culprit and the way out. The library throws no exception, and it prints nothing.
  *   - Structs begin with their own size, which scarp_..._init() sets. A later library reads what an earlier caller
  *     knows of a struct; the rest has its default. Structs only grow at their end. Handles are opaque.
  *   - What a pointer in a struct points to is borrowed for the call; a Refiner's samples for its life.
  *   - A pointer that a handle hands out is valid until the handle is freed. Freeing NULL does nothing; functions that
- *     return a number or a pointer take no NULL for a handle.
+ *     return a number or a pointer accept no NULL for a handle.
  *   - Several threads may call at once; a handle may be read by several, and changed by one. Text is UTF-8.
  *   - The same input and options give the same bytes, on every machine, for any number of threads. */
 #ifndef SCARP_C_H
@@ -44,7 +44,7 @@ typedef int32_t scarp_status;
 #define SCARP_INPUT 2     /* a raster or mesh that holds nothing usable, or a file that cannot be read */
 #define SCARP_PROMISE 3   /* the error that was asked for cannot be kept, or is not */
 #define SCARP_OUTPUT 4    /* a file that cannot be written, a format that cannot hold the mesh */
-#define SCARP_CANCELLED 5 /* the progress function said so */
+#define SCARP_CANCELLED 5 /* the progress function asked for it */
 #define SCARP_INTERNAL 70 /* a bug in Scarp */
 
 typedef struct scarp_mesh scarp_mesh;         /* a mesh, what it was made for, and its measured error */
@@ -62,17 +62,17 @@ typedef struct scarp_progress {
   double fraction;     /* 0 to 1 of this pass */
   uint64_t vertices;   /* so far; 0: not known */
   double max_error;    /* so far, in z units; 0: not known */
-  double seconds_left; /* of this pass; NaN before it can be told */
+  double seconds_left; /* left of this pass; NaN before it can be estimated */
   uint64_t tiles;      /* written so far, in the pass "tiles" */
-  uint64_t bytes;      /* of them */
+  uint64_t bytes;      /* bytes of these tiles */
 } scarp_progress;
 /* Called in the thread of the call, at the start of a pass and a few times a second. Other than 0: cancel. Must not
  * throw or jump. */
 typedef int32_t (*scarp_progress_fn)(const scarp_progress* progress, void* user);
 
-/* Where samples lie. */
-#define SCARP_FRAME_GRID 0    /* x = column, y = rows - 1 - row; the geotransform is not looked at */
-#define SCARP_FRAME_SOURCE 1  /* as the geotransform and the CRS say; degrees become metres if the CRS says so */
+/* The positions of samples. */
+#define SCARP_FRAME_GRID 0    /* x = column, y = rows - 1 - row; the geotransform is ignored */
+#define SCARP_FRAME_SOURCE 1  /* by the geotransform and the CRS; degrees become metres if the CRS is in degrees */
 #define SCARP_FRAME_DEGREES 2 /* the geotransform is in degrees (of WGS 84 without a CRS): metres around the centre */
 
 /* Samples of heights on a grid, row-major, the first row in the north. NaN and infinities are no heights. */
@@ -85,23 +85,23 @@ typedef struct scarp_field {
   double geotransform[6]; /* GDAL's, of pixel corners: x = g[0] + g[1] col + g[2] row, y = g[3] + g[4] col + g[5] row */
   double
       sample_rounding; /* largest |value - float32 sample| where values were rounded; a promise keeps it in reserve */
-  const char* crs;     /* "EPSG:32611", WKT; DEFAULT: NULL. A library without GDAL takes it for a name. */
+  const char* crs;     /* "EPSG:32611", WKT; DEFAULT: NULL. A library without GDAL uses it as a name. */
   const char* name;    /* for sentences and the mesh's metadata. DEFAULT: NULL, "heights". */
-  const char* unit;    /* of the heights: "m", "ft"; for errors such as "1m" and "3ft". DEFAULT: NULL, not known. */
+  const char* unit; /* unit of the heights: "m", "ft"; for errors such as "1m" and "3ft". DEFAULT: NULL, not known. */
 } scarp_field;
 
 /* Scattered points: z over x, y. */
 typedef struct scarp_points {
   uint32_t struct_size;
-  int32_t frame; /* SCARP_FRAME_DEGREES: x and y are degrees, of WGS 84 without a CRS. DEFAULT: 0, as the CRS says. */
+  int32_t frame; /* SCARP_FRAME_DEGREES: x and y are degrees, of WGS 84 without a CRS. DEFAULT: 0, by the CRS. */
   const double *x, *y, *z;
   uint64_t count;
   uint64_t stride;  /* doubles from one x to the next, at least 1; 3 where points are x, y, z in turn. DEFAULT: 1. */
-  const char* crs;  /* as that of a field; degrees become metres around the middle of the points. DEFAULT: NULL */
+  const char* crs;  /* like that of a field; degrees become metres around the middle of the points. DEFAULT: NULL */
   const char* name; /* DEFAULT: NULL, "points" */
 } scarp_points;
 
-/* What is asked for most; all else by name. */
+/* The most common options; all others by name. */
 typedef struct scarp_options {
   uint32_t struct_size;
   int32_t threads;        /* 0: all cores, for few samples one. Never changes the result. */
@@ -112,10 +112,10 @@ typedef struct scarp_options {
   const float* tolerance; /* NULL, or a bound of its own for each sample; NaN: none */
   scarp_progress_fn progress;
   void* user;
-  scarp_settings* named; /* of scarp_options_set() */
+  scarp_settings* named; /* options of scarp_options_set() */
 } scarp_options;
 
-/* What a mesh is measured to be. Errors are vertical, mesh minus sample, in z units. */
+/* The measured error of a mesh. Errors are vertical, mesh minus sample, in z units. */
 typedef struct scarp_report {
   uint32_t struct_size;
   int32_t stop;          /* why the run ended: 0 max_error, 1 max_triangles, 2 max_points, 3 every sample is exact */
@@ -153,9 +153,9 @@ void scarp_field_init(scarp_field* field, uint32_t struct_size);
 void scarp_points_init(scarp_points* points, uint32_t struct_size);
 void scarp_options_init(scarp_options* options, uint32_t struct_size);
 /* Any option of the program that is not about its terminal and its files, by its long name with _ for -, and its value
- * as the program takes it: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals",
- * "true"). Of an option that may be given several times each call adds a value; else the last one counts. A NULL value
- * takes the option back. An option that is set by name goes before the member of the struct. `scarp help --json` lists
+ * as the program accepts it: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals",
+ * "true"). For an option that may be given several times each call adds a value; else the last one counts. A NULL value
+ * removes the option. An option that is set by name goes before the member of the struct. `scarp help --json` lists
  * all; "of" is the format that the mesh is for: it settles, as the program's OUTPUT does, whether positions are
  * float32, and the frame. SCARP_USAGE for a name that no command has, with the one that was probably meant. */
 scarp_status scarp_options_set(scarp_options* options, const char* name, const char* value);
@@ -165,7 +165,7 @@ void scarp_options_clear(scarp_options* options);
 /* Simplifies a field in memory: as `scarp simplify` would a raster of these samples. Float32 samples are not copied,
  * but see scarp_field::nodata. */
 scarp_status scarp_simplify(const scarp_field* field, const scarp_options* options, scarp_mesh** out);
-/* The same of a file, raster or points, with all that it says of itself: exactly as the program. */
+/* The same of a file, raster or points, with all of its metadata: exactly as the program. */
 scarp_status scarp_simplify_file(const char* path, const scarp_options* options, scarp_mesh** out);
 scarp_status scarp_simplify_points(const scarp_points* points, const scarp_options* options, scarp_mesh** out);
 
@@ -189,11 +189,11 @@ const double* scarp_mesh_positions(const scarp_mesh* mesh);    /* 3 a vertex, of
 const uint32_t* scarp_mesh_triangles(const scarp_mesh* mesh);  /* 3 a triangle, counter-clockwise from above */
 const float* scarp_mesh_normals(const scarp_mesh* mesh);       /* 3 a vertex; NULL without the option "normals" */
 const float* scarp_mesh_uvs(const scarp_mesh* mesh);           /* 2 a vertex; NULL without the option "uvs" */
-const float* scarp_mesh_positions_f32(const scarp_mesh* mesh); /* as positions, rounded; made at the first call */
-/* "crs", "frame", "command", "error" ...; NULL where the mesh does not say. */
+const float* scarp_mesh_positions_f32(const scarp_mesh* mesh); /* rounded positions; made at the first call */
+/* "crs", "frame", "command", "error" ...; NULL if the mesh does not hold it. */
 const char* scarp_mesh_metadata(const scarp_mesh* mesh, const char* key);
 const char* scarp_mesh_warnings(const scarp_mesh* mesh); /* a sentence a line; "" without any */
-/* Of a mesh that Scarp made; SCARP_USAGE for one that was not: scarp_measure() tells of those. */
+/* The report of a mesh that Scarp made; SCARP_USAGE for one that was not: scarp_measure() measures those. */
 scarp_status scarp_mesh_report(const scarp_mesh* mesh, scarp_report* out);
 /* Another mesh, closed into a solid by walls and a flat base at z, which is below all vertices. */
 scarp_status scarp_mesh_add_base(const scarp_mesh* mesh, double z, scarp_mesh** out);
@@ -227,15 +227,15 @@ uint64_t scarp_refiner_triangle_count(const scarp_refiner* refiner);
 scarp_status scarp_refiner_mesh(const scarp_refiner* refiner, scarp_mesh** out);
 void scarp_refiner_free(scarp_refiner* refiner);
 
-/* Reads a raster as the options say ("band", "nodata", "crs", "z_scale" ...). */
+/* Reads a raster by the options ("band", "nodata", "crs", "z_scale" ...). */
 scarp_status scarp_raster_read(const char* path, const scarp_options* options, scarp_raster** out);
 /* The field of the raster, which it borrows. REQUIRES: init was called. */
 void scarp_raster_field(const scarp_raster* raster, scarp_field* field);
 void scarp_raster_free(scarp_raster* raster);
 
 /* All tiles of a raster, by the options of `scarp tile` ("zoom", "vertical", "max_error", "of", "only" ...): into a
- * folder, or into one file if `output` ends in .pmtiles, .mbtiles or .3tz. The set takes its name at the end; a call
- * that fails leaves nothing. `overwrite`, other than 0: a set that Scarp has made is replaced. `out`, if not NULL: the
+ * folder, or into one file if `output` ends in .pmtiles, .mbtiles or .3tz. The set gets its name at the end; a call
+ * that fails writes nothing. `overwrite`, other than 0: a set that Scarp has made is replaced. `out`, if not NULL: the
  * report of the set, as JSON. Needs GDAL. */
 scarp_status scarp_tile(const scarp_field* field, const scarp_options* options, const char* output, int32_t overwrite,
                         scarp_bytes** out);
@@ -249,8 +249,8 @@ int32_t scarp_tiles_max_level(const scarp_tiles* tiles);
 /* Columns and rows of the tiles of a level, two numbers a tile, sorted; NULL and 0 where there are none. */
 uint64_t scarp_tiles_count(const scarp_tiles* tiles, int32_t level);
 const uint32_t* scarp_tiles_list(const scarp_tiles* tiles, int32_t level);
-/* The tile's bytes, as they are kept (gzip); `bound`, if not NULL: its proven error in metres, NaN where nobody knows
- * it. May be called by several threads. */
+/* The tile's bytes, as they are kept (gzip); `bound`, if not NULL: its proven error in metres, NaN where it is unknown.
+ * May be called by several threads. */
 scarp_status scarp_tiles_read(const scarp_tiles* tiles, int32_t level, uint32_t x, uint32_t y, scarp_bytes** out,
                               double* bound);
 scarp_status scarp_tiles_read_file(const scarp_tiles* tiles, const char* name, scarp_bytes** out); /* "layer.json" */

@@ -21,7 +21,7 @@ using cli::OptionType;
 
 constexpr Commands kDoorCommands = cli::kSimplify | cli::kMeasure | cli::kTile;
 
-/// What only a program has a use for: its terminal, its files, more than one mesh.
+/// True for options of a program alone: its terminal, its files, more than one mesh.
 bool is_of_program(const OptionRow& row) {
   constexpr OptionId kOfProgram[] = {OptionId::kOverwrite, OptionId::kQuiet,     OptionId::kTiming,
                                      OptionId::kJson,      OptionId::kPoints,    OptionId::kJsonProgress,
@@ -140,13 +140,13 @@ Result<std::vector<std::string>> words_of(Commands command, const std::vector<st
       if (auto added = add(name, value); !added) return tl::unexpected(added.error());
     }
   }
-  words.emplace_back("--");  // what follows are names, which may begin with a dash
+  words.emplace_back("--");  // the words after it are names, which may begin with a dash
   words.insert(words.end(), arguments.begin() + 1, arguments.end());
   return words;
 }
 
 Result<void> parse_words(CLI::App& program, std::vector<std::string> words) {
-  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  std::reverse(words.begin(), words.end());  // in the order that CLI11 expects
   try {
     program.parse(words);
   } catch (const CLI::ParseError& error) {

@@ -21,12 +21,13 @@ namespace {
 
 enum class InputKind { kField, kPoints, kFile };  // a file holds either
 
-/// What the words of a call ask for.
+/// The request in the words of a call.
 struct Request {
   std::vector<std::string> words;
   cli::SimplifyArguments given;
   cli::PointsArguments points;
-  std::optional<cli::SimplifyPlan> plan;  ///< of a raster; no file is written that could be one of those that are read
+  std::optional<cli::SimplifyPlan> plan;  ///< request for a raster; no file is written that could be one of those that
+                                          ///< are read
 };
 
 Result<void> check_goal(const cli::SimplifyArguments& given) {
@@ -38,7 +39,7 @@ Result<void> check_goal(const cli::SimplifyArguments& given) {
 }
 
 /// The command's options, as a run of the program would hold them, and the last requests about fields. A thread keeps
-/// them: to make them anew takes longer than to simplify a small field.
+/// them: to make them anew needs longer than to simplify a small field.
 class SimplifyWords {
  public:
   SimplifyWords() {
@@ -46,7 +47,7 @@ class SimplifyWords {
     points_.add_to(*command_);
   }
 
-  /// As parsed last, where points are meant.
+  /// The words parsed last, if points are meant.
   const CLI::App& command() const { return *command_; }
 
   Result<std::shared_ptr<const Request>> parse(const std::string& input, InputKind kind, const scarp_options& asked) {
@@ -89,7 +90,7 @@ SimplifyWords& words_of_thread() {
   return words;
 }
 
-/// Whoever does not say what the mesh is for gets the raster's own coordinates, in which arrays are compared.
+/// Without a purpose of the mesh the frame is the raster's own coordinates, in which arrays are compared.
 void choose_frame(const scarp_options& asked, ReadOptions& read) {
   if (has_setting(asked, "--of")) return;
   read.default_frame = DefaultFrame::kMetric;

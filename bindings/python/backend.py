@@ -2,7 +2,7 @@
 
 The library is compiled by CMake from the checkout (or the sdist) that this file lies in, without GDAL, unless
 SCARP_C_LIBRARY, or `--config-settings library=FILE`, names one that is there. `--config-settings gdal=on` compiles it
-with GDAL. Libraries that a machine need not have are put beside it, in the package, and so is the page of Mesh.view(),
+with GDAL. Libraries that a machine need not have are put next to it, in the package, and so is the page of Mesh.view(),
 if SCARP_VIEWER_PAGE names it.
 """
 import base64
@@ -21,7 +21,7 @@ import tempfile
 import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-# Of the libraries that Scarp links, those that few machines have. All else belongs to the system.
+# Libraries that Scarp links and few machines have. All else belongs to the system.
 BUNDLED = ("libfmt", "libhwy", "libmeshoptimizer", "libsqlite3")
 SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "src", "include", "apps", "bindings/c", "data/egm96.bin")
 LIBRARY = {"win32": "scarp_c.dll", "darwin": "libscarp_c.dylib"}.get(sys.platform, "libscarp_c.so")
@@ -71,7 +71,7 @@ def _compile(settings):
 
 
 def _companions(library):
-    """The libraries to put beside it, by the names that it looks for."""
+    """The libraries to put next to it, by the names that it searches for."""
     if not sys.platform.startswith("linux"):
         return []
     found = []

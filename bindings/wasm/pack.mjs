@@ -25,7 +25,8 @@ fs.rmSync(staged, { recursive: true, force: true });
 fs.cpSync(`${here}/package`, staged, { recursive: true });
 fs.writeFileSync(`${staged}/package.json`, fs.readFileSync(`${staged}/package.json`, 'utf8').replace('VERSION', version));
 for (const [from, to] of [[`${here}/README.md`, 'README.md'], [`${root}/LICENSE`, 'LICENSE']]) fs.copyFileSync(from, path.join(staged, to));
-// The dev server of vite packs scripts of node_modules anew, elsewhere, without what lies beside them; .jsx it leaves in its place.
+// The dev server of vite packs scripts of node_modules anew, elsewhere, without the files next to them; .jsx stays in
+// its place.
 for (const entry of ['index', 'full', 'lite', 'delatin', 'martini', 'loaders']) {
   const has_default = fs.readFileSync(`${staged}/${entry}.js`, 'utf8').includes('export default');
   fs.writeFileSync(`${staged}/${entry}.jsx`, `export * from './${entry}.js';\n${has_default ? `export { default } from './${entry}.js';\n` : ''}`);
@@ -33,7 +34,7 @@ for (const entry of ['index', 'full', 'lite', 'delatin', 'martini', 'loaders']) 
 const imports = ['progress', 'number', 'clock_time_get', 'emscripten_notify_memory_growth', 'environ_get', 'environ_sizes_get', 'proc_exit'];
 for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
   const bytes = fs.readFileSync(`${build}/bin/${name}`);
-  // The linker takes what it does not find for an import.
+  // The linker makes an import of a name that it does not find.
   const unknown = WebAssembly.Module.imports(new WebAssembly.Module(bytes)).map(entry => entry.name).filter(entry => !imports.includes(entry));
   if (unknown.length > 0) throw new Error(`${name} lacks ${unknown.join(', ')}`);
   fs.writeFileSync(path.join(staged, name), bytes);

@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// Letters to change, add, leave out or exchange with their neighbours until one word is the other.
+/// Letters to change, add, omit or exchange with their neighbours until one word is the other.
 std::size_t count_typos(std::string_view a, std::string_view b);
 
 /// Those of the names that begin with the word, else those with the fewest typos (at most 2, and one for three letters

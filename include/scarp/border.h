@@ -38,8 +38,8 @@ struct BeyondEdges {
 /// One thread refines such a mesh, with the samples in memory and two copies of them, 8 bytes a sample; see Order.
 struct Border {
   bool is_locked = false;  ///< DEFAULT: false, edges are simplified with the surface.
-  /// Of the line, at most that of the goals. DEFAULT: that of the goals, and where the samples have tolerances or
-  /// weights, theirs. A search for a budget's mesh leaves the line as it is.
+  /// Max error of the line, at most that of the goals. DEFAULT: that of the goals, and where the samples have
+  /// tolerances or weights, theirs. A search for a budget's mesh does not change the line.
   std::optional<double> max_error = std::nullopt;
   /// The line itself. Corners, and the first and last sample of each run of valid ones, are vertices anyway. DEFAULT:
   /// that of simplify_edge().
@@ -51,9 +51,9 @@ struct Border {
 /// The vertices of an edge, ascending: as few as a line from sample to sample can have that passes every sample at no
 /// more than 511/512 of `tolerance` (or of its own of `tolerances`, +infinity for none, where these are given). The
 /// rest is for the rounding of positions. NaN is nodata: the first and the last sample of each run of heights are
-/// vertices. Of lines of as few vertices it is the one whose last vertices come first. No segment spans more than 8192
-/// steps, so that the cost is O(samples · 8192) at worst, and mostly a few steps a sample. The same numbers give the
-/// same vertices on every machine.
+/// vertices. Among lines of as few vertices it is the one whose last vertices come first. No segment spans more than
+/// 8192 steps, so that the cost is O(samples · 8192) at worst, and mostly a few steps a sample. The same numbers give
+/// the same vertices on every machine.
 std::vector<std::int32_t> simplify_edge(std::span<const float> heights, double tolerance,
                                         std::span<const double> tolerances = {});
 

@@ -1,4 +1,4 @@
-// Which settings do not go together, and why: one table for the library, the program, the docs and the tests.
+// The settings that conflict, and why: one table for the library, the program, the docs and the tests.
 #pragma once
 
 #include <cstdint>
@@ -49,20 +49,20 @@ enum class Field : std::uint8_t {
   kTimeLimit,  ///< is_time_up
   kEnough,     ///< is_enough
   kObjectiveRms,
-  kStrategy,  ///< of simplify_by_paper(), other than its default; never set in options of simplify()
-  kLevels,    ///< of simplify_levels(); never set in options of simplify()
+  kStrategy,  ///< a setting of simplify_by_paper() other than its default; never set in options of simplify()
+  kLevels,    ///< a setting of simplify_levels(); never set in options of simplify()
   kNorm,
   kLattice,  ///< positions for compression
   kUvs,
   kNormals,
   kThreads,
   kMemoryLimit,
-  kChannels,     ///< of the field, or a height_scale other than 1
-  kCurvedFrame,  ///< of the field: not affine
-  kSpaceFrame,   ///< of the field: in space, where z is not the height; a curved one, too
-  kSource,       ///< of the field: samples that are not in memory as a whole
+  kChannels,     ///< the field has channels, or a height_scale other than 1
+  kCurvedFrame,  ///< the field's frame is not affine
+  kSpaceFrame,   ///< the field's frame is in space, where z is not the height; a curved one, too
+  kSource,       ///< the field's samples are not in memory as a whole
 
-  // Of tiles; never set in options of simplify().
+  // Settings of tiles; never set in options of simplify().
   kTileMercator,  ///< the grid
   kTileLocal,     ///< the grid
   kTileQuantizedMesh,
@@ -73,7 +73,7 @@ enum class Field : std::uint8_t {
   kTileLines,
   kTileDrape,
   kTileOnly,
-  kTileGeoid,     ///< what the heights are above
+  kTileGeoid,     ///< the zero of the heights
   kTileVertical,  ///< likewise, as anything but a file
 };
 inline constexpr int kSimplifyFieldCount = static_cast<int>(Field::kSource) + 1;
@@ -117,10 +117,10 @@ static_assert(kFieldCount <= 64);
 Fields fields_of(const HeightField& field, const SimplifyOptions& options);
 Fields fields_of(const PyramidSettings& settings);
 
-/// Where a conflict holds.
+/// The fields for which a conflict holds.
 enum class Where { kAlways, kInMemory, kStreamed };
 
-/// Each of `one` conflicts with each of `other`; where `beside` is not empty, only if one of these is set, too.
+/// Each of `one` conflicts with each of `other`; if `beside` is not empty, only if one of these is set, too.
 struct ConflictRule {
   Fields one, other, beside;
   Where where;
@@ -130,7 +130,7 @@ struct ConflictRule {
 /// The table.
 std::span<const ConflictRule> conflict_rules();
 
-/// Two settings that do not go together; three, where `beside` is given.
+/// Two settings that conflict; three, if `beside` is given.
 struct Conflict {
   Field one{}, other{};
   std::optional<Field> beside = std::nullopt;

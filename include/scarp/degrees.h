@@ -12,8 +12,9 @@ namespace scarp {
 
 /// The ellipsoid and the unit of longitude and latitude.
 struct Geodetic {
-  double semi_major = 6378137;                ///< of the ellipsoid, in metres, above 0. DEFAULT: WGS 84.
-  double inverse_flattening = 298.257223563;  ///< of the ellipsoid; 0: a sphere. DEFAULT: WGS 84.
+  double semi_major = 6378137;                ///< semi-major axis of the ellipsoid, in metres, above 0. DEFAULT: WGS
+                                              ///< 84.
+  double inverse_flattening = 298.257223563;  ///< inverse flattening of the ellipsoid; 0: a sphere. DEFAULT: WGS 84.
   /// An x or y of 1 in radians. DEFAULT: a degree.
   double radians_per_unit = 0.017453292519943295;
 };

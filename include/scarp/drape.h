@@ -1,4 +1,4 @@
-// Images laid over a raster.
+// Images draped over a raster.
 #pragma once
 
 #include <string>
@@ -23,8 +23,9 @@ struct Drape {
 /// Reads an image of 8 bits (grey, a palette, or red green blue; alpha 0 and nodata are no colour) and resamples it,
 /// bilinearly, onto the raster's image, whatever its own CRS and grid; `size`: pixels on the longer side, 0: one for
 /// each pixel of the file that lies on the raster, at most 8192. An image without georeference is stretched over a
-/// raster that has none, and over any raster of as many samples as it has pixels, with a warning. By GDAL. Fails with kInput: no such file, not of 8 bits, one of the two without a place, not
-/// on the raster, a CRS that cannot be reached.
+/// raster that has none, and over any raster of as many samples as it has pixels, with a warning. By GDAL. Fails with
+/// kInput: no such file, not of 8 bits, one of the two without a place, not on the raster, a CRS that cannot be
+/// reached.
 Result<Drape> read_drape(const std::string& path, const RasterInfo& raster, int cols, int rows, int size = 0,
                          const Run& run = {});
 

@@ -34,8 +34,8 @@ struct RidgeGoals {
 };
 
 /// The features of a mesh. simplify() fits them to the max error of the mesh by fit_features(). It needs a max error,
-/// tolerances or a budget beside them. With a budget it searches for an error, whatever the effort, fits the features
-/// to the error of each run, and fails with kUsage for a budget below what lines and outline need.
+/// tolerances or a budget with them. With a budget it searches for an error, whatever the effort, fits the features to
+/// the error of each run, and fails with kUsage for a budget below what lines and outline need.
 struct Features {
   /// Lines that do not depend on the error. Their affine map applies to all lines here. A hard line keeps its heights,
   /// a soft one follows the raster. Where a hard line passes through a sample that has another height, the sample is
@@ -65,15 +65,15 @@ struct Features {
 };
 
 struct FeatureFitOptions {
-  double max_error = 0;            ///< of the mesh to come, in z units, at least 0 and finite
-  Run run = {};                    ///< progress: of the pass "ridges"
+  double max_error = 0;  ///< max error of the mesh to come, in z units, at least 0 and finite
+  Run run = {};          ///< progress: of the pass "ridges"
 };
 
 /// The lines of a mesh of one max error, and their origins.
 struct FittedFeatures {
-  LineConstraints lines;        ///< breaklines, shores, rivers, walls, ridges, valleys
-  std::vector<River> rivers;    ///< rings, and lines without a height anywhere, are left out
-  std::optional<Cliffs> walls;  ///< nothing where none were asked for
+  LineConstraints lines;         ///< breaklines, shores, rivers, walls, ridges, valleys
+  std::vector<River> rivers;     ///< rings, and lines without a height anywhere, are omitted
+  std::optional<Cliffs> walls;   ///< nothing where none were asked for
   std::optional<Ridges> ridges;  ///< nothing where none were asked for
 
   /// Number of given lines: without those of walls and ridges.
@@ -82,11 +82,12 @@ struct FittedFeatures {
 
 /// Makes all lines for a mesh of a given max error. Courses of rivers differ from the exact ones by at most half of the
 /// error. Walls avoid all lines so far, and ridges avoid the walls. The same features, field and error give the same
-/// lines. simplify() calls it for each mesh that it makes; Simplified::features and lines_for tell the last result.
+/// lines. simplify() calls it for each mesh that it makes; Simplified::features and lines_for hold the last result.
 ///
 /// Nothing is kept of `field` and `features`. Fails with kUsage for an error below 0 or not finite, and as
 /// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.
-Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FeatureFitOptions& options);
+Result<FittedFeatures> fit_features(const HeightField& field, const Features& features,
+                                    const FeatureFitOptions& options);
 
 }  // namespace scarp
 

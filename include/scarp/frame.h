@@ -31,7 +31,7 @@ class SpaceTransform {
   virtual bool to_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
   /// The inverse: back to x, y and heights.
   virtual bool from_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
-  /// What positions in float32 are offsets from.
+  /// The point from which float32 positions are offsets.
   virtual std::array<double, 3> origin() const = 0;
   /// Away from the earth at the raster's centre, of unit length.
   virtual std::array<double, 3> up() const = 0;
@@ -60,9 +60,10 @@ struct Frame {
   std::array<double, 6> affine{0, 1, 0, 0, 0, -1};
   std::shared_ptr<const PointTransform> transform;  ///< null where the frame is affine, and in space
   std::shared_ptr<const SpaceTransform> space;      ///< null but in space
-  std::string crs;                                  ///< of x and y: "EPSG:32611", WKT, or empty where there is none
+  std::string crs;                                  ///< CRS of x and y: "EPSG:32611", WKT, or empty where there is none
   std::string description;                          ///< one line for reports: what x and y are, and in which unit
-  double unit_in_metres = 0;                        ///< of x and y; 0 for degrees and cells, and where nobody knows
+  double unit_in_metres = 0;                        ///< unit of x and y; 0 for degrees and cells, and where it is
+                                                    ///< unknown
 
   bool is_affine() const { return transform == nullptr && space == nullptr; }
   /// Affine part only: the position of the (fractional) sample (col, row).

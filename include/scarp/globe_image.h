@@ -1,4 +1,4 @@
-// An image laid over the tiles of a pyramid, a texture for each.
+// An image draped over the tiles of a pyramid, a texture for each.
 #pragma once
 
 #include <array>
@@ -22,29 +22,29 @@ class GlobeImage {
  public:
   virtual ~GlobeImage() = default;
   virtual DegreeBox covered() const = 0;
-  /// Of its pixels, about: to the east, to the north.
+  /// Approximate number of its pixels per degree: to the east, to the north.
   virtual std::array<double, 2> per_degree() const = 0;
-  /// The image in a box, side × side pixels, `ground` where it has no colour; nothing where it has none at all. The same
-  /// box has the same pixels. Fails with kInput.
+  /// The image in a box, side × side pixels, `ground` where it has no colour; nothing where it has none at all. The
+  /// same box has the same pixels. Fails with kInput.
   virtual Result<std::optional<Picture>> read(const DegreeBox& box, int side,
                                               const std::array<std::uint8_t, 3>& ground) const = 0;
 };
 
-/// An image of 8 bits, as read_drape() takes it, in its own CRS. By GDAL: bilinear; what is wider than a pixel is
+/// An image of 8 bits, as read_drape() accepts it, in its own CRS. By GDAL: bilinear; what is wider than a pixel is
 /// averaged, from the file's overviews where it has them. On the earth degrees are those of WGS 84, elsewhere the
 /// image's own. Fails with kInput: no such file, not of 8 bits, without a place or a CRS, of another planet than
 /// `ellipsoid`.
 Result<std::shared_ptr<const GlobeImage>> open_globe_image(const std::string& path, const Geodetic& ellipsoid);
 
-/// What a tile shows.
+/// The texture of a tile.
 struct TileTexture {
-  std::vector<std::uint8_t> bytes;  ///< of an image file
+  std::vector<std::uint8_t> bytes;  ///< bytes of an image file
   ImageFormat format = ImageFormat::kJpeg;
   int side = 0;  ///< pixels; the outermost on each side lie beyond the tile, so that neighbours' filters agree
 };
 
 /// 256 · 2^k pixels each way: as many as the image has there, at most 512, which is what clients show of a tile before
-/// they take its children, or 2048 where there are none. Nothing where the image has no colour. Fails as
+/// they load its children, or 2048 where there are none. Nothing where the image has no colour. Fails as
 /// GlobeImage::read() and encode_image().
 Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, ImageFormat format,
                                                      const PyramidPlan& plan, TileId id);

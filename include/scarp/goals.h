@@ -1,4 +1,4 @@
-// What a mesh is to reach.
+// The goals of a mesh.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// What a budget minimises.
+/// The quantity that a budget minimises.
 enum class Objective {
   kMax,  ///< the max error
   kRms,  ///< the root of the mean square error (with channels: of the norm, as the max error is), while the max error

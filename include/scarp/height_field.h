@@ -56,7 +56,7 @@ struct HeightField {
   int cols = 0;                                ///< at least 2
   int rows = 0;                                ///< at least 2
   std::optional<float> nodata = std::nullopt;  ///< DEFAULT: none besides NaN and ±infinity
-  Frame frame = {};  ///< where samples lie in the mesh. DEFAULT: cell size 1, first row at y = 0, going down
+  Frame frame = {};  ///< position of the samples in the mesh. DEFAULT: cell size 1, first row at y = 0, going down
   /// Largest |given value − float32 sample| of a source that does not fit float32 (int32, float64). A promise
   /// about the source keeps this much in reserve. DEFAULT: 0.
   double sample_rounding = 0;
@@ -77,19 +77,20 @@ struct HeightCount {
   std::uint64_t samples = 0;
 };
 
-/// A height that most likely stands for nodata, though the raster does not say so: see find_undeclared_nodata().
+/// A height that most likely stands for nodata, though the raster does not declare it: see find_undeclared_nodata().
 struct UndeclaredNodata {
   HeightCount of;
-  double value = 0;         ///< of the file, which that height is made of
+  double value = 0;         ///< value in the file that this height is made of
   bool is_high = false;     ///< above all others, not below
-  double min = 0, max = 0;  ///< of the others
+  double min = 0, max = 0;  ///< range of the other heights
 };
 
-/// What speaks against heights that were packed into colours, and the colours then changed or taken for others.
+/// Signs that heights packed into colours are wrong: the colours were changed after packing, or are no packed heights
+/// at all.
 struct PackedDoubts {
   /// Samples that lie off both neighbours in their row, which are close together, by an eighth to one and a half of
-  /// what the next colour counts, where that changes: as many as interpolation or lossy compression leaves, else 0.
-  /// Interpolation is looked for in some rows of a large raster.
+  /// what the next colour counts, where that changes: the count if it is typical of interpolation or lossy compression,
+  /// else 0. Interpolation is searched for in some rows of a large raster.
   std::uint64_t torn = 0;
   double torn_by = 0;      ///< the farthest of them
   std::string seems = {};  ///< the other encoding, where most heights are none on earth as they are, and are by that
@@ -99,26 +100,27 @@ struct PackedDoubts {
 struct VoidCount {
   std::uint64_t filled = 0;  ///< samples
   std::uint64_t left = 0;    ///< samples, of larger voids and of those at the raster's edge
-  /// The lowest height beside each void that is left: the highest of them. And the highest: the lowest of them.
+  /// The lowest height next to each remaining void: the highest of them. And the highest: the lowest of them.
   double least = 0, most = 0;
 };
 
 /// Metadata of a raster that was read.
 struct RasterInfo {
   std::string path;
-  std::string format;            ///< "GTiff", "PGM", "STM", …
-  std::string sample_type;       ///< type in the file: "Int16", "Float32", …
-  std::string crs;               ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
-  std::string crs_unit;          ///< of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
-  double crs_unit_in_metres = 0;  ///< 0 for degrees, and if there is no CRS
-  bool is_geographic = false;    ///< x and y of the file are degrees
-  std::string vertical;          ///< what heights are above, where the CRS says so: "EGM96 height"; else empty
-  bool is_ellipsoidal = false;   ///< heights are above the ellipsoid, as the CRS says
-  std::string crs_with_heights;  ///< WKT of the CRS where `vertical` is set; else empty
-  std::string unit;              ///< of z where that is known; else empty
-  double unit_in_metres = 1;     ///< of z, known or taken for granted (HeightsIn); 0 for words that are no known length
-  std::string file_unit;         ///< of the file's values, where it is known and other than `unit`; else empty
-  bool unit_is_assumed = false;  ///< nobody names the unit of z, or of what was made metres
+  std::string format;       ///< "GTiff", "PGM", "STM", …
+  std::string sample_type;  ///< type in the file: "Int16", "Float32", …
+  std::string crs;          ///< CRS of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
+  std::string crs_unit;     ///< unit of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
+  double crs_unit_in_metres = 0;     ///< 0 for degrees, and if there is no CRS
+  bool is_geographic = false;        ///< x and y of the file are degrees
+  std::string vertical;              ///< the zero of the heights, if the CRS names it: "EGM96 height"; else empty
+  bool is_ellipsoidal = false;       ///< true if heights are above the ellipsoid, by the CRS
+  std::string crs_with_heights;      ///< WKT of the CRS where `vertical` is set; else empty
+  std::string unit;                  ///< unit of z if it is known; else empty
+  double unit_in_metres = 1;         ///< length of the unit of z, known or assumed (HeightsIn); 0 for words that are no
+                                     ///< known length
+  std::string file_unit;             ///< unit of the file's values, if it is known and other than `unit`; else empty
+  bool unit_is_assumed = false;      ///< true if the unit of z is not declared, or that of what was made metres
   double scale = 1, offset = 0;      ///< the file's own: such a value is scale · (what it stores) + offset
   double z_scale = 1, z_offset = 0;  ///< heights are z_scale · value + z_offset: ReadOptions, and the way to metres
   std::optional<double> nodata;      ///< the nodata value used, of the file's values
@@ -128,14 +130,15 @@ struct RasterInfo {
   double cell_x_m = 0, cell_y_m = 0;  ///< the same in metres at the centre; 0 if unknown
   bool has_range = true;              ///< false: valid, min and max are not known, for the raster has not been read yet
   std::uint64_t valid = 0;            ///< samples that are heights
-  double min = 0, max = 0;            ///< of the valid samples
+  double min = 0, max = 0;            ///< range of the valid samples
   std::vector<UndeclaredNodata> undeclared_nodata;  ///< among them, if has_range
-  std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
-  VoidCount voids = {};   ///< if has_range, or the samples are in memory
-  std::string view = {};  ///< what ReadOptions::view made of the files, in words; empty for one raster as it is
-  PackedDoubts packed = {};  ///< of heights packed into colours
-  std::string depths = {};     ///< what says that the values are depths, which were left so; else empty
-  bool seems_degrees = false;  ///< x and y look like degrees, though the CRS is in lengths, or there is none
+  std::vector<std::string> warnings;                ///< sentences for the user: infinities read as nodata, …
+  VoidCount voids = {};                             ///< if has_range, or the samples are in memory
+  std::string view = {};  ///< the selection that ReadOptions::view made of the files, in words; empty for one raster as
+                          ///< it is
+  PackedDoubts packed = {};    ///< set for heights packed into colours
+  std::string depths = {};     ///< the sign that the values are depths, which were kept so; else empty
+  bool seems_degrees = false;  ///< true if x and y resemble degrees, though the CRS is in lengths, or there is none
 };
 
 /// A height field that owns its samples, or their source. nodata samples are NaN.
@@ -147,7 +150,7 @@ struct OwnedHeightField {
   double sample_rounding = 0;
   RasterInfo info;
   std::shared_ptr<const SampleSource> source = nullptr;  ///< see open_height_field(). DEFAULT: none.
-  /// The samples of a caller who lent them (lent.h), in place of `samples`; nobody changes them. DEFAULT: none.
+  /// The samples of a caller who lent them (lent.h), in place of `samples`; they are never changed. DEFAULT: none.
   const float* lent = nullptr;
 
   /// Borrows this object's samples: valid while it is alive and `samples` is not resized.
@@ -161,7 +164,7 @@ struct OwnedHeightField {
     samples.assign(lent, lent + static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
     lent = nullptr;
   }
-  operator HeightField() const { return view(); }  // NOLINT: the door takes both
+  operator HeightField() const { return view(); }  // NOLINT: the function accepts both
 };
 
 /// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none, and for a field whose

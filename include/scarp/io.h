@@ -21,19 +21,19 @@ namespace scarp {
 
 enum class Decode { kNone, kTerrarium, kMapbox };
 
-/// The frame of a mesh whose coordinates nobody chose.
+/// The frame of a mesh if no CRS is chosen.
 enum class DefaultFrame {
   kLocal,   ///< around the raster's centre: for viewers, whose numbers are short
   kMetric,  ///< local for degrees, else the raster's own CRS: for files that hold doubles, and a shape in space
   kSource,  ///< the raster's own CRS, degrees too: for files drawn on maps
 };
 
-/// In which unit the heights of a field are. Heights whose unit nobody names are in the unit of the CRS's x and y where
+/// In which unit the heights of a field are. Heights without a declared unit are in the unit of the CRS's x and y where
 /// that is a length, else in metres.
 enum class HeightsIn {
   kFrame,   ///< metres in the local frame of a CRS and in space, else as in the file
   kMetres,  ///< metres in every frame: for files that are in metres by their specification
-  kFile,    ///< as in the file
+  kFile,    ///< in the unit of the file
 };
 
 /// Several rasters, a part or a coarser version of one, read as a raster.
@@ -46,8 +46,8 @@ struct RasterView {
   /// xmin, ymin, xmax, ymax in the units of the raster's CRS: only the cells that overlap this rectangle.
   std::optional<std::array<double, 4>> extent = std::nullopt;
   /// Cells of about this size, in the units of the CRS: k × k cells become one, whose sample is the mean of the valid
-  /// ones, with k such that the new cell is not larger. Columns and rows that are left over at the right and the bottom
-  /// are left out.
+  /// ones, with k such that the new cell is not larger. Columns and rows that remain at the right and the bottom are
+  /// omitted.
   std::optional<double> resolution = std::nullopt;
 
   bool is_whole() const { return more.empty() && !extent && !resolution; }
@@ -63,11 +63,11 @@ struct ReadOptions {
   /// Anything else is a CRS for GDAL ("EPSG:32611", "32611", WKT, PROJ string).
   std::string crs = {};
   DefaultFrame default_frame = DefaultFrame::kLocal;
-  /// A height is z_scale · value + z_offset, where the value is what the file says with its own scale and offset. All
+  /// A height is z_scale · value + z_offset, where the value is the file's, with its own scale and offset applied. All
   /// heights of the field, its range and its errors are these. nodata is the file's value. DEFAULT: as in the file.
   double z_scale = 1, z_offset = 0;  ///< finite; z_scale is not 0
   /// The unit of these heights, before they become metres: "m", "ft", "us-ft" … or the file's own word. DEFAULT: the
-  /// file's, or that of its vertical CRS; metres where `z_scale` makes metres of it; with another factor nobody knows.
+  /// file's, or that of its vertical CRS; metres where `z_scale` makes metres of it; with another factor it is unknown.
   std::string z_unit = {};
   /// Heights that become metres are multiplied by both at once: RasterInfo::z_scale has the product. kUsage where they
   /// must and are in a unit that is no known length.
@@ -105,17 +105,17 @@ struct ReadOptions {
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
-/// The samples next to a part of a raster, for Border::beyond: of a `field` that read_height_field() read with an extent
-/// (ReadOptions::view), the cells next to it that the raster, or the mosaic, goes on with. Not known where it ends, and
-/// without an extent. Not filled. Fails as read_height_field().
+/// The samples next to a part of a raster, for Border::beyond: of a `field` that read_height_field() read with an
+/// extent (ReadOptions::view), the cells next to it that the raster, or the mosaic, continues with. Not known where it
+/// ends, and without an extent. Not filled. Fails as read_height_field().
 Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& options, const RasterInfo& info, int cols,
                                 int rows);
 
-/// Where a mesh lies in the coordinates of its raster's file.
+/// The position of a mesh in the coordinates of its raster's file.
 struct PlaceInSource {
   /// From x and y of the mesh: source x = t[0] + t[1]·x + t[2]·y, source y = t[3] + t[4]·x + t[5]·y.
   std::array<double, 6> to_source{0, 1, 0, 0, 0, 1};
-  std::string crs;  ///< of the source, as RasterInfo::crs; empty if it has none
+  std::string crs;  ///< CRS of the source, as RasterInfo::crs; empty if it has none
 
   /// Source coordinates of x = 0, y = 0.
   std::array<double, 2> origin() const { return {to_source[0], to_source[3]}; }
@@ -123,7 +123,7 @@ struct PlaceInSource {
 /// Nothing for frames that are not affine. Without georeference the source's coordinates are those of the grid frame.
 std::optional<PlaceInSource> place_in_source(const Frame& frame, const RasterInfo& info, int rows);
 
-/// Whether ReadOptions::crs asks for a frame in space, by "enu" or by a geocentric CRS. False in a build without GDAL.
+/// True if ReadOptions::crs asks for a frame in space, by "enu" or by a geocentric CRS. False in a build without GDAL.
 bool is_in_space(const std::string& crs);
 
 /// The CRS as the text of a .prj file (ESRI's WKT, one line); nothing if it is unknown, and in a build without GDAL.
@@ -170,7 +170,7 @@ std::optional<std::array<double, 2>> find_degrees(const std::string& crs, double
 std::optional<std::string> find_grid_difference(const RasterInfo& raster, int cols, int rows, const RasterInfo& other,
                                                 int other_cols, int other_rows);
 
-/// What a script says of samples, in the order of its lines.
+/// The steps of a script for samples, in the order of its lines.
 struct Script {
   std::vector<SampleAt> inserted;  ///< for Features::points
   std::vector<SampleAt> ignored;   ///< for Tolerances::ignored
@@ -178,17 +178,17 @@ struct Script {
   std::size_t size() const { return inserted.size() + ignored.size(); }
 };
 
-/// Reads a script (Terra's -s): a step a line, "s x y" inserts, "i x y" ignores, "u x y" says that the
-/// height is unknown (as i); x and y are column and row from the top left. Empty lines and # comments are skipped.
-/// Fails with kInput for an unknown word, a missing number, a position outside cols × rows (names the line), and for a
-/// sample that one line inserts and another ignores (names both).
+/// Reads a script (Terra's -s): a step a line, "s x y" inserts, "i x y" ignores, "u x y" marks the height as unknown
+/// (as i); x and y are column and row from the top left. Empty lines and # comments are skipped. Fails with kInput for
+/// an unknown word, a missing number, a position outside cols × rows (names the line), and for a sample that one line
+/// inserts and another ignores (names both).
 Result<Script> read_script(const std::string& path, int cols, int rows);
 
 /// A raster to be written: row-major, NaN is nodata.
 struct RasterImage {
   std::span<const float> samples;
   int cols = 0, rows = 0;
-  const RasterInfo* like = nullptr;  ///< georeference, CRS and unit are taken from it; may be null
+  const RasterInfo* like = nullptr;  ///< georeference, CRS and unit are copied from it; may be null
 };
 enum class RasterFormat { kGeoTiff, kPgm };
 /// The file's bytes. GeoTIFF: float32, DEFLATE, nodata NaN. PGM: P5 of 16 bits, samples rounded to whole numbers, which
@@ -211,8 +211,8 @@ class RasterFile {
   Result<void> add(std::span<const float> row);
   /// Fails with kOutput. REQUIRES: all rows were added.
   Result<void> finish();
-  std::uint64_t size() const;            ///< of the file; after finish()
-  static std::uint64_t bytes(int cols);  ///< of memory that one takes
+  std::uint64_t size() const;            ///< size of the file; after finish()
+  static std::uint64_t bytes(int cols);  ///< bytes of memory that one uses
 
   struct Impl;
   Impl& impl() { return *impl_; }
@@ -239,9 +239,9 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// same doubles. 2DM, LandXML, DXF: text, absolute coordinates that read back to the same doubles. VTU, VTP: double,
 /// absolute, raw little-endian arrays behind the XML. GeoPackage: double, absolute, in the CRS that metadata["crs"]
 /// names. Colours, uvs and channels where the format has fields for them: GLB (COLOR_0 as linear float, TEXCOORD_0,
-/// _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
-/// colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they read back the same, but for PLY's
-/// t = 1 − v, rounded to float32. 3MF: as encode_3mf() with one object. Deterministic; a GeoPackage's bytes also depend
+/// _CHANNEL_n where colours do not hold all of it), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
+/// colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they read back the same, but for PLY's t
+/// = 1 − v, rounded to float32. 3MF: as encode_3mf() with one object. Deterministic; a GeoPackage's bytes also depend
 /// on the versions of GDAL and SQLite, a 3MF file's on that of zlib. Fails with kOutput where the format cannot hold
 /// the mesh: more vertices or triangles than signed 32-bit numbers count in 2DM and LandXML; degrees, a unit that
 /// LandXML does not know, or heights in another unit than x and y in LandXML.
@@ -251,7 +251,7 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, bool double_positions = false);
 /// A 3MF file (core specification 1.2) of one or more solids, each an object named by its metadata["name"]: positions
 /// rounded to float32 and written so that they read back the same, offsets from the origin of the first object; its
-/// other metadata as the file's. The unit is the millimetre where metadata["placement"] says that the solid was placed
+/// other metadata as the file's. The unit is the millimetre if metadata["placement"] shows that the solid was placed
 /// (solid.h), else the metre. Fails with kOutput for a mesh that is no closed 2-manifold once its positions are rounded
 /// (measure_solid()).
 Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
@@ -260,32 +260,31 @@ Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
 /// of the screen that it had to cover for the level before; for the finest that is 1. REQUIRES: encode_mesh() made the
 /// files; `ratio` above 1. Fails with kOutput above 4 GiB.
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
-/// One GLB file of several that are beside each other: all nodes are the scene's, what the file tells is what the first
-/// does. REQUIRES: encode_mesh() or encode_glb() made the files. Fails with kOutput above 4 GiB.
+/// One GLB file of several side by side: all nodes are the scene's, and the file's metadata are those of the first.
+/// REQUIRES: encode_mesh() or encode_glb() made the files. Fails with kOutput above 4 GiB.
 Result<std::vector<std::uint8_t>> join_glbs(std::span<const std::vector<std::uint8_t>> files);
 /// How the numbers of a mesh file are to be read: what the mesh, which is z up and absolute, no longer shows.
 struct MeshFileAxes {
-  char up = 0;               ///< 'y' or 'z'; 0 where neither the format nor the file says, and z is taken
+  char up = 0;               ///< 'y' or 'z'; 0 if neither the format nor the file declares it, and z is assumed
   bool has_offsets = false;  ///< positions in the file are offsets from Mesh::origin (GLB, STL, 3MF)
 };
-/// Reads any of these formats but GeoPackage; recognises the format by content. `axes`, if given, tells the file's own.
-/// Fails with kInput. Never trusts a length or an index in the file.
+/// Reads any of these formats but GeoPackage; recognises the format by content. `axes`, if given, receives the file's
+/// own. Fails with kInput. Never trusts a length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors,
                          MeshFileAxes* axes = nullptr);
 
-/// encode_mesh() to a temporary name beside `path`, then renamed; nothing is left behind on failure.
+/// encode_mesh() to a temporary name next to `path`, then renamed; no file remains on failure.
 /// Fails with kOutput, also if `path` exists and `overwrite` is false.
 Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format = {},
                         bool overwrite = true);
 /// decode_mesh() of a file.
 Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes = nullptr);
 
-/// Writes bytes to a temporary name beside `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
-/// kOutput on any failure, with nothing left behind; also if `path` exists and `overwrite` is false. A symbolic link is
+/// Writes bytes to a temporary name next to `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
+/// kOutput on any failure, with no file remaining; also if `path` exists and `overwrite` is false. A symbolic link is
 /// followed, also to a file that does not exist yet; an existing file keeps its permissions. Standard output ("-",
-/// /dev/stdout), and existing devices and pipes, are written directly; a pipe that nobody reads is kOutput after two
-/// seconds. A program should ignore SIGXFSZ to receive "file too large" as an error
-/// instead of being killed.
+/// /dev/stdout), and existing devices and pipes, are written directly; a pipe without a reader is kOutput after two
+/// seconds. A program should ignore SIGXFSZ to receive "file too large" as an error instead of being killed.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite = true);
 struct FileBytes {
   std::string path;
@@ -293,13 +292,14 @@ struct FileBytes {
   RasterFile* raster = nullptr;  ///< finished, in place of bytes; it was created for the path
 };
 /// write_file() for several files that belong together. All are written to temporary names before the first is renamed,
-/// so a full disk, a read-only folder or a name that is taken leaves none of them. Devices and pipes are written last.
+/// so a full disk, a read-only folder or a name that exists already creates none of them. Devices and pipes are written
+/// last.
 Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true);
 /// The whole file (or pipe). kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
-/// The files that reading a raster or vector data reads: itself (without its layer, for "FILE:LAYER"), those beside it
-/// (.aux.xml, .prj, …), the sources of a VRT, and the archive that it lies in (/vsizip/z.zip/a.tif, /vsitar/…). What
-/// GDAL cannot open is itself alone. Empty for remote files, what does not exist, and in a build without GDAL.
+/// The files that reading a raster or vector data reads: itself (without its layer, for "FILE:LAYER"), those next to it
+/// (.aux.xml, .prj, …), the sources of a VRT, and the archive that it lies in (/vsizip/z.zip/a.tif, /vsitar/…). A file
+/// that GDAL cannot open is itself alone. Empty for remote files, what does not exist, and in a build without GDAL.
 std::vector<std::string> list_files(const std::string& path);
 
 /// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in
@@ -307,8 +307,8 @@ std::vector<std::string> list_files(const std::string& path);
 /// once, the names of the first ones.
 inline constexpr int kPendingOutputs = 128;
 const char* pending_output(int place = 0);
-/// For signal handlers: whether write_files() gives its files their names just now, a moment in which a program that
-/// ends leaves some of them, or has done so. Async-signal-safe.
+/// For signal handlers: whether write_files() is giving its files their names just now, when a program that ends
+/// creates only some of them, or has done so. Async-signal-safe.
 enum class Naming { kNotYet, kNow, kDone };
 Naming outputs_naming();
 

@@ -29,10 +29,11 @@ struct LargestError {
   std::array<std::int32_t, 2> at{-1, -1};
 };
 
-/// Errors that are compared with a bound: of heights or norms, under a mask or tolerances. Errors are taken as float32.
+/// Errors that are compared with a bound: of heights or norms, under a mask or tolerances. Errors are rounded to
+/// float32.
 struct WeighedErrors {
-  LargestError largest;    ///< of all judged samples, HeightField::sample_rounding not counted
-  LargestError bounded;    ///< of the judged samples that have a bound
+  LargestError largest;    ///< largest error of all judged samples, HeightField::sample_rounding not counted
+  LargestError bounded;    ///< largest error of the judged samples that have a bound
   double rmse = 0;         ///< root of the mean square over all judged samples
   std::uint64_t over = 0;  ///< samples above their bound, HeightField::sample_rounding counted
 };
@@ -47,26 +48,26 @@ double weigh_by_tolerance(float tolerance, double error);
 double judging_allowance(double bound, const HeightRange& heights);
 
 struct JudgeOptions {
-  Tolerances tolerances = {};  ///< as SimplifyOptions::tolerances; not values beside weights
+  Tolerances tolerances = {};  ///< like SimplifyOptions::tolerances; no values together with weights
   /// The bound of all samples, at least 0: of the weighted error under a mask, of the norm with channels, else of the
   /// height. With tolerances it also bounds samples whose tolerance is infinite. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
   /// How a sample's errors in heights and channels become one.
   Norm norm = Norm::kSum;
-  const Cutline* cutline = nullptr;  ///< as MeasureOptions::cutline. Borrowed.
-  bool topology = true;              ///< as MeasureOptions::topology
-  /// False: Judgement::combined and weighted are left out, and Judgement::ignored where bounds are read in windows.
-  /// This saves a pass over these, and the memory of errors. DEFAULT: true.
+  const Cutline* cutline = nullptr;  ///< Like MeasureOptions::cutline. Borrowed.
+  bool topology = true;              ///< like MeasureOptions::topology
+  /// False: Judgement::combined and weighted are omitted, and Judgement::ignored where bounds are read in windows. This
+  /// saves a pass over these, and the memory of errors. DEFAULT: true.
   bool weigh = true;
   bool keep_errors = false;  ///< fill Judgement::height_errors and norms. DEFAULT: false.
-  /// As MeasureOptions::on_row: signed errors of the heights, row by row, in place of keeping them.
+  /// Like MeasureOptions::on_row: signed errors of the heights, row by row, in place of keeping them.
   std::function<void(int row, std::span<const float> errors)> on_row = {};
   Run run = {};
 };
 
 struct Judgement {
   Measurement heights;                ///< without offenders and over_tolerance
-  std::vector<Measurement> channels;  ///< of each channel, in its own units; without topology
+  std::vector<Measurement> channels;  ///< one for each channel, in its own units; without topology
   std::uint64_t ignored = 0;          ///< valid samples without a bound: ignored, of weight 0, of an infinite tolerance
   LargestError bounded;               ///< error of heights, over covered samples that are not ignored
   std::optional<WeighedErrors> combined;  ///< with channels: norms, compared with max_error
@@ -84,9 +85,9 @@ struct Judgement {
 /// `mesh` has as many channels as `field`, values in Mesh::channels. Nothing is kept of what is borrowed. A field with
 /// a source, and sources of weights and tolerances, are read in bands of rows; where some errors are above their bound,
 /// twice. Fails with kUsage for weights or tolerances of another size than the field, both at once, a max_error below
-/// 0, another number of channels than the mesh has, channels or an array of weights or tolerances beside a field with a
-/// source, channels beside a frame in space, and an ignored sample outside the raster; and as measure() and the sources
-/// do. Memory: as measure(); beside weights, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more
+/// 0, another number of channels than the mesh has, channels or an array of weights or tolerances with a field with a
+/// source, channels with a frame in space, and an ignored sample outside the raster; and as measure() and the sources
+/// do. Memory: as measure(); with weights, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more
 /// with channels, 4 more where samples in memory are ignored. Cost: as measure(), once for the heights and once a
 /// channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});

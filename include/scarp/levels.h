@@ -1,4 +1,4 @@
-// Levels of detail: meshes of one raster that take each other's place.
+// Levels of detail: meshes of one raster that replace each other.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@ namespace scarp {
 
 struct Levels {
   int count = 1;     ///< 1 to 32
-  double ratio = 2;  ///< of the max errors of one level and the finer one before it, above 1
+  double ratio = 2;  ///< ratio of the max error of a level to that of the next finer one, above 1
 };
 
 /// The meshes for max errors E, ratio · E, ratio² · E …, the finest first; E is the max error of `options`. Each is
 /// simplified from the full raster, and proven for its own max error. All have one outline, a locked border (border.h)
-/// for the max error E, or as `options` have it: where one level takes the place of another, no gap opens to whatever
-/// meets the raster's edge. Each level has the affine map and the origin of the others.
+/// for the max error E, or as `options` have it: where one level replaces another, no gap opens to whatever meets the
+/// raster's edge. Each level has the affine map and the origin of the others.
 ///
 /// Cost: that of as many runs; coarse ones are faster. Fails as simplify() does; with kUsage for a count or a ratio out
 /// of range, without a max error, and for what does not go with levels (Field::kLevels in conflicts.h).

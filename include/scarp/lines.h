@@ -16,7 +16,7 @@
 namespace scarp {
 
 enum class LineRole {
-  kLine,   ///< of a line, closed or not
+  kLine,   ///< along a line, closed or not
   kOuter,  ///< the outer ring of a polygon
   kHole,   ///< a ring that cuts a hole into it
 };
@@ -29,7 +29,7 @@ enum class LineKind : std::uint8_t {
   kRiver,      ///< the same, but yields
   /// The following are found in the raster. They are inserted before the surface is refined, in the greedy order,
   /// together with all other lines. kWall and kRidge are only a start: from normal effort on their edges may change,
-  /// and their vertices may be removed, or moved where vertices are free. They stay where high effort must leave
+  /// and their vertices may be removed, or moved where vertices are free. They stay where high effort must keep
   /// vertices on samples.
   kWall,       ///< along the top or foot of a wall (cliffs.h): yields, and never changes a sample
   kRidge,      ///< a ridge or valley (ridges.h), a preference
@@ -46,7 +46,7 @@ struct Line {
   LineKind kind = LineKind::kBreakline;
 
   bool is_ring() const { return role != LineRole::kLine; }
-  /// At a hard line that does not yield, this line takes the other's height; there is never a conflict.
+  /// True if this line adopts the other's height at a hard line that does not yield; there is never a conflict.
   bool yields() const { return kind == LineKind::kRiver || kind == LineKind::kWall; }
 };
 
@@ -55,27 +55,27 @@ inline bool is_ridge_line(const Line& line) {
   return line.kind == LineKind::kRidge || line.kind == LineKind::kKeptRidge;
 }
 
-/// What a vector layer holds.
+/// The content of a vector layer.
 struct LineSet {
-  std::vector<Line> lines;  ///< as the layer has them; a polygon's outer ring comes before its holes
-  std::string path, layer;  ///< where they come from, for messages
+  std::vector<Line> lines;  ///< in the order of the layer; a polygon's outer ring comes before its holes
+  std::string path, layer;  ///< their source, for messages
   std::string format;       ///< "GPKG", "GeoJSON", …
-  std::string crs;          ///< of the layer: "EPSG:32611", WKT, or empty
+  std::string crs;          ///< CRS of the layer: "EPSG:32611", WKT, or empty
   std::uint32_t polygons = 0;
-  std::vector<std::string> warnings;  ///< sentences for the user: points that were left out, an unknown CRS
+  std::vector<std::string> warnings;  ///< sentences for the user: points that were omitted, an unknown CRS
 };
 
 /// The height of a vertex where hard lines of different heights meet.
 enum class LineConflict {
   kError,    ///< the call fails and names the lines
   kFirst,    ///< the height of the line that was given first
-  kMean,     ///< of all lines that pass
-  kHighest,  ///< of all lines that pass
+  kMean,     ///< mean of all lines that pass
+  kHighest,  ///< highest of all lines that pass
 };
 
 /// Breaklines: lines that become chains of edges of the mesh.
 struct LineConstraints {
-  std::vector<Line> lines;  ///< as read_lines() gives them; polygons count by their rings. EMPTY: no constraints
+  std::vector<Line> lines;  ///< from read_lines(); polygons count by their rings. EMPTY: no constraints
   /// From samples to the coordinates of the lines, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
   LineConflict conflict = LineConflict::kError;
@@ -101,8 +101,8 @@ struct ReadLinesOptions {
 ///
 /// Multilines, multipolygons and collections become their parts; arcs become chords of 4 degrees at most. x and y are
 /// transformed vertex by vertex from the layer's CRS; between two vertices a line is straight in the wanted CRS.
-/// Heights stay; NaN heights are interpolated between the other heights of the line. A layer without CRS is taken to be
-/// in the wanted CRS. Points, features without geometry, and lines and rings of no extent are left out and counted.
+/// Heights stay; NaN heights are interpolated between the other heights of the line. A layer without CRS is assumed to
+/// be in the wanted CRS. Points, features without geometry, and lines and rings of no extent are omitted and counted.
 /// Warnings report all of this.
 ///
 /// Fails in one sentence that names file, layer and feature: kInput for a missing file or layer, none or several layers
@@ -115,7 +115,7 @@ Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& opti
 /// read_lines() of the first that does.
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options = {});
 
-/// kInput unless all lines are rings of polygons. `user` is what needs them ("--water"), `otherwise` what takes lines
+/// kInput unless all lines are rings of polygons. `user` is what needs them ("--water"), `otherwise` what accepts lines
 /// ("--rivers"), or empty: both for the sentence.
 Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise = {});
 

@@ -21,7 +21,7 @@ namespace scarp {
 /// A tile as it is kept.
 struct LiveTile {
   std::vector<std::uint8_t> bytes;
-  /// TerrainTile::bound(); nothing above the blocks before prepare() has come to it: nobody has looked at all nodes.
+  /// TerrainTile::bound(); nothing above the blocks before prepare() has come to it: not all nodes were examined.
   std::optional<double> bound;
 };
 
@@ -29,7 +29,7 @@ struct LiveTile {
 /// the finished set. Several threads may read at once.
 class LiveTileSet final : public TileSetReader {
  public:
-  /// Finds out which tiles there are. Up to `look_nodes` nodes all are looked at, and the tiles are those of the
+  /// Finds out which tiles there are. Up to `look_nodes` nodes, all are examined, and the tiles are those of the
   /// finished set; beyond that, tiles count wherever the raster may cover them, and those without heights are flat.
   /// `cache`: bytes of tiles that are kept for the next who asks. Borrows the nodes. Progress: pass "look". Fails as
   /// find_tiles() does, and with kUsage for another format.
@@ -51,10 +51,10 @@ class LiveTileSet final : public TileSetReader {
   /// Memory: up to 300 MB a call while a tile of the block level is made, less below.
   Result<std::shared_ptr<const LiveTile>> make(TileId id) const;
 
-  /// Makes the tiles that take longest, all but the finest three levels, as make_pyramid() does, and keeps them with
-  /// their bounds: make() then finds them. Others may call make() meanwhile. They take up to half of the cache: once
-  /// that is full, the call ends. Returns whether all are kept. REQUIRES: called once. `is_over`: asked often, on any
-  /// thread; once true, the call ends with kCancelled. Memory beside the cache: 400 MB. Fails as make_pyramid() does.
+  /// Makes the slowest tiles, all but the finest three levels, as make_pyramid() does, and keeps them with their
+  /// bounds: make() then finds them. Others may call make() meanwhile. They use up to half of the cache: once that is
+  /// full, the call ends. Returns whether all are kept. REQUIRES: called once. `is_over`: asked often, on any thread;
+  /// once true, the call ends with kCancelled. Memory in addition to the cache: 400 MB. Fails as make_pyramid() does.
   Result<bool> prepare(int threads, const std::function<bool()>& is_over);
 
  private:

@@ -39,7 +39,7 @@ struct MeasureOptions {
   /// rings are no gaps. The rings count as given, not as rounded in the mesh. Borrowed. DEFAULT: null, the whole
   /// domain.
   const Cutline* cutline = nullptr;
-  /// Of scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. Where its
+  /// For scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. Where its
   /// border is one loop, no open edge is a gap. DEFAULT: false.
   bool inlets = false;
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
@@ -54,7 +54,7 @@ struct Offender {
   double error = 0;  ///< mesh − sample; +infinity for a valid sample that no triangle covers
 };
 
-/// Each sample is counted once; a sample on a shared edge takes the larger error of its triangles.
+/// Each sample is counted once; a sample on a shared edge counts with the larger error of its triangles.
 /// Errors are vertical, mesh − sample, in z units. In a frame in space they are ways along a sample's vertical to the
 /// triangle that it meets; where it meets none, to the nearest point of the triangle that covers the sample on the map.
 struct Measurement {
@@ -65,7 +65,7 @@ struct Measurement {
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< (col, row) of the first of them, row by row; (−1, −1): none
   std::uint64_t stray = 0;    ///< valid samples outside every valid cell (no three valid corners): outside the domain
   std::uint64_t cut_off = 0;  ///< valid samples beyond MeasureOptions::cutline, not judged
-  HeightRange heights;        ///< of all valid samples: judged, uncovered, stray and cut off
+  HeightRange heights;        ///< range of all valid samples: judged, uncovered, stray and cut off
   std::uint64_t nodata_cells_covered =
       0;  ///< cells (or half cells) without valid corners that the mesh covers at their centre
 
@@ -87,10 +87,10 @@ struct Measurement {
   std::uint64_t border_loops = 0;        ///< closed loops that the open edges form
   std::uint64_t t_junctions = 0;         ///< vertices inside an open edge of another triangle
   /// Open edges of an open mesh that border on surface of the domain: the mesh has a hole there. Lattice lines cut each
-  /// edge into pieces; the test point lies beside the middle of each piece, 1/64 sample outside the edge (4
-  /// coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are left
-  /// out. A part of the domain that touches the rest at corners only has no such edge; if it is missing as a whole, it
-  /// is not counted here.
+  /// edge into pieces; the test point lies next to the middle of each piece, 1/64 sample outside the edge (4
+  /// coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are
+  /// omitted. A part of the domain that touches the rest at corners only has no such edge; if it is missing as a whole,
+  /// it is not counted here.
   std::uint64_t gaps = 0;
   std::uint64_t overlaps =
       0;                ///< pairs of triangles whose interiors overlap seen from above (up-facing only if closed)
@@ -117,14 +117,14 @@ Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
 
 /// Judges `mesh` against every valid sample of `field`, in the field's frame. Shares no scan code with simplify().
 /// Fails with kInput if the mesh has an index out of range, a position that is not finite or beyond 1e100 (in its own
-/// coordinates or, in affine frames, in cells), or no triangles; with kCancelled if the callback says so; as the
+/// coordinates or, in affine frames, in cells), or no triangles; with kCancelled if the callback asks for it; as the
 /// field's source does. A field with a source is read in bands of rows; two bands a thread are in memory. Cost:
 /// O(samples + triangles).
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 
 /// Fills the topology and shape in `result`, which measure() made of the same mesh without them; no sample's error is
-/// looked at. Such is Simplified::measurement. Of `options` cutline, coverage_tolerance and run count. Fails as
-/// measure(). Cost: O(triangles).
+/// examined. Such is Simplified::measurement. The members cutline, coverage_tolerance and run of `options` count. Fails
+/// as measure(). Cost: O(triangles).
 Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                               Measurement& result);
 

@@ -45,7 +45,7 @@ struct Mesh {
 void optimize_order(Mesh& mesh, int threads = 1);
 
 /// Turns the mesh y up: (x, y, z) becomes (x, z, −y), normals too, and metadata["up"] is "y". undo_y_up() turns a mesh
-/// that is_y_up() back; its metadata then says "z". Both are exact. All functions but these and the writers expect
+/// that is_y_up() back; its metadata["up"] is then "z". Both are exact. All functions but these and the writers expect
 /// meshes that are z up.
 void turn_y_up(Mesh& mesh);
 void undo_y_up(Mesh& mesh);

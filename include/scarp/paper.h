@@ -15,12 +15,12 @@
 
 namespace scarp {
 
-/// What to reach, and by which strategy. Strategies only insert vertices, in the greedy order: efforts above fast,
+/// The goals, and the strategy to reach them. Strategies only insert vertices, in the greedy order: efforts above fast,
 /// lines and shapes belong to simplify().
 struct PaperOptions {
   Goals goals = {};
   Tolerances tolerances = {};
-  std::vector<SampleAt> points = {};  ///< as Features::points: Terra's scripts
+  std::vector<SampleAt> points = {};  ///< like Features::points: Terra's scripts
   Domain domain = {};
   Output output = {};
   Strategy strategy = {};
@@ -28,13 +28,13 @@ struct PaperOptions {
 };
 
 /// Inserts the worst samples of samples in memory (Garland & Heckbert 1995, Algorithms I to III, parallel insertion and
-/// data-dependent triangulation). What is promised, what a budget means, and the proof are those of simplify() with
-/// fast effort in the greedy order; with the default strategy so is every byte of the mesh.
+/// data-dependent triangulation). The promise, the meaning of a budget, and the proof are those of simplify() with fast
+/// effort in the greedy order; with the default strategy so is every byte of the mesh.
 ///
 /// Fails as simplify() does; with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy
-/// out of range: an importance of nothing, one pass beside batches or without a feature of the raster, a fraction of a batch not in
-/// (0, 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order; Algorithms I and
-/// II as strategy.h says; data-dependent edges some ten times as long.
+/// out of range: an importance of nothing, one pass with batches or without a feature of the raster, a fraction of a
+/// batch not in (0, 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order;
+/// Algorithms I and II as in strategy.h; data-dependent edges need about ten times as long.
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options);
 
 }  // namespace scarp

@@ -27,22 +27,22 @@ struct PreviewOptions {
   int max_side = 1400;  ///< pixels that the picture is wide or high, at most
   /// Metres that a cell is wide and high. DEFAULT: its lengths in the field's frame, and no scale bar.
   std::array<double, 2> cell{0, 0};
-  std::string unit = {};  ///< of heights, for the legend
+  std::string unit = {};  ///< unit of heights, for the legend
   std::vector<Mark> marks = {};
 };
 
 /// Hillshade of the field with the mesh's edges and the marks over it, in the shape that it has on the ground. Edges of
-/// triangles fade as these come down to a few pixels. Nodata samples are white. Tints tell heights; below 0 they are
+/// triangles fade as these come down to a few pixels. Nodata samples are white. Tints show heights; below 0 they are
 /// blue, but in fields without a georeference. A picture of 300 pixels and more has a legend below. Streamed samples
-/// are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with
-/// kUsage for a frame in space, and as the field's source does.
+/// are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with kUsage
+/// for a frame in space, and as the field's source does.
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options = {});
 
 struct ErrorMapOptions {
   double limit = 0;                  ///< end of the scale; <= 0: the largest |error|
   int max_side = 1400;               ///< pixels that the picture is wide or high, at most
   std::array<double, 2> cell{0, 0};  ///< lengths of a cell along x and y. DEFAULT: 0, a square
-  std::string unit = {};             ///< of errors
+  std::string unit = {};             ///< unit of errors
   std::string title = {};            ///< above the map
 };
 
@@ -59,8 +59,8 @@ class ErrorMap {
  private:
   int cols_, rows_, width_, height_;
   ErrorMapOptions options_;
-  std::array<int, 2> size_;    // of the map in the picture
-  std::vector<float> errors_;  // of each pixel the one of the largest size; NaN where there is none
+  std::array<int, 2> size_;    // size of the map in the picture
+  std::vector<float> errors_;  // error of the largest size in each pixel; NaN where there is none
   double largest_ = 0;
 };
 

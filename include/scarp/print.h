@@ -26,11 +26,11 @@ struct PrintOptions {
   /// The longest side in millimetres, above 0. DEFAULT: none, the coordinates are those of the frame.
   std::optional<double> size = std::nullopt;
   double exaggerate = 1;  ///< factor of heights, above 0
-  /// The max error on the print, in print units, above 0; beside Goals::max_error, the stricter one counts. DEFAULT:
+  /// The max error on the print, in print units, above 0; with Goals::max_error, the stricter one counts. DEFAULT:
   /// none.
   std::optional<double> max_error = std::nullopt;
-  int columns = 1, rows = 1;  ///< of print tiles, at least 1
-  bool dovetail = false;      ///< as PrintTileOptions::dovetail
+  int columns = 1, rows = 1;  ///< number of print tiles, at least 1
+  bool dovetail = false;      ///< like PrintTileOptions::dovetail
   double gap = 0;             ///< between print tiles, in print units, at least 0
 
   bool is_split() const { return columns > 1 || rows > 1; }
@@ -42,21 +42,21 @@ struct PrintOptions {
 struct PrintTile {
   int row = 1, column = 1;  ///< counted from 1, from the top left
   Mesh mesh;                ///< closed; positions as they are to be written
-  SolidFacts facts;         ///< of `mesh`
+  SolidFacts facts;         ///< facts about `mesh`
 };
 
 /// A print, and facts about it.
 struct Print {
   double base = 0;               ///< height of the underside, in z units
-  Placement placement;           ///< of all print tiles; used where PrintOptions::is_placed()
-  std::vector<PrintTile> tiles;  ///< row by row; tiles without a triangle are left out
-  int empty_tiles = 0;           ///< number of tiles left out
-  double max_error = 0;          ///< of the tops as they are to be written, against the samples, in z units
+  Placement placement;           ///< placement of all print tiles; used where PrintOptions::is_placed()
+  std::vector<PrintTile> tiles;  ///< row by row; tiles without a triangle are omitted
+  int empty_tiles = 0;           ///< number of tiles omitted
+  double max_error = 0;          ///< max error of the tops as they are to be written, against the samples, in z units
   std::uint64_t uncovered = 0;   ///< valid samples in gaps
-  HeightRange heights;           ///< of the samples
+  HeightRange heights;           ///< range of the samples
 
-  std::uint64_t vertices() const;   ///< of all print tiles
-  std::uint64_t triangles() const;  ///< of all print tiles
+  std::uint64_t vertices() const;   ///< total of all print tiles
+  std::uint64_t triangles() const;  ///< total of all print tiles
 };
 
 struct PrintedTerrain {

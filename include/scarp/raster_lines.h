@@ -12,7 +12,7 @@
 namespace scarp {
 
 /// read_lines(), with heights like the values in the file of `raster`, before its z_scale and z_offset: where the name
-/// of their attribute ("elev_ft"), else the vertical CRS of the layer says their unit, and it is another one, they are
+/// of their attribute ("elev_ft"), else the vertical CRS of the layer names their unit, and it is another one, they are
 /// converted, and a warning reports it. Same failures and cost.
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options,
                            const RasterInfo& raster);

@@ -16,7 +16,7 @@
 namespace scarp {
 
 struct Region {
-  /// As read_lines() gives them. A polygon contains its rings and all points in its outer ring but not in its holes
+  /// Lines from read_lines(). A polygon contains its rings and all points in its outer ring but not in its holes
   /// (even-odd, which also decides bow-ties and overlapping rings). A line contains only its own points.
   std::vector<Line> lines;
   double tolerance = 0;  ///< in it, in z units, at least 0
@@ -36,8 +36,8 @@ struct RegionGrid {
 /// The samples nearest to rings and lines belong to their region, so a region smaller than a cell has samples too.
 /// Distances are those between samples (exact, Euclidean). Tolerances are rounded to float32 downwards. `found`: by
 /// region, whether any part of it lies in the raster; may be null. REQUIRES: cols, rows, cell_x, cell_y > 0; falloff >=
-/// 0; the affine map can be inverted. Cost: O(samples + segments · rows that they cross) a region; beside the bounds,
-/// what RegionBounds takes.
+/// 0; the affine map can be inverted. Cost: O(samples + segments · rows that they cross) a region; in addition to the
+/// bounds, the memory of RegionBounds.
 std::vector<float> region_tolerances(std::span<const Region> regions, const RegionGrid& grid,
                                      std::vector<bool>* found = nullptr);
 
@@ -47,7 +47,8 @@ struct RegionBounds {
   /// falloff > 0, no less than rows of a thousand samples, or six times as wide as the falloff, a region near it.
   std::shared_ptr<const SampleSource> source;
   std::vector<bool> found;  ///< by region, whether any part of it lies in the raster
-  /// Of memory: 8 a region and column, and for each sample on its outline; and what each of `threads` needs to read.
+  /// Bytes of memory: 8 a region and column, and for each sample on its outline; and what each of `threads` needs to
+  /// read.
   std::uint64_t bytes = 0;
 };
 /// `threads`: as Run::threads. The regions are not needed after the call. REQUIRES: as region_tolerances().

@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// What went wrong, in the terms a caller can act on. The command line maps each kind to an exit code.
+/// Kinds of failure, in the terms a caller can act on. The command line maps each kind to an exit code.
 enum class ErrorKind {
   kUsage,      ///< options that cannot be combined or lie outside their range (exit 1)
   kMemory,     ///< Run::memory is too little for the mesh (exit 1)

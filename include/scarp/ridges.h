@@ -29,7 +29,7 @@ namespace scarp {
 
 struct RidgeOptions {
   /// The least height of a ridge above the land on both sides of it, at most 16 samples away. In z units, above 0 and
-  /// finite. Of little use below the max error.
+  /// finite. It is of little use below the max error.
   double height = 0;
   /// Max error of the mesh to come, at least 0 and finite. Lines follow the raster to within half of it, as soft lines
   /// do.
@@ -45,12 +45,12 @@ struct RidgeOptions {
 struct Ridges {
   /// Soft lines for Features::breaklines, vertices on samples. Their kind is kRidge or kKeptRidge.
   std::vector<Line> ridges, valleys;
-  std::uint64_t vertices = 0;  ///< of the lines; where several meet, once for each
+  std::uint64_t vertices = 0;  ///< number of vertices of the lines; where several meet, once for each
 };
 
 /// Finds the ridges and valleys of a raster, in an order that depends on the raster only. Each line runs within a
 /// sample of the highest or lowest samples that it represents, with as few vertices as that and the bound allow. Where
-/// one line joins another, both have a vertex. Lines of fewer than 8 samples are left out. Negating all samples
+/// one line joins another, both have a vertex. Lines of fewer than 8 samples are omitted. Negating all samples
 /// exchanges ridges and valleys, and changes nothing else. Nodata ends a profile; the part before it counts.
 ///
 /// Fails with kUsage for options out of range, with kCancelled, and as the field's source does. A source is read four

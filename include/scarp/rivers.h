@@ -34,13 +34,13 @@ struct RiverOptions {
 /// Gives each line of `lines` heights that never rise downstream. Each line flows from the end where the raster is
 /// higher to the other end. The height of a point is the lowest of the raster's surface there and upstream. Rivers that
 /// share a vertex share its height, the lowest of all, so that a confluence is no step. Within `lakes`, which
-/// flatten_lakes() or find_flats() made of this field, and less than a sample beside them, rivers have the lake's
+/// flatten_lakes() or find_flats() made of this field, and less than a sample away from them, rivers have the lake's
 /// level, even where that is a rise.
 ///
-/// Parts outside the raster and in nodata have no heights. Rings, and lines without any height, are left out. The
-/// raster does not change: as hard breaklines, rivers run in gorges a sample wide where they lie below it. Heights
-/// are float32. Fails with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map
-/// can be inverted. Cost: O(n log n) for lines and shores along n samples.
+/// Parts outside the raster and in nodata have no heights. Rings, and lines without any height, are omitted. The raster
+/// does not change: as hard breaklines, rivers run in gorges a sample wide where they lie below it. Heights are
+/// float32. Fails with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map can be
+/// inverted. Cost: O(n log n) for lines and shores along n samples.
 Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<const Line> lines,
                                         std::span<const Lake> lakes, const RiverOptions& options);
 

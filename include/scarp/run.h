@@ -14,17 +14,17 @@ namespace scarp {
 /// Bytes of memory.
 struct Memory {
   /// Bytes that the whole process is to stay under; 0: no limit. Strips, threads and the blocks of the file are chosen
-  /// to fit. What cannot fit is refused: before the work begins, or as soon as the mesh outgrows the limit. What a call
-  /// takes is estimated, not counted. DEFAULT: 0.
+  /// to fit. A run that cannot fit is refused: before the work begins, or as soon as the mesh outgrows the limit. The
+  /// memory of a call is estimated, not counted. DEFAULT: 0.
   std::uint64_t limit = 0;
-  /// The part of the limit that others take: the program, the samples or the cache of their file. DEFAULT: 0.
+  /// The part of the limit that others use: the program, the samples or the cache of their file. DEFAULT: 0.
   std::uint64_t taken = 0;
-  /// Bytes a vertex that the caller will take beside the mesh, to write it. Read by simplify() alone. DEFAULT: 80, more
-  /// than GLB takes.
+  /// Bytes a vertex that the caller will use in addition to the mesh, to write it. Read by simplify() alone. DEFAULT:
+  /// 80, more than GLB needs.
   std::uint64_t per_vertex = 80;
 };
 
-/// The same for all calls; each function tells which members it reads, where it does not read all.
+/// The same for all calls; each function lists the members it reads, unless it reads all.
 struct Run {
   int threads = 0;  ///< 0: all cores, or one where others would come too late. Never changes the result. DEFAULT: 0.
   Memory memory = {};
@@ -33,8 +33,8 @@ struct Run {
   /// are no longer removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. With a
   /// budget the search then ends with the best mesh so far. DEFAULT: never.
   std::function<bool()> is_time_up = {};
-  /// Asked and obeyed in the same way, for a caller who stops waiting: it is no time to use up, so max effort does not
-  /// go on until then. Not asked with a budget. DEFAULT: never.
+  /// Polled in the same way, for a caller who stops waiting. It is a cancel request, not a deadline: max effort does
+  /// not use up the time. Not asked with a budget. DEFAULT: never.
   std::function<bool()> is_enough = {};
 };
 

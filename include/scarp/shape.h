@@ -16,7 +16,7 @@ namespace scarp {
 /// Where goals cannot all be kept, the later one yields, and how much is counted in ShapeReport: (1) the error bound;
 /// (2) lines, cutlines and outlines, where they run; (3) max_edge and grade, which always hold; (4) min_angle; (5)
 /// min_edge; (6) few triangles. A triangle with a smallest angle of a and a shortest edge of s is at least s·sin(a)
-/// high, which is what the time step of a flow solver follows; a long edge beside a small angle does not help it.
+/// high, which is what the time step of a flow solver follows; a long edge at a small angle does not help it.
 ///
 /// New vertices lie on samples where triangles are large compared with them, else on halves, quarters, … 256ths of a
 /// sample, at the height of the raster, which is bilinear between samples. No two share a lattice point. Vertices added
@@ -27,7 +27,7 @@ namespace scarp {
 ///
 /// Guarantees, up to the rounding of positions: (1) no edge is longer than max_edge; (2) grade holds, as below; (3)
 /// each triangle with an angle below min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners
-/// of less than 60 degrees between lines or outline, theory leaves few or none. Beyond 20 degrees nothing is proven,
+/// of less than 60 degrees between lines or outline, theory predicts few or none. Beyond 20 degrees nothing is proven,
 /// but on rasters without lines hardly any are left up to 30. Some are left where lines, or a line and a sample that
 /// the bound needs, run closer together than vertices for angles may.
 struct ShapeGoals {
@@ -43,7 +43,7 @@ struct ShapeGoals {
   /// solver follows the shortest edge. All other goals come first: edges that they need stay shorter, and are counted
   /// in ShapeReport::shorter. Vertices added for max_edge and grade make no edge shorter than this but where they halve
   /// one that is too long. Efforts above fast remove vertices at shorter edges first, and make no edge shorter than one
-  /// that they take away, or this. DEFAULT: none.
+  /// that they remove, or this. DEFAULT: none.
   std::optional<double> min_edge = std::nullopt;
 
   bool any() const { return min_angle > 0 || max_edge || grade || min_edge; }
@@ -54,10 +54,10 @@ struct ShapeReport {
   double min_angle = 0;                        ///< degrees
   double shortest_edge = 0, longest_edge = 0;  ///< in the units of x and y
   std::uint64_t below = 0;                     ///< triangles with an angle below min_angle
-  std::uint64_t forced = 0;                    ///< of these, those at corners between lines or outline
-  std::uint64_t below_beside_lines = 0;        ///< of the others, those with a corner on lines or outline
+  std::uint64_t forced = 0;                    ///< number of these at corners between lines or outline
+  std::uint64_t below_beside_lines = 0;        ///< number of the others with a corner on lines or outline
   std::uint64_t shorter = 0;                   ///< edges shorter than min_edge
-  std::uint64_t shorter_beside_lines = 0;      ///< of these, those with an end on lines or outline
+  std::uint64_t shorter_beside_lines = 0;      ///< number of these with an end on lines or outline
   std::array<std::uint64_t, 12> histogram{};   ///< triangles by their smallest angle: 0 … 5 degrees, …, 55 … 60
 };
 

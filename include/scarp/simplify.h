@@ -24,7 +24,7 @@
 
 namespace scarp {
 
-/// Which part of the raster the mesh covers.
+/// The part of the raster that the mesh covers.
 struct Domain {
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
   /// nodata: no valid sample is cut off. Voids that hold no sample close where they are nowhere farther from their
@@ -34,13 +34,13 @@ struct Domain {
   Border border = {};
 };
 
-/// What the mesh holds.
+/// The contents of the mesh.
 struct Output {
   /// Round positions to float32, as GLB and STL hold them, so that what is proven is what is written. False: positions
   /// are double, as OBJ and PLY hold them, and vertices lie on their samples in every affine frame. DEFAULT: true.
   bool float32_positions = true;
   /// Positions that glb.h compresses without moving them, where rows run along x (elsewhere this changes nothing): x
-  /// and y are double, whatever float32_positions says, and heights are rounded to multiples of a power of two, at most
+  /// and y are double, whatever float32_positions is, and heights are rounded to multiples of a power of two, at most
   /// 1/128 of max_error and of a locked border's. The engine aims 1/256 below max_error for it, unless the samples are
   /// such multiples. Heights stay as they are without a max_error, or where tolerances, weights or channels bound
   /// errors. DEFAULT: false.
@@ -49,7 +49,7 @@ struct Output {
   bool uvs = false;      ///< fill Mesh::uvs. DEFAULT: false.
 };
 
-/// What to reach, and how. What does not go together: conflicts.h.
+/// The goals, and how to reach them. Conflicts between settings: conflicts.h.
 struct SimplifyOptions {
   Goals goals = {};
   Tolerances tolerances = {};
@@ -79,11 +79,11 @@ enum class WhyFast {
   kNone,      ///< it did not
   kOrder,     ///< Order::kGreedy was asked for: the paper's algorithm, which only inserts
   kStrategy,  ///< simplify_by_paper()
-  kMemory,    ///< removal needs more than the memory limit leaves
+  kMemory,    ///< removal needs more than the memory limit allows
   kBudget,    ///< for the budget, no mesh of normal effort was better than that of insertion
 };
 
-/// Which goal ended the run.
+/// The goal that ended the run.
 enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 
 /// The breakline farthest above or below the raster, at a vertex as given; lines that are 0 everywhere count tenfold.
@@ -96,43 +96,43 @@ struct FarthestLine {
 struct Simplified {
   Mesh mesh;
   StopReason stop = StopReason::kMaxError;
-  /// The proof: `mesh` as it stands, judged against all samples by measure(). The topology part is left out in affine
+  /// The proof: `mesh` as it stands, judged against all samples by measure(). The topology part is omitted in affine
   /// frames whose offsets are exact (offsets_are_exact()) or double: there it holds by construction.
   Measurement measurement;
   std::uint64_t ignored = 0;      ///< valid samples without a bound: ignored, by weight 0, by infinite tolerance
   double weighted_max_error = 0;  ///< largest weight · |error| (with a mask), |error| / tolerance (with tolerances)
   double weighted_rmse = 0;       ///< root of the mean square of the same
-  /// What a search for a budget's mesh makes small, of the samples with a bound: |error|, the norm with channels,
-  /// weight · |error| with a mask; with tolerances (|error| + field.sample_rounding) / min(tolerance, max_error).
+  /// The quantity that a budget search minimises over all samples with a bound: |error|, the norm with channels, weight
+  /// · |error| with a mask; with tolerances (|error| + field.sample_rounding) / min(tolerance, max_error).
   double judged_max_error = 0;
   double judged_rmse = 0;  ///< root of the mean square of the same
   /// With tolerances: times this, all bounds hold, max_error too. 1 where they hold as they are; else what the search
   /// found, or the largest judged error of insertion that a budget stopped (+infinity: a tolerance of 0 is not kept).
   double tolerance_factor = 1;
-  std::vector<Measurement> channel_measurements;  ///< of each channel, in its own units; without topology
+  std::vector<Measurement> channel_measurements;  ///< one for each channel, in its own units; without topology
   double combined_max_error = 0;                  ///< with channels: the largest norm
   double combined_rmse = 0;                       ///< root of the mean square of the same
-  Work work;                                      ///< what the engine did
-  Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
+  Work work;                                      ///< counters of the engine
+  Order order = Order::kGreedy;                   ///< the order that was used, never kAuto
   Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
   WhyFast why_fast = WhyFast::kNone;              ///< why `effort` is kFast where kAuto was asked for
-  Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
+  Vertices vertices = Vertices::kSamples;         ///< positions of the vertices, never kAuto
   bool is_cut_short = false;                      ///< by Run::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   FittedFeatures features;                        ///< the lines of the mesh
   std::uint64_t lines_inserted = 0;               ///< breaklines of which some part lies in the raster
-  FarthestLine farthest_line;                     ///< of the breaklines with heights of their own
+  FarthestLine farthest_line;                     ///< farthest of the breaklines with heights of their own
   /// The max error that lines were inserted for, given or found; without one, tolerance_factor times the largest
   /// tolerance that is finite.
   double lines_for = 0;
-  /// That the outline of the valid data alone needs, as far as Domain::outline_tolerance leaves it. 0 where every
+  /// Triangles needed by the outline of the valid data alone, as simplified by Domain::outline_tolerance. 0 where every
   /// sample is valid, and with lines or a cutline.
   std::uint64_t outline_triangles = 0;
-  /// What outline_triangles would be at an outline tolerance of one sample. 0 where that tolerance is not 0, where
+  /// The value of outline_triangles at an outline tolerance of one sample. 0 where that tolerance is not 0, where
   /// outline_triangles is less than half of the mesh, and where samples are streamed.
   std::uint64_t outline_triangles_at_one = 0;
   std::uint64_t cut_off = 0;         ///< valid samples outside the cutline
-  std::optional<ShapeReport> shape;  ///< of `mesh`, where Quality::shape asks for something
+  std::optional<ShapeReport> shape;  ///< shape of `mesh`, where Quality::shape asks for it
   std::vector<Pass> passes;          ///< in the order in which they ended
   double seconds_refine = 0;         ///< outline, refinement and freezing
   double seconds_measure = 0;        ///< the proof
@@ -143,15 +143,16 @@ struct Simplified {
 ///
 /// Order: towards an error goal the locally dominant order works tile by tile, on all threads; where two tiles meet, an
 /// edge that is not Delaunay is kept if the bound needs it. Budgets, and all that strategy.h offers, keep the greedy
-/// order (Algorithm III), which is one thread's work. What is promised is the same.
+/// order (Algorithm III), which is one thread's work. The promise is the same.
 ///
-/// Effort: kNormal then removes each vertex whose place the vertices around it can take, all triangulations of the ring
-/// that it leaves considered, the one with the least squared error taken; those that cost least go first. Once, vertices
-/// move to better samples in between. What is left are samples with their own heights, and no vertex can go alone. kHigh
-/// goes on with rings that the bound forbids: it flips edges and moves vertices around them, or takes all back. Vertices
-/// that are free keep max_error on the lattice they move on; where float32 positions cannot hold that exactly they aim
-/// 0.2 % below it, and should rounding break it yet, the run is made again with vertices on samples, unless kFree was
-/// asked. With channels vertices stay on samples, with their values, and the norm is what every effort keeps.
+/// Effort: kNormal then removes each vertex whose place the vertices around it can fill. It considers all
+/// triangulations of the ring around the vertex and uses the one with the least squared error; the cheapest vertices go
+/// first. Once, vertices move to better samples in between. The vertices that remain are samples with their own
+/// heights, and none can be removed alone. kHigh continues with rings that the bound forbids: it flips edges and moves
+/// vertices around them, or undoes all of it. Vertices that are free keep max_error on the lattice they move on; where
+/// float32 positions cannot hold that exactly they aim 0.2 % below it, and should rounding break it yet, the run is
+/// made again with vertices on samples, unless kFree was asked. With channels vertices stay on samples, with their
+/// values, and the norm is what every effort keeps.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within
@@ -167,27 +168,28 @@ struct Simplified {
 /// every tolerance is kept. In frames that are not exact these
 /// are proven to a float32's rounding (2⁻²², and 2⁻²⁴ more a channel). Samples that are `ignored` have no bound.
 ///
-/// Budgets are upper bounds. With more than fast effort they are met by a search for the max error whose mesh takes 99
-/// % of them, 97 % where that takes long, mostly in two or three runs of that effort after a greedy one; less where
-/// triangles jump because many samples share an error. What the objective names is never larger than in the greedy mesh
-/// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact). With
-/// lines or shapes, in the dominant order, and where the field has a source, so does fast effort.
+/// Budgets are upper bounds. With more than fast effort they are met by a search for the max error whose mesh uses 99 %
+/// of them, 97 % where that would be slow, mostly in two or three runs of that effort after a greedy one; less where
+/// triangles jump because many samples share an error. The quantity of the objective is never larger than in the greedy
+/// mesh for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact).
+/// With lines or shapes, in the dominant order, and where the field has a source, so does fast effort.
 ///
-/// Objective::kRms has no search: a refined mesh of four times the triangles is reduced to the budget by the rise of the
-/// squared error, its vertices move, go and come while that falls (Lindstrom and Turk's aim, on the height field's own
-/// vertical error), and no sample leaves the cap: max_error if the budget leaves room for it, else what fast effort
+/// Objective::kRms has no search: a refined mesh of four times the triangles is reduced to the budget by the rise of
+/// the squared error, its vertices move, go and come while that falls (Lindstrom and Turk's aim, on the height field's
+/// own vertical error), and no sample exceeds the cap: max_error if the budget has room for it, else what fast effort
 /// reaches with the budget. All of the budget is used, even where less would keep max_error. Where the field has a
-/// source, with goals for shapes and with a locked border it is the search above, that keeps the least RMSE it has seen.
+/// source, with goals for shapes and with a locked border it is the search above, that keeps the least RMSE it has
+/// seen.
 ///
-/// Tolerances beside a budget: if they fit, with max_error if that is given, they are the goal that ends the run
+/// Tolerances with a budget: if they fit, with max_error if that is given, they are the goal that ends the run
 /// (StopReason::kMaxError). Else one factor above 1 is searched for that multiplies them all, and max_error; a
-/// tolerance of 0 stays 0. What is made small is the largest |error| / tolerance, or with Objective::kRms its RMS over
-/// all samples that have one, and |error| <= Simplified::tolerance_factor · tolerance holds at every valid sample. A
-/// mask divides the max error that is searched for by its weights. Ignored samples count in neither.
+/// tolerance of 0 stays 0. The quantity minimised is the largest |error| / tolerance, or with Objective::kRms its RMS
+/// over all samples that have one, and |error| <= Simplified::tolerance_factor · tolerance holds at every valid sample.
+/// A mask divides the max error that is searched for by its weights. Ignored samples count in neither.
 ///
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's
-/// samples, 1 to 17 MB, for each thread; ordering and the proof take the 120. More than fast effort takes 200, and 6 a
+/// samples, 1 to 17 MB, for each thread; ordering and the proof need the 120. More than fast effort needs 200, and 6 a
 /// thread, for each vertex of the refined mesh, of which about half or two thirds then go. With a mask, tolerances, a
 /// feature or a script that ignores, up to 16 more a sample; with channels 8 more a sample, and 4 a vertex and channel;
 /// with one pass 16 more a sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay
@@ -200,15 +202,14 @@ struct Simplified {
 ///
 /// Fails with kUsage (no goal, an ignored sample or a point outside the raster, settings with a conflict (conflicts.h),
 /// a mask, tolerance or channel out of range, a goal out of range, a budget below what the outline needs),
-/// kMemory (a memory limit that cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that float32 positions
-/// or samples cannot keep, a mesh that rounding or a projection folds over), kCancelled.
+/// kMemory (a memory limit that cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that
+/// float32 positions or samples cannot keep, a mesh that rounding or a projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 /// The same towards goals alone: `simplify(field, {.max_error = 1.5})`.
 Result<Simplified> simplify(const HeightField& field, const Goals& goals);
 
-/// The same engine, one vertex at a time, by heights alone: channels are not looked at, and of a frame in space the
-/// heights above the tangent plane at its centre. Works on a copy of nothing:
-/// the samples must stay alive.
+/// The same engine, one vertex at a time, by heights alone: channels are ignored, and a frame in space counts by the
+/// heights above the tangent plane at its centre. Works on a copy of nothing: the samples must stay alive.
 class Refiner {
  public:
   /// Builds the triangulation of the outline and finds every triangle's worst sample.

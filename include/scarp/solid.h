@@ -27,7 +27,7 @@ struct Placement {
 void place_mesh(Mesh& mesh, const Placement& placement);
 
 /// The inverse, by metadata["placement"]: maps the rounded positions back to the raster's frame. Returns false, and
-/// leaves the mesh unchanged, if it was not placed.
+/// does not change the mesh, if it was not placed.
 bool undo_placement(Mesh& mesh);
 
 /// Closes a terrain into a solid as add_base() does, for readers that identify vertices by float32 positions. Positions
@@ -47,7 +47,7 @@ struct SolidFacts {
   std::uint64_t parts = 0;             ///< parts not connected by edges
   std::uint64_t inside_out = 0;        ///< parts whose volume is not positive
   double volume = 0;
-  std::array<double, 3> low{}, high{};  ///< of all vertices, the mesh's origin included
+  std::array<double, 3> low{}, high{};  ///< box of all vertices, the mesh's origin included
 
   /// Closed, each edge and each vertex as on a surface, facing outward.
   bool is_solid() const {
@@ -61,7 +61,7 @@ SolidFacts measure_solid(const Mesh& mesh);
 
 /// How a terrain is cut into print tiles.
 struct PrintTileOptions {
-  int columns = 1, rows = 1;  ///< of print tiles, at least 1
+  int columns = 1, rows = 1;  ///< number of print tiles, at least 1
   bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two tiles share. DEFAULT: none.
   double gap = 0;             ///< between neighbours, in the unit of `cell`, at least 0
   std::array<double, 2> cell{1, 1};  ///< width and height of a cell of the raster

@@ -19,7 +19,7 @@ namespace scarp {
 ///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
 ///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
 ///   kDistance          from the nearest corner of the sample's triangle, in samples: attenuates errors near vertices
-/// Opposite neighbours count in pairs. An incomplete pair (nodata, beyond the border) is left out, so a plane has no
+/// Opposite neighbours count in pairs. An incomplete pair (nodata, beyond the border) is omitted, so a plane has no
 /// feature on its border either.
 struct Importance {
   enum class Feature { kNoFeature, kLocal4, kLocal8, kCurvature, kDistance };
@@ -31,8 +31,8 @@ struct Importance {
   bool global = true;
   Feature feature = Feature::kNoFeature;
   Damping damping = Damping::kUndamped;
-  /// One pass: rank all samples by the feature, insert the best in that order until a goal is reached, never look back.
-  /// REQUIRES: a feature of the raster, and global = false.
+  /// One pass: rank all samples by the feature, insert the best in that order until a goal is reached, never
+  /// reconsider. REQUIRES: a feature of the raster, and global = false.
   bool one_pass = false;
 
   friend bool operator==(const Importance&, const Importance&) = default;
@@ -41,7 +41,7 @@ struct Importance {
 /// How the next candidate is found (the paper's section 4). All three insert the same samples in the same order.
 enum class Algorithm {
   kBruteForce,  ///< I: scan everything before each insertion. O(m n)
-  kLocal,       ///< II: rescan changed triangles, look through all triangles. O(n log m + m²)
+  kLocal,       ///< II: rescan changed triangles, scan all triangles. O(n log m + m²)
   kHeap,        ///< III: rescan changed triangles, keep triangles in a heap. O((n + m) log m)
 };
 
@@ -69,7 +69,7 @@ enum class EdgeScore {
              ///< vertex are tried until none improves: the fewest triangles (docs/algorithm.md)
 };
 
-/// Which diagonal of a quadrilateral is kept.
+/// The diagonal of a quadrilateral that is kept.
 struct EdgeRule {
   bool data_dependent = false;  ///< false: Delaunay
   EdgeScore score = EdgeScore::kSum;
@@ -94,18 +94,18 @@ struct Strategy {
   Algorithm algorithm = Algorithm::kHeap;
   Batch batch = {};     ///< DEFAULT: one at a time
   EdgeRule edges = {};  ///< DEFAULT: Delaunay
-  /// False: a budget that ends the run leaves the last mesh, as Scape does, though an earlier one may have been better.
-  /// DEFAULT: true. Always so where importance is not an error: one pass, products.
+  /// False: a budget that ends the run returns the last mesh, as Scape does, though an earlier one may have been
+  /// better. DEFAULT: true. Always so where importance is not an error: one pass, products.
   bool best_of_budget = true;
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
 };
 
-/// What a run did.
+/// Counters of a run.
 struct Work {
   std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
   std::uint64_t triangles_scanned = 0;  ///< triangles scanned
-  std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or looked through (kLocal)
+  std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or scanned (kLocal)
   std::uint64_t passes = 0;             ///< passes over the mesh: insertions, or batches
 };
 

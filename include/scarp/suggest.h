@@ -16,9 +16,9 @@ namespace scarp {
 
 /// A max error for a share of the triangles.
 struct Suggestion {
-  double share = 0;             ///< of the full grid's triangles, above 0, at most 1
-  std::optional<double> error;  ///< max error, in z units: a default run with it stays within the share, and may
-                                ///< take far less of it. Three significant digits. None: the outline alone needs more.
+  double share = 0;             ///< share of the full grid's triangles, above 0, at most 1
+  std::optional<double> error;  ///< max error, in z units: a default run with it stays within the share, and may use
+                                ///< far less of it. Three significant digits. None: the outline alone needs more.
 };
 
 struct Suggestions {
@@ -33,7 +33,7 @@ struct Suggestions {
 /// samples, refined as one: the window with the largest error gets the next vertex. Windows have more border for their
 /// area than the raster, so the estimate is a little too large. The result depends on the samples and the shares only.
 ///
-/// The field is borrowed during the call. Its channels are left out: errors are those of heights.
+/// The field is borrowed during the call. Its channels are omitted: errors are those of heights.
 /// `progress`: of the pass "estimate"; may be empty.
 /// Fails with kUsage for no shares, for shares not above 0, above 1 or not ascending, and for a field without samples
 /// in memory; with kInput if no cell is valid; with kCancelled. Memory: as a greedy run and a default run of simplify()

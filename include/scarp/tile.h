@@ -1,14 +1,14 @@
 // Tile pyramids of terrain on the globe: which tiles there are, how each is made, and the bytes of quantized-mesh.
 //
-// The grid (tile_grid.h) tells which tiles there are. A tile is a function of (its id, the plan, the heights of its
-// nodes and a few nodes around it). No neighbour enters it, so tiles may be made in any order, on any machine; two
-// neighbours still have the same vertices, heights and normals on the edge that they share.
+// The grid (tile_grid.h) lists the tiles. A tile is a function of (its id, the plan, the heights of its nodes and a few
+// nodes around it). No neighbour enters it, so tiles may be made in any order, on any machine; two neighbours still
+// have the same vertices, heights and normals on the edge that they share.
 //
 // NODES. The source is sampled on a lattice: `cells` cells a side for tiles of the finest level. Coarser tiles use all
 // nodes below them, down to the plan's level of blocks. The max error of a tile counts all of them.
 //
-// A LOCAL GRID lies on a plane, its nodes are the samples of one raster, and tiles end where that does. All that is
-// said of the earth's curve is 0 there.
+// A LOCAL GRID lies on a plane, its nodes are the samples of one raster, and tiles end where that does. All terms for
+// the earth's curve are 0 there.
 //
 // HEIGHTS are multiples of a quantum that a level shares, and a tile's header is chosen so that clients decode a height
 // to the same float32 in each tile.
@@ -39,7 +39,7 @@ namespace scarp {
 
 /// Samples of a source side by side on a straight line, at equal steps of degrees; NaN where there is none.
 struct SampleRow {
-  double longitude = 0, latitude = 0;            ///< of the first
+  double longitude = 0, latitude = 0;            ///< position of the first sample
   double step_longitude = 0, step_latitude = 0;  ///< to the next
   std::span<const float> heights;                ///< metres, as NodeSource::read() has them
 };
@@ -52,23 +52,24 @@ class NodeSource {
   /// Writes cols × rows heights in metres to `out`, the northern row first, NaN where there is none. A node's height is
   /// a function of its place alone. Several threads may call it at once. Fails as the samples' source does.
   virtual Result<void> read(const NodeWindow& window, std::span<float> out) const = 0;
-  /// A part of the window outside which no node has a height; without columns or rows where none has. DEFAULT: all of it.
+  /// A part of the window outside which no node has a height; without columns or rows where none has. DEFAULT: all of
+  /// it.
   virtual NodeWindow land(const NodeWindow& window) const { return window; }
-  /// Whether nodes are made of samples that visit_samples() shows. DEFAULT: false.
+  /// True if nodes are made of samples that visit_samples() shows. DEFAULT: false.
   virtual bool has_samples() const { return false; }
-  /// Shows all samples that lie in the box, and others around it, some perhaps twice; longitudes go on beyond 180°
+  /// Shows all samples that lie in the box, and others around it, some perhaps twice; longitudes continue beyond 180°
   /// where the box does. A row is valid during its visit. Several threads may call it at once. Fails as the samples'
   /// source does. DEFAULT: shows none.
   virtual Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const;
 };
 
-/// Where a raster lies on the globe, and what its samples are.
+/// The position of a raster on the globe, and the meaning of its samples.
 struct RasterPlace {
   /// From samples to the CRS's x and y, as Frame::affine.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
   /// From longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
   std::shared_ptr<const PointTransform> from_degrees = nullptr;
-  /// The inverse. Null where from_degrees is; without it nobody sees the samples.
+  /// The inverse. Null where from_degrees is; without it no samples are shown.
   std::shared_ptr<const PointTransform> to_degrees = nullptr;
 };
 
@@ -112,7 +113,7 @@ std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sourc
 Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
                                   const PointTransform* to_degrees);
 
-/// What to aim at.
+/// The goals of a pyramid.
 struct PyramidSettings {
   /// Nodes' cells a side of tiles of the finest level, a power of two, 16 … 256. DEFAULT: 128.
   int cells = 128;
@@ -127,18 +128,18 @@ struct PyramidSettings {
   Effort effort = Effort::kNormal;
   /// Height of nodes without a height, metres. DEFAULT: 0, the ellipsoid.
   float background = 0;
-  /// Whether each tile with a child has all four, also those without a height: clients of 3D Tiles leave a hole where
+  /// True if each tile with a child has all four, also those without a height: clients of 3D Tiles show a hole where
   /// one is missing, those of quantized-mesh cut it out of its parent. DEFAULT: false.
   bool has_siblings = false;
   Geodetic ellipsoid = {};
   TileGrid grid = {};  ///< DEFAULT: geographic.
-  /// Blocks that do not touch it are taken for places without heights. The others' tiles are those of the whole
+  /// Blocks that do not touch it are treated as places without heights. The others' tiles are those of the whole
   /// pyramid. DEFAULT: all.
   std::optional<DegreeBox> only = {};
-  /// Of a tile, as it is kept. Where a tile has more, the max error of its interior is doubled until it fits, or until
-  /// nothing but its border is left; the border stays. DEFAULT: 0, any.
+  /// Largest size of a tile, as it is kept. Where a tile has more, the max error of its interior is doubled until it
+  /// fits, or until only its border remains; the border stays. DEFAULT: 0, any.
   std::uint64_t max_tile_bytes = 0;
-  /// Whether the source's samples, each at its own place, are bound as nodes are. The finest level is then that of half
+  /// True if the source's samples, each at its own place, are bound as nodes are. The finest level is then that of half
   /// the cells: nodes are half as far apart as they need be, since samples far from the land between nodes cannot be
   /// reached. REQUIRES then: a source that has_samples(). DEFAULT: false.
   bool binds_samples = false;
@@ -151,7 +152,7 @@ struct TileWaters;
 /// A level of a pyramid.
 struct PyramidLevel {
   double geometric_error = 0;  ///< metres
-  double max_error = 0;        ///< of the tiles' meshes at their nodes, metres
+  double max_error = 0;        ///< max error of the tiles' meshes at their nodes, metres
   double quantum = 0;          ///< heights are multiples of this power of two, metres
   int segments = 1;            ///< edges of triangles span at most 1/segments of a tile, for the earth's curvature
 };
@@ -171,35 +172,35 @@ struct PyramidPlan {
   double least_quantum = 0;          ///< the finest that holds the source's heights; 0 in a plan that was read
   Effort effort = Effort::kNormal;
   float background = 0;
-  bool has_siblings = false;  ///< as in PyramidSettings
+  bool has_siblings = false;  ///< like PyramidSettings::has_siblings
   std::uint64_t max_tile_bytes = 0;
-  bool binds_samples = false;                        ///< as in PyramidSettings
+  bool binds_samples = false;                        ///< like PyramidSettings::has_siblings
   std::shared_ptr<const TileLines> lines = nullptr;  ///< null: none
   Geodetic ellipsoid = {};
   TileGrid grid = {};
   DegreeBox covered = {};  ///< by the source
-  /// Of a stack, else empty. Tiles below the block level are made only where a source asks for their level.
+  /// Sources of a stack, else empty. Tiles below the block level are made only where a source asks for their level.
   std::vector<PlannedSource> sources = {};
-  /// What the nodes were given, tile_waters.h; null without water.
+  /// Water of the nodes, tile_waters.h; null without water.
   std::shared_ptr<const TileWaters> waters = nullptr;
-  /// Whether tiles have masks of the lakes. REQUIRES then: waters; quantized-mesh. DEFAULT: false.
+  /// True if tiles have masks of the lakes. REQUIRES then: waters; quantized-mesh. DEFAULT: false.
   bool has_water_mask = false;
 
   int max_zoom() const { return static_cast<int>(levels.size()) - 1; }
 };
 
-/// What a plan needs to know of the source.
+/// The facts about the source that a plan needs.
 struct SourceFacts {
   DegreeBox covered = {};
   double cell = 0;          ///< metres along the ground, the geometric mean of both ways, above 0
   double min = 0, max = 0;  ///< bounds of its heights, metres
-  double cell_degrees = 0;  ///< as `cell`, of a raster in degrees; 0 for others
+  double cell_degrees = 0;  ///< like `cell`, for a raster in degrees; 0 for others
 };
 
 /// Fails with kUsage for settings out of range.
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings = {});
-/// Of a stack, at least one: the finest level is that of the source that asks for the finest, and so are the nodes
-/// everywhere.
+/// Plans for a stack of at least one source: the finest level is that of the source that asks for the finest, and so
+/// are the nodes everywhere.
 Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings = {});
 
 /// Gives the plan lines in place of those that it has; for its levels, and what is covered.
@@ -225,25 +226,25 @@ struct TerrainTile {
   /// Largest |mesh − node| over all nodes of the tile, of the heights as clients decode them, in metres, where edges
   /// are straight on the map. Above the plan's block level an upper bound.
   double node_error = 0;
-  /// What flat triangles lie below the ellipsoid's curve at most, in metres: adds to node_error in space.
+  /// The most that flat triangles lie below the ellipsoid's curve, in metres: adds to node_error in space.
   double sag = 0;
 
   double bound() const { return node_error + sag; }
 
   /// Largest |mesh − sample| over the source's samples in the tile, each at its own place, as node_error else; above
-  /// the plan's block level an upper bound. Samples beside a node without a height, where the mesh goes down to the
-  /// background, do not count. NaN where it is not known: the source has no samples to show, or nobody has looked.
+  /// the plan's block level an upper bound. Samples next to a node without a height, where the mesh goes down to the
+  /// background, do not count. NaN where it is not known: the source has no samples to show, or they were not examined.
   double source_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The tile, of as many bytes as it takes. Its node_error is at most the level's max error, but where positions in
+/// The tile, of as many bytes as it needs. Its node_error is at most the level's max error, but where positions in
 /// 32767ths of the tile cannot follow the land, next to a cliff; its source_error too, if the plan binds samples, but
 /// where these are too far from the land between the nodes around them. REQUIRES: plan.block_level <= id.z <=
 /// plan.max_zoom(). Fails as the source does.
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
 /// A tile above the plan's block level, of the nodes that its mesh needs and no others: the mesh of finish_pyramid(),
-/// but without its proof. node_error is NaN, for nobody has looked between these nodes. REQUIRES: id.z <
+/// but without its proof. node_error is NaN, since no nodes between these were examined. REQUIRES: id.z <
 /// plan.block_level. Cost: some 70,000 nodes, each read alone where they are far apart. Fails as the source does.
 Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
@@ -267,7 +268,7 @@ Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSo
 Result<std::vector<std::vector<std::uint64_t>>> find_tiles(const PyramidPlan& plan, const NodeSource* source,
                                                            const Run& run = {});
 
-/// Where the tiles of a pyramid go.
+/// The destination of a pyramid's tiles.
 class TileSink {
  public:
   virtual ~TileSink() = default;
@@ -277,18 +278,18 @@ class TileSink {
   virtual Result<void> put(TileId id, std::span<const std::uint8_t> bytes) = 0;
 };
 
-/// What the tiles of a level are like.
+/// Statistics about the tiles of a level.
 struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest of its tiles
   double source_error = 0;           ///< the same; NaN where one of them is
   /// Tiles whose node_error, or source_error if the plan binds samples, is above their max error: those with cliffs
   /// that rounded positions cannot follow, with samples that nodes cannot, and above the block level those whose
-  /// reduced nodes let no less be proven.
+  /// reduced nodes allow no smaller proven error.
   std::uint64_t over = 0;
   std::uint64_t coarser = 0;         ///< tiles whose max error is above the level's because of plan.max_tile_bytes
-  std::uint64_t oversized = 0;       ///< of these, those that have more bytes all the same: their borders alone do
-  std::uint64_t lines_left_out = 0;  ///< as TerrainTile::lines_left_out
+  std::uint64_t oversized = 0;       ///< number of these that have more bytes all the same: their borders alone do
+  std::uint64_t lines_left_out = 0;  ///< sum of TerrainTile::lines_left_out
 };
 
 struct PyramidReport {
@@ -296,7 +297,7 @@ struct PyramidReport {
   std::vector<LevelSummary> levels;               ///< 0 … the finest
   std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
 
-  /// Of other tiles of the same pyramid.
+  /// Adds the report of other tiles of the same pyramid.
   void add(const PyramidReport& more);
 };
 
@@ -304,25 +305,25 @@ struct PyramidReport {
 /// neighbours on the globe. All tiles below a block are made with it; any process may make any block.
 std::vector<TileId> find_blocks(const PyramidPlan& plan);
 
-/// What a block takes beside others, about: 1, and 1000 times the share of it that the source may cover.
+/// Relative cost of a block, about: 1, and 1000 times the share of it that the source may cover.
 std::uint64_t block_cost(const PyramidPlan& plan, TileId block);
 
-/// What is known of a block that was made.
+/// The facts about a block that was made.
 struct BlockReport {
   TileId block;
   PyramidReport report;
   /// For finish_pyramid(): its nodes reduced to 128 cells a side, and bounds of what the reduction lost, 390 kB. The
   /// same bytes on every machine. Empty for a block without heights.
   std::vector<std::uint8_t> reduced;
-  std::uint64_t hash = 0;  ///< as hash_block()
-  /// What making it took: CPU time, and the most memory that the process had until then. Set by whoever measures it.
+  std::uint64_t hash = 0;  ///< result of hash_block()
+  /// Cost of making it: CPU time, and the most memory that the process had until then. Set by whoever measures it.
   double core_seconds = 0;
   std::uint64_t memory = 0;
 };
 
 /// Makes the tiles of one block that have heights, their siblings if the plan wants them, and the block's own in any
 /// case. A tile's bytes are those of
-/// make_kept_tile(). Tiles of levels below `deepest` are left out, and their errors of the report; all else is that of
+/// make_kept_tile(). Tiles of levels below `deepest` are omitted, and their errors from the report; all else is that of
 /// the whole block. REQUIRES: find_blocks() names the block.
 ///
 /// Cost: each node is read once; memory: that of its nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
@@ -330,7 +331,7 @@ struct BlockReport {
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
                                const Run& run = {}, int deepest = std::numeric_limits<int>::max());
 
-/// A hash of all that make_block() takes from the source, nodes and samples, and of the shapes of water masks: blocks
+/// A hash of all that make_block() reads from the source, nodes and samples, and of the shapes of water masks: blocks
 /// of one hash and one plan have the same tiles and errors. 0 for a block without heights and masks. Cost: the nodes
 /// are read; memory as make_block(). Fails as the source does.
 Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads = 0);
@@ -367,7 +368,7 @@ struct QuantizedMesh {
   /// a fault of the file's.
   std::vector<std::uint8_t> water_mask;
 
-  /// As clients decode it: min + (max − min) · h / 32767.
+  /// The height that clients decode: min + (max − min) · h / 32767.
   double height(std::size_t vertex) const {
     const double low = double{min_height}, high = double{max_height};
     return low + (high - low) * (static_cast<double>(h[vertex]) / 32767);

@@ -6,8 +6,8 @@
 // Clients place vertices by the tile's bounds in degrees, linearly. So do nodes of the geographic grid lie, evenly;
 // rows of the Mercator grid are evenly apart on its map, not in degrees.
 //
-// A local grid lies on a plane, over one raster, whose samples its nodes are. What is called degrees, longitude and
-// latitude here are in it cells of the raster, to the east and to the north of its south-western sample.
+// A local grid lies on a plane, over one raster, whose samples its nodes are. Degrees, longitude and latitude are in it
+// cells of the raster, to the east and to the north of its south-western sample.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ struct LocalRaster {
 
   friend bool operator==(const LocalRaster&, const LocalRaster&) = default;
 
-  static constexpr std::int64_t kPlaces = 32768;  ///< of vertices on a side of a tile
+  static constexpr std::int64_t kPlaces = 32768;  ///< number of positions of vertices on a side of a tile
 
  private:
   std::int64_t centre_of(std::int64_t samples) const {
@@ -72,7 +72,7 @@ struct NodeWindow;
 /// Whoever needs to know where a tile or a node lies asks its grid.
 struct TileGrid {
   GridKind kind = GridKind::kGeographic;
-  LocalRaster local = {};  ///< of a local grid
+  LocalRaster local = {};  ///< raster of a local grid
 
   /// The smallest that holds the raster, with so many cells a side of a tile of its finest level. Rounds the cell's
   /// sides to 29 bits.
@@ -85,7 +85,7 @@ struct TileGrid {
   /// "geographic", "mercator", "local". find() knows nothing of a local grid but its kind.
   std::string_view name() const;
   static std::optional<TileGrid> find(std::string_view name);
-  /// What layer.json calls it; "" for a local grid, which has none.
+  /// Its name in layer.json; "" for a local grid, which has none.
   std::string_view projection() const;
   static std::optional<TileGrid> find_projection(std::string_view projection);
 
@@ -93,17 +93,17 @@ struct TileGrid {
   std::uint32_t roots() const { return kind == GridKind::kGeographic ? 2 : 1; }
   std::uint32_t columns(int z) const { return roots() << z; }
   std::uint32_t rows(int z) const { return std::uint32_t{1} << z; }
-  /// Of a local grid tiles beside the raster are none.
+  /// True for the grid's tiles; on a local grid false for tiles outside the raster.
   bool has(TileId id) const;
-  /// What a side of a tile is in the units of u and v of its vertices. On local grids nodes are whole ones of these.
+  /// Length of a tile's side in the units of u and v of its vertices. On local grids nodes are whole ones of these.
   std::int32_t side_units() const { return is_flat() ? static_cast<std::int32_t>(LocalRaster::kPlaces) : 32767; }
 
   /// Degrees to add to a tile's bounds for all its places that a source may cover: turns, where the last column of
   /// tiles is next to the first.
   std::span<const double> turns() const;
-  /// Whether the first and the last row of nodes are a pole each: one place.
+  /// True if the first and the last row of nodes are a pole each: one place.
   bool has_poles() const { return kind == GridKind::kGeographic; }
-  /// Whether rows of nodes are evenly apart in degrees.
+  /// True if rows of nodes are evenly apart in degrees.
   bool has_even_rows() const { return kind != GridKind::kMercator; }
   /// Nodes that have land: those of a local grid's raster, with those next beyond it where none is on its edge; of
   /// other grids all, also beyond a turn.
@@ -115,7 +115,7 @@ struct TileGrid {
   /// Degrees of a row of nodes, where rows count from 0, the northern end, to `last_row`, a power of two. The same bits
   /// on every machine.
   double latitude(std::int64_t row, std::int64_t last_row) const;
-  /// Of a column's nodes, −180 … 180, the same bits after each turn.
+  /// Longitude of a column's nodes, −180 … 180, the same bits after each turn.
   double longitude(std::int64_t col, std::int64_t per_turn) const {
     if (is_flat()) return static_cast<double>(local.side) * (static_cast<double>(col) / static_cast<double>(per_turn));
     const std::int64_t wrapped = ((col % per_turn) + per_turn) % per_turn;
@@ -150,7 +150,7 @@ struct NodeWindow {
   TileGrid grid = {};
 
   std::int64_t last_row() const { return grid.last_row(per_turn); }
-  /// Whether a row is a pole: one place.
+  /// True if a row is a pole: one place.
   bool is_pole(std::int64_t of_row) const { return grid.has_poles() && (of_row == 0 || of_row == last_row()); }
   /// Degrees of a column's nodes, −180 … 180, the same bits after each turn.
   double longitude(std::int64_t of_col) const { return grid.longitude(of_col, per_turn); }

@@ -5,10 +5,10 @@
 //   finish   finish_parts(): the levels above the blocks, and the set
 //
 // Nothing but the plan and the parts passes between processes. A block that is in a part is never made again, so a run
-// that was interrupted goes on where it was. The set is that of make_pyramid(), byte for byte, whoever made its blocks.
+// that was interrupted resumes where it was. The set is that of make_pyramid(), byte for byte, whoever made its blocks.
 //
-// After a change of the sources a new plan with the settings of the one before takes its parts: blocks whose nodes are
-// what they were are kept.
+// After a change of the sources a new plan with the settings of the one before reuses its parts: blocks whose nodes are
+// unchanged are kept.
 #pragma once
 
 #include <cstdint>
@@ -37,9 +37,9 @@ struct TileJob;
 class GlobeRaster {
  public:
   /// `mosaics`: at least one; the rasters of each lie on one grid, as find_mosaics() puts them together. Reads them, or
-  /// leaves them in their files where memory does not hold them, as open_height_field(); options.crs and
+  /// keeps them in their files where memory does not hold them, as open_height_field(); options.crs and
   /// options.view.more are not read. Fails as that and place_on_globe() do; with kUsage for options.view of several
-  /// mosaics, and where the datum is another one than a raster's CRS says; with kInput for several planets.
+  /// mosaics, and where the datum is another one than a raster's CRS declares; with kInput for several planets.
   ///
   /// `grid`: nothing: what suits the first raster, grid_for(). With a local one there is one mosaic, kUsage else, which
   /// place_on_plane() places.
@@ -59,11 +59,11 @@ class GlobeRaster {
   /// Its grid of tiles, with so many cells a side of one of the finest level.
   TileGrid grid(int cells) const;
   const std::optional<RasterOnPlane>& plane() const;  ///< with a local grid
-  const RasterInfo& info() const;             ///< of the first
-  const RasterOnGlobe& place() const;         ///< of the first
-  VoidCount voids() const;                    ///< RasterInfo::voids of all together
-  std::string heights_above() const;          ///< RasterOnGlobe::vertical of all, each once
-  std::vector<std::string> warnings() const;  ///< RasterInfo::warnings of all, and of find_waters()
+  const RasterInfo& info() const;                     ///< facts about the first raster
+  const RasterOnGlobe& place() const;                 ///< position of the first raster
+  VoidCount voids() const;                            ///< RasterInfo::voids of all together
+  std::string heights_above() const;                  ///< RasterOnGlobe::vertical of all, each once
+  std::vector<std::string> warnings() const;          ///< RasterInfo::warnings of all, and of find_waters()
 
  private:
   friend Result<void> find_waters(TileJob& job, GlobeRaster& raster);
@@ -73,42 +73,42 @@ class GlobeRaster {
 };
 
 /// The rasters, those of folders in place of these, put together to mosaics: neighbours in the list that lie on one
-/// grid, have one type and one nodata value, and one CRS, its datum of heights included. What cannot be opened stands
-/// alone.
+/// grid, have one type and one nodata value, and one CRS, its datum of heights included. A raster that cannot be opened
+/// stands alone.
 std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
 
-/// What tells a file from a later one of the same name.
+/// The facts that distinguish a file from a later one of the same name.
 struct FileStamp {
   std::string path;  ///< absolute, where it names a file
   std::uint64_t size = 0;
   std::int64_t changed = 0;   ///< nanoseconds since 1970; both 0 for what is no file, such as a URL
-  std::uint64_t content = 0;  ///< a hash of its bytes; 0: nobody has looked at them
+  std::uint64_t content = 0;  ///< a hash of its bytes; 0: they were not read
 
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-/// Of a file that is there; else the path alone.
+/// The stamp of an existing file; else the path alone.
 FileStamp stamp_of(const std::string& path);
 
-/// What making a set will take, of a few tiles that were made to see.
+/// The estimated cost of making a set, from a few tiles that were made as a trial.
 struct TileEstimate {
-  std::uint64_t blocks = 0;        ///< that may have heights
-  std::uint64_t finest_tiles = 0;  ///< of the finest level
-  std::uint64_t tiles = 0;         ///< of all levels
-  std::uint64_t bytes = 0;         ///< of the tiles, as kept
+  std::uint64_t blocks = 0;        ///< number that may have heights
+  std::uint64_t finest_tiles = 0;  ///< number on the finest level
+  std::uint64_t tiles = 0;         ///< number on all levels
+  std::uint64_t bytes = 0;         ///< size of the tiles, as kept
   double core_seconds = 0;         ///< on this machine
   std::uint64_t memory = 0;        ///< bytes of a process with one thread, without the raster
   std::uint64_t parts = 0;         ///< bytes of the parts, until the set is finished
 };
 
-/// Vector files of water, as read_lines() takes them: FILE or FILE:LAYER.
+/// Vector files of water, as read_lines() accepts them: FILE or FILE:LAYER.
 struct WaterFiles {
   std::vector<std::string> lakes, rivers;
-  double percentile = 5;  ///< as in WaterOptions
+  double percentile = 5;  ///< like WaterOptions::percentile
 
   bool is_empty() const { return lakes.empty() && rivers.empty(); }
 };
 
-/// An image laid over the tiles, of 3D Tiles alone.
+/// An image draped over the tiles, of 3D Tiles alone.
 struct TileDrape {
   std::vector<FileStamp> files;  ///< the image, and others that it is made of
   ImageFormat format = ImageFormat::kJpeg;
@@ -125,14 +125,14 @@ struct TileJob {
   std::vector<FileStamp> files;        ///< others that they are made of, such as those that a VRT names, and of water
   ReadOptions reading;  ///< band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
   Datum datum;
-  FileStamp geoid;  ///< of datum.geoid, where that is given
-  WaterFiles waters;  ///< what plan.waters was found of
+  FileStamp geoid;    ///< stamp of datum.geoid, if that is given
+  WaterFiles waters;  ///< sources of plan.waters
   TileFormat format = TileFormat::kQuantizedMesh;
   std::optional<TileDrape> drape = std::nullopt;
   PyramidPlan plan;
-  LayerFacts facts;                      ///< but for the version
-  std::string parts;                     ///< folder of the parts of the plan before; empty for a plan that follows none
-  /// What each of find_blocks() takes, as survey_blocks() found; empty: nobody has looked.
+  LayerFacts facts;   ///< but for the version
+  std::string parts;  ///< folder of the parts of the plan before; empty for a plan that follows none
+  /// Cost of each of find_blocks(), as survey_blocks() found; empty: not surveyed.
   std::vector<std::uint32_t> costs;
   std::optional<TileEstimate> estimate;  ///< no part of any key
   std::uint64_t filled = 0;              ///< missing samples that were filled; no part of any key
@@ -141,11 +141,12 @@ struct TileJob {
 /// The bytes that the job keeps of a tile. Opens its image. Borrows the job. Fails as open_globe_image().
 Result<TileEncoder> open_tile_encoder(const TileJob& job);
 
-/// Sets job.rasters and job.files: what these rasters are made of, as list_files() tells.
+/// Sets job.rasters and job.files: the files of these rasters, by list_files().
 void stamp_rasters(TileJob& job, const std::vector<std::string>& paths);
 
-/// Reads job.waters, if there are any, finds their levels on the raster's nodes, and sets job.plan.waters, job.files and
-/// the raster's nodes(). Fails as read_lines() and find_tile_waters() do. REQUIRES: job.plan is set, of this raster.
+/// Reads job.waters, if there are any, finds their levels on the raster's nodes, and sets job.plan.waters, job.files
+/// and the raster's nodes(). Fails as read_lines() and find_tile_waters() do. REQUIRES: job.plan is set, of this
+/// raster.
 Result<void> find_waters(TileJob& job, GlobeRaster& raster);
 
 /// The text of a plan file: JSON. Numbers are read back exactly.
@@ -154,18 +155,18 @@ std::vector<std::uint8_t> encode_tile_job(const TileJob& job);
 Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 /// decode_tile_job() of a file. Fails with kInput where it cannot be read, too.
 Result<TileJob> read_tile_job(const std::string& path);
-/// The rasters by mosaics, as GlobeRaster::open() takes them.
+/// The rasters by mosaics, as GlobeRaster::open() accepts them.
 std::vector<std::vector<std::string>> mosaics_of(const TileJob& job);
 /// A hash of all of it.
 std::uint64_t key_of(const TileJob& job);
-/// A hash of what makes tiles of nodes: parts of other settings are not taken.
+/// A hash of all that makes tiles from nodes: parts of other settings are not reused.
 std::uint64_t settings_key_of(const TileJob& job);
 /// A hash of the files' stamps: of their content alone where that is known.
 std::uint64_t sources_key_of(const TileJob& job);
 /// Reads all files for their content. Fails with kInput.
 Result<void> add_contents(TileJob& job);
-/// The first file, the geoid's included, that is not what it was when the plan was made, and what became of it: "a.tif is
-/// not there any more". Nothing if all are.
+/// The first file, the geoid's included, that is not what it was when the plan was made, and what became of it: "a.tif
+/// is not there any more". Nothing if all are.
 std::optional<std::string> find_changed(const TileJob& job);
 /// Fails with kInput for find_changed().
 Result<void> check_rasters(const TileJob& job);
@@ -178,9 +179,9 @@ Result<TileJob> follow_job(const TileJob& earlier, TileJob now);
 /// Makes `samples` tiles of the finest level, evenly over the blocks, on one thread. Fails as make_tile() does.
 Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples = 24);
 
-/// Reads all nodes once and sets job.costs: 1 for a block, and 1000 times the share of its nodes that have heights; shares
-/// are then of equal cost. Memory: some rows of a block's nodes a thread. Progress: pass "survey". Fails as the source
-/// does, and with kCancelled.
+/// Reads all nodes once and sets job.costs: 1 for a block, and 1000 times the share of its nodes that have heights;
+/// shares are then of equal cost. Memory: some rows of a block's nodes a thread. Progress: pass "survey". Fails as the
+/// source does, and with kCancelled.
 Result<void> survey_blocks(TileJob& job, const NodeSource& nodes, const Run& run = {});
 
 /// One of n shares of the blocks: consecutive ones of find_blocks(), 1 … of, of about the same cost.
@@ -189,12 +190,12 @@ struct Shard {
 };
 
 /// The blocks that processes made so far: files in a folder. Each process that makes some writes a file of its own,
-/// which it only ever appends to; a record that was cut off is not looked at. A record tells of which files' stamps and
-/// of which nodes a block was made, or that a block of these nodes is right for other stamps, too.
+/// which it only ever appends to; a record that was cut off is ignored. A record holds the files' stamps and the hash
+/// of the nodes that a block was made of, or that a block of these nodes is right for other stamps, too.
 class TileParts {
  public:
-  /// Looks at all parts in the folder, which need not be there. Fails with kInput for parts of other settings, and
-  /// where they cannot be read.
+  /// Reads all parts in the folder, which need not be there. Fails with kInput for parts of other settings, and where
+  /// they cannot be read.
   static Result<std::unique_ptr<TileParts>> open(const std::string& folder, const TileJob& job);
   TileParts(const TileParts&) = delete;
   TileParts& operator=(const TileParts&) = delete;
@@ -206,10 +207,10 @@ class TileParts {
   bool has_any(TileId block) const;
   /// The block, of these nodes.
   bool has_nodes(TileId block, std::uint64_t nodes) const;
-  /// Looks again at the parts of one share. Fails as open().
+  /// Reads the parts of one share again. Fails as open().
   Result<void> look_again(Shard shard);
-  /// What make_block() returned, and the block's tiles in their order, each handed to `put`. Fails with kInput for a
-  /// damaged part, with the file's name, and as `put` does.
+  /// Returns the report of make_block(), and hands each of the block's tiles, in their order, to `put`. Fails with
+  /// kInput for a damaged part, with the file's name, and as `put` does.
   Result<BlockReport> read(TileId block,
                            const std::function<Result<void>(TileId, std::span<const std::uint8_t>)>& put) const;
 
@@ -220,34 +221,34 @@ class TileParts {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What a process made.
+/// The work of one process.
 struct PartsReport {
   std::uint64_t blocks = 0;     ///< made now
-  std::uint64_t there = 0;      ///< of its share, made before, or meanwhile by another process
+  std::uint64_t there = 0;      ///< number in its share that were made before, or meanwhile by another process
   std::uint64_t unchanged = 0;  ///< made before of other files, whose nodes are the same
   std::uint64_t tiles = 0, bytes = 0;
   bool has_company = false;  ///< another process made the same share when this one began
 };
 
 /// Makes the blocks of a share that no part has, and appends them to a new file of the folder, which is made if needed.
-/// Each block is on the disk before the next is begun. `only`: leaves out blocks that do not touch it. Of a block that
-/// is there of other sources the nodes are read, and it is made if they are others. Two processes may make one share at
-/// once: the second begins at its end. Progress: pass "tiles"; `tell` hears of the report after each block. Fails as
-/// make_block(), as check_rasters() after each block, which is not kept then, with kOutput where the file cannot be written, and with
-/// kCancelled; blocks that were made stay.
+/// Each block is on the disk before the next is begun. `only`: omits blocks that do not touch it. If a block exists
+/// from other sources, its nodes are read, and it is made again if they differ. Two processes may make one share at
+/// once: the second begins at its end. Progress: pass "tiles"; `tell` receives the report after each block. Fails as
+/// make_block(), as check_rasters() after each block, which is not kept then, with kOutput where the file cannot be
+/// written, and with kCancelled; blocks that were made stay.
 Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, const std::string& folder, Shard shard,
                                const Run& run = {}, const std::optional<DegreeBox>& only = {},
                                const std::function<void(const PartsReport&)>& tell = {});
 
-/// What making the blocks of a set took.
+/// The cost of making the blocks of a set.
 struct PartsCost {
-  double core_seconds = 0;   ///< of all blocks, with the levels above
+  double core_seconds = 0;   ///< total of all blocks, with the levels above
   std::uint64_t memory = 0;  ///< the most that a process had, its raster included
   std::uint64_t parts = 0;   ///< bytes of the parts' records
 };
 
 /// Puts all tiles of the parts and the levels above them into the set, and finishes it. Fails with
-/// kInput where blocks are missing, telling how many, and as finish_pyramid() and the set do.
+/// kInput where blocks are missing, with their number, and as finish_pyramid() and the set do.
 Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder, TileSetWriter& set,
                                    const Run& run = {}, PartsCost* cost = nullptr);
 

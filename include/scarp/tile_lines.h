@@ -26,14 +26,14 @@ class TileLines {
  public:
   /// A node of a tile: column, row, from its north-western corner.
   using Node = std::array<std::int32_t, 2>;
-  /// What passes a tile.
+  /// The lines that pass a tile.
   struct Paths {
     std::vector<std::array<Node, 2>> steps;  ///< straight; none of them along an edge of the tile
     EdgeVertices edges;                      ///< nodes that must be vertices, ascending, each once
   };
 
-  /// Of the levels 0 … max_zoom. `covered`: elsewhere nothing is known, but for tiles around it down to the block
-  /// level.
+  /// Builds the lines of levels 0 … max_zoom. `covered`: elsewhere nothing is known, but for tiles around it down to
+  /// the block level.
   TileLines(std::vector<DegreeLine> lines, const TileGrid& grid, int cells, int max_zoom, int block_level,
             const DegreeBox& covered);
 

@@ -7,7 +7,7 @@
 //   .mbtiles         MBTiles 1.3: a database of SQLite
 //   .3tz             3D Tiles Archive 1.3: ZIP, not compressed
 //   (none of these)  a folder: each tile and each file under its name; any web server can serve it
-// docs/tiles.md tells how each holds what.
+// docs/tiles.md describes what each holds.
 #pragma once
 
 #include <cstdint>
@@ -33,15 +33,15 @@ enum class TileFormat {
   kGlb,            ///< named "r/z/x/y.glb", where x counts within root r: x of the TileId is r · 2^z + x
 };
 
-/// The name that a tile has where tiles are files, as TileFormat says.
+/// The name of a tile where tiles are files, by TileFormat.
 std::string tile_name(TileFormat format, TileId id);
 /// The reverse; nothing for other names, and for tiles that no grid has.
 std::optional<TileId> find_tile_id(TileFormat format, std::string_view name);
 
-/// Takes a set of tiles into its container. One thread at a time.
+/// Writes a set of tiles into its container. One thread at a time.
 class TileSetWriter {
  public:
-  /// What is not finished leaves nothing.
+  /// An unfinished set is removed.
   virtual ~TileSetWriter() = default;
   /// The bytes as they are kept: readers get the same. Tiles may come in any order. REQUIRES: each id once, of the
   /// grid. Fails with kOutput.
@@ -49,19 +49,19 @@ class TileSetWriter {
   /// Fails with kOutput. REQUIRES: each name once; it is a relative path of plain parts, no tile's name, and one of
   /// "layer.json", "tileset.json" and "subtrees/….subtree" if Scarp is to know the set as its own.
   virtual Result<void> put_file(const std::string& name, std::span<const std::uint8_t> bytes) = 0;
-  /// The set takes its name. Fails with kOutput. REQUIRES: called once, at the end.
+  /// Gives the set its name. Fails with kOutput. REQUIRES: called once, at the end.
   virtual Result<void> finish() = 0;
 };
 
-/// Fails with kUsage for a name that says neither folder nor container: that of a mesh, an image, one tile. A folder
-/// that is there may have any name, and so may one that ends with a slash.
+/// Fails with kUsage for a name of neither folder nor container: that of a mesh, an image, one tile. A folder that is
+/// there may have any name, and so may one that ends with a slash.
 Result<void> check_set_name(const std::string& path);
 /// A set under a temporary name in the folder of `path`, until finish(). A folder's is ".scarp-tiles-…"; the next set
-/// of the same name removes those that killed processes of this machine left. One file takes the room of the set twice
+/// of the same name removes those that killed processes of this machine left. One file needs the room of the set twice
 /// until then; memory: 24 bytes a tile, with PMTiles twice that. The bytes of the finished set do not depend on the
 /// order of its tiles and files. Fails with kOutput where `path` exists, unless it is an empty folder and the set is to
 /// be one, or `overwrite` is true and it is a set of Scarp's tiles with nothing else in it: "layer.json" or
-/// "tileset.json" say whose it is. Fails with kOutput where nothing can be made, too, and as check_set_name().
+/// "tileset.json" show whose it is. Fails with kOutput where nothing can be made, too, and as check_set_name().
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite);
 
 /// Reads a finished set. Several threads may read at once.
@@ -73,12 +73,13 @@ class TileSetReader {
   virtual const std::vector<std::vector<std::uint64_t>>& tiles() const = 0;
   /// Names of the other files, sorted.
   virtual std::vector<std::string> files() const = 0;
-  /// As they are kept, compressed or not. Fails with kInput where there is no such tile, or the container is damaged.
+  /// The bytes as they are kept, compressed or not. Fails with kInput where there is no such tile, or the container is
+  /// damaged.
   virtual Result<std::vector<std::uint8_t>> read_tile(TileId id) const = 0;
   virtual Result<std::vector<std::uint8_t>> read_file(const std::string& name) const = 0;
-  /// Whether the container says that all tiles are in gzip; nothing where it says nothing of that.
+  /// True if the container declares that all tiles are in gzip; nothing if it declares nothing about that.
   virtual std::optional<bool> says_gzip() const { return std::nullopt; }
-  /// Sentences: what the container says of itself, for other readers than this one, and is not so. Reads its indexes
+  /// Sentences: false statements of the container about itself, for other readers than this one. Reads its indexes
   /// whole.
   virtual std::vector<std::string> find_faults() const { return {}; }
 };
@@ -91,34 +92,34 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 /// The grid of tiles that a set's layer.json or tileset.json names; else the geographic one.
 TileGrid find_grid(const TileSetReader& set);
 
-/// What --vertical was when the set was made, as its layer.json or tileset.json tells; empty where it does not.
+/// The value of --vertical when the set was made, from its layer.json or tileset.json; empty if they do not hold it.
 std::string find_vertical(const TileSetReader& set);
 
-/// What a set says of itself besides the tiles.
+/// The facts that a set declares in addition to the tiles.
 struct LayerFacts {
   std::string name = "terrain";
   std::string description;
   std::string attribution;
-  std::string heights_above;          ///< what the source's heights are above, in words; those of tiles: the ellipsoid
-  std::string vertical;               ///< Datum::vertical as an option names it; empty for kAuto and kGeoid
-  std::string body;                   ///< whose ellipsoid, as RasterOnGlobe::body
-  std::string units;                  ///< of a local grid's cells, as RasterOnPlane::units; empty with others
-  std::optional<PlaneOnGlobe> plane = std::nullopt;  ///< of a local grid that has a place on the globe
+  std::string heights_above;  ///< the zero of the source's heights, in words; those of tiles: the ellipsoid
+  std::string vertical;       ///< Datum::vertical as an option names it; empty for kAuto and kGeoid
+  std::string body;           ///< whose ellipsoid, as RasterOnGlobe::body
+  std::string units;          ///< units of a local grid's cells, like RasterOnPlane::units; empty with others
+  std::optional<PlaneOnGlobe> plane = std::nullopt;  ///< plane of a local grid that has a position on the globe
   std::string version = {};  ///< changes with any tile: clients ask for tiles with it, past old copies; sinks find it
 };
 
-/// What stands behind a length of a set whose LayerFacts::units these are: " m", or nothing where they are no metres.
+/// Suffix for lengths of a set with these LayerFacts::units: " m", or nothing where they are no metres.
 inline const char* unit_behind(std::string_view units) { return units.empty() || units == "metre" ? " m" : ""; }
 
 /// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first. Without report.levels it
-/// says nothing of errors that tiles have: those of tiles that are not made yet.
+/// holds no errors of tiles: those of tiles that are not made yet.
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
 
-/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles. Borrows the
-/// plan.
+/// The encoder of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
+/// Borrows the plan.
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
-/// Of kGlb, with a texture of the image on each tile.
+/// The encoder of kGlb, with a texture of the image on each tile.
 TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format);
 
 /// Tiles of a format into a set.
@@ -131,8 +132,8 @@ class TileSetSink : public TileSink {
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
   /// A hash of all tiles put so far, whatever their order: 16 hexadecimal digits.
   std::string version() const;
-  /// Puts the files that tell clients of the tiles: layer.json. Once, after all tiles. Fails with kOutput. Adds to the
-  /// report's bounds what the format adds to the tiles'.
+  /// Writes the metadata file for clients: layer.json. Once, after all tiles. Fails with kOutput. Adds to the report's
+  /// bounds what the format adds to the tiles'.
   virtual Result<void> put_files(PyramidReport& report, LayerFacts facts);
 
  protected:

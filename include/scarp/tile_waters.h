@@ -28,40 +28,40 @@ struct TileLake {
 
 struct TileRiver {
   std::string name;
-  std::vector<std::array<double, 3>> course;  ///< with heights above the zero of heights, NaN beside the source
+  std::vector<std::array<double, 3>> course;  ///< with heights above the zero of heights, NaN outside the source
 };
 
 struct TileWaters {
   std::vector<TileLake> lakes;  ///< a node in several belongs to the last
   std::vector<TileRiver> rivers;
   DegreeBox covered = {};     ///< by the source: nodes beyond have no heights
-  TileGrid grid = {};         ///< of the lattice
-  std::int64_t per_turn = 0;  ///< of the lattice: NodeWindow::per_turn
+  TileGrid grid = {};         ///< grid of the lattice
+  std::int64_t per_turn = 0;  ///< nodes of the lattice per turn: NodeWindow::per_turn
 };
 
-/// What waters are found of. Coordinates of lines are degrees.
+/// The sources of water. Coordinates of lines are degrees.
 struct WaterLines {
   std::vector<Line> lakes;   ///< polygons; other lines do not count
   std::vector<Line> rivers;  ///< open lines; others do not count
-  double percentile = 5;     ///< as in WaterOptions
+  double percentile = 5;     ///< like WaterOptions::percentile
 };
 
 /// Levels of lakes and profiles of rivers on the finest lattice of the plan, as find_lakes() and carve_rivers() have
 /// them. They are above `zero`, null for the ellipsoid: so water follows the geoid. Profiles are within half of the
-/// finest level's max error of the exact ones. `covered`: by the source. Rings are taken the short way where an edge
-/// is longer than half a turn. Fails with kUsage for a percentile out of range, for a polygon around a pole, and for
-/// more nodes side by side than lines can count; as the source does. Cost: of the nodes those along shores and rivers
-/// are read.
+/// finest level's max error of the exact ones. `covered`: by the source. Rings follow the short way where an edge is
+/// longer than half a turn. Fails with kUsage for a percentile out of range, for a polygon around a pole, and for more
+/// nodes side by side than lines can count; as the source does. Cost: of the nodes those along shores and rivers are
+/// read.
 Result<TileWaters> find_tile_waters(const PyramidPlan& plan, const NodeSource& nodes,
                                     const std::shared_ptr<const HeightZero>& zero, const DegreeBox& covered,
                                     const WaterLines& lines);
 
 /// The nodes of `source` with the water in them. Nodes in a lake have its level. The eight around each that are in no
 /// lake lie at least a centimetre above it. The nodes nearest to a river have its height, but those of lakes. Nodes
-/// without a height stay so, and so do poles. Of samples those at a place between four nodes of one lake have its
-/// level; those between nodes of which some have water are none. Borrows the source. Reading fails with kUsage for a
-/// window of another grid, or of other nodes than waters.per_turn or a half, a third, … of them. Memory: 12 bytes for
-/// each row of nodes of a lake, and for each node of a river, that was looked at.
+/// without a height stay so, and so do poles. Samples at a place between four nodes of one lake have its level; those
+/// between nodes of which some have water are none. Borrows the source. Reading fails with kUsage for a window of
+/// another grid, or of other nodes than waters.per_turn or a half, a third, … of them. Memory: 12 bytes for each row of
+/// nodes of a lake, and for each node of a river, that was read.
 std::unique_ptr<NodeSource> make_watered_source(const NodeSource& source, std::shared_ptr<const TileWaters> waters,
                                                 std::shared_ptr<const HeightZero> zero);
 
@@ -70,10 +70,10 @@ class WaterMasks {
  public:
   explicit WaterMasks(const TileWaters& waters);
   /// 256 rows of 256 texels from the north, evenly apart in degrees: 255 times the share of 4 × 4 places in a texel
-  /// that lie in a lake. One byte where all are the same. Of the polygons on each level, also of lakes without a level.
-  /// A function of its arguments.
+  /// that lie in a lake. One byte where all are the same. It shows the polygons on each level, also lakes without a
+  /// level. A function of its arguments.
   std::vector<std::uint8_t> draw(TileId id) const;
-  /// Of the lakes that may reach into the tile or those below it; 0 of none.
+  /// A hash of the lakes that may reach into the tile or those below it; 0 for none.
   std::uint64_t hash(TileId id) const;
 
  private:
@@ -85,7 +85,7 @@ class WaterMasks {
   void each_lake(TileId id, const Use& use) const;
 
   const TileWaters* waters_;
-  std::vector<Box> boxes_;  ///< of the lakes
+  std::vector<Box> boxes_;  ///< boxes of the lakes
 };
 
 }  // namespace scarp

@@ -19,12 +19,12 @@ namespace scarp {
 
 /// Bounds of their own for samples.
 struct Tolerances {
-  /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, beside
-  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own: where a budget has no room for it,
-  /// one factor enlarges all tolerances (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
+  /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, and
+  /// within max_error if that is given; |error| / tolerance is ranked. A goal of its own: where a budget has no room
+  /// for it, one factor enlarges all tolerances (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
   std::span<const float> values = {};
   /// The same where the field has a source, read in windows as its samples are (no NaN): there the above fails with
-  /// kUsage, as this does beside samples in memory. Borrowed. DEFAULT: none.
+  /// kUsage, as this does with samples in memory. Borrowed. DEFAULT: none.
   const SampleSource* source = nullptr;
   /// Weights, one a sample, at least 0 and finite (Terra's importance mask): weight · |error| is what is ranked and
   /// what max_error bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
@@ -48,7 +48,7 @@ struct OwnedTolerances {
   std::vector<float> values;                   ///< for Tolerances::values; empty where they have a source
   std::shared_ptr<const SampleSource> source;  ///< for Tolerances::source; null where they are values
   std::vector<bool> found;                     ///< by region, whether any part of it lies in the raster
-  std::uint64_t bytes = 0;                     ///< of memory that the regions take, where there is a source
+  std::uint64_t bytes = 0;                     ///< bytes of memory of the regions, with a source
   bool has_values = false;                     ///< a sample of the raster has a value
 };
 
@@ -57,13 +57,13 @@ struct OwnedTolerances {
 /// has no tolerance. `grid`: the grid of the heights, with the tolerance beyond the regions, as for
 /// region_tolerances(). At least one of raster and regions is given.
 ///
-/// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call takes ownership of it. The
-/// regions are not needed after the call. With in_windows the call reads the raster through once.
-/// Fails with kUsage without raster and regions, for a raster of another size than the grid, and for one with a source
-/// where values are asked for; with kInput, naming the raster's file, for a negative value, and where no sample has one
-/// and neither regions nor a tolerance beyond them bound any; as the raster's source does; with kCancelled.
-/// REQUIRES: of the grid as region_tolerances(), where there are regions.
-/// Cost: O(samples) for the raster; for regions that of region_tolerances() or make_region_bounds().
+/// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call becomes the owner of it. The
+/// regions are not needed after the call. With in_windows the call reads the raster through once. Fails with kUsage
+/// without raster and regions, for a raster of another size than the grid, and for one with a source where values are
+/// asked for; with kInput, naming the raster's file, for a negative value, and where no sample has one and neither
+/// regions nor a tolerance beyond them bound any; as the raster's source does; with kCancelled. REQUIRES: of the grid
+/// as region_tolerances(), where there are regions. Cost: O(samples) for the raster; for regions that of
+/// region_tolerances() or make_region_bounds().
 Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
                                         const RegionGrid& grid, const ToleranceOptions& options = {});
 
@@ -76,7 +76,7 @@ struct OwnedWeights {
 };
 
 /// Makes the weights of a raster of weights: 0 where it has no value; all divided by the largest if that is above 1.
-/// The call takes ownership of the raster; with in_windows it reads it through once. Fails with kInput, naming the
+/// The call becomes the owner of the raster; with in_windows it reads it through once. Fails with kInput, naming the
 /// raster's file, for a negative weight and where no weight is above 0; with kUsage for a raster with a source where
 /// values are asked for; as the raster's source does; with kCancelled. Cost: O(samples).
 Result<OwnedWeights> make_weights(OwnedHeightField raster, const ToleranceOptions& options = {});

@@ -1,4 +1,4 @@
-// What hydraulic models want to know of a mesh beside its triangles: materials by polygon, and strings of nodes.
+// Additions to a mesh for hydraulic models: materials by polygon, and strings of nodes.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct Zone {
 
 /// A chain of edges: where water flows in, a cross-section, the crest of a dam.
 struct NodeString {
-  std::string name;                  ///< of the line
+  std::string name;                  ///< name of the line
   std::vector<std::uint32_t> nodes;  ///< vertices, neighbours joined by edges; a closed one ends with its first
 };
 

@@ -14,8 +14,8 @@ namespace scarp {
 
 /// Like std::vector for trivially copyable T, with two differences that a mesh of millions of triangles feels: new
 /// elements are not cleared, and growth goes through realloc, which moves pages instead of copying them, so that
-/// the memory in use stays at what was written and never doubles while growing. Blocks that others left (blocks.h) are
-/// taken before new ones, and left to others in turn.
+/// the memory in use stays at what was written and never doubles while growing. Free blocks of others (blocks.h) are
+/// reused before new ones, and are reused by others in turn.
 template <class T>
 class Array {
   static_assert(std::is_trivially_copyable_v<T>);

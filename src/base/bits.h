@@ -1,4 +1,4 @@
-// What some standard libraries lack of <bit> and <memory> (libc++ 13, which Emscripten 3.1 brings).
+// Parts of <bit> and <memory> that some standard libraries lack (libc++ 13, which Emscripten 3.1 brings).
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Blocks of memory that wait to be used again.
 //
-// A system gives large blocks page by page, each with a fault and a page of zeros, and takes them back when they are
+// A system gives large blocks page by page, each with a fault and a page of zeros, and reclaims them when they are
 // freed. A program that simplifies many small rasters would spend a good part of its time on that, always for blocks of
 // the same sizes. So blocks of a middle size are kept for the next array that wants one: at most kMostKept bytes, the
 // oldest go first, until the process ends.
@@ -11,7 +11,7 @@
 namespace scarp {
 
 struct Block {
-  void* data = nullptr;  ///< of malloc()
+  void* data = nullptr;  ///< block of malloc()
   std::size_t bytes = 0;
 };
 

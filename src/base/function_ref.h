@@ -10,8 +10,8 @@ namespace scarp {
 template <class Signature>
 class FunctionRef;
 
-/// Calls what it was made of, which must outlive it. As a parameter it takes any callable, as std::function does, for
-/// one pointer more than the callable's address.
+/// Calls the callable it was made of, which must outlive it. As a parameter it accepts any callable, as std::function
+/// does, for one pointer more than the callable's address.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -10,7 +10,7 @@ namespace scarp {
 /// written.
 void map_pages(void* data, std::size_t bytes, int threads);
 
-/// REQUIRES: empty. New elements are 0. Most of the time that this takes a system spends on finding pages of memory.
+/// REQUIRES: empty. New elements are 0. A system spends most of the time of this on finding pages of memory.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t size, int threads) {
   values.reserve(size);

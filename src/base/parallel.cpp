@@ -124,7 +124,7 @@ void run_beside(int threads, FunctionRef<void()> beside, FunctionRef<void()> res
 
 namespace {
 
-/// Which tasks have started, ended and been committed.
+/// The tasks that have started, ended and been committed.
 class TaskOrder {
  public:
   TaskOrder(std::size_t count, std::size_t ahead) : ended_(count, false), ahead_(ahead) {}

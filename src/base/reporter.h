@@ -13,7 +13,7 @@ namespace scarp {
 /// of the vertices grows, so work done is a ratio of squares. 0 for a goal of 0.
 double error_progress(double first, double now, double goal);
 
-/// Reports progress at most ten times a second; false once the callback has said so.
+/// Reports progress at most ten times a second; false once the callback has asked to stop.
 class Reporter {
  public:
   explicit Reporter(const ProgressCallback& callback) : callback_(callback) {}
@@ -26,7 +26,7 @@ class Reporter {
   double fraction_ = 0;
 };
 
-/// Tells progress of a part of the whole, `share` of it from `begin` on. Borrows the callback; empty if that is.
+/// Reports progress of a part of the whole, `share` of it from `begin` on. Borrows the callback; empty if that is.
 ProgressCallback part_of(const ProgressCallback& whole, double begin, double share);
 
 }  // namespace scarp

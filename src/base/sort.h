@@ -11,15 +11,15 @@
 namespace scarp {
 namespace detail {
 
-/// As sort_rarely(), of `count` items of `size` bytes each.
+/// Like sort_rarely(), for `count` items of `size` bytes each.
 void sort_bytes(std::byte* items, std::size_t count, std::size_t size,
                 FunctionRef<bool(const std::byte* a, const std::byte* b)> before);
 
 }  // namespace detail
 
 /// Sorts by before(a, b); items of which neither is before the other stay in their order. All types share one loop, so
-/// a call costs few bytes of code, and more time than std::sort(): for what is short beside the work around it. Needs
-/// as much memory again, and 8 bytes an item. REQUIRES: fewer than 2^32 items.
+/// a call costs few bytes of code, and more time than std::sort(): for sorts that are short compared with the work
+/// around them. Needs as much memory again, and 8 bytes an item. REQUIRES: fewer than 2^32 items.
 template <class Items, class Before = std::less<>>
 void sort_rarely(Items& items, const Before& before = {}) {
   using Item = std::remove_reference_t<decltype(items[0])>;

@@ -1,10 +1,10 @@
-// What Highway 1.0 lacks under WebAssembly: vectors of doubles, and operations that compilers there make of many
+// Parts that Highway 1.0 lacks under WebAssembly: vectors of doubles, and operations that compilers there make of many
 // instructions where the machine has one.
 //
-// SCARP_HAVE_FLOAT64 says whether there are vectors of doubles. Functions in hwy mean what Highway's functions of the
-// same names mean elsewhere; those in scarp are the same for all instruction sets, bit for bit.
+// SCARP_HAVE_FLOAT64 is defined where there are vectors of doubles. Functions in hwy mean what Highway's functions of
+// the same names mean elsewhere; those in scarp are the same for all instruction sets, bit for bit.
 
-// As Highway wants it: seen once for every instruction set.
+// Highway's kind of guard: seen once for every instruction set.
 #if defined(SCARP_WASM_VECTORS) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_WASM_VECTORS
 #undef SCARP_WASM_VECTORS
@@ -57,7 +57,7 @@ HWY_API Vec128<float, 2> DemoteTo(Simd<float, 2, 0>, DoubleVec v) { return {wasm
 
 namespace scarp::HWY_NAMESPACE {
 
-/// Of float32. REQUIRES: none is NaN.
+/// For float32. REQUIRES: none is NaN.
 template <class V>
 HWY_INLINE V larger_of(V a, V b) {
   static_assert(sizeof(hwy::HWY_NAMESPACE::TFromV<V>) == 4);
@@ -93,7 +93,7 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<DI> whole_parts([[maybe_unused]] DI di, V v) 
 #endif
 }
 
-/// Whether the mask is false in all lanes.
+/// True if the mask is false in all lanes.
 template <class D, class M>
 HWY_INLINE bool none_of([[maybe_unused]] D d, M mask) {
 #if HWY_TARGET == HWY_WASM
@@ -115,8 +115,8 @@ HWY_INLINE V magnitudes(V values, M meant) {
 #endif
 }
 
-/// Of float32: where `value` is larger than `most`, `most` becomes the value and `at` its place. REQUIRES: no `most` is
-/// NaN.
+/// For float32: where `value` is larger than `most`, `most` becomes the value and `at` its place. REQUIRES: no `most`
+/// is NaN.
 template <class V>
 HWY_INLINE void take_larger(V value, V place, V& most, V& at) {
   namespace hn = hwy::HWY_NAMESPACE;

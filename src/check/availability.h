@@ -1,4 +1,4 @@
-// Which tiles are announced, which are there.
+// The tiles that are announced, and those that are there.
 #pragma once
 
 #include <vector>

@@ -88,7 +88,8 @@ void BorderWatch::add(TileEdges tile) {
     if (south_east != nullptr && !mine.empty() && !south_east->sides[kNorth].empty())
       compare_corner(*south_east, south_east->sides[kNorth].front(), tile, mine.back());
   }
-  // What the row above asks for, and its neighbour to the east; the first column is also the last one's neighbour.
+  // Sides that are no longer needed: the row above uses the southern one, and its neighbour to the east; the first
+  // column is also the last one's neighbour.
   tile.sides[kSouth] = {};
   if (x > 0) tile.sides[kWest] = {};
   if (west != row_.tiles.end() && x > 0) west->second.sides[kEast] = {};

@@ -15,7 +15,7 @@ namespace scarp {
 /// A vertex on an edge. Two are the same if `key` and `normal` are.
 struct EdgeVertex {
   double along = 0, height = 0;  ///< 0 … 32767; metres
-  Place key{};                   ///< what neighbours must decode alike
+  Place key{};                   ///< position that neighbours must decode alike
   std::array<float, 3> normal{};
 };
 using TileEdge = std::vector<EdgeVertex>;

@@ -25,7 +25,7 @@ namespace {
 /// Tiles whose findings have their places at once.
 constexpr std::size_t kTilesTogether = 65536;
 
-/// What is known of a tile before its neighbours are looked at.
+/// The facts about a tile before its neighbours are checked.
 struct TileFindings {
   std::vector<TileFault> faults;
   std::optional<TileEdges> edges;
@@ -142,7 +142,7 @@ class TilesCheck {
     return result;
   }
 
-  /// A server says of all tiles at once whether they are in gzip.
+  /// A server declares for all tiles at once whether they are in gzip.
   void compare_gzip(std::uint64_t key, std::size_t z, TileFindings& tile) {
     if (!tile.is_gzip) return;
     const std::optional<bool> said = set_.says_gzip();
@@ -203,7 +203,7 @@ class TilesCheck {
   Reporter reporter_;
   TileCheck check_;
   std::uint64_t tiles_ = 0, done_ = 0;
-  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;  ///< of all vertices
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;  ///< range of all vertices
   std::optional<bool> is_gzip_;
 };
 

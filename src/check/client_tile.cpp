@@ -8,9 +8,9 @@
 namespace scarp {
 namespace {
 
-/// Of an unpacked tile, so that a few bytes cannot fill the memory.
+/// Limit of an unpacked tile, so that a few bytes cannot fill the memory.
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-/// In units of the axes: farther out a point tells that the tile is never to be hidden. 3D Tiles need a finite one.
+/// In units of the axes: farther out a point means that the tile is never to be hidden. 3D Tiles need a finite one.
 constexpr double kFarOut = 100;
 
 Result<ClientTile> take_quantized(QuantizedMesh mesh, const DegreeBox& box, const World& world) {

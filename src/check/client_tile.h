@@ -25,7 +25,7 @@ struct ClientTile {
   TileFormat format = TileFormat::kQuantizedMesh;
   DegreeBox box;
   bool is_flat = false;  ///< on the plane of a local grid
-  /// Of 0 … 32767 from west, from south; whole numbers but in GLB files, which hold places in space.
+  /// Positions 0 … 32767 from west, from south; whole numbers but in GLB files, which hold places in space.
   std::vector<double> u, v;
   std::vector<double> heights;  ///< metres above the world
   std::vector<Place> places;
@@ -39,14 +39,14 @@ struct ClientTile {
   std::array<std::vector<std::uint32_t>, 4> edges;  ///< by TileSide: vertices as the file lists them
 
   std::optional<Place> centre;
-  double low = 0, high = 0;  ///< heights that its header tells
+  double low = 0, high = 0;  ///< heights in its header
   Place sphere_centre{};
   double radius = 0;
   Place horizon{};        ///< in units of the axes; NaN where there is none
-  double resolution = 0;  ///< metres between the positions that a GLB file can tell apart
+  double resolution = 0;  ///< metres between the positions that a GLB file can distinguish
 };
 
-/// `facts`: what a subtree says of it; without them the file's own count. Fails with kInput.
+/// `facts`: the subtree's data about it; without them the file's own count. Fails with kInput.
 Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::uint8_t> bytes, TileId id,
                                       const TileGrid& grid, const World& world, const TileFacts* facts);
 

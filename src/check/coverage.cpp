@@ -50,7 +50,7 @@ double latitude(const ClientTile& tile, std::uint32_t vertex) {
   return geographic_at(tile.box, tile.u[vertex], tile.v[vertex], 0).latitude;
 }
 
-/// Whether a triangle is turned over, as far as positions can tell.
+/// True if a triangle is turned over, as far as positions show.
 bool faces_down(const ClientTile& tile, std::size_t k) {
   const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
   if (tile.format != TileFormat::kGlb)
@@ -74,7 +74,7 @@ bool faces_down(const ClientTile& tile, std::size_t k) {
   return is_turned(area);
 }
 
-/// Whether the list of an edge goes clockwise around the tile, as clients take it; places are as exact as positions.
+/// True if the list of an edge goes clockwise around the tile, as clients expect it; places are as exact as positions.
 bool is_clockwise(const ClientTile& tile, std::size_t side) {
   const std::vector<std::uint32_t>& listed = tile.edges[side];
   const std::vector<double>& along = side == kWest || side == kEast ? tile.v : tile.u;

@@ -1,4 +1,4 @@
-// What clients cull tiles by: heights, sphere, centre, and the point below the horizon.
+// The data by which clients cull tiles: heights, sphere, centre, and the point below the horizon.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace scarp {
 namespace {
 
-/// What rounding to doubles may move, of a length.
+/// Effect of rounding to doubles, as a share of a length.
 constexpr double kSlack = 1e-6;
 /// Directions from the tile in which cameras stand at its horizon point's horizon, and how far beyond it.
 constexpr int kDirections = 64;
@@ -19,7 +19,7 @@ constexpr double kAbove[] = {1.0005, 1.01, 1.2, 4};
 
 bool is_finite(const Place& at) { return std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]); }
 
-/// As CesiumJS and cesium-native decide it, on the sphere of radius 1.
+/// The test of CesiumJS and cesium-native, on the sphere of radius 1.
 bool hides(const Place& point, const Place& camera) {
   const double beyond = inner(camera, camera) - 1;
   const Place way = point - camera;
@@ -27,7 +27,7 @@ bool hides(const Place& point, const Place& camera) {
   return beyond < 0 ? along > 0 : along > beyond && along * along > beyond * inner(way, way);
 }
 
-/// Whether the way from the camera to a vertex stays outside of the sphere.
+/// True if the way from the camera to a vertex stays outside of the sphere.
 bool sees(const Place& camera, const Place& vertex) {
   const Place way = vertex - camera;
   const double square = inner(way, way);

@@ -59,7 +59,7 @@ struct FlatMap {
   double longitude, latitude, metres_east = 0, metres_north = 0;
 };
 
-/// The least power of two that `extent` is at most 65,534 of: rounding to it leaves a difference of 16 bits.
+/// The least power of two that `extent` is at most 65,534 of: rounding to it keeps differences within 16 bits.
 double find_step(double extent) {
   constexpr double kMostSteps = 65534;
   if (extent == 0) return 1;
@@ -68,7 +68,7 @@ double find_step(double extent) {
   return std::ldexp(1.0, share == 0.5 ? exponent - 1 : exponent);
 }
 
-/// Lays the tiles of a level on a map.
+/// Places the tiles of a level on a map.
 class Laying {
  public:
   Laying(const FlatMap& map, int z) : map_(map), z_(z) {}
@@ -81,7 +81,7 @@ class Laying {
     const double near = (tile.box.east - tile.box.west) * map_.metres_east / kWholeTile;
     for (const auto& edge : tile.edges) {
       for (const std::uint32_t v : edge) {
-        // What neighbours decode alike: places in space, or degrees.
+        // The key that neighbours decode alike: places in space, or degrees.
         const Place key = tile.format == TileFormat::kGlb ? tile.places[v] : Place{places[v][0], places[v][1], 0};
         const Place& known = shared_.try_emplace(key, places[v]).first->second;
         if (length(known - places[v]) < near) places[v] = known;
@@ -130,10 +130,10 @@ class Laying {
   const FlatMap& map_;
   int z_;
   std::vector<LevelTile> tiles_;
-  std::map<Place, Place> shared_;  ///< of vertices on edges
+  std::map<Place, Place> shared_;  ///< places of vertices on edges
 };
 
-/// As they are kept; nothing where they take more than `most_bytes`.
+/// The tiles as they are kept; nothing if they have more than `most_bytes`.
 Result<std::optional<std::vector<std::vector<std::uint8_t>>>> read_tiles(const TileSetReader& set,
                                                                          const std::vector<TileId>& ids,
                                                                          std::uint64_t most_bytes) {

@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Nodes that all triangles are looked at for, of one tile in one block: a tile with more is far off anyway.
+/// Nodes of one tile in one block for which all triangles are searched: a tile with more is far off anyway.
 constexpr int kMostSecondLooks = 100'000;
 
 }  // namespace

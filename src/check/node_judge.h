@@ -13,11 +13,11 @@ namespace scarp {
 struct NodeBlock {
   NodeWindow window;
   World world;
-  std::vector<float> heights;          ///< NaN: none
-  std::vector<World::Meridian> meridians;  ///< of the columns
+  std::vector<float> heights;              ///< NaN: none
+  std::vector<World::Meridian> meridians;  ///< meridians of the columns
   std::vector<World::Parallel> parallels;
 
-  /// Of the four nodes around a cell, from its north-western corner.
+  /// True if the four nodes around a cell, from its north-western corner, have heights.
   bool has_heights_around(std::int64_t col, std::int64_t row) const {
     const std::size_t side = static_cast<std::size_t>(window.cols),
                       first = static_cast<std::size_t>(row) * side + static_cast<std::size_t>(col);
@@ -37,7 +37,7 @@ struct NodeRectangle {
   std::int64_t from_col = 0, to_col = -1, from_row = 0, to_row = -1;
 };
 
-/// What was found at nodes under a tile.
+/// The findings at nodes under a tile.
 struct NodeVerdict {
   double node_error = 0;    ///< the largest |mesh − node|, where edges are straight on the map
   double distance = 0;      ///< the largest in space, from a node to the place of the flat triangle that stands for it
@@ -49,8 +49,8 @@ struct NodeVerdict {
 
 class NodeJudge {
  public:
-  /// `steps`: nodes' steps of a side of the tile, on the lattice of the block; `bound`: a distance above it is looked
-  /// at again, from the node to the nearest of all triangles.
+  /// `steps`: nodes' steps of a side of the tile, on the lattice of the block; `bound`: a distance above it is measured
+  /// again, from the node to the nearest of all triangles.
   NodeJudge(const ClientTile& tile, std::int64_t steps, double background, double bound, const TileGrid& grid);
 
   /// The nodes of the block that lie under the tile. REQUIRES: columns of the block are those of the grid, not beyond.
@@ -71,7 +71,7 @@ class NodeJudge {
   static std::pair<double, double> columns_of(const OnLattice& triangle, double row);
   /// The distance of the first triangle that is within the bound; else infinity, or that of the nearest one around.
   double nearest(const Place& node) const;
-  /// Where a row of nodes lies, in steps from the tile's northern edge: rows need not be evenly apart.
+  /// Position of a row of nodes, in steps from the tile's northern edge: rows need not be evenly apart.
   double line_of(std::int64_t row) const;
 
   const ClientTile& tile_;

@@ -21,7 +21,7 @@ namespace {
 /// Nodes' steps of a side of a block: 67 MB.
 constexpr std::int64_t kMostSteps = 4096;
 constexpr int kRowsTogether = 256;
-/// What is measured may be above what is promised by rounding, as a share and in metres.
+/// Rounding may put a measured error above the promised one, as a share and in metres.
 constexpr double kRounding = 1e-9, kDust = 1e-6;
 
 std::uint64_t key_of_tile(TileId id) { return std::uint64_t{id.y} << 32 | id.x; }
@@ -288,7 +288,8 @@ class NodesCheck {
   Reporter reporter_;
   int finest_ = 0, depth_ = 0, cells_ = 128;  ///< blocks are tiles of level finest_ − depth_
   double background_ = 0;
-  std::int64_t first_col_ = 0, columns_ = 1;  ///< of blocks; perhaps beyond the last column, from the first on
+  std::int64_t first_col_ = 0, columns_ = 1;  ///< first column and number of blocks; perhaps beyond the last column,
+                                              ///< from the first on
   std::uint32_t first_row_ = 0, last_row_ = 0;
   std::uint64_t blocks_ = 0;
   std::map<std::tuple<int, std::uint32_t, std::uint32_t>, NodeVerdict> broken_;

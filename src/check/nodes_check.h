@@ -11,7 +11,7 @@
 namespace scarp {
 
 /// Compares each node under each tile of the set with the tile's triangles. Adds to the check's levels, its nodes and
-/// the faults. Tiles that cannot be decoded are left out. Fails as the source does, and with kCancelled.
+/// the faults. Tiles that cannot be decoded are omitted. Fails as the source does, and with kCancelled.
 Result<void> check_nodes(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options,
                          const TileGrid& grid, const World& world, TileCheck& check, std::vector<TileFault>& faults);
 

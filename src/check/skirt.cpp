@@ -1,6 +1,5 @@
-// A tile's skirt hangs down from its edges, so that nobody sees through beside a tile of another level. It hangs well
-// if its upper sides are the steps of whole edges, each once and clockwise, and each lower vertex lies below its upper
-// one.
+// A tile's skirt hangs down from its edges, so that no gap shows next to a tile of another level. It hangs well if its
+// upper sides are the steps of whole edges, each once and clockwise, and each lower vertex lies below its upper one.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -63,7 +63,7 @@ Geographic World::find(const Place& at) const {
   if (is_flat_)
     return {at[0] / raster_.cell_x + static_cast<double>(raster_.centre_col()),
             at[1] / raster_.cell_y + static_cast<double>(raster_.centre_row()), at[2]};
-  constexpr int kRounds = 8;  // each leaves 1/150 of the one before
+  constexpr int kRounds = 8;  // each reduces the error to 1/150
   const double out = std::hypot(at[0], at[1]);
   double latitude = std::atan2(at[2], out * (1 - e2_));
   for (int round = 0; round < kRounds; ++round) {

@@ -1,4 +1,4 @@
-// What tiles lie on, for who judges them: not the arithmetic that they were made with.
+// The ground of tiles for the judge: not the arithmetic that they were made with.
 #pragma once
 
 #include <array>
@@ -30,14 +30,14 @@ class World {
 
   bool is_flat() const { return is_flat_; }
 
-  /// What a row of places with one latitude shares.
+  /// Common values of a row of places with one latitude.
   struct Parallel {
     double sine = 0, cosine = 0;
     double normal = 0;  ///< metres from the surface to the axis, along the vertical
     double north = 0;   ///< metres, on the plane
   };
   Parallel parallel(double latitude) const;
-  /// What a column of places with one longitude shares.
+  /// Common values of a column of places with one longitude.
   struct Meridian {
     double sine = 0, cosine = 0;
     double east = 0;  ///< metres, on the plane
@@ -51,7 +51,7 @@ class World {
   Place place(const Geographic& at) const;
   /// The reverse, to 10⁻⁸ m; longitudes of −180 … 180.
   Geographic find(const Place& at) const;
-  /// Of unit length, away from the earth.
+  /// A vector of unit length, away from the earth.
   static Place up(double longitude, double latitude);
 
   /// In units of the axes: the ellipsoid becomes the sphere of radius 1.

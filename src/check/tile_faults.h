@@ -14,15 +14,15 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults);
 /// On a plane: that the triangles cover the raster's part of the tile, and no more.
 void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFault>& faults);
 void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults);
-/// That it hangs down from whole edges, and faces away from the tile.
+/// Checks that it hangs down from whole edges, and faces away from the tile.
 void check_skirt(const ClientTile& tile, const World& world, std::vector<TileFault>& faults);
 void check_header(const ClientTile& tile, std::vector<TileFault>& faults);
 void check_horizon(const ClientTile& tile, const World& world, std::vector<TileFault>& faults);
 
-/// `is_announced`: the set says that its tiles have one.
+/// `is_announced`: the set declares that its tiles have one.
 void check_water_mask(const ClientTile& tile, bool is_announced, std::vector<TileFault>& faults);
 
-/// What the flat triangles lie below the curve between their corners at most, in metres.
+/// The largest depth of the flat triangles below the curve between their corners, in metres.
 double measure_sag(const ClientTile& tile, const World& world);
 
 }  // namespace scarp

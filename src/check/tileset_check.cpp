@@ -14,11 +14,11 @@ namespace scarp {
 namespace {
 
 constexpr double kRadians = 0.017453292519943295;
-/// Of a root's sides: what rounding to decimals may move. Of heights: metres.
+/// Slack for the rounding to decimals, of a root's sides. For heights: in metres.
 constexpr double kSideSlack = 1e-9, kHeightSlack = 1e-6;
 /// Metres at the centre of a plane, where its transform is exact.
 constexpr double kCentreSlack = 0.01;
-/// Places of a raster that are looked at, each way: among those whose distance from the globe the set tells.
+/// Places of a raster that are checked, each way: among those whose distance from the globe the set declares.
 constexpr int kLooks = 5;
 
 class TilesetCheck {
@@ -64,7 +64,7 @@ class TilesetCheck {
  private:
   void add(const std::string& what) { faults_.push_back({TileFaultKind::kTileset, "tileset.json: " + what}); }
 
-  /// Of volumes that have heights.
+  /// Checks the volumes that have heights.
   void check_heights(const ClaimedRoot& root) {
     const std::vector<double>& of = root.numbers;
     if (root.volume.empty()) return add("a root has no boundingVolume that is a region or a box");

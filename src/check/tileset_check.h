@@ -1,4 +1,4 @@
-// What tileset.json says of its roots, from which clients find where implicit tiles are and when to load them.
+// The root entries of tileset.json, from which clients find where implicit tiles are and when to load them.
 #pragma once
 
 #include <cstddef>

@@ -28,7 +28,7 @@ Colour ramp(const std::array<Colour, N>& stops, double t) {
 Picture blank(int width, int height);
 void set_pixel(Picture& picture, int x, int y, const Colour& colour);
 
-/// How much of each pixel lines cover, 0 … 1. A pixel takes the darkest of its lines, so drawing one twice changes
+/// How much of each pixel lines cover, 0 … 1. A pixel gets the darkest of its lines, so drawing one twice changes
 /// nothing.
 class LineLayer {
  public:

@@ -16,7 +16,7 @@ namespace {
 
 using draw::Colour;
 
-// Blue, white, red: told apart with every common colour blindness, and in grey by darkness.
+// Blue, white, red: distinguishable with every common colour blindness, and in grey by darkness.
 constexpr std::array<Colour, 7> kDiverging{Colour{5, 48, 97},     Colour{67, 147, 195},  Colour{171, 210, 229},
                                            Colour{250, 250, 250}, Colour{248, 186, 155}, Colour{214, 96, 77},
                                            Colour{120, 0, 32}};
@@ -27,7 +27,7 @@ Colour colour_of(double error, double limit) {
   return draw::ramp(kDiverging, limit > 0 ? 0.5 + error / limit / 2 : 0.5);
 }
 
-/// Pixels that the picture's scale and the numbers under it take, and its title; none where the picture is too small.
+/// Pixels that the picture's scale and the numbers under it need, and its title; none where the picture is too small.
 struct Layout {
   Layout(int max_side, bool has_title)
       : size(max_side >= 1000 ? 2 : 1),

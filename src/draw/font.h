@@ -1,5 +1,5 @@
 // Text on a Picture, in the glyphs of "7x13" of the X Window System's miscellaneous fixed fonts, which are in the
-// public domain. Each character takes the columns in which it has ink, and one more.
+// public domain. Each character has the columns in which it has ink, and one more.
 #pragma once
 
 #include <string_view>

@@ -17,7 +17,7 @@ namespace scarp {
 namespace {
 
 constexpr double kSnap = 1.0 / 64;  // samples; the inverse of a frame with a transform is known to about that
-constexpr double kSlack = 1e-9;     // of a triangle's area, for vertices that are on no sample
+constexpr double kSlack = 1e-9;     // share of a triangle's area, for vertices that are on no sample
 
 double snap(double at) { return std::abs(at - std::round(at)) < kSnap ? std::round(at) : at; }
 
@@ -38,7 +38,7 @@ struct Facet {
     const double part = (x[b] - x[a]) * (row - y[a]) - (y[b] - y[a]) * (col - x[a]);
     return area > 0 ? part : -part;
   }
-  /// Columns of the row beside which nothing is inside.
+  /// Columns of the row outside which nothing is inside.
   std::pair<int, int> columns(int row, int cols) const {
     double lo = std::min({x[0], x[1], x[2]}), hi = std::max({x[0], x[1], x[2]});
     for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// What stands below a map: a scale bar, tints with their heights, lines with their names.
+// The legend below a map: a scale bar, tints with their heights, lines with their names.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@ struct Name {
 };
 
 struct Legend {
-  double metres = 0;  ///< that a pixel is wide; 0: no scale bar
+  double metres = 0;  ///< width of a pixel; 0: no scale bar
   Tints tints;
-  std::string unit;         ///< of heights
-  std::vector<Name> names;  ///< of lines
+  std::string unit;         ///< unit of heights
+  std::vector<Name> names;  ///< names of lines
 };
 
-/// Pixels that the legend takes in height; 0 where the picture is too small for one.
+/// Pixels of the legend's height; 0 where the picture is too small for one.
 int legend_height(int width);
-/// Draws into the rows from `top` on. What does not fit is left out, from the right.
+/// Draws into the rows from `top` on. Items that do not fit are omitted, from the right.
 void draw_legend(Picture& picture, int top, const Legend& legend);
 
 }  // namespace scarp::draw

@@ -67,7 +67,7 @@ class Page {
       const auto [a, b] = ends(edge);
       length += std::hypot(b[0] - a[0], b[1] - a[1]);
     }
-    // Thin enough to leave white between the lines of a dense mesh.
+    // Thin enough to show white between the lines of a dense mesh.
     if (!edges_.empty()) line_width_ = std::clamp(length / static_cast<double>(edges_.size()) / 12, 0.02, 0.6);
   }
 

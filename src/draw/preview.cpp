@@ -79,15 +79,15 @@ void enlarge(const Relief& relief, const std::vector<Colour>& colours, int width
   }
 }
 
-/// Where samples lie on the map.
+/// The positions of samples on the map.
 struct MapPlace {
   double per_col, per_row;
   double x(double col) const { return (col + 0.5) * per_col - 0.5; }
   double y(double row) const { return (row + 0.5) * per_row - 0.5; }
 };
 
-/// Draws the sides of the triangles that face up. Those of small triangles fade, and from a few pixels on they are left
-/// out: they would cover the picture in grey.
+/// Draws the sides of the triangles that face up. Those of small triangles fade, and from a few pixels on they are
+/// omitted: they would cover the picture in grey.
 void draw_mesh(const HeightField& field, const Mesh& mesh, const MapPlace& place, int height, Picture& picture) {
   const draw::GridPositions at = draw::find_grid_positions(field.frame, field.cols, field.rows, mesh);
   draw::LineLayer lines(picture.width, height);
@@ -120,7 +120,7 @@ struct MarkStyle {
   const char* name;
 };
 
-// In the order in which they are drawn. Told apart with every common colour blindness.
+// In the order in which they are drawn. Distinguishable with every common colour blindness.
 constexpr MarkStyle kMarkStyles[] = {
     {MarkKind::kLake, {0, 114, 178}, "lakes"},         {MarkKind::kRidge, {204, 90, 0}, "ridges and valleys"},
     {MarkKind::kWater, {0, 114, 178}, "rivers"},       {MarkKind::kWall, {120, 20, 60}, "walls"},

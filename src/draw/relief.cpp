@@ -1,7 +1,7 @@
 // Hillshade.
 //
 // Light comes from the picture's upper left (azimuth 315°, altitude 45°), whichever way the raster's rows run: lit from
-// below, hills look like holes. Slopes are true to the frame's cell size and then exaggerated until a steep place (the
+// below, hills appear as holes. Slopes are true to the frame's cell size and then exaggerated until a steep place (the
 // slope that 80 % of the samples stay below) is clearly lit; that also makes degrees and other units without meaning
 // drawable.
 #include "draw/relief.h"
@@ -19,7 +19,7 @@ constexpr std::array<Colour, 3> kSeaTints{Colour{72, 110, 168}, Colour{126, 166,
 constexpr std::array<Colour, 4> kTints{Colour{176, 201, 170}, Colour{226, 222, 178}, Colour{222, 190, 148},
                                        Colour{232, 216, 206}};
 
-/// Rise per unit of ground to the right and up the picture; central differences, one-sided beside nodata and borders.
+/// Rise per unit of ground to the right and up the picture; central differences, one-sided next to nodata and borders.
 std::vector<std::array<double, 2>> find_slopes(const Relief& relief, double step_x, double step_y) {
   std::vector<std::array<double, 2>> slopes(relief.z.size());
   const auto valid = [&](int x, int y) {

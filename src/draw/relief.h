@@ -25,7 +25,7 @@ struct Tints {
   Colour at(double z) const;
 };
 
-/// What lies under a grid of samples.
+/// The ground under a grid of samples.
 struct Ground {
   double step_x = 1, step_y = 1;  ///< lengths of a cell
   bool is_metric = false;         ///< in the unit of the heights

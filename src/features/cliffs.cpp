@@ -16,8 +16,8 @@
 namespace scarp {
 namespace {
 
-/// Share of the max error that heights of samples along a line may leave it by: less leaves more vertices, more leaves
-/// refinement no room.
+/// Share of the max error that heights of samples may differ from a line: a smaller share costs more vertices, a larger
+/// one gives refinement no room.
 constexpr double kCliffShare = 0.9;
 
 Line to_map(const std::vector<WallVertex>& vertices, const std::array<double, 6>& affine, std::string name) {

@@ -68,7 +68,7 @@ Point CrackChains::from_of(const Side& side) const {
 Point CrackChains::cell_ahead(const Side& side) const {
   const Point from = from_of(side);
   const bool is_down = side.key % 2 == 1, falls = side.from > side.to;
-  // Where a side downwards falls the way goes right, where one to the right falls it goes up.
+  // The way goes right if a side downwards falls, and up if one to the right falls.
   const std::int32_t back = is_down == falls ? 0 : 1;
   return is_down ? Point{from.x - back, from.y} : Point{from.x, from.y - back};
 }
@@ -87,12 +87,12 @@ std::uint32_t CrackChains::find(std::uint64_t key) const {
   return at != sides_.end() && at->key == key ? static_cast<std::uint32_t>(at - sides_.begin()) : kNoCrack;
 }
 
-/// The height of a corner that a crack leaves clockwise.
+/// The height of a corner clockwise of a crack.
 float CrackChains::corner(const Cell& cell, std::size_t k) const {
   return k < 2 ? sides_[cell[k]].from : sides_[cell[k]].to;
 }
 
-/// Whether a wall with its high samples on the left leaves through a crack: it falls clockwise.
+/// True if a wall with its high samples on the left goes out through a crack: it falls clockwise.
 bool CrackChains::goes_out(const Cell& cell, std::size_t k) const {
   const Side& side = sides_[cell[k]];
   return k < 2 ? side.from > side.to : side.to > side.from;

@@ -1,7 +1,7 @@
 // Cracks: steps of a raster between neighbours, and the chains that they form.
 //
 // A crack lies between two neighbours in a row or column whose heights differ by more than a given height. In a cell of
-// four samples with two cracked sides a wall enters through one and leaves through the other. So cracks form chains:
+// four samples with two cracked sides a wall enters through one and goes out through the other. So cracks form chains:
 // all high samples lie on the left (rows run downwards), all low samples on the right. A line that crosses the cracks
 // of a chain one after the other, each between its samples, separates high from low samples.
 //
@@ -39,15 +39,15 @@ class CrackChains {
   CrackChains(std::int32_t cols, std::int32_t rows, double height, std::function<bool(Point)> is_left_out)
       : cols_(cols), rows_(rows), height_(height), is_left_out_(std::move(is_left_out)) {}
 
-  /// Looks at a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata samples are NaN.
+  /// Scans a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata samples are NaN.
   /// REQUIRES: each row once, from the top down.
   void add_row(std::int32_t row, const float* above, const float* here, const float* below);
-  /// REQUIRES: all rows were looked at.
+  /// REQUIRES: all rows were scanned.
   void link();
   /// One after the other, in raster order of their first cracks, rings last. REQUIRES: link().
   void visit(const std::function<void(const CrackChain&)>& visit) const;
 
-  std::uint64_t count() const { return sides_.size(); }  ///< of cracks
+  std::uint64_t count() const { return sides_.size(); }  ///< number of cracks
   static constexpr std::uint64_t kBytesPerCrack = 40;    ///< while rows are added; then less
 
  private:
@@ -56,7 +56,7 @@ class CrackChains {
     std::uint64_t key;  // in raster order, the side to the right before the one downwards
     float from, to;
   };
-  /// Sides of a cell clockwise as it is looked at, side k from corner k to corner k + 1.
+  /// Sides of a cell clockwise from above, side k from corner k to corner k + 1.
   using Cell = std::array<std::uint32_t, 4>;
   enum Flag : std::uint8_t { kIsAheadWhole = 1, kHasPrevious = 2, kIsBeforeSaddle = 4 };
 

@@ -24,17 +24,18 @@ struct Area {
   std::vector<SampleRun> runs;  // in any order
   std::uint64_t samples = 0;
   Point first;             // in raster order
-  float height = 0;        // of the first
+  float height = 0;        // height of the first
   std::uint32_t root = 0;  // the area that it has become part of
   std::int32_t seen = 0;   // the last row with a part of it
 };
 
-/// Finds such areas from the top down. What is complete and large enough is handed on; nothing is kept of what is not.
+/// Finds such areas from the top down. Areas that are complete and large enough are handed on; nothing is kept of the
+/// others.
 class AreaSweep {
  public:
   explicit AreaSweep(std::uint64_t min_samples) : min_samples_(min_samples) {}
 
-  /// Takes in the samples of the next row; visit(area) is called for each large area that does not reach it.
+  /// Adds the samples of the next row; visit(area) is called for each large area that does not reach it.
   template <class Visit>
   void add_row(const float* samples, std::int32_t cols, const Visit& visit) {
     pieces_.clear();
@@ -68,7 +69,7 @@ class AreaSweep {
     end_row(visit);
   }
 
-  /// Of all that is kept. What is handed on is there yet, and sorted.
+  /// Bytes of all that is kept. Areas handed on are still there, and sorted.
   std::uint64_t bytes() const {
     constexpr std::uint64_t kGrowth = 2;
     return kGrowth * (sizeof(SampleRun) * runs_ + sizeof(Piece) * (pieces_.size() + above_.size())) +
@@ -151,7 +152,7 @@ class AreaSweep {
   std::int32_t row_ = 0;
   std::vector<Area> areas_;
   std::vector<std::uint32_t> free_, joined_;  // areas without samples; those that end with this row
-  std::vector<Piece> pieces_, above_;         // of this row and the last
+  std::vector<Piece> pieces_, above_;         // pieces of this row and the last
   std::uint64_t runs_ = 0;
 };
 
@@ -188,7 +189,7 @@ class Flats {
   }
 
  private:
-  /// What shores take until the mesh has them is more than what finding them does, unless much was found in vain.
+  /// Shores need more memory until the mesh has them than during the search, unless much was found in vain.
   Result<void> check_memory(std::uint64_t bytes, double share) const {
     constexpr std::uint64_t kBytesPerVertex = 2 * sizeof(std::array<double, 3>);
     return memory_.check_part(std::max(bytes + kBytesPerVertex * vertices_, shore_bytes_), share,

@@ -15,9 +15,9 @@ namespace scarp {
 class HollowSamples {
  public:
   struct Question {
-    double height = 0;                       ///< as for find_hollows()
+    double height = 0;                       ///< like in find_hollows()
     bool is_upside_down = false;             ///< the raster is
-    std::function<bool(Point)> is_left_out;  ///< of samples, those that do not count
+    std::function<bool(Point)> is_left_out;  ///< true for samples that do not count
     /// How many there are when a share of the raster is searched; may refuse.
     std::function<Result<void>(std::uint64_t samples, double share)> check;
     int threads = 0;
@@ -25,7 +25,7 @@ class HollowSamples {
   /// The samples within two of one that lies low. Fails as the field's source does, which is read once from the top
   /// down, and as `check` does. Memory: 9 bytes a sample here, twice that while they are gathered, and bytes().
   static Result<HollowSamples> find(const HeightField& field, const Question& question);
-  /// What find() takes beside the samples.
+  /// Memory that find() uses in addition to the samples.
   static std::uint64_t bytes(const HeightField& field);
 
   std::size_t size() const { return heights_.size(); }
@@ -52,7 +52,7 @@ class HollowSamples {
   std::vector<float> heights_;
   std::vector<std::int32_t> cols_;
   std::vector<Hollow> hollows_;
-  std::vector<std::uint32_t> begins_;  // of each row's, and the end of the last
+  std::vector<std::uint32_t> begins_;  // begins of each row's, and the end of the last
 };
 
 }  // namespace scarp

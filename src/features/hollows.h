@@ -17,10 +17,11 @@ enum class Hollow : std::uint8_t {
 
 inline constexpr std::int32_t kHollowReach = 16;  ///< length of a side of a profile, in samples
 
-/// Of each sample: the second best of the four profiles through it, the row, the column and both diagonals. A profile
-/// is as good as the lower one of its two sides, and a side as the highest rise within kHollowReach samples before it
-/// falls below the sample. Where the nearest sample of a side is nodata or beyond the raster the other side counts for
-/// both, if another profile has two. Of a level stretch of a profile the middle alone lies low, a sample or two.
+/// The hollow at each sample: the second best of the four profiles through it, the row, the column and both diagonals.
+/// A profile is as good as the lower one of its two sides, and a side as the highest rise within kHollowReach samples
+/// before it falls below the sample. Where the nearest sample of a side is nodata or beyond the raster the other side
+/// counts for both, if another profile has two. In a level stretch of a profile only the middle lies low, a sample or
+/// two.
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads);
 /// The same of the rows [begin, end) alone.
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads, std::int32_t begin,

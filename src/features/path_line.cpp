@@ -34,7 +34,7 @@ class Links {
       if (std::abs(from + share * rise - double{samples_.at(path_[k])}) > tolerance_) return std::nullopt;
       sum += beside * beside / length2;
     }
-    // As lines are looked at when they are inserted.
+    // at the same places as when lines are inserted
     const double looks = std::ceil(2 * std::sqrt(length2));
     for (double i = 1; i < looks; ++i) {
       const double height = surface_at(samples_, {a.x + i / looks * dx, a.y + i / looks * dy});

@@ -23,7 +23,7 @@
 namespace scarp {
 namespace {
 
-/// Share of the max error within which lines follow the raster: what soft lines are inserted with takes no more bends.
+/// Share of the max error within which lines follow the raster: insertion of soft lines adds no more bends.
 constexpr double kRidgeShare = 0.5;
 
 Result<void> check_ridges(const RidgeOptions& options) {

@@ -48,7 +48,7 @@ class Ground {
   }
 
   struct Surface {
-    double height = kNoHeight;  // beside the surface
+    double height = kNoHeight;  // no height outside the surface
     bool is_lake = false;
   };
   Surface at(const std::array<double, 3>& point) const {
@@ -60,7 +60,7 @@ class Ground {
   }
 
  private:
-  /// Of the lowest lake that has a sample in this cell.
+  /// The level of the lowest lake that has a sample in this cell.
   double level_around(double col, double row) const {
     double level = kNoHeight;
     for (const double y : {std::floor(row), std::ceil(row)}) {
@@ -77,7 +77,7 @@ class Ground {
   std::optional<SampleSet> lakes_;
 };
 
-/// A line, looked at twice a sample.
+/// A line, examined twice a sample.
 class Course {
  public:
   Course(const Line& line, const Ground& ground) : line_(&line) {
@@ -111,8 +111,8 @@ class Course {
 
   double source() const { return source_; }  ///< kNoHeight: the line has no height anywhere
 
-  /// Lets the water down, to the levels of shared vertices at most, which take part in that. Returns whether one of
-  /// those became lower.
+  /// Lowers the water, to the levels of shared vertices at most, which are lowered, too. Returns whether one of those
+  /// became lower.
   bool flow(std::map<std::array<double, 2>, double>& levels) {
     double level = std::numeric_limits<double>::infinity();
     bool has_lowered = false;
@@ -178,14 +178,14 @@ class Course {
 
   const Line* line_;
   std::vector<std::array<double, 3>> places_;  // with the raster's heights
-  std::vector<std::size_t> vertices_;          // of the line, among the places
-  std::vector<double> heights_;                // of the water
+  std::vector<std::size_t> vertices_;          // vertices of the line, among the places
+  std::vector<double> heights_;                // heights of the water
   std::vector<bool> is_lake_;
   double source_ = kNoHeight;
   bool is_turned_ = false;
 };
 
-/// Of a field with a source, those near the lines; of samples in memory `held`.
+/// Samples near the lines, for a field with a source; for samples in memory `held`.
 Result<LineSamples> samples_along(const HeightField& field, std::span<const Line> lines,
                                   const std::array<double, 6>& affine, std::optional<Samples>& held) {
   if (field.samples != nullptr) {

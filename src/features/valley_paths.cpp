@@ -144,7 +144,7 @@ class Forest {
   struct Node {
     Id sample;
     std::uint32_t parent;
-    std::uint32_t heir = kNoNode;    // the child whose branch goes on
+    std::uint32_t heir = kNoNode;    // the child whose branch continues
     std::uint32_t second = kNoNode;  // the one that would without it
     std::uint32_t low = 0;           // low samples from here to the end of the branch
   };
@@ -177,7 +177,7 @@ class Forest {
 
   void weigh() {
     const auto low = [&](std::uint32_t n) { return n == kNoNode ? 0 : nodes_[n].low; };
-    // Children come before their parents, the last child first: of equals the first goes on.
+    // Children come before their parents, the last child first: among equals the first continues.
     for (auto n = static_cast<std::uint32_t>(nodes_.size()); n-- > 0;) {
       Node& node = nodes_[n];
       node.low = low(node.heir) + (is_low(n) ? 1 : 0);
@@ -200,7 +200,7 @@ class Forest {
     while (!path.empty() && !is_low(path.back())) path.pop_back();
     return path;
   }
-  /// Both branches that go on from a root.
+  /// Both branches that continue from a root.
   std::vector<std::uint32_t> trunk(std::uint32_t root) const {
     std::vector<std::uint32_t> path;
     if (nodes_[root].second != kNoNode) path = course(nodes_[root].second);

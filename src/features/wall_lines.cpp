@@ -11,10 +11,10 @@ namespace scarp {
 namespace {
 
 /// All in kLatticeSteps: half the distance of top and foot on a crack; the distance of pairs on cracks, and in cells.
-/// Twice as many pairs on the streets of Athens take five times as long and 1 % off the vertices; none in cells add 4
-/// %.
+/// Twice as many pairs on the streets of Athens need five times the time and save 1 % of the vertices; none in cells
+/// add 4 %.
 constexpr std::int32_t kHalfGap = 2, kPairStep = 16, kCellStep = 64;
-/// What two vertices cost, one on either line, and a crack without lines.
+/// Cost of two vertices, one on either line, and of a crack without lines.
 constexpr std::int32_t kPairCost = 10, kCrackCost = 3;
 constexpr std::size_t kLongestWallLink = 1024;  ///< in stations
 
@@ -25,12 +25,12 @@ struct WallVector {
   std::int64_t x, y;
 };
 WallVector operator-(Point a, Point b) { return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y}; }
-/// Whether b points to the left of a, rows downwards.
+/// True if b points to the left of a, rows downwards.
 bool is_left(WallVector a, WallVector b) { return a.x * b.y - a.y * b.x < 0; }
 
 Point scaled(Point p) { return {p.x * kLatticeSteps, p.y * kLatticeSteps}; }
 
-/// Fewest vertices by dynamic programming over the pairs of lattice points that vertices may take.
+/// Fewest vertices by dynamic programming over the pairs of lattice points where vertices may be.
 class WallSearch {
  public:
   explicit WallSearch(double tolerance) : tolerance_(tolerance) {}
@@ -53,7 +53,7 @@ class WallSearch {
   }
 
  private:
-  /// Where a line may have a vertex: on a crack, or in the cell after it if the chain turns there and is alone.
+  /// A possible place of a vertex: on a crack, or in the cell after it if the chain turns there and is alone.
   struct Station {
     std::size_t crack;
     bool is_cell;
@@ -66,7 +66,7 @@ class WallSearch {
   };
   struct State {
     std::int32_t cost = kNeverReached;
-    std::uint32_t from = kNoPair;  // where the link comes from; kNoPair: lines begin here
+    std::uint32_t from = kNoPair;  // the start of the link; kNoPair: lines begin here
   };
 
   void clear() {
@@ -143,7 +143,7 @@ class WallSearch {
       } else {
         begin_lines(station);
       }
-      // A ring's last crack is its first: lines go on there, or have ended before.
+      // A ring's last crack is its first: lines continue there, or have ended before.
       if (!station.is_cell) end_lines(station, first == kNoPair || s + 1 < stations_.size());
       find_ends(s);
       for (std::uint32_t p = station.begin; p < station.end; ++p) {
@@ -168,7 +168,7 @@ class WallSearch {
     }
   }
 
-  /// Which stations links from station s can end at, by heights.
+  /// Finds the stations at which links from station s can end, by heights.
   void find_ends(std::size_t s) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     ends_.clear();

@@ -35,7 +35,7 @@ class Shores {
   Shores(const HeightField& field, const WaterOptions& options)
       : field_(field), options_(options), to_samples_(options.affine) {}
 
-  /// The rings of each polygon that is not wholly beside the raster.
+  /// The rings of each polygon that is not wholly outside the raster.
   std::vector<Rings> find_polygons(std::span<const Line> lines) const {
     std::vector<Rings> polygons;
     for (std::size_t first = 0, end = 0; first < lines.size(); first = end) {
@@ -48,7 +48,7 @@ class Shores {
     return polygons;
   }
 
-  /// Those that level_of() looks at.
+  /// The samples that level_of() reads.
   Result<LineSamples> read_samples(const std::vector<Rings>& polygons) const {
     if (field_.samples != nullptr) return LineSamples(Raster{field_.samples, field_.cols, field_.rows});
     std::vector<Segment> courses;
@@ -150,7 +150,7 @@ class Flattening {
     return std::max(row, runs_[above_].samples.row - 1);
   }
 
-  /// Changes a row. REQUIRES: next_row() said it.
+  /// Changes a row. REQUIRES: next_row() returned it.
   void flatten(std::int32_t row, float* samples) {
     const auto end_of = [&](std::size_t from, std::int32_t at) {
       while (from < runs_.size() && runs_[from].samples.row <= at) ++from;
@@ -177,7 +177,7 @@ class Flattening {
     }
   }
 
-  /// What has become of the row that was flattened last, for a source to say so.
+  /// The result of the row that was flattened last, for a source to report it.
   void take_runs(std::int32_t row, std::vector<LevelRun>& runs) {
     const auto at = [](std::int32_t x) { return static_cast<std::size_t>(x); };
     for (std::int32_t x = first_; x < last_;) {
@@ -244,9 +244,10 @@ class Flattening {
   std::span<const LakeRun> runs_;
   std::vector<Lake>& lakes_;
   std::int32_t cols_;
-  std::vector<float> rims_;                 // of the lakes
-  std::vector<std::uint32_t> water_, rim_;  // of the row: 1 + the last lake that holds a sample, or rims it highest
-  std::int32_t first_ = 0, last_ = 0;       // what is touched of it
+  std::vector<float> rims_;                 // rims of the lakes
+  std::vector<std::uint32_t> water_, rim_;  // for each column of the row: 1 + the last lake that holds a sample, or
+                                            // rims it highest
+  std::int32_t first_ = 0, last_ = 0;       // the changed part of it
   std::size_t above_ = 0;                   // the first run that matters yet
 };
 

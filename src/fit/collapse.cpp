@@ -16,11 +16,11 @@ namespace {
 /// Rises of energy beyond this are not worth trying, nor are searches that begin this many times as far away.
 constexpr float kMostRise = 300, kFarReach = 10;
 
-/// Longer rings are not looked at.
+/// Longer rings are ignored.
 constexpr std::size_t kMostCorners = 16;
 
 constexpr std::array<double, 3> kStarts{0.5, 0.15, 0.85}, kCollapseReaches{0.3, 0.15, 0.07};
-constexpr int kSteps = 3;  // of each reach
+constexpr int kSteps = 3;  // steps of each reach
 constexpr std::array<Point, 4> kCollapseWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
 constexpr float kNever = std::numeric_limits<float>::infinity();

@@ -8,11 +8,11 @@
 // rest are tried, the least rise of energy first, with the slack of repair and mended as it mends (repair.h); what it
 // has changed waits for the next pass.
 //
-// One pass after each round of max leaves 0.970 of the triangles (0.895 to 1.009 in the 42 cases of
+// One pass after each round of max keeps 0.970 of the triangles (0.895 to 1.009 in the 42 cases of
 // bench/quality/efforts.csv), for some 1.4 to 1.7 times the time, with an RMSE 1.024 times as large. For as much time,
-// more rounds without collapses leave more: collapses 0.977 to 0.986 of theirs (Fuji at 5, 1 and 0.2 % of the relief,
-// Crater Lake at 1 and 0.5 %). Further passes in a round find less than 1 % more for as much time again, with half the
-// places looked at 0.5 % more triangles stay for a twentieth of the time.
+// more rounds without collapses keep more: collapses reach 0.977 to 0.986 of theirs (Fuji at 5, 1 and 0.2 % of the
+// relief, Crater Lake at 1 and 0.5 %). Further passes in a round find less than 1 % more for as much time again, with
+// half the places tried 0.5 % more triangles remain for a twentieth of the time.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ class Collapse {
 
  private:
   struct Offer {
-    float rise = 0;  // of the energy; edges that are too short come first
+    float rise = 0;  // rise of the energy; edges that are too short come first
     Patch::Id v = 0, u = 0;
     FitCorner place;
   };
@@ -60,9 +60,9 @@ class Collapse {
   Repair& repair_;
   Patch::Star star_, other_, around_;
   std::vector<Patch::Id> polygon_;  // around the edge
-  std::size_t hub_ = 0;             // where u is on the ring of v
-  float energy_ = 0;                // of what the fan would replace
-  TriangleShape floor_;             // of its shapes
+  std::size_t hub_ = 0;             // position of u on the ring of v
+  float energy_ = 0;                // energy of the triangles that the fan would replace
+  TriangleShape floor_;             // floor of its shapes
   std::vector<Offer> offers_;
   std::vector<Patch::RingTriangle> fan_;
 };

@@ -31,7 +31,7 @@ struct PointBox {
   }
 };
 
-/// Of a half-edge among those of its patch, by the indices of triangles among theirs.
+/// The rank of a half-edge among those of its patch, by the indices of triangles among theirs.
 std::size_t rank_in(const std::vector<std::uint32_t>& indices, HalfEdge h) {
   return 3 * std::size_t{indices[h / 3]} + h % 3;
 }
@@ -203,7 +203,7 @@ void PatchCutter::lock(Patch& patch) const {
   }
 }
 
-/// Of an edge on one of the sides.
+/// True for an edge on one of the free sides.
 bool PatchCutter::is_on_free_side(const LatticePoint& p, const LatticePoint& q) const {
   if (p.x == q.x) return p.x == 0 ? free_sides_.left : free_sides_.right;
   return p.y == 0 ? free_sides_.top : free_sides_.bottom;
@@ -256,7 +256,7 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, std::vector<std::vec
   return Triangulation(std::move(parts.arrays));
 }
 
-/// Of a half-edge on the border of a patch, or outside.
+/// The new name of a half-edge on the border of a patch, or outside.
 HalfEdge PatchCutter::name_now(HalfEdge before, const Parts& parts) const {
   const std::size_t square = square_[before / 3];
   if (square == count())

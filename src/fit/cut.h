@@ -24,7 +24,7 @@ struct FreeSides {
   bool left = true, top = true, right = true, bottom = true;
 };
 
-/// Which triangles go where.
+/// Assigns triangles to patches.
 class PatchCutter {
  public:
   /// Raster, triangulation and lattice stay alive.
@@ -42,10 +42,10 @@ class PatchCutter {
   Patch cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const;
 
   /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
-  /// that are removed in a patch are left out, those that were moved are where they are now. `numbers`: by old vertex
-  /// its new number, or kNone. `joined`: of the new vertices, by the steps that it is given with. REQUIRES: patches are
-  /// packed; steps as in the cutter's lattice, or 1 there and kLatticeSteps in `joined`. Fixed vertices stay fixed. Nodes
-  /// beyond those that a patch was cut with are new vertices, whose numbers follow.
+  /// that are removed in a patch are omitted, those that were moved have their new places. `numbers`: by old vertex its
+  /// new number, or kNone. `joined`: of the new vertices, by the steps that it is given with. REQUIRES: patches are
+  /// packed; steps as in the cutter's lattice, or 1 there and kLatticeSteps in `joined`. Fixed vertices stay fixed.
+  /// Nodes beyond those that a patch was cut with are new vertices, whose numbers follow.
   Triangulation join(std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
                      std::vector<Vertex>& numbers, VertexLattice& joined) const;
 
@@ -82,7 +82,7 @@ class PatchCutter {
   std::vector<std::size_t> begins_;  // by patch, where its triangles begin in order_; the last patch: outside
   std::vector<Triangle> order_;
   std::vector<std::uint32_t> index_in_patch_;  // by triangle, its index among those of its patch
-  std::vector<std::uint32_t> square_;  // by triangle
+  std::vector<std::uint32_t> square_;          // by triangle
 };
 
 }  // namespace scarp

@@ -28,7 +28,7 @@ class Fan {
 
   Fan(std::size_t triangles, CornerAt corner) : triangles_(triangles), corner_(corner) {}
 
-  /// Whether all triangles are positive, and not below the floor.
+  /// True if all triangles are positive, and not below the floor.
   bool fits(const FitCorner& place, const ShapeRule& rule, const TriangleShape& floor) const {
     for (std::size_t i = 0; i < triangles_; ++i) {
       if (area2(place, corner_(i), corner_(i + 1)) <= 0) return false;

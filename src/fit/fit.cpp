@@ -12,11 +12,11 @@ namespace scarp {
 
 namespace {
 
-/// Rounds beyond those that were asked for end with two in a row that take away less than this share of the vertices.
+/// Rounds beyond those that were asked for end with two in a row that remove less than this share of the vertices.
 constexpr double kWorthARound = 1e-3;
 constexpr int kPoorRounds = 2;
 
-/// Whether the mesh is one patch.
+/// True if the mesh is one patch.
 bool is_small(const Triangulation& tin) { return tin.triangle_count() <= 2 * kPatchTriangles; }
 
 /// Side of squares of some kPatchTriangles, or of shorter pieces of a narrow raster.
@@ -27,7 +27,7 @@ std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
   return std::clamp(static_cast<std::int32_t>(side), 2, std::max(raster.cols, raster.rows));
 }
 
-/// Whether errors have energies somewhere.
+/// True if errors have energies somewhere.
 bool has_energies(const FitOptions& options) {
   const auto has = [](double bound) { return bound > 0x1p-60 && bound < 0x1p60; };
   if (options.read_bounds) return true;
@@ -48,14 +48,14 @@ Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattic
     return std::min(most, options.patch_side > 0 ? options.patch_side : patch_side(raster, rounds.tin()));
   };
   const int repairs = has_energies(options) ? options.depth.rounds : 0;
-  // A round of repair takes some five times as long as removal, whose second round looks at little more than what the
+  // A round of repair needs some five times the time of removal, whose second round handles little more than what the
   // borders of the first held back; so does the last one of repair.
   const double removal = 1.0 / (1 + 5 * repairs);
   const std::int32_t first_side = side();
   bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal, options.depth.relocates);
   if (goes_on && is_cut) goes_on = rounds.run({first_side, first_side / 2}, removal);
   rounds.forget_held();
-  // As triangles become fewer, squares become larger.
+  // Squares become larger as triangles become fewer.
   const auto grid = [&](int round) {
     const std::int32_t now = side();
     return PatchGrid{now, is_cut && round % 2 == 1 ? now / 2 : 0};

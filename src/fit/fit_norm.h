@@ -17,17 +17,16 @@ namespace scarp {
 /// The most fields that count together.
 inline constexpr std::size_t kMostFitFields = 65;
 
-/// What the error of a sample is, where it is not that of its height.
+/// The definition of a sample's error, where it is not that of its height.
 struct FitNorm {
   struct Field {
     const float* samples = nullptr;  ///< row-major like the raster; finite wherever that has a height
-    double scale = 1;                ///< what its errors count; above 0
+    double scale = 1;                ///< weight of its errors; above 0
   };
   std::vector<Field> fields;  ///< at least one, at most kMostFitFields; the heights are among them where they count
   Norm norm = Norm::kSum;
-  /// A sample of the closed triangle that breaks its bound; nothing if all keep it. Asked where rounding leaves doubt,
-  /// on any thread, about triangles whose corners are samples, positive. It has the last word: what it lets through is
-  /// what may be.
+  /// A sample of the closed triangle that breaks its bound; nothing if all keep it. Called where rounding is in doubt,
+  /// on any thread, about triangles whose corners are samples, positive. Its result is final.
   std::function<std::optional<Point>(const std::array<Point, 3>& corners)> find_breach = {};
 };
 

@@ -7,7 +7,7 @@ namespace scarp {
 
 namespace {
 
-/// Of the energy before: what must be gained, so that roundings never flip an edge back and forth.
+/// Share of the energy before that must be gained, so that roundings never flip an edge back and forth.
 constexpr float kFlipGain = 1e-5f;
 
 }  // namespace

@@ -47,7 +47,7 @@ void Insertion::offer(Patch::Id face) {
   std::push_heap(heap_.begin(), heap_.end(), is_later);
 }
 
-/// Each edge is looked at from the face that comes first.
+/// Each edge is tried from the face that comes first.
 Insertion::Offer Insertion::best_at(Patch::Id face) {
   Offer best;
   const Patch::Face& near = patch_.face(face);
@@ -73,7 +73,7 @@ Insertion::Offer Insertion::best_at(Patch::Id face) {
   return best;
 }
 
-/// Takes the place, at its best height, if it gains more than the best so far.
+/// Accepts the place, at its best height, if it gains more than the best so far.
 void Insertion::try_place(double x, double y, Offer& best, const Offer& kind) {
   const bool is_free = rules_.freedom == Freedom::kLattice;
   const std::int32_t unit = is_free ? kFreeStep : kLatticeSteps;

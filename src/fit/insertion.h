@@ -2,9 +2,9 @@
 //
 // Candidates are points on each edge within the patch, at 0.3, 0.5 and 0.7 of it, and the centre of each triangle. The
 // fan of triangles about a candidate has the energy E(d) = Σ (t + λ d)² when its height rises by d, whose minimum is
-// exact (height_step.h); what it gains is the energy of the triangles that it replaces, less that. The largest gain goes
-// first; then its neighbours take their steps (repair.h). The gain tells little of what the vertex will be worth, most
-// of which comes from those steps, but which places are better than others (bench/quality/squares.csv).
+// exact (height_step.h); what it gains is the energy of the triangles that it replaces, less that. The largest gain
+// goes first; then its neighbours make their steps (repair.h). The gain is a poor estimate of the vertex' final worth,
+// most of which comes from those steps, but it ranks the places (bench/quality/squares.csv).
 #pragma once
 
 #include <cstddef>
@@ -38,9 +38,7 @@ class Insertion {
     FitCorner place = {};
     std::uint32_t stamp = 0, stamp_beyond = 0;
   };
-  static bool is_later(const Offer& a, const Offer& b) {
-    return a.gain != b.gain ? a.gain < b.gain : a.face > b.face;
-  }
+  static bool is_later(const Offer& a, const Offer& b) { return a.gain != b.gain ? a.gain < b.gain : a.face > b.face; }
 
   void offer(Patch::Id face);
   Offer best_at(Patch::Id face);
@@ -54,9 +52,9 @@ class Insertion {
   Repair& repair_;
   std::vector<Offer> heap_;
   std::vector<std::uint32_t> stamps_;  // by face: how often it has changed
-  std::vector<FitCorner> rim_;         // of what a candidate would replace
-  float energy_ = 0;                   // of it
-  TriangleShape floor_;                // of the new shapes
+  std::vector<FitCorner> rim_;         // rim of what a candidate would replace
+  float energy_ = 0;                   // energy of the same
+  TriangleShape floor_;                // floor of the new shapes
   Patch::Star star_;
 };
 

@@ -33,7 +33,7 @@ class LazyQueue {
     states_[item].is_held = false;
     return item;
   }
-  /// Whether the item at this price would go before all that are queued.
+  /// True if the item at this price would go before all that are queued.
   bool is_first(Item item, float price) const { return heap_.empty() || !is_later({price, item}, heap_.front()); }
 
   void refresh(Item item) { states_[item].is_stale = false; }
@@ -65,7 +65,7 @@ class LazyQueue {
     bool is_stale = false;
   };
 
-  /// As heaps want it.
+  /// The order that heaps expect.
   static bool is_later(const Entry& a, const Entry& b) {
     return a.price != b.price ? a.price > b.price : a.item > b.item;
   }

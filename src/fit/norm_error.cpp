@@ -16,7 +16,7 @@ bool holds_corners_alone(const NormError::Corners& corners) {
   return area2(corners[0], corners[1], corners[2]) == kLatticeSteps * kLatticeSteps;
 }
 
-/// Of a triangle that keeps the bound.
+/// The verdict on a triangle that keeps the bound.
 NormError::Verdict without_energy(float energy_limit) {
   NormError::Verdict verdict;
   if (!(energy_limit > 0)) verdict.kind = NormError::Verdict::Kind::kCostly;
@@ -28,14 +28,14 @@ float brought_to_side(float worst, bool keeps) {
   return keeps ? std::min(worst, 1.0f) : std::max(worst, std::nextafter(1.0f, 2.0f));
 }
 
-/// What the samples of a triangle say against bounds, lane by lane, as far as it was scanned.
+/// Sums over a triangle's samples against bounds, lane by lane, as far as it was scanned.
 template <Norm kNorm>
 struct NormTally {
   float over_limit_at, over_at, doubt_at;  // bounds are widened or narrowed by these before the guard is added
   float guard, least;
   bool is_eighth_power;
   Masks over_limit{}, over{}, doubt{};
-  Floats worst{}, low_sum{}, high_sum{};  // of squares of errors in bounds
+  Floats worst{}, low_sum{}, high_sum{};  // sums of squares of errors in bounds
 
   NormTally(const NormPlanes& planes, const ErrorRule& rule)
       : over_limit_at(static_cast<float>(rule.slack) * (1 + planes.widening)),
@@ -53,7 +53,7 @@ struct NormTally {
     low_sum += powers(low);
     high_sum += powers(high);
   }
-  /// What is no number is in doubt.
+  /// NaN is in doubt.
   void compare(Floats error, Floats bound, Masks meant) {
     over_limit |= error > measure_of<kNorm>(bound * all(over_limit_at) + all(guard));
     over |= error > measure_of<kNorm>(bound * all(over_at) + all(guard));

@@ -1,7 +1,7 @@
 // Errors of the samples of one trial triangle, with heights and channels combined.
 //
 // Each field has a plane of its own, through its values at the corners, which are samples. The error of a sample is the
-// norm of the fields' errors, each times its scale. As for heights alone (triangle_error.h) the scan is of float32,
+// norm of the fields' errors, each times its scale. Like for heights alone (triangle_error.h) the scan is of float32,
 // eight samples at a time, and ends at the first row that breaks the bound. Within the guard of the bound, the error
 // metric of refinement decides (FitNorm::find_breach), so fitting accepts the same triangles as refinement.
 //
@@ -33,23 +33,23 @@ class NormError {
 
   /// The samples that triangles lie over, in the raster or copied out of it.
   struct Samples {
-    Raster heights;                    ///< say which samples are valid
-    std::vector<const float*> fields;  ///< in the order of the norm's, each beside the heights
+    Raster heights;                    ///< decides which samples are valid
+    std::vector<const float*> fields;  ///< in the order of the norm's, each parallel to the heights
     Point first;                       ///< from where corners are counted
     Point origin;                      ///< the same sample in the whole raster
   };
   /// One threshold for all. Everything stays alive. REQUIRES: threshold >= 0, finite.
   NormError(const FitNorm& norm, Samples samples, double threshold);
-  /// Bounds beside the heights.
+  /// Bounds parallel to the heights.
   NormError(const FitNorm& norm, Samples samples, const SampleBounds& bounds);
 
-  /// As TriangleError::assess(): errors, slack and energies are those of the norm, counted in bounds. Without energies,
-  /// and where values are beyond kMaxScanHeight, slack is 1. REQUIRES: corners are samples; positive.
+  /// Like TriangleError::assess(): errors, slack and energies are those of the norm, counted in bounds. Without
+  /// energies, and where values are beyond kMaxScanHeight, slack is 1. REQUIRES: corners are samples; positive.
   Verdict assess(const Corners& corners, float energy_limit, const ErrorRule& rule) const;
 
-  /// What the samples want of the first corner, a Pull for each field. The energy's derivatives for the sum of squares
-  /// and the largest error, of which the eighth powers are summed up; the other's are reckoned as if it were the first.
-  /// REQUIRES, cost: as assess().
+  /// The pull of the samples on the first corner, a Pull for each field. The energy's derivatives for the sum of
+  /// squares and the largest error, of which the eighth powers are summed up; the other's are reckoned as if it were
+  /// the first. REQUIRES, cost: as assess().
   void pull(const Corners& corners, ErrorRule::Power power, std::vector<Pull>& pulls) const;
 
   const Raster& heights() const { return samples_.heights; }

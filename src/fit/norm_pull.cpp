@@ -1,4 +1,4 @@
-// What the samples of a triangle want of one of its corners, where several fields count together.
+// The pull of a triangle's samples on one of its corners, where several fields count together.
 #include "fit/norm_scan.h"
 
 namespace scarp {

@@ -12,7 +12,7 @@
 
 namespace scarp {
 
-/// What is held of a norm while it is summed up, and compared: of the sum of squares its square.
+/// The value held of a norm while it is summed up, and compared: of the sum of squares its square.
 template <Norm kNorm>
 Floats measure_of(Floats norm) {
   return kNorm == Norm::kSquares ? norm * norm : norm;
@@ -26,7 +26,7 @@ struct FieldPlane {
 
 struct NormPlanes;
 
-/// Where samples, fields and bounds are read.
+/// The samples, fields and bounds to read.
 struct NormScan {
   const FitNorm& norm;
   const NormError::Samples& samples;
@@ -49,7 +49,7 @@ struct NormScan {
                   const Visit& visit) const;
 };
 
-/// Of one triangle. Not cleared: most triangles are small, and fields few.
+/// The planes of one triangle. Not cleared: most triangles are small, and fields few.
 struct NormPlanes {
   TriangleTask task;
   std::array<FieldPlane, kMostFitFields> fields;
@@ -141,7 +141,7 @@ struct EightErrors {
   }
 };
 
-/// What bounds must exceed, lest errors in them be noise.
+/// The least useful bound: errors in smaller ones are noise.
 inline float least_bound(const NormPlanes& planes) { return std::max(kLeastBound, planes.guard); }
 
 /// Calls visit(x, norms, places) for each eight samples of a row.

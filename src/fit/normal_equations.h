@@ -20,7 +20,7 @@ class NormalEquations {
       for (std::size_t j = 0; j < 3; ++j) left_[i][j] += pull.stiffness * u[i] * u[j];
     }
   }
-  /// Keeps it solvable where the samples say nothing about a direction.
+  /// Keeps it solvable where the samples determine nothing about a direction.
   void damp() {
     constexpr double kPlaces = 1e-3, kHeights = 1e-4;
     const double damping = kPlaces * (left_[1][1] + left_[2][2]);

@@ -40,7 +40,7 @@ class Patch {
   struct alignas(32) Face {
     std::array<Id, 3> corners;  ///< positive; corners[0] is kNone where there is no triangle any more
     std::array<Link, 3> links;
-    float worst, energy;  ///< of TriangleError::Verdict; negative: not known yet
+    float worst, energy;  ///< values of TriangleError::Verdict; negative: not known yet
   };
   static_assert(sizeof(Face) == 32);
 
@@ -54,7 +54,7 @@ class Patch {
     bool closed = true;
     std::vector<Id> faces;     ///< face i is (v, ring i, ring i + 1)
     std::vector<Id> ring;      ///< one more than faces in an open star
-    std::vector<Link> beyond;  ///< what lies beyond the edge from ring i to ring i + 1
+    std::vector<Link> beyond;  ///< links beyond the edge from ring i to ring i + 1
     Link side = kSide;         ///< open: what the edge from the last of the ring to the first becomes
   };
 
@@ -73,9 +73,9 @@ class Patch {
   bool is_locked(Id v) const { return locked_[v] != 0; }
   /// The half-edges of the triangulation that became borders, by index.
   const std::vector<HalfEdge>& fixed() const { return fixed_; }
-  /// The samples that the triangles may look at.
+  /// The samples that the triangles may read.
   struct Window {
-    Point first;  ///< where lattice points are counted from
+    Point first;  ///< origin from which lattice points are counted
     std::int32_t cols = 0, rows = 0;
   };
   const Window& window() const { return window_; }
@@ -86,7 +86,7 @@ class Patch {
     faces_[f].energy = energy;
   }
 
-  /// Of a locked vertex the part around one of its triangles, from border to border. REQUIRES: v is not removed.
+  /// For a locked vertex it is the part around one of its triangles, from border to border. REQUIRES: v is not removed.
   /// Cost: O(its degree).
   void find_star(Id v, Star& star) const;
 
@@ -95,12 +95,12 @@ class Patch {
   void remove(Id v, const Star& star, std::span<const RingTriangle> triangles);
 
   /// A new vertex within the face, or, where an edge is given, on that edge between its two faces: three, or four,
-  /// triangles around it take their place. Returns the vertex; the triangles are its star, their errors not known.
+  /// triangles around it replace them. Returns the vertex; the triangles are its star, their errors not known.
   /// REQUIRES: they are positive; the edge is no border; no transaction is open.
   Id insert(const FitCorner& at, Id f);
   Id insert(const FitCorner& at, Id f, unsigned edge);
 
-  /// The triangles (c, a, d) and (d, b, c) that would take the place of (a, b, c) and, beyond its edge a b, (b, a, d).
+  /// The triangles (c, a, d) and (d, b, c) that would replace (a, b, c) and, beyond its edge a b, (b, a, d).
   struct Quad {
     Id face = kNone, beyond = kNone;
     Id a = kNone, b = kNone, c = kNone, d = kNone;
@@ -108,7 +108,7 @@ class Patch {
   /// REQUIRES: the edge is no border.
   Quad quad(Id f, unsigned edge) const;
 
-  /// Changes the diagonal: (c, a, d) takes the place of q.face, (d, b, c) of q.beyond. REQUIRES: both are positive.
+  /// Changes the diagonal: (c, a, d) replaces q.face, (d, b, c) of q.beyond. REQUIRES: both are positive.
   void flip(const Quad& q);
 
   /// REQUIRES: the triangles around v stay positive, those of a side on their side.
@@ -117,11 +117,11 @@ class Patch {
     nodes_[v].at = to;
   }
 
-  /// From here on changes can be taken back.
+  /// From here on changes can be undone.
   void begin();
   void commit();
   void roll_back();
-  /// What the triangles that were touched since begin() were before.
+  /// The triangles that were touched since begin(), as they were before.
   std::span<const Journal<Face>::Copy> touched() const { return face_journal_.copies(); }
 
   /// Numbers the faces anew, without gaps, and gives back the memory of those that are gone.
@@ -133,7 +133,7 @@ class Patch {
   /// The star from a triangle on, whose corner it belongs to; false where it ends at a border.
   struct Rim {
     Id from;
-    Link beyond;  // of the edge to the next
+    Link beyond;  // link of the edge to the next
   };
   bool walk(Id f, unsigned corner, Star& star) const;
   Id fan(const FitCorner& at, std::span<const Rim> rim, std::array<Id, 4> faces, std::size_t reused);

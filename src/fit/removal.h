@@ -1,8 +1,8 @@
 // Exact removal: removes vertices from a mesh while every sample stays within the bound.
 //
-// A vertex may go if the ring that it leaves behind can be triangulated so that every sample of every triangle keeps
-// the threshold (ring_search.h). No other vertex moves: the remaining ones are samples with their own heights, as after
-// insertion. Vertices are removed greedily, by price:
+// A vertex may go if the ring around it can be triangulated so that every sample of every triangle keeps the threshold
+// (ring_search.h). No other vertex moves: the remaining ones are samples with their own heights, as after insertion.
+// Vertices are removed greedily, by price:
 //
 //   price of v = energy of the best triangles of its ring - energy of the triangles around v,
 //   energy of a triangle = Σ (error / threshold)² over its samples:
@@ -27,7 +27,7 @@ namespace scarp {
 
 struct RemovalCounts {
   std::uint64_t removed = 0;   ///< vertices
-  std::uint64_t searches = 0;  ///< rings that were looked at
+  std::uint64_t searches = 0;  ///< number of rings examined
 };
 
 /// Removes vertices until none can go. `settled`: by node, 1 where it is known that it cannot; brought up to date,

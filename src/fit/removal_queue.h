@@ -1,7 +1,7 @@
 // The order in which vertices are removed: the cheapest first.
 //
-// The price of a vertex is the energy of the best triangles of the ring that it leaves behind (ring_search.h), less
-// that of the triangles around it. Vertices with a short edge go before all others.
+// The price of a vertex is the energy of the best triangles of the ring around it (ring_search.h), less that of the
+// triangles around it. Vertices with a short edge go before all others.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class RemovalQueue {
   }
 
   /// Calls pass.remove(v, star, triangles), which returns the nodes around which something has changed, for the
-  /// cheapest vertex until none can go, or pass.is_over(). Vertices for which pass.wants(v) are looked at first.
+  /// cheapest vertex until none can go, or pass.is_over(). Vertices for which pass.wants(v) are tried first.
   /// pass.energy_of(face): a triangle's energy.
   template <class Pass>
   void run(Pass& pass) {
@@ -43,16 +43,16 @@ class RemovalQueue {
     }
   }
 
-  /// Rings that were looked at.
+  /// Number of rings examined.
   std::uint64_t searches() const { return searches_; }
 
  private:
   struct Note {
-    std::uint64_t code = 0;  // the triangles that would take the vertex' place
+    std::uint64_t code = 0;  // the triangles that would replace the vertex
     Point witness;           // against its removal
   };
 
-  /// Whether v's ring has a triangulation; leaves its star in star_ and the best triangles in search_.
+  /// True if v's ring has a triangulation; stores its star in star_ and the best triangles in search_.
   template <class Pass>
   bool look_at(Patch::Id v, Pass& pass, float& price) {
     ++searches_;

@@ -62,7 +62,7 @@ Patch::Id Repair::insert(const FitCorner& place, Patch::Id face, std::optional<u
   return v;
 }
 
-/// Mends what a removal broke, or takes all of it back.
+/// Mends what a removal broke, or undoes all of it.
 bool Repair::finish() {
   if (!mend()) {
     patch_.roll_back();
@@ -97,7 +97,7 @@ bool Repair::mend() {
   }
 }
 
-/// Whether a triangle around v has more than this share of the threshold.
+/// True if a triangle around v has more than this share of the threshold.
 bool Repair::is_strained(Patch::Id v, double share) {
   patch_.find_star(v, star_);
   return std::any_of(star_.faces.begin(), star_.faces.end(),

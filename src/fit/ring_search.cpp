@@ -13,7 +13,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 std::size_t lowest(std::uint32_t set) { return static_cast<std::size_t>(std::countr_zero(set)); }
 constexpr std::uint32_t only(std::size_t corner) { return 1u << corner; }
 
-/// Visits the triangles of a triangulation in order: `middle` tells the third corner of the one at an interval.
+/// Visits the triangles of a triangulation in order: `middle` returns the third corner of the one at an interval.
 template <class Middle, class Visit>
 void each_triangle(std::size_t corners, const Middle& middle, const Visit& visit) {
   struct Interval {
@@ -138,9 +138,9 @@ void RingSearch::keep_shapely(const FitCorner& hub) {
   }
 }
 
-/// Forbids the triangles that hold the sample that is looked from and break the threshold there; whether there are any.
+/// Forbids the triangles that hold the given sample and break the threshold there; returns whether there are any.
 /// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned. Without branches
-/// inside, as nobody could predict which triangles hold the sample.
+/// inside, as it is unpredictable which triangles hold the sample.
 template <class AddMore>
 bool RingSearch::cross_out_by(const AddMore& add_more) {
   Set any = 0;
@@ -175,7 +175,7 @@ bool RingSearch::cross_out() {
 }
 
 /// Finds the intervals that can be triangulated, then those that a triangulation of the whole needs; false if the whole
-/// cannot. Inner intervals first, then outer ones; without branches, which nobody could predict.
+/// cannot. Inner intervals first, then outer ones; without branches, which would be unpredictable.
 bool RingSearch::connect() {
   std::array<Set, kMostCorners> open_to;  // first corners of intervals that can be triangulated
   for (std::size_t j = 1; j < size_; ++j) open_to[j] = only(j - 1);

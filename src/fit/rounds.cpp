@@ -29,7 +29,7 @@ Freedom freedom_of(const Raster& raster, const FitOptions& options) {
   return options.vertices_are_free && options.norm == nullptr && has_room ? Freedom::kLattice : Freedom::kSamples;
 }
 
-/// Lets vertices be as low and as high as samples are.
+/// Limits vertices to the range of the samples.
 void set_range(const Raster& raster, const ReadWindow& read, MoveRules& rules) {
   rules.lowest = std::numeric_limits<float>::max();
   rules.highest = std::numeric_limits<float>::lowest();
@@ -124,7 +124,8 @@ Fitted Rounds::finish() {
   return std::move(fitted_);
 }
 
-/// Cuts, lets work(patch, vertices, error) count what it does to each patch, and joins, to a lattice of so many steps.
+/// Cuts, calls work(patch, vertices, error), which counts its changes, for each patch, and joins, to a lattice of so
+/// many steps.
 bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work) {
   const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
   std::vector<Patch> patches(cutter.count());
@@ -142,7 +143,7 @@ bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work
   return true;
 }
 
-/// In parallel, and tells of the progress; counts_ of a patch are added when it is done.
+/// Runs in parallel, and reports the progress; counts_ of a patch are added when it is done.
 bool Rounds::each_patch(std::size_t count, double begin, double end,
                         FunctionRef<void(std::size_t i, std::size_t worker)> one) {
   bool goes_on = true;
@@ -226,7 +227,7 @@ std::vector<std::uint8_t> Rounds::near_held(const Patch& patch, const std::vecto
   return marks;
 }
 
-/// What is new among the vertices is neither settled nor held.
+/// New vertices are neither settled nor held.
 void Rounds::renumber(const std::vector<Vertex>& numbers, std::size_t count) {
   for (std::vector<std::uint8_t>* of_vertices : {&settled_, &held_}) {
     std::vector<std::uint8_t> now(count, 0);

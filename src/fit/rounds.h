@@ -17,29 +17,29 @@ class Rounds {
   /// Raster and options stay alive.
   Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
 
-  /// Of removal; `relocates`: then each vertex takes a step, and removal goes on. `end`: the share of the whole that is
-  /// then done. False if it was told to stop, as those below.
+  /// A round of removal; `relocates`: then each vertex makes a step, and removal continues. `end`: the share of the
+  /// whole that is then done. False if it was cancelled, as those below.
   bool run(const PatchGrid& grid, double end, bool relocates = false);
 
-  /// Of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.
+  /// A round of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.
   bool repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held = false);
 
-  /// What a round of repair is to do; `shake` as there.
+  /// The options of a round of repair; `shake` as there.
   RepairOptions repair_options(int polishes, std::uint32_t shake) const {
     return {options_.depth.repair, rules_, shake, polishes, {}, options_.is_time_up};
   }
 
-  /// Of squared errors: prepares each patch, hands all of them to `between`, then lets `job` work on each.
+  /// For squared errors: prepares each patch, hands all of them to `between`, then calls `job` for each.
   using Prepare = FunctionRef<void(Patch& patch, const TriangleError& error)>;
   using Between = FunctionRef<void(std::span<const Patch> patches)>;
   using Job = FunctionRef<void(std::size_t i, Patch& patch, const TriangleError& error)>;
   bool work_twice(const PatchGrid& grid, double end, Prepare prepare, Between between, Job job);
 
-  /// What removal has had on borders it takes up itself.
+  /// Removal handles the vertices that it has had on borders itself.
   void forget_held() { held_.assign(held_.size(), 0); }
 
   const Triangulation& tin() const { return fitted_.tin; }
-  /// Of moves other than removal: without the floor where that yields.
+  /// Rules of moves other than removal: without the floor where that yields.
   MoveRules rules_of(const Patch& patch) const;
 
   bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
@@ -68,7 +68,7 @@ class Rounds {
   const FitOptions& options_;
   MoveRules rules_;
   Fitted fitted_;
-  std::uint64_t vertices_;                     // of the mesh that was given
+  std::uint64_t vertices_;                     // vertices of the mesh that was given
   double done_ = 0;                            // share of the whole
   std::vector<std::uint8_t> settled_;          // by vertex
   std::vector<std::uint8_t> held_;             // by vertex: it has been on a border between patches

@@ -1,4 +1,4 @@
-// What moves of fitting must respect besides the bound: where vertices may be, and the shape of triangles.
+// The limits of fitting besides the bound: positions of vertices, and the shape of triangles.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace scarp {
 
-/// Where vertices may be.
+/// The positions allowed for vertices.
 enum class Freedom : std::uint8_t {
   kSamples,  ///< on valid samples, at their heights
   kLattice,  ///< on the lattice of fitting, at any height
 };
 
-/// Of a triangle; each part is compared for itself, so that none pays for the other.
+/// Shape of a triangle; each part is compared for itself, so that none pays for the other.
 struct TriangleShape {
   double form = 0;  ///< how far it is from being thin
   double edge = 0;  ///< the square of the shortest edge, at most ShapeRule::shortest_square
@@ -27,12 +27,12 @@ struct TriangleShape {
   }
 };
 
-/// How thin triangles, and how long edges, may be. A move must not leave a triangle that is thinner than the floor,
-/// unless the move takes away one that is as thin, nor a shorter edge, unless it takes away one as short: slivers that
-/// a mesh begins with, or that its outline wants, are thus never made worse and hold up no move.
+/// How thin triangles, and how long edges, may be. A move must not make a triangle that is thinner than the floor,
+/// unless the move removes one that is as thin, nor a shorter edge, unless it removes one as short: slivers that a mesh
+/// begins with, or that its outline wants, are thus never made worse and hold up no move.
 struct ShapeRule {
   double floor = 0;       ///< 0: any shape
-  double aspect = 1;      ///< of a sample: its height over its width
+  double aspect = 1;      ///< aspect of a sample: its height over its width
   bool by_angle = false;  ///< the form is the square of the smallest angle's sine instead
   double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with an edge beyond has the form 0
   double shortest_square = 0;                                       ///< no edge is too short from here on
@@ -55,20 +55,20 @@ struct ShapeRule {
     const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), ca));
     return {std::min(most, area * aspect / longest * (area * aspect / middle)), edge};
   }
-  /// Whether an edge is shorter than it may be.
+  /// True if an edge is shorter than it may be.
   bool is_short(const FitCorner& p, const FitCorner& q) const { return square(p, q) < shortest_square; }
-  /// Of an edge.
+  /// Squared length of an edge.
   double square(const FitCorner& p, const FitCorner& q) const {
     const double x = q.x - p.x, y = (q.y - p.y) * aspect;
     return x * x + y * y;
   }
-  /// The floor for moves that take away the triangle too.
+  /// The floor for moves that remove the triangle, too.
   TriangleShape lowered(const TriangleShape& to, const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
     return to.worse_of(shape(a, b, c));
   }
 };
 
-/// Vertices at edges that are too short go first: taken off the price of their removal, which is an energy.
+/// Vertices at edges that are too short go first: subtracted from the price of their removal, which is an energy.
 inline constexpr float kShortEdgeFirst = 1e30f;
 
 inline bool has_short_edge(const ShapeRule& rule, const FitCorner& hub, const std::vector<FitCorner>& ring) {

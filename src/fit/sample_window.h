@@ -22,13 +22,13 @@ using ReadWindow = std::function<void(const Patch::Window& window, float* to, st
 /// Keeps its memory between patches.
 class SampleWindow {
  public:
-  /// The errors of triangles of the patch. A few long triangles may reach over samples that no other looks at: then
-  /// they are read where they are. The window and the raster stay alive, and unchanged, as long as the errors.
-  /// `bounds`: of the raster's samples, or empty; where all that the patch looks at are equal they are its threshold,
-  /// else it has bounds. `norm`: of whose fields errors are; null: of heights alone.
+  /// The errors of triangles of the patch. A few long triangles may reach over samples that no other reads: then they
+  /// are read in place. The window and the raster stay alive, and unchanged, as long as the errors. `bounds`: of the
+  /// raster's samples, or empty; where all that the patch reads are equal they are its threshold, else it has bounds.
+  /// `norm`: of whose fields errors are; null: of heights alone.
   TriangleError errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm, const Patch& patch,
                        double threshold);
-  /// Of heights alone, whose samples are read, and their bounds if they have some of their own.
+  /// The errors of heights alone, whose samples are read, and their bounds if they have some of their own.
   TriangleError errors(const ReadWindow& read, const ReadWindow& read_bounds, const Patch& patch, double threshold);
 
  private:

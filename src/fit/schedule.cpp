@@ -13,7 +13,7 @@ namespace {
 
 using Id = Patch::Id;
 
-/// Where all are locked, arithmetic may have ended (cut.h).
+/// If all are locked, arithmetic may have ended (cut.h).
 bool has_free_vertex(const Patch& patch) {
   for (Id v = 0; v < patch.node_count(); ++v) {
     if (!patch.is_locked(v)) return true;

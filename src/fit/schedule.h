@@ -1,12 +1,12 @@
-// Which vertices are removed with repair, and in which order.
+// The vertices that are removed with repair, and their order.
 //
-// As in removal (removal.h) the cheapest goes first (removal_queue.h), but with the slack of repair and with Σ t⁸, which
-// weighs what is near the bound. A successful repair makes the prices of all corners of changed triangles stale. Before,
-// one sweep of flips and steps over the whole patch, under the bound itself, puts vertices and edges where removal wants
-// them: without it a second round would find what the first left.
+// Like in removal (removal.h) the cheapest goes first (removal_queue.h), but with the slack of repair and with Σ t⁸,
+// which weighs what is near the bound. A successful repair makes the prices of all corners of changed triangles stale.
+// Before, one sweep of flips and steps over the whole patch, under the bound itself, puts vertices and edges where
+// removal wants them: without it a second round would find what the first left.
 //
 // On Fuji and Crater Lake at 2 to 0.5 % of the relief 2 to 4 % more triangles stay without the sweep, 2 to 5 % more
-// after one round than after two; a third takes 1 to 2 % more away.
+// after one round than after two; a third removes 1 to 2 % more.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct RepairOptions {
   MoveRules rules = {};
   std::uint32_t shake = 0;  ///< other than 0: vertices are shaken first, by dice that this is the seed of
   int polishes = 0;         ///< sweeps that lower the squared error at the end, over all vertices
-  std::span<const std::uint8_t> wanted = {};  ///< by node, 1 for those to look at first; EMPTY: all
+  std::span<const std::uint8_t> wanted = {};  ///< by node, 1 for those to try first; EMPTY: all
   std::function<bool()> is_time_up = {};      ///< asked before each vertex; true ends the rest but for polishing
 };
 
@@ -48,7 +48,7 @@ class Schedule {
 
   /// Errors and energies of all triangles by the power. REQUIRED before the others.
   void measure_all();
-  /// One look at each edge, and one step of each vertex around which anything has changed since its last step found
+  /// Tries each edge once, and one step of each vertex around which anything has changed since its last step found
   /// nothing, under the bound itself.
   void sweep();
   void shake();

@@ -13,11 +13,11 @@ namespace scarp {
 
 namespace {
 
-/// Share of the triangles that the first exchange takes away, and where exchanges end.
+/// Share of the triangles that the first exchange removes, and where exchanges end.
 constexpr double kFirstExchange = 0.1, kLastExchange = 0.004;
 /// From the third on exchanges become smaller by this, where one has failed by kFailed.
 constexpr double kSmaller = 0.8, kFailed = 0.5;
-/// What Σ e² must fall to for an exchange to stay.
+/// Factor to which Σ e² must fall for an exchange to stay.
 constexpr double kWorthExchange = 0.9995;
 /// Triangles over those that are wanted, after the rounds that reduce a mesh in patches.
 constexpr double kReductions[] = {1.6, 1.15, 1};
@@ -146,7 +146,7 @@ class SquareRounds {
     }
     const double wanted = over * static_cast<double>(wanted_triangles(all));
     if (!(weights > 0)) return shares;
-    // What could not be taken away last time will not be now.
+    // Vertices that could not be removed last time will not be removed now.
     if (last_wanted_ > 0) excess_ = std::max(0.0, excess_ + static_cast<double>(all) - last_wanted_);
     last_wanted_ = wanted;
     double carried = 0;
@@ -178,7 +178,7 @@ class SquareRounds {
     of.rules = rounds_.rules_of(patch);
     return of;
   }
-  /// Whether the floor of shapes yields is seen from what a reduction without it leaves.
+  /// A reduction without the floor shows whether the floor of shapes yields.
   void reduce_from_start(Patch& patch, const TriangleError& error, std::size_t most) const {
     if (!options_.floor_yields) return reduce(patch, error, options_of(patch), most);
     const Patch start = patch;
@@ -228,7 +228,7 @@ class SquareRounds {
 
   std::int32_t longest() const { return std::max(raster_.cols, raster_.rows); }
 
-  /// Of squares of some kPatchTriangles of the budget, for narrow rasters of shorter pieces.
+  /// Side of squares of some kPatchTriangles of the budget, for narrow rasters of shorter pieces.
   std::int32_t side() const {
     const std::uint64_t wanted = wanted_triangles(rounds_.tin().triangle_count());
     const std::int32_t most = options_.most_side > 0 ? std::min(options_.most_side, longest()) : longest();

@@ -4,9 +4,9 @@
 // density is a power of the curvature, ½ for the one, ⅓ for the other. So no bound leads there. Instead:
 //
 //   start        a refined mesh of some kSquareStart times the triangles
-//   reduction    the cheapest vertex goes first, its price the rise of Σ e²; its neighbours take a step each
+//   reduction    the cheapest vertex goes first, its price the rise of Σ e²; its neighbours make a step each
 //   sweeps       flips of all edges, a Gauss–Newton step of all vertices, each with its exact best height
-//   exchanges    a tenth of the vertices go, as many come where they gain most, then sweeps; taken back where Σ e² has
+//   exchanges    a tenth of the vertices go, as many come where they gain most, then sweeps; undone where Σ e² has
 //                not fallen
 //   sweeps
 //
@@ -23,8 +23,8 @@ namespace scarp {
 /// of 6.86, 6.4, 6.28 and 6.26.
 inline constexpr double kSquareStart = 4;
 
-/// As fit(), but for options.squares: as many triangles and vertices as they say, or fewer, unless the bound needs
-/// more, with a small Σ (error / bound)². REQUIRES: options.squares.
+/// Like fit(), but for options.squares: as many triangles and vertices as they ask for, or fewer, unless the bound
+/// needs more, with a small Σ (error / bound)². REQUIRES: options.squares.
 Result<Fitted> fit_squares(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
 
 }  // namespace scarp

@@ -60,16 +60,16 @@ struct TriangleError::ByThreshold {
   float excess(float error, Point) const { return error; }
 };
 
-/// The same against bounds of their own. Of the roundings that a guard holds (scan_plane.h) 2u·error, and those of the
-/// bound, grow with a bound; u = 2⁻²⁴. So the guard of a threshold of 0 will do if bounds are widened or narrowed by
-/// 16u.
+/// The same against bounds of their own. Among the roundings that a guard holds (scan_plane.h) 2u·error, and those of
+/// the bound, grow with a bound; u = 2⁻²⁴. So the guard of a threshold of 0 will do if bounds are widened or narrowed
+/// by 16u.
 template <class Sums>
 struct TriangleError::ByBounds {
   static constexpr float kWider = 1 + 0x1p-20f, kNarrower = 1 - 0x1p-20f;
 
   const TriangleError& of;
   TriangleTask task;
-  Sums sums;  // of errors in bounds
+  Sums sums;  // sums of errors in bounds
   float limit;
   const float* end;
   // By how much errors exceed bounds, lane by lane; beyond the guard, either way, there is no doubt.
@@ -192,7 +192,7 @@ TriangleError::Verdict TriangleError::assess_by_bounds(const FitCorner& a, const
   return verdict;
 }
 
-/// Whether the triangle keeps the threshold; `worst` is brought into line.
+/// True if the triangle keeps the threshold; `worst` is adjusted.
 template <class Tally>
 bool TriangleError::decide(const Tally& tally, Verdict& verdict) const {
   const bool keeps = !tally.breaks(verdict.worst) && (!tally.is_in_doubt(verdict.worst) || settle(tally, verdict));
@@ -253,7 +253,7 @@ TriangleError::Verdict TriangleError::assess_corners(const std::array<FitCorner,
   return verdict;
 }
 
-/// Decides in exact arithmetic about the samples that rounding leaves in doubt; false where one breaks the threshold.
+/// Decides in exact arithmetic about the samples that are in doubt by rounding; false where one breaks the threshold.
 template <class Tally>
 bool TriangleError::settle(const Tally& tally, Verdict& verdict) const {
   const TriangleTask& task = tally.task;

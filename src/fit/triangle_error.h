@@ -1,7 +1,7 @@
 // How far the samples of one trial triangle lie off its plane: the innermost loop of fitting.
 //
-// Most trial triangles break the bound, so the scan ends at the first row in which a sample does, and tells which one:
-// the sample is likely to break other triangles over the same place. Arithmetic is that of the scan kernels
+// Most trial triangles break the bound, so the scan ends at the first row in which a sample does, and returns that
+// sample: the sample is likely to break other triangles over the same place. Arithmetic is that of the scan kernels
 // (geom/scan_kernels.h) on a lattice of 256ths of a sample, summed in eight lanes whatever the machine has; what lies
 // within the guard of the threshold is decided exactly.
 //
@@ -40,9 +40,9 @@ inline std::int64_t area2(const FitCorner& a, const FitCorner& b, const FitCorne
 /// of double (triangle_error.cpp).
 inline constexpr std::int32_t kMaxFitSteps = 1 << 24;
 
-/// What may be, and what it costs.
+/// The limits of errors, and their cost.
 struct ErrorRule {
-  double slack = 1;  ///< triangles are let through up to slack × threshold; 1 … 4
+  double slack = 1;  ///< triangles are accepted up to slack × threshold; 1 … 4
   enum class Power { kTwo, kEight };
   Power power = Power::kTwo;  ///< p of the energy Σ (error / threshold)^p
 };
@@ -92,7 +92,7 @@ class TriangleError {
   struct Pull {
     double stiffness = 0;  ///< Σ t⁶ λ², t = error / threshold, λ = weight of a in the triangle at the sample
     double push = 0;       ///< Σ t⁷ λ, positive where the plane is too high
-    double slope_x = 0, slope_y = 0;  ///< of the plane, in units() a sample
+    double slope_x = 0, slope_y = 0;  ///< slopes of the plane, in units() a sample
   };
   /// REQUIRES: (a, b, c) positive, has_energy(), no norm. Cost: as assess().
   Pull pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
@@ -100,8 +100,8 @@ class TriangleError {
   /// The same for each field; of heights alone one. Fields are reckoned by their scales.
   void pull(const FitCorner& a, const FitCorner& b, const FitCorner& c, std::vector<Pull>& pulls) const;
 
-  /// What the energy Σ tᵖ becomes when corner a rises by d units: Σ over k of C(p, k)·moments[k]·dᵏ,
-  /// moments[k] = Σ tᵖ⁻ᵏ λᵏ, k <= p.
+  /// The coefficients of the energy Σ tᵖ when corner a rises by d units: Σ over k of C(p, k)·moments[k]·dᵏ, moments[k]
+  /// = Σ tᵖ⁻ᵏ λᵏ, k <= p.
   using Moments = std::array<double, 9>;
   /// Adds a triangle's. REQUIRES, cost: as pull().
   void add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const;
@@ -112,12 +112,12 @@ class TriangleError {
 
     bool is_open() const { return lowest < highest; }
   };
-  /// Leaves of the room what the samples of a triangle leave, but for those in which the corner hardly weighs.
+  /// Narrows the room to what the samples of a triangle allow, but for those in which the corner hardly weighs.
   /// REQUIRES, cost: as pull().
   void narrow(const FitCorner& a, const FitCorner& b, const FitCorner& c, Room& room) const;
 
-  double threshold() const { return threshold_; }  ///< of Verdict::worst; 1 with bounds
-  double unit() const { return unit_; }            ///< of rises: the threshold, or that of the bounds
+  double threshold() const { return threshold_; }  ///< Unit of Verdict::worst; 1 with bounds
+  double unit() const { return unit_; }            ///< unit of rises: the threshold, or that of the bounds
   bool has_bounds() const { return bounds_.samples != nullptr; }
   ErrorRule::Power power() const { return power_; }
   bool has_energy() const { return per_threshold_ > 0; }
@@ -126,14 +126,14 @@ class TriangleError {
     if (norm_ != nullptr) return limit_ * norm_bound_at(sample);
     return has_bounds() ? limit_ * double{bound_at(sample)} : limit_;
   }
-  /// Of a sample counted from the first of the window.
+  /// Height of a sample counted from the first of the window.
   float height_at(Point sample) const { return raster_.at({first_.x + sample.x, first_.y + sample.y}); }
 
   /// Fields whose errors count; of heights alone one.
   std::size_t field_count() const;
   /// How their errors are combined.
   Norm norm() const;
-  /// Of a field at a sample, at a corner: times the field's scale, so that errors are limit_at()'s.
+  /// Value of a field at a sample, at a corner: times the field's scale, so that errors are limit_at()'s.
   double value_at(std::size_t field, Point sample) const {
     return norm_ == nullptr ? double{height_at(sample)} : norm_value_at(field, sample);
   }
@@ -170,13 +170,13 @@ class TriangleError {
   float in_thresholds(float error, Point sample) const;
 
   Raster raster_;
-  Raster bounds_;  // beside the samples
+  Raster bounds_;  // parallel to the samples
   Point first_;
   double threshold_, limit_, unit_;
   ErrorRule::Power power_;
   float per_threshold_, per_square_;  // 0 where squares of float32 come to an end
-  const float* end_;                  // of the samples
-  const TriangleKernels* kernels_;    // of one threshold
+  const float* end_;                  // end of the samples
+  const TriangleKernels* kernels_;    // kernels of one threshold
   const NormError* norm_ = nullptr;
 };
 

@@ -24,7 +24,7 @@ struct SampleRows {
   const float* end;
 };
 
-/// What is asked of a triangle.
+/// The limits of a triangle.
 struct ErrorLimits {
   float cut;         ///< an error above it breaks the limit
   float energy;      ///< from here on the triangle is costly
@@ -33,13 +33,13 @@ struct ErrorLimits {
 
 struct TriangleSums {
   TriangleError::Verdict::Kind kind = TriangleError::Verdict::Kind::kKeeps;
-  float worst = 0, energy = 0;              ///< kKeeps, or kCostly if all samples were needed to tell; else 0
+  float worst = 0, energy = 0;              ///< kKeeps, or kCostly if all samples were needed to decide; else 0
   std::int32_t y = 0, first = 0, last = 0;  ///< kBreaks: the samples among which one breaks the limit
 };
 
 /// How the errors of a triangle follow the height of its first corner.
 struct CornerWeight {
-  float slope_x, slope_y;  ///< of the corner's weight, which is 1 at the corner
+  float slope_x, slope_y;  ///< slopes of the corner's weight, which is 1 at the corner
   float per_threshold;     ///< 1 / threshold, or 0
 };
 
@@ -48,13 +48,13 @@ struct CornerPull {
 };
 
 struct TriangleKernels {
-  const char* name;  ///< as that of ScanKernels
+  const char* name;  ///< name as in ScanKernels
   using Assess = TriangleSums (*)(const TriangleTask& task, const SampleRows& rows, const ErrorLimits& limits);
   using Pull = CornerPull (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight);
   /// Adds to them.
   using Moments = void (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
                            TriangleError::Moments& moments);
-  /// Of squares and of eighth powers, as ErrorRule::Power.
+  /// For squares and for eighth powers, as ErrorRule::Power.
   std::array<Assess, 2> assess;
   std::array<Pull, 2> pull;
   std::array<Moments, 2> add_moments;
@@ -75,7 +75,7 @@ std::span<const TriangleKernels> vector_triangle_kernels();
 
 }  // namespace trial
 
-/// Corners that hardly weigh at a sample leave it alone.
+/// Corners that hardly weigh at a sample do not affect it.
 inline constexpr float kLeastShare = 1e-5f;
 
 }  // namespace scarp

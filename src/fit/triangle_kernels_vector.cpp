@@ -48,7 +48,7 @@ HWY_INLINE FourVec high_of(WideVec v) { return hn::UpperHalf(Four(), v); }
 
 HWY_INLINE WideVec all(float value) { return hn::Set(Wide(), value); }
 
-/// Eight sums, in as many vectors as it takes.
+/// Eight sums, in as many vectors as needed.
 struct EightSums {
   WideVec part[kParts];
 
@@ -88,7 +88,7 @@ struct FourSums {
   }
 };
 
-/// Calls take.row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
+/// Calls take.row(y, first, last) for each row with samples, top down, until it returns false; true if it never did.
 /// The arithmetic is that of each_row(), for several rows at once.
 template <class Take>
 HWY_INLINE bool each_span(const TriangleTask& task, Take& take) {
@@ -124,7 +124,7 @@ HWY_INLINE bool each_span(const TriangleTask& task, Take& take) {
   return true;
 }
 
-/// What is the same for all samples of a triangle.
+/// The values that are the same for all samples of a triangle.
 struct RowScan {
   const SampleRows rows;
   const float base_x, base_y, slope_y;

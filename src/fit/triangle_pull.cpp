@@ -1,4 +1,4 @@
-// What the samples of a triangle want of one of its corners.
+// The pull of a triangle's samples on one of its corners.
 #include "fit/norm_error.h"
 #include "fit/triangle_kernels.h"
 #include "fit/triangle_scan.h"

@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-// Rows are looked at eight samples at a time, as two vectors of four: the width that every machine has. The order of
-// the sums is part of the result.
+// Rows are scanned eight samples at a time, as two vectors of four: the width that every machine has. The order of the
+// sums is part of the result.
 using Floats = float __attribute__((vector_size(16)));
 using Masks = std::int32_t __attribute__((vector_size(16)));
 using Words = std::int64_t __attribute__((vector_size(16)));
@@ -75,7 +75,7 @@ struct TriangleTask {
       : corners{a, b, c} {
     constexpr double kStep = 1.0 / kLatticeSteps;
     const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
-    // By comparisons alone, as nobody could predict the branches of swaps. Two of the eight outcomes cannot be.
+    // By comparisons alone, as the branches of swaps are unpredictable. Two of the eight outcomes cannot be.
     constexpr std::array<std::array<std::uint8_t, 3>, 8> kOrders{
         {{0, 1, 2}, {1, 0, 2}, {0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {0, 1, 2}, {2, 0, 1}, {2, 1, 0}}};
     const std::array<double, 3> xs{pa.x, pb.x, pc.x}, ys{pa.y, pb.y, pc.y};
@@ -117,12 +117,12 @@ bool each_row(const TriangleTask& task, const Row& row) {
   return true;
 }
 
-inline constexpr int kRowsPerLook = 4;  ///< between looks at the energy
+inline constexpr int kRowsPerLook = 4;  ///< rows between checks of the energy
 
 /// A scan on its way through the rows of a triangle.
 struct TriangleScan {
   const TriangleTask& task;
-  const float* end;  // of the samples
+  const float* end;  // end of the samples
   Floats slope, height;
   int rows = 0;
 
@@ -165,7 +165,7 @@ struct EightBounds {
 inline constexpr float kLeastBound = 0x1p-60f;
 inline float least_bound(const TriangleTask& task) { return std::max(kLeastBound, task.plane.guard); }
 
-/// What is counted in bounds; 0 where they are too small for that.
+/// Values counted in bounds; 0 where they are too small for that.
 inline Floats per_bound(Floats values, Floats bounds, Floats least) { return kept(values / bounds, bounds > least); }
 
 }  // namespace scarp

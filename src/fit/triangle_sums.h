@@ -1,5 +1,5 @@
-// What is summed up over the samples of a trial triangle, in vectors of four. The order of the sums is part of the
-// result. For triangle_error.cpp, triangle_pull.cpp and triangle_kernels.cpp alone.
+// The sums over the samples of a trial triangle, in vectors of four. The order of the sums is part of the result. For
+// triangle_error.cpp, triangle_pull.cpp and triangle_kernels.cpp alone.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ struct EighthPowers : Largest {
   float energy(float) const { return sum_of(low_sum, high_sum); }
 };
 
-// Of each four samples: t, the error in thresholds, and λ, what a unit's rise of the corner adds to it.
+// For each four samples: t, the error in thresholds, and λ, what a unit's rise of the corner adds to it.
 
 struct SquarePull {
   Floats stiffness{}, push{};

@@ -11,14 +11,14 @@ namespace scarp {
 
 namespace {
 
-/// Of the energy before: what must be gained.
+/// Share of the energy before that must be gained.
 constexpr float kStepGain = 2e-3f;
 /// Lengths of a step: times Newton's, but at most this share of the mean edge.
 struct Length {
   double times, reach;
 };
 constexpr std::array<Length, 3> kOfSquares{{{1.5, 0.4}, {0.45, 0.12}, {0.12, 0.032}}};
-/// Where the largest errors lead, most of the longest steps fail.
+/// If the largest errors lead, most of the longest steps fail.
 constexpr std::array<Length, 2> kFree{{{0.45, 0.12}, {0.12, 0.032}}}, kOnSamples{{{1, 0.3}, {0.3, 0.1}}};
 
 std::span<const Length> lengths_of(ErrorRule::Power power, bool is_free) {
@@ -28,13 +28,13 @@ std::span<const Length> lengths_of(ErrorRule::Power power, bool is_free) {
 
 constexpr std::array<Point, 8> kStepWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
-/// What a shake may cost, times the energy before, and how far it goes at most, times the mean edge.
+/// Allowed cost of a shake, times the energy before, and how far it goes at most, times the mean edge.
 constexpr float kShakeCost = 3;
 constexpr double kShakeReach = 0.05;
 
 Point sample_at(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
 
-/// Between samples, by bilinear interpolation; NaN beside nodata.
+/// Between samples, by bilinear interpolation; NaN next to nodata.
 float terrain_height(const TriangleError& error, const Patch::Window& window, const FitCorner& place) {
   const Point p = sample_at(place);
   const Point q{std::min(p.x + 1, window.cols - 1), std::min(p.y + 1, window.rows - 1)};
@@ -204,7 +204,7 @@ VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorn
   return {raised.place, mends ? std::min(energy, limit * (1 - kStepGain)) : energy, mends};
 }
 
-/// Moves v there if that is better than the limit, and the rule of `error` lets it.
+/// Moves v there if that is better than the limit, and the rule of `error` allows it.
 bool VertexStep::take(const TriangleError& error, Patch::Id v, const Offer& offer, float limit) {
   if (!(offer.energy < limit)) return false;
   if (offer.mends) limit = std::numeric_limits<float>::infinity();

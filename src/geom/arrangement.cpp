@@ -13,13 +13,13 @@ namespace {
 /// A part of a line in the rectangle.
 struct LinePiece {
   ClippedSegment clipped;
-  std::uint32_t segment;  ///< of the line
+  std::uint32_t segment;  ///< segment of the line
 };
 
 /// Pieces that follow each other without a gap.
 struct PieceRun {
   std::uint32_t line;
-  std::size_t begin, end;  ///< of the pieces
+  std::size_t begin, end;  ///< range of the pieces
 };
 
 struct LinePieces {
@@ -102,7 +102,7 @@ std::vector<Arrangement::Edge> merge(const std::vector<std::uint64_t>& lines, co
   return edges;
 }
 
-/// Leaves out hot points that nothing passes.
+/// Removes hot points that nothing passes.
 void number_vertices(const std::vector<Point>& points, Arrangement& result) {
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> numbers(points.size(), kUnused);
@@ -116,7 +116,7 @@ void number_vertices(const std::vector<Point>& points, Arrangement& result) {
   for (std::uint32_t& vertex : result.passes) vertex = numbers[vertex];
 }
 
-/// Where on its course a segment begins and ends.
+/// The stretch of its course that a segment covers.
 Arrangement::Stretch stretch_of(const LinePiece& piece, const Segment& course, const HotPoints& hot,
                                 const HotPoints::Passes& passes, std::size_t begin, std::size_t end) {
   const auto place_of = [&](Point p) {

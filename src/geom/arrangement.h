@@ -7,10 +7,10 @@
 //
 // Two things are our own. Rigid segments run along the axes or the diagonals, so they meet no square but those of
 // lattice points on themselves, except that a falling diagonal (x + y constant) touches corners of others. A corner on
-// such a segment is taken from the square that it would belong to and given to the one on the segment: squares stay
-// convex and stay a partition, which is all that the proof needs, and rigid segments never bend. What the proof leaves
-// open, a hot point exactly on a bent piece between two such corners, splits the piece where it is. And where all
-// crossings are lattice points nothing needs rounding: lines that cross only in vertices come back as they are.
+// such a segment is moved from the square that it would belong to to the one on the segment: squares stay convex and
+// stay a partition, which is all that the proof needs, and rigid segments never bend. The proof has one gap: a hot
+// point exactly on a bent piece between two such corners splits the piece where it is. And where all crossings are
+// lattice points nothing needs rounding: lines that cross only in vertices come back as they are.
 #pragma once
 
 #include <cstdint>
@@ -47,16 +47,16 @@ struct Arrangement {
   /// A vertex that a line passes.
   struct Stop {
     std::uint32_t vertex;
-    std::uint32_t segment;  ///< of the line: from its points[segment] to points[segment + 1]
-    double fraction;        ///< of that segment, 0 … 1; (segment, fraction) never decreases along a chain
+    std::uint32_t segment;  ///< segment of the line: from its points[segment] to points[segment + 1]
+    double fraction;        ///< fraction of that segment, 0 … 1; (segment, fraction) never decreases along a chain
   };
   /// The part of one segment in a chain: it runs through passes[first] … passes[last], backwards where last < first.
   struct Stretch {
-    std::uint32_t segment;  ///< of the line
+    std::uint32_t segment;  ///< segment of the line
     std::uint32_t first, last;
-    double begin, end;  ///< where the segment begins and ends within the rectangle, as fractions of the whole
+    double begin, end;  ///< ends of the segment within the rectangle, as fractions of the whole
   };
-  /// What became of a line, or of one part of it in the rectangle: at least two vertices, successive ones differ.
+  /// The result for a line, or for one part of it in the rectangle: at least two vertices, successive ones differ.
   struct Chain {
     std::uint32_t line;
     std::uint32_t begin, end;  ///< stretches[begin] … stretches[end − 1], each begins where the one before ends
@@ -101,7 +101,7 @@ struct Arrangement {
 /// rectangle cuts it. (5) Arranging the edges with the same rigid segments changes nothing. (6) Vertices and edges do
 /// not depend on the order or the direction of lines.
 ///
-/// Chains of one vertex are left out: lines of no extent, or touched by the rectangle alone.
+/// Chains of one vertex are omitted: lines of no extent, or touched by the rectangle alone.
 /// REQUIRES: 0 < width, height <= kMaxCoordinate; rigid segments lie in the rectangle, run along axes or diagonals
 /// between points of even coordinates, and are no points. Lines may be anything.
 /// Cost: O((n + k) log n) for n segments and k crossings that are not crowded; two to three seconds for a million

@@ -40,7 +40,7 @@ class BoxTree {
   /// The places, from `first` on in the tree's order, of boxes that overlap a box. False if they are more than `most`.
   bool gather(const Box& box, std::size_t first, std::size_t most, std::vector<std::size_t>& places) const;
 
-  /// Calls visit(index) for each box that `meets` says true of, among those from `first` on in the tree's order.
+  /// Calls visit(index) for each box for which `meets` returns true, among those from `first` on in the tree's order.
   /// REQUIRES: meets(a box) where it holds of a box within it.
   template <class Meets, class Visit>
   void visit(Meets&& meets, Visit&& visit, std::size_t first = 0) const {

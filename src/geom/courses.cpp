@@ -98,7 +98,7 @@ class Merger {
   }
 
   std::vector<OnLine> lines_;
-  std::vector<std::uint32_t> leaders_;  ///< of each segment: the lowest of those united with it
+  std::vector<std::uint32_t> leaders_;  ///< leader of each segment: the lowest of those united with it
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Segments that lie upon each other, merged: what a thousand of them share is looked at once.
+// Segments that lie upon each other, merged: a stretch that a thousand of them share is examined once.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace scarp {
 /// The unions of segments on one line that have more than a point in common.
 struct Courses {
   std::vector<Segment> segments;  ///< `from` before `to` in raster order; in the order of their first segments
-  std::vector<std::uint32_t> of;  ///< of each segment given: the course that holds it
+  std::vector<std::uint32_t> of;  ///< for each segment given: the course that holds it
 };
 
 /// REQUIRES: no segment is a point; coordinates in [0, kMaxCoordinate]. Cost: O(n log n), O(n) where few share a line.

@@ -1,6 +1,6 @@
 // Pairs of segments come from a tree of boxes. Long segments are cut into pieces of the mean length, so that a box
 // holds little but its segment; together there are at most twice as many pieces as segments. Neighbours in the tree ask
-// for the boxes around them together, unless those are too many for all of them to look at.
+// for the boxes around them together, unless those are too many for all of them to examine.
 #include <algorithm>
 #include <cstdlib>
 

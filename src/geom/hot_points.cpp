@@ -78,8 +78,8 @@ bool HotPoints::lies_on_falling_rigid(Point p) const {
 
 /// Doubled, a square reaches from −1 to 1 around its point, and the segment's line passes that point at a distance
 /// of 2·|cross| / |d|, while the square's reach across the line is (|dx| + |dy|) / |d|. Coordinates of ends are even
-/// and those of borders odd, so a segment that meets a square without meeting its inside touches a corner. That the
-/// segment does not end before the square is seen by Reach: the point lies in its box.
+/// and those of borders odd, so a segment that meets a square without meeting its inside touches a corner. Reach
+/// ensures that the segment does not end before the square: the point lies in its box.
 HotPoints::Meets HotPoints::meets(const Segment& segment, std::uint32_t point) const {
   const Point p = points_[point];
   const std::int64_t dx = segment.to.x - segment.from.x, dy = segment.to.y - segment.from.y;

@@ -18,7 +18,7 @@ class Sweep {
   Sweep(std::span<const Point> vertices, std::span<const GraphEdge> edges)
       : vertices_(vertices), edges_(edges), status_(Order{this}), places_(edges.size()) {}
 
-  /// What lies on the positive side of each edge. cross(i, count): what lies beyond edge i, where `count` is before it.
+  /// The cover on the positive side of each edge. cross(i, count): the cover beyond edge i, where `count` is before it.
   template <class Cross>
   std::vector<std::int32_t> run(const Cross& cross) {
     std::vector<std::uint32_t> ends(edges_.size());
@@ -48,7 +48,7 @@ class Sweep {
     bool operator()(std::uint32_t i, std::uint32_t j) const { return sweep->is_left(i, j); }
   };
 
-  /// Of edges that lie across the way at the same time.
+  /// True for the left one of two edges that lie across the way at the same time.
   bool is_left(std::uint32_t i, std::uint32_t j) const {
     if (i == j) return false;
     const auto [a, b] = edges_[i];
@@ -84,7 +84,7 @@ void drop_pairs(std::vector<PolygonEdge>& passes) {
 std::vector<EdgeCover> cover_edges(std::span<const Point> vertices, std::span<const GraphEdge> edges,
                                    std::vector<PolygonEdge> passes) {
   drop_pairs(passes);
-  std::vector<std::int32_t> steps(edges.size(), 0);  // what is more on the negative side
+  std::vector<std::int32_t> steps(edges.size(), 0);  // how much more there is on the negative side
   std::vector<GraphEdge> own;
   for (std::size_t begin = 0, end = 0; begin < passes.size(); begin = end) {
     own.clear();

@@ -16,7 +16,7 @@ namespace scarp {
 
 namespace detail {
 
-constexpr std::int32_t kRowsWorthSkipping = 32;  // division takes the time of so many
+constexpr std::int32_t kRowsWorthSkipping = 32;  // a division needs the time of so many rows
 
 /// x of an edge on consecutive rows, as floor(x) and whether the remainder is zero.
 class EdgeWalker {

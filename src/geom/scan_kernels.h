@@ -5,7 +5,7 @@
 // operations everywhere (no fused multiply-add), and among equal errors the first sample in raster order wins, so
 // neither the width of a vector nor the order of work shows.
 //
-// What is computed for the triangle (a, b, c), heights za, zb, zc; a is the base:
+// The computation for the triangle (a, b, c), heights za, zb, zc; a is the base:
 //   slopes in double from the differences to a, rounded once to float32: slope_x, slope_y
 //   surface(x, y) = slope_x·(x − a.x) + slope_y·(y − a.y)        each product and the sum rounded
 //   error(x, y)   = |surface − (z − za)|                          each difference rounded
@@ -32,7 +32,7 @@ struct ScanHit {
                      ///< error > threshold + guard
 };
 
-/// What a computed error must exceed to count: threshold − guard, never below 0.
+/// The limit that a computed error must exceed to count: threshold − guard, never below 0.
 inline float scan_floor(double threshold, float guard) {
   return static_cast<float>(greater(threshold - double{guard}, 0));
 }

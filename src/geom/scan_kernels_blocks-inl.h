@@ -6,7 +6,7 @@
 // + 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So a margin of 2⁻²⁰M on the bound
 // and of 2⁻²⁰ on what it must reach never drops a sample that counts; 2⁻¹⁴⁰ covers numbers below the normal.
 
-// As Highway wants it: seen once for every instruction set.
+// Highway's kind of guard: seen once for every instruction set.
 #if defined(SCARP_SCAN_KERNELS_BLOCKS) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_SCAN_KERNELS_BLOCKS
 #undef SCARP_SCAN_KERNELS_BLOCKS
@@ -26,7 +26,7 @@ using detail::Span;
 struct BlockBounds {
   const TileView& tile;
   const ScanTask& task;
-  float extent;  ///< of the plane from a block's centre, and the margin
+  float extent;  ///< extent of the plane from a block's centre, and the margin
 
   BlockBounds(const TileView& view, const ScanTask& scan_task) : tile(view), task(scan_task) {
     const double x = task.plane.slope_x < 0 ? -double{task.plane.slope_x} : double{task.plane.slope_x};
@@ -56,7 +56,7 @@ HWY_INLINE float across_of(const ScanTask& task, std::int32_t row) {
   return task.plane.slope_y * (static_cast<float>(row * kBlock - task.base.y) + 3.5f);
 }
 
-/// What a bound must reach for its block to matter.
+/// The least bound for which its block matters.
 HWY_INLINE float limit_of(const ScanBest& best) { return best.error * (1 - 0x1p-20f); }
 
 struct RowBound {
@@ -113,7 +113,7 @@ HWY_INLINE std::uint64_t scan_block_row(const BlockBounds& blocks, std::int32_t 
   return scanned;
 }
 
-/// Hints first, then the best block of all, then the best of each row, then what is left: each step leaves less to the
+/// Hints first, then the best block of all, then the best of each row, then the rest: each step reduces the work of the
 /// next. The order does not depend on the number of lanes.
 HWY_NOINLINE std::uint64_t scan_blocks(const TileView& tile, const ScanTask& task,
                                        const std::array<TilePoint, 3>& corners, std::span<const TilePoint> hints,

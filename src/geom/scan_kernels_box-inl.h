@@ -1,6 +1,6 @@
 // The samples of a triangle in a box. Compiled once for every instruction set (scan_kernels_vector.cpp).
 
-// As Highway wants it: seen once for every instruction set.
+// Highway's kind of guard: seen once for every instruction set.
 #if defined(SCARP_SCAN_KERNELS_BOX) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_SCAN_KERNELS_BOX
 #undef SCARP_SCAN_KERNELS_BOX
@@ -105,10 +105,10 @@ HWY_INLINE void scan_box(const TileView& tile, const ScanTask& task, std::int32_
   farthest.offer_to(d, start, best);
 }
 
-/// Which rows of the box hold samples of the triangle in strips of a vector's width: a superset.
+/// The rows of the box that hold samples of the triangle in strips of a vector's width: a superset.
 struct StripRows {
   const ScanTask& task;
-  float x_low[3], x_high[3], x[3], y[3], slant[3];  ///< of the edge from corner i to the next
+  float x_low[3], x_high[3], x[3], y[3], slant[3];  ///< data of the edge from corner i to the next
 
   HWY_INLINE StripRows(const ScanTask& scan_task, const std::array<TilePoint, 3>& corners) : task(scan_task) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -140,7 +140,7 @@ struct StripRows {
       bottom = hn::IfThenElse(meets, larger_of(bottom, larger_of(y_from, y_to)), bottom);
     }
     // Slant, product and sum lose at most 2⁻¹² each, since no edge goes farther than 2¹² rows; the margin is more than
-    // four times their sum, and so leaves room for its own roundings and those of the conversion.
+    // four times their sum, and so has room for its own roundings and those of the conversion.
     const auto margin = hn::Set(d, 0x1p-8f), one = hn::Set(d, 1.0f);
     hn::StoreU(hn::Max(hn::Set(di, task.top), hn::ConvertTo(di, hn::Add(hn::Sub(top, margin), one))), di, first);
     hn::StoreU(hn::Min(hn::Set(di, task.bottom), hn::ConvertTo(di, hn::Add(bottom, margin))), di, last);

@@ -10,7 +10,7 @@ struct Span {
   std::int32_t first, last;
 };
 
-/// Which columns of blocks can hold samples of the triangle: a superset.
+/// The columns of blocks that can hold samples of the triangle: a superset.
 class BlockColumns {
  public:
   BlockColumns(const ScanTask& task, const std::array<TilePoint, 3>& corners);

@@ -26,7 +26,7 @@ struct ScanBest {
 struct ScanTask {
   ScanPlane plane;
   float floor = 0;
-  Point base;                                    ///< of the plane
+  Point base;                                    ///< origin of the plane
   std::int32_t left, right, top, bottom;         ///< box, inclusive
   std::array<std::int32_t, 3> along_x, along_y;  ///< edge functions: a step in x, in y; at most 2¹² each
   std::array<std::int32_t, 3> at_corner;         ///< their values at (left, top), below 2²⁵; negative is outside

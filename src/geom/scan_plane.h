@@ -38,10 +38,10 @@ struct ScanPlane {
 //   To float, its product, the sum of both:                                          3u(X + Y)
 //   z − za, which is at most X + Y + the error, and the last difference, an error:   u(X + Y + 2T) + 2uT
 //   threshold − guard to float:                                                       uT
-// 4u(X + Y) + 5uT + 2⁻⁵⁰·reach: below, each at least 1.6-fold, which leaves room for second-order terms and for the
-// roundings of the guard itself. Below the smallest normal number each rounding adds up to 2⁻¹⁵⁰, that of a slope 2¹²
-// times: less than 2⁻¹³⁶ in all. Level: slopes are exactly 0, z − za and T round (3uT), and a difference of floats is
-// exact where it is small; so a threshold of 0 has no guard.
+// 4u(X + Y) + 5uT + 2⁻⁵⁰·reach: below, each at least 1.6-fold, which covers second-order terms and the roundings of
+// the guard itself. Below the smallest normal number each rounding adds up to 2⁻¹⁵⁰, that of a slope 2¹² times: less
+// than 2⁻¹³⁶ in all. Level: slopes are exactly 0, z − za and T round (3uT), and a difference of floats is exact where
+// it is small; so a threshold of 0 has no guard.
 [[gnu::always_inline]] inline ScanPlane ScanPlane::through(const TileView& tile,
                                                            const std::array<TilePoint, 3>& corners, double threshold) {
   const auto [p, q, r] = std::array{point_of(corners[0]), point_of(corners[1]), point_of(corners[2])};

@@ -17,7 +17,7 @@ struct Segment {
 /// The part of a segment in a rectangle.
 struct ClippedSegment {
   Segment segment;
-  double begin = 0, end = 1;  ///< where it begins and ends, as fractions of the whole
+  double begin = 0, end = 1;  ///< ends within the rectangle, as fractions of the whole
 };
 
 /// Cuts a segment to [0, width] × [0, height]; its coordinates may be any. Where it crosses the border the end becomes
@@ -37,11 +37,11 @@ struct Crossings {
   bool are_exact = true;      ///< all of them are lattice points: none was rounded
 };
 
-/// Where two segments cross in a point that is an end of neither, rounded to the nearest lattice point, halves up. A
-/// crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; no two of one kind have
-/// more than a point in common; coordinates in [0, kMaxCoordinate]; `rigid` run along the axes or diagonals between
-/// points of even coordinates.
-/// Cost: O((n + k) log n) for k pairs of pieces, of the mean length of all segments, whose boxes meet.
+/// The points where two segments cross and that are an end of neither, rounded to the nearest lattice point, halves up.
+/// A crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; no two of one kind
+/// have more than a point in common; coordinates in [0, kMaxCoordinate]; `rigid` run along the axes or diagonals
+/// between points of even coordinates. Cost: O((n + k) log n) for k pairs of pieces, of the mean length of all
+/// segments, whose boxes meet.
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid);
 
 }  // namespace scarp

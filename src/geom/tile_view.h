@@ -33,8 +33,9 @@ struct TileView {
                                    ///< and kTilePadding rows more than `rows`: all may be read, whatever they hold
   std::ptrdiff_t stride = 0;
   std::int32_t cols = 0, rows = 0;  ///< 2 … kMaxTileSide
-  /// Of the samples of the block that are heights, +infinity and −infinity if there are none; `block_stride` floats a
-  /// row of blocks, at least the number of blocks + kTilePadding, the rest as for blocks without heights.
+  /// Lowest and highest of the block's samples that are heights, +infinity and −infinity if there are none;
+  /// `block_stride` floats a row of blocks, at least the number of blocks + kTilePadding, the rest as for blocks
+  /// without heights.
   const float* block_low = nullptr;
   const float* block_high = nullptr;
   std::ptrdiff_t block_stride = 0;

@@ -24,7 +24,7 @@ class MapToSamples {
       : affine_(affine), determinant_(affine[1] * affine[5] - affine[2] * affine[4]) {}
 
   SamplePosition position(double x, double y) const { return way(x - affine_[0], y - affine_[3]); }
-  /// Of a difference of two positions.
+  /// The image of a difference of two positions.
   SamplePosition way(double x, double y) const {
     return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
   }

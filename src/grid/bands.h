@@ -34,8 +34,8 @@ class Band {
   /// Forgets all rows.
   void clear() { count_ = 0; }
 
-  /// `count` samples of row y from column x on, until the next call. Of a row that is not held they are read for this
-  /// call alone. Throws SourceFailure.
+  /// `count` samples of row y from column x on, until the next call. If the row is not held they are read for this call
+  /// alone. Throws SourceFailure.
   const float* samples(std::int32_t x, std::int32_t y, std::int32_t count) const;
 
   bool holds(std::int32_t row) const { return row >= first_ && row < first_ + count_; }
@@ -45,7 +45,7 @@ class Band {
   Raster raster() const { return {held_.data(), cols_, count_}; }
   std::int32_t first() const { return first_; }
   std::int32_t cols() const { return cols_; }
-  std::int32_t rows() const { return rows_; }  ///< of the whole
+  std::int32_t rows() const { return rows_; }  ///< rows of the whole
 
  private:
   std::int32_t cols_, rows_;
@@ -63,7 +63,7 @@ class SampleView {
 
   std::int32_t cols() const { return raster_.cols; }
   std::int32_t rows() const { return raster_.rows; }
-  /// As Band::samples().
+  /// Like Band::samples().
   const float* samples(std::int32_t x, std::int32_t y, std::int32_t count) const {
     return band_ == nullptr ? raster_.row(y) + x : band_->samples(x, y, count);
   }
@@ -94,7 +94,7 @@ struct Bands {
 /// Rows [begin, end) of a raster, and up to a given number more above and below.
 struct RowRange {
   Raster samples;          ///< NaN is nodata
-  std::int32_t first = 0;  ///< of its rows, in the raster
+  std::int32_t first = 0;  ///< first of its rows, in the raster
   std::int32_t begin = 0, end = 0;
 
   const float* row(std::int32_t y) const { return samples.row(y - first); }

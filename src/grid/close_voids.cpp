@@ -1,12 +1,12 @@
 // Voids that an outline tolerance closes.
 //
 // The domain may grow by the tolerance from all sides, so a void that is nowhere farther than that from its outline may
-// become surface, and its outline costs nothing any more. A missing sample alone takes six triangles; around ragged
+// become surface, and its outline costs nothing any more. A missing sample alone costs six triangles; around ragged
 // voids most are alone, or a few.
 //
-// Whether every point of a void is near its outline is asked of quarters of cells: each must lie within the tolerance
-// of one edge. The farthest point of a square from an edge is one of its corners, so that is decided exactly, and it
-// errs on the side of a void that stays: where two edges are near to parts of a quarter only.
+// Quarters of cells show whether every point of a void is near its outline: each must lie within the tolerance of one
+// edge. The farthest point of a square from an edge is one of its corners, so that is decided exactly, and it errs on
+// the side of a void that stays: where two edges are near to parts of a quarter only.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -102,7 +102,7 @@ class Void {
   }
 
   const Raster& raster_;
-  Point low_, high_;  // of its corners, in samples
+  Point low_, high_;  // box of its corners, in samples
   std::vector<Edge> edges_, near_;
   std::vector<std::int32_t> crossings_;
 };

@@ -30,7 +30,7 @@ class ColumnRuns {
 
  private:
   std::vector<Run> runs_;
-  std::vector<std::size_t> begins_;  // of each column's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // begins of each column's runs, and the end of the last
 };
 
 /// Goes down a column of a set, row after row.

@@ -17,7 +17,7 @@ namespace {
 /// The largest whole number that is not above a / b. REQUIRES: b > 0.
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-/// Calls visit(run) for the cells that an edge lies in, with some beside it, and for each row of cells of
+/// Calls visit(run) for the cells that an edge lies in, with some next to it, and for each row of cells of
 /// the raster only.
 template <class Visit>
 void visit_cells(Point p, Point q, std::int32_t cols, std::int32_t rows, const Visit& visit) {
@@ -104,7 +104,7 @@ SampleRuns CutRows::near_cells(std::int32_t row) const {
 
 void CutRows::mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
                           std::ptrdiff_t stride) const {
-  std::array<SampleRuns, 4> near;  // of cells, those from row − 2 to row + 1, each in its place
+  std::array<SampleRuns, 4> near;  // runs of cells, those from row − 2 to row + 1, each in its place
   const auto place_of = [&](std::int32_t cell_row) -> SampleRuns& {
     return near[static_cast<std::size_t>(cell_row) % 4];
   };
@@ -117,7 +117,7 @@ void CutRows::mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols,
     SampleRuns kept;
     for (std::int32_t k = y - 2; k <= y + 1; ++k) {
       if (!has_cells(k)) continue;
-      // Cell i has the samples i and i + 1; the cells beside it have one more each.
+      // Cell i has the samples i and i + 1; the cells next to it have one more each.
       for (const auto& [none, begin, end] : place_of(k).all()) kept.add({0, begin - 1, end + 2});
     }
     kept.merge();

@@ -18,11 +18,11 @@ enum class CutSide : std::uint8_t { kBeyond, kOnWall, kWithin };
 class CutRows {
  public:
   /// `outline`: pairs of points in kLatticeSteps, the edges at which a polygon or its complement ends, complete within
-  /// the raster's rectangle up to its sides; which side stays is not looked at. Memory: some 40 bytes for each row of
+  /// the raster's rectangle up to its sides; which side stays does not matter. Memory: some 40 bytes for each row of
   /// samples that an edge crosses or runs along, half of it while this is made, and 24 for each row.
   CutRows(std::span<const std::array<Point, 2>> outline, std::int32_t cols, std::int32_t rows);
 
-  /// Of a sample. Cost: O(log(crossings of its row)).
+  /// The side of a sample. Cost: O(log(crossings of its row)).
   CutSide side(Point sample) const;
 
   /// Makes samples of a window nodata (NaN) that no cell near the cut surface has: those of the cells that it lies in
@@ -32,7 +32,7 @@ class CutRows {
   void mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
                    std::ptrdiff_t stride) const;
 
-  /// Whether a cell that the cut surface lies in or touches has three heights. `raster`: all of it.
+  /// True if a cell that the cut surface lies in or touches has three heights. `raster`: all of it.
   bool has_surface(const Raster& raster) const;
 
  private:
@@ -41,7 +41,7 @@ class CutRows {
 
   std::int32_t cols_, rows_;
   SampleSet within_, on_;  // samples
-  SampleSet cells_;        // that the outline passes, each at its first sample
+  SampleSet cells_;        // cells that the outline passes, each at its first sample
 };
 
 }  // namespace scarp

@@ -3,12 +3,12 @@
 // Problem: a nodata sample needs a height from the valid samples around it, near ones first, in time that does not grow
 // with the size of the area.
 //
-// Idea: look along the eight compass directions only. "The nearest valid sample to the north-west" of a sample is the
+// Idea: search along the eight compass directions only. "The nearest valid sample to the north-west" of a sample is the
 // one of its north-western neighbour, unless that neighbour is valid itself: one sweep down the rows carries the
-// answers for W, N, NW and NE, one sweep up those for E, S, SW and SE. Each nodata sample gathers Σ w and
-// Σ w·(z − reference), w = 1 / distance², in two passes over the raster. The reference is the first height found: over
-// a flat surround the result is that height exactly. Σ w is a float, for memory; Σ w·(z − reference) may be beyond
-// float's range. Heights are written at the end, so that no filled sample feeds another.
+// answers for W, N, NW and NE, one sweep up those for E, S, SW and SE. Each nodata sample gathers Σ w and Σ w·(z −
+// reference), w = 1 / distance², in two passes over the raster. The reference is the first height found: over a flat
+// surround the result is that height exactly. Σ w is a float, for memory; Σ w·(z − reference) may be beyond float's
+// range. Heights are written at the end, so that no filled sample feeds another.
 //
 // Source: the sweeps are those of distance transforms (Rosenfeld & Pfaltz 1966); the weights are Shepard's (1968).
 #include <algorithm>
@@ -40,8 +40,8 @@ class Sweeper {
   Sweeper(const OwnedHeightField& field, std::vector<Gathered>& gathered, double max_distance)
       : field_(field), gathered_(gathered), max_squared_(max_distance * max_distance) {}
 
-  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and lets each nodata sample gather
-  /// along the four directions that lie behind the sweep.
+  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and gathers heights for each
+  /// nodata sample along the four directions that lie behind the sweep.
   void sweep(int step) {
     const int cols = field_.cols, rows = field_.rows;
     const std::size_t width = static_cast<std::size_t>(cols);
@@ -112,7 +112,7 @@ std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance) {
   Sweeper sweeper(field, gathered, max_distance);
   sweeper.sweep(1);
   sweeper.sweep(-1);
-  constexpr double kLargest = std::numeric_limits<float>::max();  // which a rounded mean of such heights may exceed
+  constexpr double kLargest = std::numeric_limits<float>::max();  // a rounded mean of such heights may exceed it
   std::uint64_t filled = 0;
   std::size_t slot = 0;
   for (float& z : field.samples) {

@@ -30,7 +30,7 @@ void add_to(Ends& ends, double sign, const HeightCount& more) {
   }
 }
 
-/// Whether all of `low` … `high` lies strictly within what is known of the ends.
+/// True if all of `low` … `high` lies strictly within the known ends.
 bool is_between_ends(const HeightRange& range, double low, double high) {
   const HeightCount &last_low = range.lowest.back(), &last_high = range.highest.back();
   return last_low.samples > 0 && last_high.samples > 0 && low > last_low.height && high < last_high.height;
@@ -69,7 +69,7 @@ Extent extent_of(std::span<const float> samples, float nodata) {
   return extent;
 }
 
-/// Whether all of some samples lie strictly between `low` and `high`, or are NaN. Without branches, for vectors.
+/// True if all of some samples lie strictly between `low` and `high`, or are NaN. Without branches, for vectors.
 template <std::size_t kCount>
 bool are_between(const float* samples, float low, float high) {
   int beyond = 0;
@@ -137,7 +137,7 @@ HeightRange range_of(std::span<const float> samples, std::optional<float> nodata
     if (extents[k].valid > 0 && !is_between_ends(range, extents[k].least, extents[k].most))
       note_ends(range, block_at(k), none);
   };
-  // First where both ends lie, so that most others need no look.
+  // Starts where both ends lie, so that most others need no scan.
   look(lowest);
   if (highest != lowest) look(highest);
   for (std::size_t k = 0; k < extents.size(); ++k) {

@@ -9,13 +9,13 @@
 
 namespace scarp {
 
-/// Of the samples that are finite and not `nodata`.
+/// The range of the samples that are finite and not `nodata`.
 HeightRange range_of(std::span<const float> samples, std::optional<float> nodata = std::nullopt);
 
 /// Adds samples that are known to hold `valid` heights from `least` to `most`; all others are NaN.
 void add_samples(HeightRange& range, std::span<const float> samples, float least, float most, std::uint64_t valid);
 
-/// Fills in all that `info` tells of the range.
+/// Sets all fields of `info` about the range.
 void set_range(const HeightRange& range, RasterInfo& info);
 
 }  // namespace scarp

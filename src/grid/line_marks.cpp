@@ -48,7 +48,7 @@ void LineRuns::add_polygons(std::span<const Line> lines) {
   for (const auto& [polygon, rings] : polygons) fill(rings, 0, rows_);
 }
 
-/// Row by row, between every two crossings with the rings. Those of wild rings take many times the memory of their
+/// Row by row, between every two crossings with the rings. Those of wild rings need many times the memory of their
 /// vertices: half of the rows at a time, then.
 void LineRuns::fill(const std::vector<const Line*>& rings, int begin, int end) {
   std::vector<std::pair<int, double>> crossings;

@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// As runs: of memory, what the lines are long.
+/// Lines as runs: their memory grows with the length of the lines.
 class LineRuns {
  public:
   /// No sample is marked. `affine`: from samples to the coordinates of the lines.
@@ -23,7 +23,7 @@ class LineRuns {
   /// Marks the samples that polygons hold, those of each by its rings, even-odd. Lines that are no rings hold nothing.
   void add_polygons(std::span<const Line> lines);
 
-  /// What is marked so far, in raster order, apart from each other.
+  /// All samples marked so far, in raster order, apart from each other.
   const std::vector<SampleRun>& runs() {
     runs_.merge();
     return runs_.all();

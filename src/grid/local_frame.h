@@ -45,7 +45,7 @@ Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerU
 /// out of float32's range.
 Result<Frame> cell_frame(double cell, int cols, int rows);
 
-/// The affine map takes samples to a line, or to infinity.
+/// True if the affine map sends samples to a line, or to infinity.
 bool is_degenerate(const std::array<double, 6>& affine);
 
 }  // namespace scarp

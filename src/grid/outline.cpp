@@ -103,7 +103,7 @@ class FourRows {
     return (left & 1) | (right & 1) << 1 | (right & 2) << 1 | (left & 2) << 2;
   }
 
-  /// Whether all around a cell is surface.
+  /// True if all around a cell is surface.
   bool is_inside(std::int32_t x) const {
     const std::size_t i = index(x);
     return (columns_[i - 1] & columns_[i] & columns_[i + 1] & columns_[i + 2]) == 15;
@@ -161,7 +161,7 @@ Outline join_edges(const std::vector<DirectedEdge>& edges) {
           std::lower_bound(edges.begin(), edges.end(), edges[e].to,
                            [](const DirectedEdge& edge, Point p) { return before(edge.from, p); }) -
           edges.begin());
-      // Where polygons touch, the sharpest left turn stays with the same wedge of surface. The start is still on offer
+      // If polygons touch, the sharpest left turn stays with the same wedge of surface. The start is still on offer
       // although used: it closes the polygon.
       std::size_t next = edges.size(), end = first;
       for (; end < edges.size() && edges[end].from == edges[e].to; ++end) {

@@ -28,13 +28,14 @@ Outline trace_outline(const Raster& raster);
 /// each other. Cost: O(samples + L log L), and bytes in proportion to L and a row, not to the samples.
 Outline trace_outline(std::span<const SampleRun> runs);
 
-/// Which corners of the cell [x, x+1] × [y, y+1] are heights: bit k for corner k of (x,y), (x+1,y), (x+1,y+1), (x,y+1).
+/// The corners of the cell [x, x+1] × [y, y+1] that are heights: bit k for corner k of (x,y), (x+1,y), (x+1,y+1),
+/// (x,y+1).
 inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t y) {
   const auto bit = [&](std::int32_t i, std::int32_t j, unsigned k) { return raster.is_valid({i, j}) ? 1u << k : 0u; };
   return bit(x, y, 0) | bit(x + 1, y, 1) | bit(x + 1, y + 1, 2) | bit(x, y + 1, 3);
 }
 
-/// Leaves out the voids that hold no height and lie within `tolerance` samples of their outline everywhere: they become
+/// Removes the voids that hold no height and lie within `tolerance` samples of their outline everywhere: they become
 /// surface. REQUIRES: an outline as traced. Cost: O(L) for small voids.
 Outline close_voids(const Raster& raster, Outline outline, double tolerance);
 

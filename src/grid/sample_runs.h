@@ -24,18 +24,18 @@ class SampleRuns {
   /// Puts runs into raster order, apart from each other. Cost: O(n log n) for n runs added.
   void merge();
 
-  /// What was added, as merge() left it.
+  /// The runs added, as merge() arranged them.
   const std::vector<SampleRun>& all() const { return runs_; }
 
  private:
   std::vector<SampleRun> runs_;
-  std::size_t merged_ = 0;  // of them, those that merge() has left
+  std::size_t merged_ = 0;  // number of them that merge() has arranged
 };
 
-/// Which samples runs hold, for many questions.
+/// The samples that runs hold, for many questions.
 class SampleSet {
  public:
-  /// Of a raster of so many rows. `runs`: in raster order, apart from each other.
+  /// Makes the set for a raster of so many rows. `runs`: in raster order, apart from each other.
   SampleSet(std::vector<SampleRun> runs, std::int32_t rows);
 
   bool has(Point p) const;
@@ -47,7 +47,7 @@ class SampleSet {
 
  private:
   std::vector<SampleRun> runs_;
-  std::vector<std::size_t> begins_;  // of each row's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // begins of each row's runs, and the end of the last
 };
 
 }  // namespace scarp

@@ -3,7 +3,7 @@
 // A straight segment may replace the chain between two vertices if the chain lies on the segment's domain side (left)
 // within the tolerance, so that the domain only grows, and if the area between chain and segment holds no other height,
 // so that nothing is newly enclosed. The second condition also keeps segments from crossing: whatever crossed one would
-// have to end in that area, on a sample. Of all ways around a polygon the one with the fewest segments is taken.
+// have to end in that area, on a sample. The way around a polygon with the fewest segments is used.
 #include <algorithm>
 #include <cmath>
 #include <span>

@@ -1,10 +1,10 @@
 // Filling small voids, also of rasters that are read window by window.
 //
-// Problem: a window must show the same heights in a void, however it cuts through it, and without a look at the whole
+// Problem: a window must show the same heights in a void, however it cuts through it, and without reading the whole
 // raster.
 //
-// Idea: voids are 8-connected. Then each of the eight ways from a missing sample by which fill_nodata() looks for
-// heights ends at the first height beside its own void: what a void is filled with depends on the heights around it
+// Idea: voids are 8-connected. Then each of the eight ways from a missing sample by which fill_nodata() searches for
+// heights ends at the first height next to its own void: what a void is filled with depends on the heights around it
 // alone. A void of at most s samples a side that reaches into a window lies within s samples of it, and its border
 // within s + 1.
 //
@@ -26,8 +26,11 @@ namespace {
 struct SmallVoid {
   int left, top, right, bottom;  ///< the last column and row included
   std::uint64_t samples = 0;
-  bool is_open = false;  ///< reaches the border of what was looked at
-  float least = std::numeric_limits<float>::infinity(), most = -std::numeric_limits<float>::infinity();  ///< beside it
+  bool is_open = false;  ///< reaches the border of the scanned part
+  float least = std::numeric_limits<float>::infinity(), most = -std::numeric_limits<float>::infinity();  ///< range of
+                                                                                                         ///< the
+                                                                                                         ///< heights
+                                                                                                         ///< next to it
 
   bool is_small(int side) const { return !is_open && right - left < side && bottom - top < side; }
 };
@@ -103,7 +106,7 @@ class VoidFinder {
           std::max(to.bottom, from.bottom), to.samples + from.samples,   to.is_open || from.is_open,
           std::min(to.least, from.least),   std::max(to.most, from.most)};
   }
-  /// The heights of a row at a run and beside it.
+  /// The heights of a row at a run and next to it.
   void see(std::size_t area, std::span<const float> row, int begin, int end) {
     if (row.empty()) return;
     SmallVoid& one = voids_[root(area)];
@@ -201,7 +204,7 @@ class FilledSource final : public SampleSource {
   bool is_in_memory() const override { return field_.source == nullptr || field_.source->is_in_memory(); }
 
  private:
-  /// Whether a void may go on behind a border of the window that is none of the raster, and yet be small.
+  /// True if a void may continue behind a border of the window that is none of the raster, and yet be small.
   bool reaches_beyond(VoidFinder& finder, int col, int row, int cols, int rows) const {
     for (const VoidRun& run : finder.runs()) {
       const SmallVoid& one = finder.area(run.area);

@@ -21,7 +21,7 @@ VoidCount fill_small_voids(OwnedHeightField& field, int side);
 std::shared_ptr<const SampleSource> without_small_voids(const HeightField& field, int side,
                                                         std::shared_ptr<const SampleSource> owner = nullptr);
 
-/// What there is to fill, from all rows. Cost: reads the field once. Memory: a few rows, and 50 bytes a void.
+/// The number of voids to fill, from all rows. Cost: reads the field once. Memory: a few rows, and 50 bytes a void.
 Result<VoidCount> count_voids(const HeightField& field, int side);
 
 }  // namespace scarp

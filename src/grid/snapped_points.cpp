@@ -181,7 +181,7 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
     y.include(points.y[i]);
     z.include(points.z[i]);
   }
-  constexpr double kReach = 1e100;  // as far as the arithmetic of planes goes
+  constexpr double kReach = 1e100;  // the limit of the arithmetic of planes
   if (std::max({x.reach(), y.reach(), z.reach()}) > kReach)
     return fail(ErrorKind::kInput, "a point has a coordinate beyond 1e100; only smaller ones can be triangulated");
   const double extent = std::max(x.size(), y.size());

@@ -10,11 +10,11 @@
 
 namespace scarp {
 
-/// The lattice on which points are told apart: columns count eastwards, rows southwards, as in a raster.
+/// The lattice on which points are distinguished: columns count eastwards, rows southwards, as in a raster.
 struct PointLattice {
   double step = 0;  ///< one column and one row, in units of x and y
   std::int32_t cols = 0, rows = 0;
-  double west = 0, north = 0;  ///< where column 0 and row 0 lie
+  double west = 0, north = 0;  ///< position of column 0 and row 0
 };
 
 /// How fine a lattice for points with lines may be.
@@ -43,7 +43,7 @@ struct SnappedPoints {
 /// Snaps the points to a lattice and gives up duplicates. The lattice: the coarsest on which all coordinates lie
 /// exactly as decimals, if they have few enough of them; else the finest with a power of two as its step, where points
 /// move by up to half a step, at most extent / 2^30 (2^23 with kFloat32). Duplicates are points with equal coordinates;
-/// points that only the lattice cannot tell apart are refused, but become echoes in a set with lines, whose vertices
+/// points that only the lattice cannot distinguish are refused, but become echoes in a set with lines, whose vertices
 /// are often crowded. With kMean the first point stands for the lattice point. Fails with kInput: a coordinate or
 /// height that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent, no points, more
 /// than 2^31 − 1.

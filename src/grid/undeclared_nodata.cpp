@@ -12,7 +12,7 @@ namespace {
 
 using RareEnds = std::array<HeightCount, HeightRange::kEnds>;
 
-/// What software writes where it knows nothing.
+/// Values that software writes for unknown heights.
 constexpr std::array kSigns{-999.0,   -10000.0, -32768.0, -9999.0,  -99999.0, -999999.0, -32767.0,
                             -65535.0, 9999.0,   99999.0,  999999.0, 32767.0,  65535.0,   0.0};
 
@@ -69,7 +69,7 @@ std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale, double offset) {
   const Scale of_values{scale, offset};
   std::size_t low = 0, high = 0;
-  // What is far at one end may hide behind what is far at the other.
+  // A value far at one end may hide behind one far at the other.
   for (std::size_t look = 0; look < HeightRange::kEnds; ++look) {
     const std::size_t before = low + high;
     low = count_far(range.lowest, low, range.highest[high].height, range.valid, of_values);

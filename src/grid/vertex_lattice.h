@@ -13,7 +13,7 @@ inline constexpr std::int32_t kFreeStep = kLatticeSteps / 8;
 
 /// On samples, or on a finer lattice with heights of their own.
 struct VertexLattice {
-  std::int32_t steps = 1;           ///< of the triangulation's points between two samples
+  std::int32_t steps = 1;           ///< number of steps of the triangulation's points between two samples
   std::vector<float> heights;       ///< by vertex; NaN at nodata; empty where steps is 1: a vertex has its sample's
   std::vector<std::uint8_t> fixed;  ///< by vertex: 1 if it must stay where it is; empty: all may go
 

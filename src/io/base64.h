@@ -10,7 +10,7 @@ namespace scarp {
 
 std::string write_base64(std::span<const std::uint8_t> bytes);
 
-/// Reads groups of four letters until `count` bytes are there; a padded group ends a part, and the next one goes on.
+/// Reads groups of four letters until `count` bytes are there; a padded group ends a part, and the next one continues.
 /// Returns false if letters are missing or wrong.
 bool read_base64(std::span<const std::uint8_t>& letters, std::size_t count, std::vector<std::uint8_t>& bytes);
 

@@ -1,7 +1,7 @@
 // Whole files, written so that a reader sees the old file or the new one and never a part of it.
 //
 // The bytes go to a temporary name in the same folder (so that the rename stays inside one file system), are forced to
-// disk, and only then take the name asked for. Every step that can fail is checked, close() included: network file
+// disk, and only then get the name asked for. Every step that can fail is checked, close() included: network file
 // systems report a full disk there.
 
 #include <fcntl.h>
@@ -120,7 +120,8 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
 
   std::vector<std::uint8_t> bytes;
   try {
-    // A size is a hint: pipes have none, files may grow. One byte more lets the last read() say that it is the last.
+    // A size is a hint: pipes have none, files may grow. One byte more makes the last read() return less than it was
+    // asked for.
     std::size_t room = S_ISREG(info.st_mode) ? static_cast<std::size_t>(info.st_size) + 1 : 65536;
     std::size_t size = 0;
     for (;;) {

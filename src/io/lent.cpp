@@ -61,7 +61,7 @@ std::uint64_t clean_samples(const LentRaster& raster, const ReadOptions& options
   return unfit.infinities;
 }
 
-/// Leaves out points of that height, and those whose height is not finite.
+/// Removes points of that height, and those whose height is not finite.
 Result<void> leave_out_nodata(double nodata, PointSet& points) {
   if (!points.lines.empty())
     return fail(ErrorKind::kUsage,

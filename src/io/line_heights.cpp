@@ -10,7 +10,7 @@ namespace {
 
 using HeightPlace = std::array<double, 3>;
 
-/// Of those between the places `from` and `to`, which have heights. Counts on beyond the end, where the ring begins.
+/// Fills those between the places `from` and `to`, which have heights. Counts on beyond the end, where the ring begins.
 void fill_between(std::span<HeightPlace> places, std::size_t from, std::size_t to) {
   const auto at = [&](std::size_t k) -> HeightPlace& { return places[k % places.size()]; };
   std::vector<double> ways{0};

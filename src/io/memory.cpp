@@ -12,9 +12,9 @@
 namespace scarp {
 namespace {
 
-constexpr std::uint64_t kBytesPerSample = 5;  // what simplify() promises to need, vertices apart
+constexpr std::uint64_t kBytesPerSample = 5;  // bytes that simplify() promises to need, vertices apart
 
-/// Memory that can be had without swapping: what the kernel says is available, what the container allows, what
+/// Memory that can be had without swapping: what the kernel reports as available, what the container allows, what
 /// `ulimit -v` allows.
 std::uint64_t available_memory() {
   std::uint64_t available = std::numeric_limits<std::uint64_t>::max();

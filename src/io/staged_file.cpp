@@ -47,7 +47,7 @@ int sync_file(int fd) {
   return 0;
 }
 
-/// Standard output, or what the path names; an errno below 0. A pipe that nobody reads is waited for for two seconds.
+/// Standard output, or what the path names; an errno below 0. It waits two seconds for the reader of a pipe.
 int open_directly(const std::string& path) {
   if (is_standard_output(path)) return ::dup(STDOUT_FILENO);
   constexpr int kMostTries = 100;
@@ -80,9 +80,9 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash + 1);
 }
 
-/// Where a chain of symbolic links ends, whether something is there or not; the path itself if it is no link.
+/// The end of a chain of symbolic links, whether something is there or not; the path itself if it is no link.
 std::string follow_links(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as many as Linux follows
+  constexpr int kMostLinks = 40;  // Linux' limit
   std::filesystem::path target = path;
   for (int links = 0; links < kMostLinks; ++links) {
     std::error_code error;

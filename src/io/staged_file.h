@@ -14,7 +14,7 @@ namespace scarp {
 
 class StagedFile {
  public:
-  /// Devices, pipes and standard output have no old content to protect and no name to take: what they get waits in the
+  /// Devices, pipes and standard output have no old content to protect and no name to get: their bytes wait in the
   /// folder for temporary files if it is to be written by name, else nowhere. Fails as write_file() does.
   static Result<StagedFile> begin(const std::string& path, bool overwrite, bool by_name);
 
@@ -23,7 +23,7 @@ class StagedFile {
   /// For others to write. REQUIRES: by_name.
   const std::string& name() const { return temporary_->name(); }
   Result<void> write(std::span<const std::uint8_t> bytes);
-  /// Nobody writes any more: the bytes are on disk.
+  /// Ends writing: the bytes are on disk.
   Result<void> end();
   std::uint64_t size() const;  ///< after end()
   /// The last step. REQUIRES: !is_direct().

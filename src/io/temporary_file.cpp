@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() takes, and our suffix
+constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() accepts, and our suffix
 char pending_names[kPendingOutputs][kPendingSize];
 std::atomic<bool> pending_taken[kPendingOutputs];
 std::atomic<Naming> naming = Naming::kNotYet;
@@ -49,8 +49,8 @@ Naming outputs_naming() { return naming; }
 NamingOutputs::NamingOutputs() { naming = Naming::kNow; }
 NamingOutputs::~NamingOutputs() { naming = Naming::kDone; }
 
-/// Random names, because processes in two containers that share a folder may have the same number. A name that is taken
-/// is somebody else's and is left alone.
+/// Random names, because processes in two containers that share a folder may have the same number. A name that exists
+/// belongs to another process and is not touched.
 TemporaryFile::TemporaryFile(const std::string& folder) {
   constexpr int kMostTries = 100;
   std::random_device random;

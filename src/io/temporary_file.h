@@ -1,4 +1,4 @@
-// New files under names that nobody else has, and that a signal handler knows.
+// New files under unique names, and that a signal handler knows.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ class PendingName {
   int place_ = -1;
 };
 
-/// outputs_naming() says kNow while it lives, and kDone from then on.
+/// outputs_naming() returns kNow while it lives, and kDone from then on.
 class NamingOutputs {
  public:
   NamingOutputs();
@@ -27,7 +27,7 @@ class NamingOutputs {
   ~NamingOutputs();
 };
 
-/// A new, empty file in a folder; gone with this object, unless it was let go.
+/// A new, empty file in a folder; gone with this object, unless it was released.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& folder);

@@ -1,6 +1,6 @@
 // ZIP, as far as documents in archives need it (PKWARE's APPNOTE 6.3): on writing, one way of doing things, all sizes
-// known beforehand; on reading, the directory at the end is what counts, since writers that stream leave the sizes in
-// front of an entry empty. Sizes of 64 bits are read, for some write them whatever the size, and written where an
+// known beforehand; on reading, the directory at the end is what counts, since writers that stream do not fill in the
+// sizes in front of an entry. Sizes of 64 bits are read, for some write them whatever the size, and written where an
 // archive is too long or has too many entries.
 
 #include "io/zip.h"
@@ -93,7 +93,7 @@ bool inflate_into(std::span<const std::uint8_t> packed, std::vector<std::uint8_t
 
 tl::unexpected<Error> broken(std::string why) { return fail(ErrorKind::kInput, std::move(why)); }
 
-/// What stands in the header of an entry as well as in its record.
+/// Appends the fields that are in the header of an entry as well as in its record.
 void append_common(std::vector<std::uint8_t>& bytes, const ZipRecord& record, bool in_64) {
   append_number(bytes, in_64 ? kVersion64 : kVersion);
   append_number(bytes, record.flags);
@@ -259,7 +259,7 @@ std::uint64_t zip_header_length(std::span<const std::uint8_t> header) {
 Result<std::vector<std::uint8_t>> unpack_zip_entry(const ZipRecord& record, std::span<const std::uint8_t> packed) {
   const auto damaged = [&] { return broken(fmt::format("{} in the archive is damaged", in_quotes(record.name))); };
   if ((record.flags & 1) != 0) return broken(fmt::format("{} in the archive is encrypted", in_quotes(record.name)));
-  constexpr std::uint64_t kMostRatio = 1032;  // of deflate
+  constexpr std::uint64_t kMostRatio = 1032;  // limit of deflate
   if (record.method == kZipStored ? record.size != record.packed : record.size / kMostRatio > record.packed)
     return damaged();
   std::vector<std::uint8_t> bytes(record.size);

@@ -22,10 +22,10 @@ Result<std::vector<std::uint8_t>> encode_zip(std::span<const ZipEntry> entries);
 
 inline constexpr std::uint16_t kZipStored = 0, kZipDeflated = 8;
 
-/// What an archive says of an entry.
+/// The record of an entry in an archive.
 struct ZipRecord {
   std::string_view name;
-  std::uint64_t offset = 0, packed = 0, size = 0;  ///< where its header is; bytes in the archive, and unpacked
+  std::uint64_t offset = 0, packed = 0, size = 0;  ///< offset of its header; bytes in the archive, and unpacked
   std::uint32_t checksum = 0;
   std::uint16_t method = kZipStored, flags = 0;
 };
@@ -34,12 +34,12 @@ std::uint32_t zip_checksum(std::span<const std::uint8_t> bytes);
 
 /// In front of an entry's bytes. REQUIRES: packed and size below 2^32 - 1.
 void append_zip_header(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
-/// Of the directory behind all entries. Offsets take 64 bits where they must.
+/// Appends a record of the directory behind all entries. Offsets have 64 bits where they must.
 void append_zip_record(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
 /// Behind a directory of `count` records that starts at `start` and has `size` bytes.
 void append_zip_end(std::vector<std::uint8_t>& bytes, std::uint64_t count, std::uint64_t start, std::uint64_t size);
 
-/// Where the directory of an archive is.
+/// The position of an archive's directory.
 struct ZipDirectory {
   std::uint64_t count = 0, start = 0;
 };
@@ -54,11 +54,11 @@ Result<std::vector<ZipRecord>> read_zip_directory(std::span<const std::uint8_t> 
 inline constexpr std::size_t kZipHeaderSize = 30;
 /// Bytes from an entry's header to its contents, of the header's first kZipHeaderSize bytes; 0 if it is none.
 std::uint64_t zip_header_length(std::span<const std::uint8_t> header);
-/// `packed`: as many bytes as the record says. Fails with kInput for an entry that is encrypted, packed otherwise than
-/// by deflate, damaged, or far larger than what it is packed in can hold.
+/// `packed`: as many bytes as the record declares. Fails with kInput for an entry that is encrypted, packed otherwise
+/// than by deflate, damaged, or far larger than what it is packed in can hold.
 Result<std::vector<std::uint8_t>> unpack_zip_entry(const ZipRecord& record, std::span<const std::uint8_t> packed);
 
-/// The names in an archive and their contents, taken out one by one. Borrows the bytes.
+/// The names in an archive and their contents, unpacked one by one. Borrows the bytes.
 class ZipReader {
  public:
   /// Fails with kInput for what is no archive, or one of several volumes.

@@ -75,7 +75,7 @@ class LatticeLines {
     return std::isnan(z[0]) && std::isnan(z[1]);
   }
   /// Calls visit(part, point, height, climb) for each point of the parts [from, to) that has a height. climb: the
-  /// larger one of the segments beside it, in a step.
+  /// larger one of the segments next to it, in a step.
   template <class Visit>
   void visit_points(std::uint32_t from, std::uint32_t to, Visit&& visit) const {
     for (std::uint32_t part = from; part < to; ++part) {
@@ -86,7 +86,7 @@ class LatticeLines {
       }
     }
   }
-  /// What the line climbs in a step at a stop; 0 where it is soft.
+  /// The climb of the line in a step at a stop; 0 where it is soft.
   double climb_at(std::uint32_t part, const Arrangement::Stop& stop) const {
     return climbs_[parts_.begins[part] + stop.segment];
   }
@@ -115,9 +115,9 @@ class LatticeLines {
 
   double most_col_, most_row_;
   Polylines parts_;
-  std::vector<double> heights_;       ///< of the parts' points
+  std::vector<double> heights_;       ///< heights of the parts' points
   std::vector<double> climbs_;        ///< in a step, from each of them to the next
-  std::vector<std::uint32_t> lines_;  ///< of the parts
+  std::vector<std::uint32_t> lines_;  ///< lines of the parts
   std::uint32_t line_ = 0;
   std::vector<Point> part_;  ///< at work
 };
@@ -132,15 +132,15 @@ std::vector<Segment> segments_of(const Outline& outline) {
   return rigid;
 }
 
-/// What hard lines say of the height of one point, line after line.
+/// The heights that hard lines ask for at one point, line after line.
 struct Claims {
-  std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; the last one that had a say
+  std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; the last one that counted
   std::uint32_t count = 0;                          ///< each line's heights, each once
   bool are_opposed = false;
   bool yield = false;  ///< they are of lines that do
   double first_height = 0, first_tolerance = 0, last_height = 0, opposed_height = 0;
   double sum = 0, highest = 0;
-  double climb = 0;  ///< of the raster, in a step
+  double climb = 0;  ///< climb of the raster, in a step
 
   void add(std::uint32_t line, bool yields, double height, double tolerance) {
     if (count > 0 && yields != yield) {
@@ -171,7 +171,7 @@ struct Claims {
   }
 };
 
-/// What the raster climbs in a step, in the cell of a point.
+/// The climb of the raster in a step, in the cell of a point.
 double climb_of(const LineSamples& samples, Point point) {
   const std::int32_t col = std::min(point.x / kLatticeSteps, samples.cols() - 2),
                      row = std::min(point.y / kLatticeSteps, samples.rows() - 2);
@@ -194,7 +194,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
   const auto claim = [&](std::uint32_t point, std::uint32_t part, double height, double climb) {
     Claims& at = claims[point];
     const std::uint32_t line = lattice.line_of(part);
-    // Walls change no sample, should rounding lead one over it, and disagree with nobody.
+    // Walls change no sample, should rounding lead one over it, and disagree with no line.
     const Point p = points[point];
     const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
     if (is_wall(lines[line]) && (is_sample || at.count > 0)) return;
@@ -342,7 +342,7 @@ bool is_inserted_first(const Line& line) { return is_wall(line) || is_ridge_line
 
 std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
   if (!info.has_georeference) return grid_frame(rows).affine;
-  const auto& g = info.geotransform;  // of pixel corners
+  const auto& g = info.geotransform;  // coefficients of pixel corners
   return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
 }
 

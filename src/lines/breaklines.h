@@ -25,19 +25,19 @@ struct Breaklines {
   /// Vertices, in raster order, in kLatticeSteps of a sample: those of lines within the raster's rectangle and of its
   /// outline.
   std::vector<Point> points;
-  /// Of each point: that of the hard lines that pass, else the raster's. The raster is bilinear in a cell of four
-  /// heights, the plane of three in one of three, and else the mean of the corners that are heights, weighted as in the
-  /// bilinear; NaN where none with a weight is. On a sample it is the sample.
+  /// The height of each point: that of the hard lines that pass, else the raster's. The raster is bilinear in a cell of
+  /// four heights, the plane of three in one of three, and else the mean of the corners that are heights, weighted as
+  /// in the bilinear; NaN where none with a weight is. On a sample it is the sample.
   std::vector<float> heights;
-  std::vector<bool> is_hard;  ///< of each point: its height is that of lines
+  std::vector<bool> is_hard;  ///< for each point: its height is that of lines
   std::vector<Arrangement::Edge> edges;
-  std::vector<bool> is_held;  ///< of each edge: more than starts run there; EMPTY: there are none
+  std::vector<bool> is_held;  ///< for each edge: more than starts run there; EMPTY: there are none
 
   std::uint64_t outside = 0;  ///< lines without any remaining part
 
   /// A line, or a part of it within the rectangle: points[passed[begin]], …, points[passed[end − 1]].
   struct Chain {
-    std::uint32_t line;  ///< of the lines given
+    std::uint32_t line;  ///< index among the lines given
     std::uint32_t begin, end;
   };
   std::vector<Chain> chains;  ///< in the order of the lines and along each; where they were asked for
@@ -63,12 +63,12 @@ bool is_inserted_first(const Line& line);
 /// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
 /// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
 /// kLatticeSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
-/// arrange(), and a look at each point of each hard line (with chains: of each line), which n that overlap make n²/2.
+/// arrange(), and a visit to each point of each hard line (with chains: of each line), which n that overlap make n²/2.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
-/// The same with samples near lines only. `rigid`: edges beside the rectangle, in kLatticeSteps: the outline wherever
+/// The same with samples near lines only. `rigid`: edges outside the rectangle, in kLatticeSteps: the outline wherever
 /// lines pass, and all other edges at which they are cut.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,

@@ -18,9 +18,9 @@ namespace scarp {
 /// Vertices, and edges between them. Edges share end points only, and contain no vertex in their interior.
 struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
-  std::vector<float> heights;                       ///< of the points; the height of a sample takes precedence
+  std::vector<float> heights;                       ///< heights of the points; the height of a sample has precedence
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
-  std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is inserted beside the domain too; EMPTY: none is
+  std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is inserted outside the domain, too; EMPTY: none is
   std::vector<std::uint8_t> is_start;   ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
   bool is_inserted_first = false;       ///< before the surface is refined
   std::optional<SurfaceCut> cut;        ///< nothing: all of the surface stays
@@ -30,13 +30,13 @@ struct ConstraintGraph {
 class ConstrainedMesh {
  public:
   /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
-  /// constrained; then what is cut away is marked outside. Points outside the domain, but for shared ones, are left out
-  /// with their edges. `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge
+  /// constrained; then what is cut away is marked outside. Points outside the domain, but for shared ones, are omitted
+  /// with their edges. `tin` and the raster stay alive; no other code changes them. Fails with kInternal where an edge
   /// crosses one that is constrained. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges cross no
   /// constrained edge of `tin` but in points of the graph.
   static Result<ConstrainedMesh> insert(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
-  /// Whether some surface remains after a cut, if there is one.
+  /// True if some surface remains after a cut, if there is one.
   bool has_surface() const { return has_surface_; }
   /// Changed triangles, ascending.
   const std::vector<Triangle>& changed() const { return changed_; }
@@ -44,8 +44,8 @@ class ConstrainedMesh {
   void release_starts(Triangulation& tin);
 
   const LatticeHeights& heights() const { return heights_; }
-  /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not released. With
-  /// several threads the samples are those of a raster, not of rows.
+  /// The lattice of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not
+  /// released. With several threads the samples are those of a raster, not of rows.
   VertexLattice lattice(int threads = 1) const;
 
  private:
@@ -53,7 +53,7 @@ class ConstrainedMesh {
 
   const Triangulation* tin_;
   LatticeHeights heights_;
-  std::vector<Vertex> fixed_, starts_;  // of starts only, the latter
+  std::vector<Vertex> fixed_, starts_;  // the latter: vertices of starts only
   std::vector<std::array<Vertex, 2>> start_edges_;
   std::vector<Triangle> changed_;
   bool has_surface_ = true;

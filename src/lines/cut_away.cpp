@@ -44,7 +44,7 @@ class CutAway {
   }
 
  private:
-  /// Of a half-edge: whether it is part of a wall, and if so whether its triangle stays.
+  /// Kind of a half-edge: whether it is part of a wall, and if so whether its triangle stays.
   enum class Wall : std::uint8_t { kNo, kBeyond, kWithin };
 
   void mark(HalfEdge h, Vertex from) {
@@ -95,7 +95,7 @@ class CutAway {
     }
   }
 
-  /// Of the part: what its walls say; else what a sample of it says that is on no wall; else what one triangle says.
+  /// True if the part stays: decided by its walls; else by a sample of it that is on no wall; else by one triangle.
   bool stays() const {
     if (verdict_ != Wall::kNo) return verdict_ == Wall::kWithin;
     for (const Triangle t : part_) {
@@ -128,7 +128,7 @@ class CutAway {
   std::vector<Wall> walls_;      // by half-edge
   std::vector<HalfEdge> first_;  // by vertex, one that starts there
   std::vector<Triangle> part_;
-  Wall verdict_ = Wall::kNo;  // of a wall of the part
+  Wall verdict_ = Wall::kNo;  // verdict of a wall of the part
 };
 
 }  // namespace

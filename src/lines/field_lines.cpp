@@ -55,7 +55,7 @@ class SoftLine {
     const auto [col, row] = to_samples_.position(place[0], place[1]);
     return {col, row};
   }
-  /// Whether both are on the same side of the raster's rectangle, up to rounding.
+  /// True if both are on the same side of the raster's rectangle, up to rounding.
   bool is_along_side(const Place& a, const Place& b) const {
     const auto p = sample_of(a), q = sample_of(b);
     const std::array<double, 2> last{samples_.cols() - 1.0, samples_.rows() - 1.0};
@@ -82,7 +82,7 @@ class SoftLine {
     return surface_at(samples_, {col, row});
   }
 
-  /// Bends where the surface asks for it. Two looks a sample, whose heights are left in `heights`.
+  /// Bends where the surface asks for it. Two visits a sample, whose heights are stored in `heights`.
   void add_between(const Place& from, const Place& to, bool is_cut, std::vector<double>& heights,
                    std::vector<Place>& points) const {
     const SamplePosition way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
@@ -115,7 +115,7 @@ std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
   return edges;
 }
 
-/// Of these edges, 1 where none but lines of walls run. EMPTY: there are no walls.
+/// For each of these edges, 1 where none but lines of walls run. EMPTY: there are no walls.
 std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
   std::vector<std::uint8_t> is_start;
   for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
@@ -124,7 +124,7 @@ std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
   return is_start;
 }
 
-/// What lines pass, those from number `first` up to `end`.
+/// The edges that lines pass, those from number `first` up to `end`.
 std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
                                    std::size_t end) {
   std::vector<PolygonEdge> passes;
@@ -144,13 +144,13 @@ bool is_on_side(Point p, Point q, std::int32_t cols, std::int32_t rows) {
   return (p.x == q.x && (p.x == 0 || p.x == right)) || (p.y == q.y && (p.y == 0 || p.y == bottom));
 }
 
-/// Which edges become part of the mesh, and where the surface is cut.
+/// The edges that become part of the mesh, and where the surface is cut.
 struct KeptEdges {
   std::vector<GraphEdge> edges;
-  std::vector<std::uint8_t> is_start;  ///< as in the graph
-  std::vector<GraphEdge> walls;        ///< of these, those that the surface ends at, which is on their positive side
+  std::vector<std::uint8_t> is_start;  ///< like in the graph
+  std::vector<GraphEdge> walls;        ///< those of these at which the surface ends, on their positive side
   std::vector<std::array<Point, 2>>
-      outline;  ///< of what stays: the walls, and where it ends at the sides of the raster
+      outline;  ///< outline of what stays: the walls, and where it ends at the sides of the raster
 };
 
 /// Edges of breaklines in and around polygons, and the outline of the polygons' union.
@@ -181,7 +181,7 @@ KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::
   return kept;
 }
 
-/// Where nothing is cut.
+/// All edges, where nothing is cut.
 KeptEdges all_edges(const Breaklines& placed) {
   KeptEdges kept;
   kept.edges = edges_of_lines(placed);
@@ -312,8 +312,8 @@ std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follo
   return followed;
 }
 
-/// Of breaklines with heights, before the raster takes them. Those at zero count tenfold: most were never given
-/// heights.
+/// The farthest of the breaklines with heights, before they change the raster. Those at zero count tenfold: most were
+/// never given heights.
 FarthestLine find_farthest(std::span<const Line> lines, const std::array<double, 6>& affine,
                            const LineSamples& samples) {
   const MapToSamples to_samples(affine);
@@ -325,7 +325,7 @@ FarthestLine find_farthest(std::span<const Line> lines, const std::array<double,
     bool is_at_zero = true;
     for (const auto& [x, y, z] : line.points) {
       const double way = std::abs(z - surface_at(samples, to_samples.position(x, y)));
-      if (way > distance) distance = way;  // NaN: a soft line, or beside the surface
+      if (way > distance) distance = way;  // NaN: a soft line, or outside the surface
       is_at_zero = is_at_zero && z == 0;
     }
     const bool is_farther = weight(distance, is_at_zero) > weight(farthest.distance, farthest.is_at_zero);

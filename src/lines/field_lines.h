@@ -22,7 +22,7 @@ struct FieldLines {
   std::vector<float> samples;
   /// Instead, where the field has one and samples are edited; nothing of it is cut.
   std::shared_ptr<const SampleSource> source;
-  std::vector<SampleEdit> edits;  ///< of these samples
+  std::vector<SampleEdit> edits;  ///< edits of these samples
   FarthestLine farthest;
   std::uint64_t inserted = 0;  ///< breaklines with some part in the raster, except those inserted first
   std::uint64_t valid = 0;     ///< samples, before the cut; 0: not known
@@ -40,14 +40,14 @@ struct FieldLines {
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::span<const std::int32_t> shared_rows = {});
 
-/// What lines and rings take beside the mesh, most of it while they are prepared: 300 bytes a vertex, and 100 for each
-/// sample that they run along, which both lines of a wall share.
+/// Memory of lines and rings in addition to the mesh, most of it while they are prepared: 300 bytes a vertex, and 100
+/// for each sample that they run along, which both lines of a wall share.
 std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine);
 inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines) {
   return line_bytes(field, lines.lines, lines.affine);
 }
 
-/// Of the samples in memory, where lines may edit them or a cutline makes some nodata: FieldLines::samples.
+/// Bytes of the samples in memory, where lines may edit them or a cutline makes some nodata: FieldLines::samples.
 std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline);
 
 }  // namespace scarp

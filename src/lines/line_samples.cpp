@@ -12,7 +12,7 @@ namespace scarp {
 
 namespace {
 
-/// Samples between lines that are not read with those beside them.
+/// Samples between lines that are not read with their neighbours.
 constexpr std::int32_t kWideGap = 4096;
 
 /// Corners of a cell, as valid_corners() counts them.
@@ -21,7 +21,7 @@ unsigned corners_near(const LineSamples& samples, std::int32_t col, std::int32_t
   return bit(col, row, 0) | bit(col + 1, row, 1) | bit(col + 1, row + 1, 2) | bit(col, row + 1, 3);
 }
 
-/// Whether the surface of a cell reaches along the side between two of its corners.
+/// True if the surface of a cell reaches along the side between two of its corners.
 bool reaches(unsigned corners, unsigned a, unsigned b) {
   return std::popcount(corners) >= 3 && (corners >> a & 1u) != 0 && (corners >> b & 1u) != 0;
 }

@@ -1,4 +1,4 @@
-// The samples that lines look at: all of a raster, or, of one that is not in memory, those near lines.
+// The samples that lines read: all of a raster, or, of one that is not in memory, those near lines.
 #pragma once
 
 #include <cmath>
@@ -20,8 +20,8 @@ class LineSamples {
   explicit LineSamples(const Raster& raster) : raster_(raster) {}
 
   /// Those of the cells that segments on the lattice pass, and of the cells around them, read from the top down.
-  /// Segments may leave the raster, by some samples. Fails as the field does. Memory: 4 bytes a sample, 24 for each row
-  /// that a line crosses, 8 for each row of the raster.
+  /// Segments may end outside the raster, by some samples. Fails as the field does. Memory: 4 bytes a sample, 24 for
+  /// each row that a line crosses, 8 for each row of the raster.
   static Result<LineSamples> read(const HeightField& field, std::span<const Segment> near);
 
   std::int32_t cols() const { return raster_.cols; }
@@ -45,7 +45,7 @@ class LineSamples {
  private:
   struct Run {
     std::int32_t row, col, end;
-    std::size_t first;  // of its heights
+    std::size_t first;  // index of the first of its heights
   };
   static constexpr std::size_t kNowhere = ~std::size_t{0};
 
@@ -57,7 +57,7 @@ class LineSamples {
 
   Raster raster_;
   std::vector<Run> runs_;            // by row and column, apart from each other
-  std::vector<std::size_t> begins_;  // of each row's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // begins of each row's runs, and the end of the last
   std::vector<float> heights_;
 };
 

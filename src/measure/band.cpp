@@ -111,7 +111,7 @@ bool Band::borrow_heights(const HeightField& field, int top, int bottom) {
   return true;
 }
 
-/// Of the band's rows; the lowest and the highest first, so that most others need no look.
+/// Notes the range of the band's rows; the lowest and the highest first, so that most others need no scan.
 void Band::note_range(const std::vector<RowHeights>& rows, int top) {
   int lowest = first_, highest = first_;
   const auto heights_of = [&](int row) -> const RowHeights& { return rows[static_cast<std::size_t>(row - top)]; };
@@ -160,7 +160,7 @@ void Band::classify() {
     } else {
       count_cells(here, after, below);
     }
-    // A whole row below a whole row needs no look at single samples; both count arrays stay true for the next row.
+    // A whole row below a whole row needs no check of single samples; both count arrays stay true for the next row.
     const bool has_cells = row + 1 < end() || has_row_below_;
     if (!(here_is_whole && after_is_whole && has_cells)) {
       for (std::size_t c = 0; c < cols; ++c) {

@@ -37,7 +37,7 @@ inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffend
   return a.offender.row != b.offender.row ? a.offender.row < b.offender.row : a.offender.col < b.offender.col;
 }
 
-/// What one band says about the mesh. Depends on the band only.
+/// The findings of one band about the mesh. Depends on the band only.
 struct BandReport {
   std::vector<RowSums> rows;
   double largest = -1;                             ///< |error|; −1 if there is no sample
@@ -51,16 +51,16 @@ struct BandReport {
   std::vector<float> kept;  ///< row-major; filled if asked for
 };
 
-/// Which errors make a sample an offender.
+/// The errors that make a sample an offender.
 struct Limits {
   double everywhere = HUGE_VAL;
-  std::span<const float> by_sample = {};  ///< of the whole field; empty: none, or those of `source`
+  std::span<const float> by_sample = {};  ///< limits of the whole field; empty: none, or those of `source`
   const SampleSource* source = nullptr;   ///< who is asked for those of a band
   bool with_uncovered = false;            ///< so are samples that no triangle covers
-  const CutRegion* region = nullptr;      ///< what samples outside say does not count; null: there is none
+  const CutRegion* region = nullptr;      ///< samples outside it do not count; null: there is none
 };
 
-/// What a band hands back for each sample: nothing, mesh − sample, or the mesh's height.
+/// The value that a band hands back for each sample: nothing, mesh − sample, or the mesh's height.
 enum class Keep { kNothing, kErrors, kHeights };
 
 /// The rows [first, first + rows) of a field, to work on. Scanners read heights and cells, and write errors.
@@ -82,14 +82,14 @@ class Band {
   double* errors(int row) { return all_errors_ + std::ptrdiff_t{row - first_} * stride_; }
   BandRows rows() { return {heights(first_), all_errors_, cols_, stride_, first_, is_whole_}; }
 
-  /// Takes `error` for a sample of errors() if it is larger than what is `held` there; among equals the positive.
+  /// Accepts `error` for a sample of errors() if it is larger than what is `held` there; among equals the positive.
   void offer(double& held, double error) {
     const double now = std::abs(error), before = std::abs(held);
     if (now < before || (now == before && !(error > held))) return;  // false for the NaN of a sample not covered yet
     held = error;
     if (now > largest_) largest_ = now;
   }
-  /// What an error must reach to be critical or an offender, at least.
+  /// The least error that is critical or makes an offender.
   double watch() const {
     const double limit = lesser(largest_, least_limit_);
     return limit - (2 * guard_ + 4 * kRounding * std::abs(limit));
@@ -113,7 +113,7 @@ class Band {
   /// The same of a row, after find_missing().
   bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
   bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
-  /// Offers a triangle at some distance to a missing sample: the nearest is taken, the larger error among equals.
+  /// Offers a triangle at some distance to a missing sample: the nearest wins, the larger error among equals.
   void offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error);
 
   // Cells. Cell (col, row) lies between the samples (col, row) and (col + 1, row + 1).
@@ -130,8 +130,8 @@ class Band {
  private:
   Band(const HeightField& field, int first, int rows, const Limits& limits, double guard, Histogram& histogram);
   Result<void> take_heights(const HeightField& field);
-  /// Takes the rows from `top` to `bottom` − 1 as they lie in the field's memory, and returns true, if all samples are
-  /// heights.
+  /// Borrows the rows from `top` to `bottom` − 1 as they lie in the field's memory, and returns true, if all samples
+  /// are heights.
   bool borrow_heights(const HeightField& field, int top, int bottom);
   void note_range(const std::vector<RowHeights>& rows, int top);
 
@@ -163,7 +163,7 @@ class Band {
   bool is_whole(int row) const { return valid_[static_cast<std::size_t>(row - first_ + 1)] == cols_; }
   void classify();
   void cut();
-  /// Takes a height away, so that it need not be covered.
+  /// Removes a height, so that it need not be covered.
   void drop(int col, int row);
   bool find_missing(int row);
   Buckets sum(int row);

@@ -24,8 +24,8 @@ struct Box {
 
 class BucketGrid {
  public:
-  /// Buckets over `box`, about `buckets` in number and nearly square. The outermost ones go on without end: a point
-  /// outside is looked up in the nearest bucket, and shapes outside are in it.
+  /// Buckets over `box`, about `buckets` in number and nearly square. The outermost ones continue without end: a point
+  /// outside is searched in the nearest bucket, and shapes outside are in it.
   BucketGrid(const Box& box, std::size_t buckets) : box_(box) {
     const double width = std::max(box.x1 - box.x0, 0.0), height = std::max(box.y1 - box.y0, 0.0);
     const double count = static_cast<double>(std::clamp<std::size_t>(buckets, 1, std::size_t{1} << 28));

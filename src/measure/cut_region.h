@@ -1,6 +1,6 @@
 // The region within the cutline of a mesh.
 //
-// The rings are taken as they are, in double arithmetic; the mesh has them rounded to its lattice, by 3/512 sample at
+// The rings are used as they are, in double arithmetic; the mesh has them rounded to its lattice, by 3/512 sample at
 // most. So near the rings nothing is asked: kNear is twice as far and more.
 #pragma once
 
@@ -19,11 +19,11 @@ class CutRegion {
   CutRegion(const Cutline& cutline, int cols, int rows);
 
   enum class Place : std::uint8_t { kOutside, kNear, kInside };
-  /// Of the samples of some rows, row-major. Cost: O(samples + segments in those rows).
+  /// The places of the samples of some rows, row-major. Cost: O(samples + segments in those rows).
   std::vector<Place> places(int first, int rows) const;
-  /// Whether a point of the grid lies in a polygon. REQUIRES: its row is in the field. Cost: O(segments in that row).
+  /// True if a point of the grid lies in a polygon. REQUIRES: its row is in the field. Cost: O(segments in that row).
   bool holds(double x, double y) const;
-  /// Whether a ring is no farther than `distance`, at most 2 · kNear. As holds().
+  /// True if a ring is no farther than `distance`, at most 2 · kNear. Otherwise like holds().
   bool is_near(double x, double y, double distance) const;
 
  private:

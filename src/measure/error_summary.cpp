@@ -112,7 +112,7 @@ double end_of(std::uint32_t bucket) { return static_cast<double>(bit_cast<float>
 
 }  // namespace
 
-/// Of ascending ranks, each at least 1 and at most as many as were counted.
+/// Finds ascending ranks, each at least 1 and at most as many as were counted.
 void Histogram::find_among_few(std::span<const std::uint64_t> ranks, std::span<double> found) const {
   std::vector<std::uint32_t> buckets = few_;
   const auto larger = std::partition(buckets.begin(), buckets.end(), [](std::uint32_t bucket) { return bucket == 0; });

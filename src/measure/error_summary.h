@@ -63,15 +63,15 @@ class Histogram {
   std::vector<std::uint32_t> few_;  ///< buckets, as long as there are no pages
 
   /// Pages of counts, one for each exponent of the float, made when first needed. The first ones are neighbours, so
-  /// that most errors need no look at pages_: those of `dense_size_` buckets from `dense_from_` on. What is counted
-  /// there goes to small_ first, which takes half as much of the cache.
+  /// that most errors need no access to pages_: those of `dense_size_` buckets from `dense_from_` on. Counts there go
+  /// to small_ first, which needs half as much of the cache.
   Array<std::uint32_t> counts_;
   Array<std::uint16_t> small_;
   std::array<std::uint32_t, kPages> pages_ = no_pages();  ///< by exponent: where the page begins
   std::uint32_t dense_from_ = 0, dense_size_ = 0;
-  std::vector<std::uint64_t> carried_;  ///< what counts_ had no room for, as counts_
+  std::vector<std::uint64_t> carried_;  ///< counts that counts_ had no room for, in the same order
   std::uint64_t recent_ = 0;            ///< in counts_
-  std::int64_t zeros_ = 0;              ///< beside those counted in bucket 0
+  std::int64_t zeros_ = 0;              ///< zeros in addition to those counted in bucket 0
   std::uint64_t count_ = 0;
 };
 
@@ -98,7 +98,7 @@ constexpr std::size_t kSumParts = 8;
   return ((parts[0] + parts[4]) + (parts[2] + parts[6])) + ((parts[1] + parts[5]) + (parts[3] + parts[7]));
 }
 
-/// Sums up the errors that are not NaN, by the kernels in use, and says their buckets, which lie in `room`.
+/// Sums up the errors that are not NaN, by the kernels in use, and returns their buckets, which lie in `room`.
 RowSums sum_row(std::span<const double> errors, Array<std::uint32_t>& room, Buckets& buckets);
 
 /// p50 … p999 of the errors counted, none above the max error that `result` has.

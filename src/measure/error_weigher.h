@@ -11,8 +11,8 @@ namespace scarp::judge {
 /// Sums up row after row, from the top.
 class ErrorWeigher {
  public:
-  /// A sample is above `bound` by more than the `allowance`, which is taken off errors after the `reserve` for the
-  /// rounding of samples is added, and 2^-23 of the bound, since the judge hands out errors as float32.
+  /// A sample is above `bound` by more than the `allowance`, which is subtracted from errors after the `reserve` for
+  /// the rounding of samples is added, and 2^-23 of the bound, since the judge hands out errors as float32.
   ErrorWeigher(double bound, double reserve, double allowance);
 
   struct Row {

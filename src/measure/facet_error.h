@@ -11,8 +11,8 @@ namespace scarp::judge {
 /// 0, all finite and far from overflow.
 double settle_error(const std::array<double, 3>& w, const std::array<double, 3>& z, double sample);
 
-/// Error of a sample at (x, y) outside the facet but near it: on the facet's plane, extrapolated. Of a facet thinner
-/// than `tolerance` the nearest point is taken, because its plane means nothing.
+/// Error of a sample at (x, y) outside the facet but near it: on the facet's plane, extrapolated. For a facet thinner
+/// than `tolerance` the nearest point is used, because its plane means nothing.
 double error_beside(const Facet& facet, double x, double y, double sample, double tolerance);
 
 }  // namespace scarp::judge

@@ -8,10 +8,10 @@ namespace {
 /// Weights of a facet on the lattice of 256ths that is no larger have 45 bits at most, and its slack is less than one
 /// of their steps.
 constexpr double kMostExact = 2048;
-/// In a row, a side of such a facet lies on a sample or 2^-27 of a column beside it at least; the margin and what is
+/// In a row, a side of such a facet lies on a sample or 2^-27 of a column away from it at least; the margin and what is
 /// rounded in a column below this one are less than half of that.
 constexpr std::int32_t kMostExactCols = 1 << 22;
-/// The columns of a row are not worth looking for sides where there are so few.
+/// In narrower rows a search for sides does not pay.
 constexpr std::int32_t kNarrow = 8;
 
 }  // namespace
@@ -33,7 +33,7 @@ bool make_task(const Facet& facet, const TaskRows& rows, bool is_on_lattice, Fac
     task.dy[k] = plan.y[b] - plan.y[a];
   }
   task.z = facet.z;
-  task.slack = 1e-12 * width * height;  // as PlanTriangle::slack()
+  task.slack = 1e-12 * width * height;  // like PlanTriangle::slack()
   task.per_area = 1 / plan.double_area();
   task.is_exact = is_on_lattice && width <= kMostExact && height <= kMostExact && rows.cols <= kMostExactCols;
   task.has_spans = !task.is_exact || task.right - task.left >= kNarrow;

@@ -1,4 +1,4 @@
-// What a kernel must know of a triangle in a band.
+// The facts about a triangle in a band that a kernel needs.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct TaskRows {
   std::int32_t first, last, cols;
 };
 
-/// Returns false if the facet lies beside the rows. `is_on_lattice`: its corners are multiples of 1/256.
+/// Returns false if the facet lies outside the rows. `is_on_lattice`: its corners are multiples of 1/256.
 bool make_task(const Facet& facet, const TaskRows& rows, bool is_on_lattice, FacetTask& task);
 
 }  // namespace scarp::judge

@@ -2,8 +2,8 @@
 //
 // A frame with a transform (a map projection) cannot be inverted here, so the samples go to the mesh instead: each
 // row's positions are transformed, and a grid of buckets over the field's image, one for each triangle, names the
-// triangles that may lie over a position. Tolerances are given in samples; near a sample the frame is taken as affine,
-// and triangles are brought into grid coordinates around the sample by the inverse of that affine map.
+// triangles that may lie over a position. Tolerances are given in samples; near a sample the frame is treated as
+// affine, and triangles are brought into grid coordinates around the sample by the inverse of that affine map.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -71,8 +71,8 @@ class FrameScanner : public Scanner {
   }
 
  private:
-  /// Where the field lies, from its border and some lines across it, with a margin; triangles elsewhere cost nothing.
-  /// A sample that is missed by it still finds its triangles, if slowly.
+  /// The bounds of the field, from its border and some lines across it, with a margin; triangles elsewhere cost
+  /// nothing. A sample that is missed by it still finds its triangles, if slowly.
   Box bounds(const HeightField& field) const {
     std::vector<double> cols, rows;
     const double last_col = field.cols - 1, last_row = field.rows - 1;
@@ -95,7 +95,7 @@ class FrameScanner : public Scanner {
     return {box.x0 - margin_x, box.y0 - margin_y, box.x1 + margin_x, box.y1 + margin_y};
   }
 
-  /// Where grid points lie; NaN where they have no image.
+  /// Positions of grid points; NaN where they have no image.
   void locate(const std::vector<double>& cols, const std::vector<double>& rows, double col_shift, double row_shift,
               Points& points) const {
     points.x.resize(cols.size());

@@ -9,9 +9,10 @@
 
 namespace scarp::judge {
 
-/// The inverse of an affine frame, in plain double arithmetic: the same on all machines. What comes as near to a whole
-/// number, or to a 256th, as rounding may have moved it is put onto it: four units in the last place of the coordinates
-/// that the vertex was made from (the frame's, the origin, its own), in samples, and what the inverse itself loses.
+/// The inverse of an affine frame, in plain double arithmetic: the same on all machines. A coordinate that comes as
+/// near to a whole number, or to a 256th, as rounding may have moved it is put onto it: four units in the last place of
+/// the coordinates that the vertex was made from (the frame's, the origin, its own), in samples, and the loss of the
+/// inverse itself.
 class GridMap {
  public:
   static constexpr double kSteps = 256;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kTogether = 1 << 15;
 
-/// Where vertex v of the mesh is.
+/// The position of vertex v of the mesh.
 class Places {
  public:
   Places(const HeightField& field, const Mesh& mesh) : mesh_(mesh), to_grid_(field, mesh.origin) {}
@@ -43,7 +43,7 @@ std::optional<Array<FacetCorners::Short>> find_short(const Places& places, std::
     return is_short;
   };
   corners.resize(count);
-  // The first ones mostly tell.
+  // The first ones mostly decide.
   if (!fill(0, std::min(count, kTogether))) return std::nullopt;
   std::vector<std::uint8_t> are_short(count / kTogether + 1, 1);
   parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {

@@ -1,4 +1,4 @@
-// Where the vertices of a mesh lie in the grid of its field.
+// Positions of a mesh's vertices in the grid of its field.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct FacetCorner {
   double x, y, z;
 };
 
-/// Corners by vertex. Those of a mesh whose vertices lie on samples, or near them on the lattice of fitting, take half
+/// Corners by vertex. Those of a mesh whose vertices lie on samples, or near them on the lattice of fitting, need half
 /// the memory.
 class FacetCorners {
  public:
@@ -68,8 +68,8 @@ struct GridPlaces {
   bool are_on_lattice = true;  ///< all columns and rows are multiples of 1/256
 };
 
-/// As GridMap says. kInput for a vertex that is out of reach (check_mesh.h). REQUIRES: an affine frame that can be
-/// inverted. The result does not depend on threads.
+/// Computes the places of GridMap. kInput for a vertex that is out of reach (check_mesh.h). REQUIRES: an affine frame
+/// that can be inverted. The result does not depend on threads.
 Result<GridPlaces> place_on_grid(const HeightField& field, const Mesh& mesh, int threads);
 
 }  // namespace scarp::judge

@@ -1,13 +1,13 @@
 // Judging in an affine frame.
 //
 // The vertices are mapped back to grid coordinates, where sample (col, row) is the point (col, row). The inverse map
-// leaves noise of some 1e-16 of the coordinates; what is that near to a lattice line is put onto it (see GridMap), so
-// that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for a
-// row the samples between its left and right side are visited, in vectors (judge_kernels.h). Samples on a side belong
+// leaves noise of some 1e-16 of the coordinates; a coordinate that near to a lattice line is put onto it (see GridMap),
+// so that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for
+// a row the samples between its left and right side are visited, in vectors (judge_kernels.h). Samples on a side belong
 // to both triangles. A sample's error is the barycentric mean of (corner height − sample): all weights are positive, so
-// nothing cancels that was not equal before. What may be the band's largest or break a bound is settled without
-// rounding. Of a mesh in space this finds the samples near each triangle, and what is left uncovered;
-// space_judge.h says the errors.
+// nothing cancels that was not equal before. An error that may be the band's largest or break a bound is settled
+// without rounding. For a mesh in space this finds the samples near each triangle, and those uncovered; space_judge.h
+// computes the errors.
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -128,7 +128,7 @@ class GridScanner : public Scanner {
     Band& band;
     Offender worst;
 
-    /// Caution::look.
+    /// The function for Caution::look.
     static double look(void* self, std::int32_t row, std::int32_t column, std::uint32_t lanes) {
       auto& inside = *static_cast<Inside*>(self);
       for (; lanes != 0; lanes &= lanes - 1) inside.look_at(column + std::countr_zero(lanes), row);

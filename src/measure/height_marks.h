@@ -14,7 +14,7 @@
 namespace scarp::judge {
 
 /// Reads the field by squares and remembers some hundred of them, 4 KB each: questions that move along a line read
-/// each square once. After a failure of the field's source nothing is a height, and failure() says why.
+/// each square once. After a failure of the field's source nothing is a height, and failure() returns the reason.
 class HeightMarks {
  public:
   explicit HeightMarks(const HeightField& field) : field_(field), squares_(kSquares) {}

@@ -5,7 +5,7 @@
 // sample's error is the same sequence of separately rounded operations everywhere, samples are judged row by row, and
 // sums have eight parts by column whatever the width of a vector.
 //
-// What is computed for a sample at column c of a row, with the side opposite to corner k from (x, y) along (dx, dy):
+// The computation for a sample at column c of a row, with the side opposite to corner k from (x, y) along (dx, dy):
 //   weight[k] = dx[k]·(row − y[k]) − dy[k]·(c − x[k])                  not below 0
 //   error     = (Σ weight[k]·(z[k] − sample)) · per_area              in the order of k
 // It belongs to the triangle if no weight is below −slack, and where the row has a span, if c lies in it:
@@ -24,7 +24,7 @@ namespace scarp::judge {
 /// The arrays of a band may be read, and that of errors written, this far beyond their end.
 constexpr std::size_t kKernelPadding = 8;
 
-/// Of rows; the most that a kernel is given at once.
+/// Number of rows; the most that a kernel is given at once.
 constexpr std::int32_t kMostBandRows = 32;
 
 /// The rows of a band, one after the other.
@@ -39,14 +39,14 @@ struct BandRows {
 
 /// A triangle, counter-clockwise, and the part of it that lies in a band.
 struct FacetTask {
-  std::array<double, 3> x, y, dx, dy;  ///< of the side opposite to corner k
+  std::array<double, 3> x, y, dx, dy;  ///< side opposite to corner k
   std::array<double, 3> z;
   double slack, per_area;
   std::int32_t first, last;  ///< rows, in the band
-  std::int32_t left, right;  ///< columns, in the raster: no sample of the triangle lies beside them
+  std::int32_t left, right;  ///< columns, in the raster: no sample of the triangle lies outside them
   /// Nothing is rounded in a weight: corners are multiples of 1/256, and not far from each other nor from the origin.
   bool is_exact;
-  /// Each row's columns end at the triangle's sides, `margin` farther out. Of an exact facet these are its samples, no
+  /// Each row's columns end at the triangle's sides, `margin` farther out. For an exact facet these are its samples, no
   /// more and no less: no side passes a sample that it misses as near as that.
   bool has_spans;
   double margin;
@@ -62,21 +62,21 @@ struct Caution {
   double (*look)(void* judge, std::int32_t row, std::int32_t column, std::uint32_t lanes);
 };
 
-/// What taking a row of samples says.
+/// The result of reading a row of samples.
 struct RowHeights {
   std::uint32_t valid = 0;
   float least = 0, most = 0;  ///< infinite, least above most, without a valid one
 };
 
 struct JudgeKernels {
-  const char* name;  ///< as Highway calls them; "SCALAR": the twin in plain loops
+  const char* name;  ///< name in Highway; "SCALAR": the twin in plain loops
 
   /// The errors of the facet's samples become those of the band where they are larger than what is held, or of equal
   /// magnitude and positive. Calls caution.look() for those from caution.watch on instead, in raster order.
   void (*judge_facet)(const FacetTask& facet, const BandRows& band, Caution& caution);
 
   /// Sums up the errors that are not NaN and hands out their buckets, up to kKernelPadding more than there are errors:
-  /// those too many are 0, and taken back by Buckets::zeros.
+  /// those too many are 0, and subtracted by Buckets::zeros.
   RowSums (*sum_row)(const double* errors, std::int32_t count, Buckets& buckets);
 
   /// Copies samples, those that are no heights (NaN, the infinities, `nodata`) as NaN. `nodata` is NaN where there is

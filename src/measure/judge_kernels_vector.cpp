@@ -30,7 +30,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Wide = hn::CappedTag<double, 8>;
 using WideVec = hn::Vec<Wide>;
 
-/// What is the same for all samples of a facet, in registers: stores of errors might change what is in memory.
+/// The values that are the same for all samples of a facet, in registers: stores of errors might change what is in
+/// memory.
 struct FacetHeights {
   WideVec z0, z1, z2, per_area, watch;
 
@@ -90,7 +91,7 @@ HWY_INLINE WideVec columns_from(std::int32_t col) {
   return hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(col)));
 }
 
-/// Of an exact facet that is no wider than a vector: a row is one step.
+/// For an exact facet that is no wider than a vector: a row is one step.
 template <bool kIsWhole>
 HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Caution& caution) {
   const Wide d;
@@ -115,8 +116,8 @@ HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Cauti
   }
 }
 
-/// Of an exact facet, whose spans hold its samples and no others: weights go on by steps. Steps begin at multiples of
-/// the lanes, so that what a neighbour has just stored can be loaded again at once.
+/// For an exact facet, whose spans hold its samples and no others: weights continue by steps. Steps begin at multiples
+/// of the lanes, so that what a neighbour has just stored can be loaded again at once.
 template <bool kIsWhole, bool kHasSpans>
 HWY_INLINE void judge_exact_row(const FacetTask& facet, const BandRows& band, std::int32_t row, std::int32_t left,
                                 std::int32_t right, FacetHeights& heights_of, Caution& caution) {
@@ -256,7 +257,7 @@ RowSums sum_row(const double* errors, std::int32_t count, Buckets& buckets) {
       next += kLanes;
     }
   }
-  // Lanes that are no samples count as zeros among the buckets, and so did all of those that are left out of them.
+  // Lanes that are no samples count as zeros among the buckets, and so did all of those that are omitted.
   buckets.count = static_cast<std::size_t>(next - buckets.values);
   buckets.zeros = static_cast<std::int64_t>(samples) - static_cast<std::int64_t>(buckets.count);
   RowSums sums;
@@ -284,7 +285,7 @@ RowHeights take_row(const float* from, std::int32_t count, float nodata, float* 
   std::int32_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const auto height = hn::LoadU(d, from + i);
-    // Where `nodata` is NaN nothing is equal to it; Ne() may say that nothing is unequal either.
+    // If `nodata` is NaN nothing is equal to it; Ne() may report that nothing is unequal either.
     const auto is_height = hn::AndNot(hn::Eq(height, none), hn::Le(hn::Abs(height), most_finite));
     valid += hn::CountTrue(d, is_height);
     if (to != nullptr) hn::StoreU(hn::IfThenElse(is_height, height, missing), d, to + i);

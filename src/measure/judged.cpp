@@ -1,6 +1,6 @@
-// What has a bound is found first, as limits of 0 or infinity, so that measure() tells the largest errors of the rest.
-// Errors are then weighed: row by row as they are found where bounds are read in windows, else when they are all
-// in.
+// Samples without a bound are found first, as limits of 0 or infinity, so that measure() reports the largest errors of
+// the rest. Errors are then weighed: row by row as they are found where bounds are read in windows, else when they are
+// all in.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class BoundLimits final : public SampleSource {
         tolerances_(options.max_error ? nullptr : options.tolerances.source),
         ignored_(PointRows(options.tolerances.ignored)) {}
 
-  /// Whether any sample may be without a bound.
+  /// True if any sample may be without a bound.
   bool has_any() const { return weights_ != nullptr || tolerances_ != nullptr || !ignored_.empty(); }
   const PointRows& ignored() const { return ignored_; }
 
@@ -97,7 +97,7 @@ Result<std::uint64_t> count_unbounded(const HeightField& field, const BoundLimit
   return count;
 }
 
-/// Of samples, or bounds, that are read in windows.
+/// The same for samples, or bounds, that are read in windows.
 Result<Exceptions> find_windowed_exceptions(const HeightField& field, const JudgeOptions& options) {
   Exceptions found;
   auto limits = std::make_unique<BoundLimits>(options);
@@ -186,7 +186,7 @@ class ChannelJudge {
   std::vector<float> samples_;
 };
 
-/// What the judge's own arithmetic may have rounded.
+/// The possible rounding of the judge's own arithmetic.
 double rounding_of(const HeightRange& range, double magnitude) {
   return 1e-12 * (std::max(std::abs(range.min), std::abs(range.max)) + magnitude);
 }
@@ -249,7 +249,7 @@ class RowWeigher {
   const SampleSource& values_;
   const PointRows* ignored_;
   ErrorWeigher weigher_;
-  std::vector<float> held_, limits_;  // of rows [first_, end_); of a row
+  std::vector<float> held_, limits_;  // values of rows [first_, end_); of a row
   int first_ = 0, end_ = 0;
   Result<void> read_;
 };

@@ -1,4 +1,4 @@
-// The judge: which triangles count, what every sample says, how the triangles hang together.
+// The judge: the triangles that count, the error of each sample, and how the triangles hang together.
 //
 // The field is judged in bands of rows. Bands are independent of each other and are worked on at once, a window of them
 // at a time; their reports are added up in order, so the result never depends on threads.
@@ -161,8 +161,8 @@ double error_guard(const Mesh& mesh) {
   return kRounding * size;
 }
 
-/// Fills all that concerns heights; on_row is given what `keep` says. Fails with kCancelled if the caller stops it, and
-/// as the field's source does.
+/// Fills all that concerns heights; on_row is given what `keep` names. Fails with kCancelled if the caller stops it,
+/// and as the field's source does.
 Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
                            const judge::CutRegion* region, const MeasureOptions& options, judge::Keep keep,
                            ProgressGate& gate, Measurement& result) {
@@ -199,10 +199,10 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
   return {};
 }
 
-/// Which triangles say something about heights: all, or the upward ones of a solid.
+/// The triangles that count for heights: all, or the upward ones of a solid.
 struct Surface {
   std::optional<Array<std::uint32_t>> judged;  ///< ascending; nothing: all
-  judge::Connections connections;              ///< where they were asked for or needed
+  judge::Connections connections;              ///< connections if they were asked for or needed
   bool closed = false;
 
   /// Those of a mesh of `count` triangles, one by one.
@@ -226,7 +226,7 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
     upwards[first / kTogether] = here;
   });
   std::size_t upward = std::accumulate(upwards.begin(), upwards.end(), std::size_t{0});
-  // A solid has walls and a bottom: where all triangles look up, the edges matter for the topology only.
+  // A solid has walls and a bottom: if all triangles face up, the edges matter for the topology only.
   if (with_edges || upward < count) {
     surface.connections = judge::connect(mesh, upward == count);
     surface.closed = surface.connections.edges.open.empty();
@@ -241,7 +241,7 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
   return surface;
 }
 
-/// What is judged on the map: a mesh in space is brought there, and its heights are judged in space.
+/// The mesh that is judged on the map: a mesh in space is brought there, and its heights are judged in space.
 class Judged {
  public:
   /// `field` and `mesh` outlive this. `with_heights`: there will be a scanner. Fails as measure().
@@ -267,7 +267,7 @@ class Judged {
   const HeightField& field() const { return flat_field_ ? *flat_field_ : field_; }
   const Mesh& mesh() const { return flat_mesh_ ? *flat_mesh_ : mesh_; }
 
-  /// Of the triangles of the surface. Called once.
+  /// Makes the scanner of the triangles of the surface. Called once.
   std::unique_ptr<judge::Scanner> make_scanner(Surface& surface, double tolerance, int threads) {
     const std::size_t count = mesh_.triangle_count();
     if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, surface.list(count), tolerance);
@@ -283,7 +283,7 @@ class Judged {
     space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, surface.list(mesh_.triangle_count()));
   }
 
-  /// Samples that may mend what is no error of heights; beside the offenders.
+  /// Samples that may mend faults other than errors of heights; in addition to the offenders.
   std::vector<Offender> unfolding() const { return space_ ? space_->unfolding() : std::vector<Offender>(); }
 
   /// REQUIRES: look_in_space() was called.

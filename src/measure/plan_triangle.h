@@ -46,7 +46,7 @@ struct PlanTriangle {
     return std::min(least, weight(2, px, py) / side(2));
   }
 
-  /// Where x lies for the part of the triangle with y in [lo, hi]. An interval beside the triangle is moved to its
+  /// The range of x for the part of the triangle with y in [lo, hi]. An interval outside the triangle is moved to its
   /// nearest end.
   Interval x_range(double lo, double hi) const {
     const Interval along = y_extent();

@@ -1,4 +1,4 @@
-// The judge of scattered points: each point looks up the triangles that may lie over it in a grid of buckets.
+// The judge of scattered points: each point searches the triangles that may lie over it in a grid of buckets.
 //
 // Points are judged where they were given, not where the lattice has them. Near their own order in the plane they are
 // worked on in chunks at once; every error has its own place in one array, which is summed up in input order, so the

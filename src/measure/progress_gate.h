@@ -1,4 +1,4 @@
-// Asks the caller whether to go on, but not too often.
+// Asks the caller whether to continue, but not too often.
 #pragma once
 
 #include <chrono>

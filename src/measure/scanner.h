@@ -1,4 +1,4 @@
-// Which triangle lies over which sample: two ways to find out, one for affine frames and one for all.
+// Finds the triangle over each sample: two ways to do so, one for affine frames and one for all.
 #pragma once
 
 #include <cstddef>
@@ -45,10 +45,10 @@ class Scanner {
 
 class SpaceJudge;
 
-/// For affine frames: `places` says where vertices lie in the grid, triangles are scanned row by row. `ids`: those to
-/// judge, ascending; nothing: all; not needed any more once the scanner is made. `space`: who says the errors of a mesh
-/// in space, which `field` and `mesh` then are on the map; null: there is none. What else is borrowed outlives the
-/// scanner.
+/// For affine frames: `places` holds the vertices' positions in the grid, triangles are scanned row by row. `ids`:
+/// those to judge, ascending; nothing: all; not needed any more once the scanner is made. `space`: the judge of errors
+/// of a mesh in space, which `field` and `mesh` then are on the map; null: there is none. All else that is borrowed
+/// outlives the scanner.
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
                                            std::optional<std::span<const std::uint32_t>> ids, double tolerance,
                                            int threads, const SpaceJudge* space = nullptr);

@@ -1,6 +1,6 @@
 // Surfaces that lie in one layer, seen from above.
 //
-// Where all triangles look up and each edge has one triangle or two that run along it in opposite directions, the
+// If all triangles face up and each edge has one triangle or two that run along it in opposite directions, the
 // triangles over a point are as many as the open edges, each with its triangle on its left, wind around it. So no two
 // triangles overlap if the border winds around no point twice. Horizontal lines through all ends of open edges cut the
 // plane into slabs. In each of them the edges must lie side by side, as well at its lower as at its upper end, and lead
@@ -26,7 +26,7 @@ struct Side {
   }
 };
 
-/// By their lower end. Level ones are left out: slabs end at them.
+/// By their lower end. Level ones are omitted: slabs end at them.
 std::vector<Side> sides_of(const Mesh& mesh, std::span<const OpenEdge> open) {
   std::vector<Side> sides;
   sides.reserve(open.size());

@@ -77,7 +77,7 @@ double snapped(double value, double noise) {
   return std::abs(value - place) <= std::min(noise, 0.25 / kSteps) ? place : value;
 }
 
-/// Along a vertical, in metres; long beside the rounding of coordinates.
+/// Length along a vertical, in metres; long compared with the rounding of coordinates.
 constexpr double kRise = 1000;
 
 }  // namespace

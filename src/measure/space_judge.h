@@ -3,10 +3,10 @@
 // The mesh is brought back to the map, where everything but heights is judged. An error is the way along the vertical
 // of a sample, the straight line of all heights there, from the sample to the triangle that it meets. The border of a
 // mesh is a chord of a curved line of samples, so some verticals there meet no triangle: then the nearest point of the
-// triangle that covers the sample on the map says how high the mesh is.
+// triangle that covers the sample on the map decides how high the mesh is.
 //
-// Edges are straight in space and slightly bent on the map, so a triangle may be met by samples that lie beside it
-// there. How far is told by the middle of its edges.
+// Edges are straight in space and slightly bent on the map, so a triangle may be met by samples that lie outside it
+// there. The middle of its edges shows how far.
 #pragma once
 
 #include <array>
@@ -22,8 +22,9 @@
 
 namespace scarp::judge {
 
-/// A mesh in space as seen on the map: positions in the raster's x, y and heights. What comes as near to a 256th of a
-/// sample as rounding in the file may have moved it is put onto it. kInput for a vertex that has no place on the map.
+/// A mesh in space as seen on the map: positions in the raster's x, y and heights. A coordinate that comes as near to a
+/// 256th of a sample as rounding in the file may have moved it is put onto it. kInput for a vertex that has no place on
+/// the map.
 Result<Mesh> bring_to_map(const HeightField& field, const Mesh& mesh);
 
 /// The field without its frame in space.
@@ -54,11 +55,11 @@ class Verticals {
 
 class SpaceJudge {
  public:
-  /// Of the triangles `ids` of `mesh`. All outlive this.
+  /// Judges the triangles `ids` of `mesh`. All outlive this.
   SpaceJudge(const HeightField& field, const Mesh& mesh, const Mesh& on_map, std::span<const std::uint32_t> ids);
 
   Verticals verticals(const Band& band) const { return {frame_, mesh_.origin, band}; }
-  /// Triangles that look down in space though not on the map, or the other way round: an edge bends on the map by more
+  /// Triangles that face down in space though not on the map, or the other way round: an edge bends on the map by more
   /// than the third corner is away from it.
   std::uint64_t folds() const { return folded_.size(); }
   /// A sample near the middle of the longest edge of each, where that is no corner: as a vertex it may unfold it.

@@ -33,7 +33,7 @@ EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded);
 
 /// How the triangles of a mesh hang together.
 struct Connections {
-  std::vector<std::uint32_t> welded;  ///< as check_edges() takes it
+  std::vector<std::uint32_t> welded;  ///< input of check_edges()
   EdgeReport edges;
   /// No two triangles overlap, and no vertex but those of open edges lies on an open edge, seen from above. False: it
   /// is not known.
@@ -45,16 +45,16 @@ struct Connections {
 /// `looks_up`: all triangles do, seen from above. Cost: O(triangles).
 Connections connect(const Mesh& mesh, bool looks_up);
 
-/// Whether the border of a surface, its triangles on the left of each open edge, winds around no point more than once,
+/// True if the border of a surface, its triangles on the left of each open edge, winds around no point more than once,
 /// up to the rounding of positions. False where that is not quickly seen.
 bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open);
 
-/// Vertices in the interior of an open edge, seen from above, up to rounding: 1e-9 of the edge's length and what the
-/// positions' precision (float32, or double) leaves in doubt. Cost: O(vertices) for edges of ordinary shape.
+/// Vertices in the interior of an open edge, seen from above, up to rounding: 1e-9 of the edge's length and the doubt
+/// from the positions' precision (float32, or double). Cost: O(vertices) for edges of ordinary shape.
 std::uint64_t count_t_junctions(const Mesh& mesh, const Connections& connections);
 
-/// Open edges beside which the domain of `field` goes on, within `region` (null: everywhere); see Measurement::gaps.
-/// Cost: O(open edges · samples beside each · log), O(triangles) more if there is doubt. Fails as the field's source
+/// Open edges next to which the domain of `field` continues, within `region` (null: everywhere); see Measurement::gaps.
+/// Cost: O(open edges · samples next to each · log), O(triangles) more if there is doubt. Fails as the field's source
 /// does.
 Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, const Connections& connections,
                                  double tolerance, const CutRegion* region);

@@ -125,11 +125,11 @@ class Closing {
   }
 
   Mesh& mesh_;
-  double base_;  // as offset
+  double base_;  // the base as an offset
   std::vector<std::uint32_t> twins_;
   std::size_t top_;                   // half-edges of the terrain
   std::vector<std::uint32_t> below_;  // the floor's copy of each vertex
-  std::vector<bool> is_corner_;       // of each vertex: the floor has it
+  std::vector<bool> is_corner_;       // for each vertex: the floor has it
   std::vector<std::uint32_t> stack_;
 };
 

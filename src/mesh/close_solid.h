@@ -5,7 +5,7 @@
 
 namespace scarp {
 
-/// Whether a base at z = `base` is below every vertex, also in float32 offsets.
+/// True if a base at z = `base` is below every vertex, also in float32 offsets.
 bool is_below_all(const Mesh& mesh, double base);
 
 /// Adds walls and base. Vertices where parts meet in a single point are doubled; `step_back`: all copies but one move

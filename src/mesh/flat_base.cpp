@@ -1,13 +1,13 @@
 // The problem: a floor for a solid needs the outline of the terrain and nothing inside it. Triangulating an outline
 // with holes from scratch asks for a polygon triangulator; but we already hold a triangulation, with too many vertices.
 //
-// The idea: take the inner vertices out, one at a time. Taking out v leaves a star-shaped hole, the ring of its
-// neighbours. Three neighbours p, q, r in sequence are an ear that may be cut off if they turn left and v lies strictly
-// left of p→r: what remains is still star-shaped around v, and the test looks at these four points only, so that
-// cutting an ear changes the answer for its two neighbours and nobody else. While more than four neighbours are left
-// there is always such an ear (of the ears of any triangulation of the ring, two or more, one does not touch v); of the
-// last four, v may lie on a diagonal. Vertices with few neighbours go first, which keeps rings short. With exact
-// orientation nothing can go wrong; the border and all edges along it are never touched, so the result fits the walls.
+// The idea: remove the inner vertices, one at a time. Removing v makes a star-shaped hole, the ring of its neighbours.
+// Three neighbours p, q, r in sequence are an ear that may be cut off if they turn left and v lies strictly left of
+// p→r: what remains is still star-shaped around v, and the test uses these four points only, so that cutting an ear
+// changes the answer for its two neighbours alone. While more than four neighbours are left there is always such an ear
+// (of the ears of any triangulation of the ring, two or more, one does not touch v); of the last four, v may lie on a
+// diagonal. Vertices with few neighbours go first, which keeps rings short. With exact orientation nothing can go
+// wrong; the border and all edges along it are never touched, so the result fits the walls.
 //
 // Then the vertices of the border go that lie between their neighbours on a line along x or y. Such a vertex has half a
 // star, whose ring is closed by that line; v lies on it, which is all that the test above needs: an ear at either end
@@ -61,7 +61,7 @@ class FlatBase {
   };
   struct Ear {
     std::uint32_t corners[3];
-    std::uint32_t across[2];  // of the edges 0→1 and 1→2; a later ear links the third
+    std::uint32_t across[2];  // links of the edges 0→1 and 1→2; a later ear links the third
   };
 
   int orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -70,7 +70,7 @@ class FlatBase {
   }
   bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return orient(a, b, c) > 0; }
 
-  /// Whether a triangle turns left, and will when its corners are moved and rounded once more: by the share of its
+  /// True if a triangle turns left, and will when its corners are moved and rounded once more: by the share of its
   /// longest side that it is high.
   bool is_firm(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     constexpr double kThinnest = 0x1p-36;
@@ -145,8 +145,8 @@ class FlatBase {
     ring_.back().next = 0;
   }
 
-  /// Of a vertex of the border, whose neighbours along it end its ring. Lines along an axis stay straight, and the wall
-  /// below them vertical, whatever is done to each coordinate: scaled, moved, rounded.
+  /// True for a straight vertex of the border, whose neighbours along it end its ring. Lines along an axis stay
+  /// straight, and the wall below them vertical, whatever is done to each coordinate: scaled, moved, rounded.
   bool is_straight(std::uint32_t v) const {
     const double *from = &positions_[3 * std::size_t{ring_.back().start}], *at = &positions_[3 * std::size_t{v}],
                  *to = &positions_[3 * std::size_t{ring_.front().start}];
@@ -155,8 +155,8 @@ class FlatBase {
            (from[1] == at[1] && at[1] == to[1] && is_between(from[0], at[0], to[0]));
   }
 
-  /// Fills ears_ with the triangles that fill the ring of v; ear number e will take the place of triangle star_[e].
-  /// Returns false if there is no way without an ear that is too thin, or if the triangles given overlap.
+  /// Fills ears_ with the triangles that fill the ring of v; ear number e will replace triangle star_[e]. Returns false
+  /// if there is no way without an ear that is too thin, or if the triangles given overlap.
   bool cut_ears(std::uint32_t v) {
     ears_.clear();
     if (ring_.size() < 3) return false;
@@ -209,10 +209,10 @@ class FlatBase {
   std::vector<std::uint32_t> outgoing_;  // one half-edge that starts at each vertex
   std::vector<std::uint32_t> degrees_;   // triangles at each vertex
   std::vector<bool> on_border_;
-  std::vector<RingEdge> ring_;  // as indexed by ring position; a linked list while ears are cut
+  std::vector<RingEdge> ring_;  // indexed by ring position; a linked list while ears are cut
   std::vector<std::uint32_t> star_;
   std::vector<Ear> ears_;
-  std::uint32_t last_across_ = kNoHalfEdge;  // of the last ear's third edge
+  std::uint32_t last_across_ = kNoHalfEdge;  // link of the last ear's third edge
 };
 
 }  // namespace

@@ -49,7 +49,7 @@ namespace {
 constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64;
 constexpr unsigned kCacheSize = 16;
 
-/// Where each vertex lies on a curve through `side` × `side` cells of the rectangle of all.
+/// The position of each vertex on a curve through `side` × `side` cells of the rectangle of all.
 std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_places, std::size_t side, int threads) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr std::size_t kAtOnce = 4096;
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners,
   const auto place_of = [&](std::size_t t) {
     return std::min({places[corners[3 * t]], places[corners[3 * t + 1]], places[corners[3 * t + 2]]});
   };
-  // Counters take memory by part, and the order is the same with any number of them.
+  // Counters need memory by part, and the order is the same with any number of them.
   const std::size_t parts = std::clamp<std::size_t>(static_cast<std::size_t>(thread_count(threads)), 1, kMostParts);
   const std::size_t together = std::max(kLeastTogether, (count + parts - 1) / parts);
   std::vector<std::vector<std::uint32_t>> begins((count + together - 1) / together);

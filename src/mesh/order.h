@@ -22,10 +22,10 @@ struct VertexNumbers {
   static constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
   std::vector<std::uint32_t> ids;  ///< by vertex; kUnused: no triangle has it
-  std::size_t count = 0;           ///< of those that are used
+  std::size_t count = 0;           ///< number of vertices that are used
 };
 
-/// Of the vertices that triangles have, in their order.
+/// Numbers the vertices that triangles have, in their order.
 VertexNumbers number_used(std::span<const std::uint32_t> corners, std::size_t vertices);
 
 /// The corners of triangles, sorted by place as optimize_order() does. Without meshoptimizer as they are.

@@ -6,7 +6,7 @@
 // so that triangles lie on one side of it, and each triangle belongs to the print tile that its centre lies in. Both
 // neighbours get their vertices from the same mesh: what one of them ends with the other begins with.
 //
-// A gap is two polylines instead of one, each half of it beside the cut; what lies between is no print tile's.
+// A gap is two polylines instead of one, each half of it away from the cut; no print tile covers the space between.
 
 #include <fmt/format.h>
 
@@ -22,11 +22,11 @@ namespace {
 
 using Point2 = std::array<double, 2>;
 
-constexpr int kLeastCells = 2;                               // of a print tile, across
-constexpr int kLeastTabCells = 12;                           // of a print tile that has tabs
+constexpr int kLeastCells = 2;                               // least number of cells across a print tile
+constexpr int kLeastTabCells = 12;                           // least number across a print tile that has tabs
 constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // shares of the print tile that the tab stands on or in
 
-/// Where print tiles begin and end, in samples.
+/// The indices of samples at which print tiles begin and end.
 std::vector<int> divide(int samples, int parts) {
   std::vector<int> at;
   for (int k = 0; k <= parts; ++k) {
@@ -36,7 +36,7 @@ std::vector<int> divide(int samples, int parts) {
 }
 
 /// Along a cut at `across`, from the first sample to the last: straight, or with a tab in the middle of each print
-/// tile. As (along, across).
+/// tile. Points are (along, across).
 std::vector<Point2> draw_cut(int across, const std::vector<int>& tiles, double depth, bool dovetail) {
   std::vector<Point2> cut{{double(tiles.front()), double(across)}};
   for (std::size_t k = 0; dovetail && k + 1 < tiles.size(); ++k) {
@@ -56,7 +56,7 @@ std::vector<Point2> draw_cut(int across, const std::vector<int>& tiles, double d
 /// The polyline, `distance` to its left in the metric of cells; its ends stay where it ends. In (along, across).
 std::vector<Point2> shift(const std::vector<Point2>& line, double distance, Point2 cell) {
   if (distance == 0) return line;
-  const auto normal = [&](std::size_t k) {  // of the segment from point k
+  const auto normal = [&](std::size_t k) {  // normal of the segment from point k
     const double x = (line[k + 1][0] - line[k][0]) * cell[0], y = (line[k + 1][1] - line[k][1]) * cell[1];
     const double length = std::hypot(x, y);
     return Point2{-y / length, x / length};
@@ -75,8 +75,8 @@ void turn_over(std::vector<Point2>& line) {
   for (Point2& point : line) std::swap(point[0], point[1]);
 }
 
-/// Whether the point lies before a cut: the number of times that the cut passes between it and the far end. The cut
-/// goes on straight at both ends. In (along, across).
+/// True if the point lies before a cut: counts how often the cut passes between it and the far end. The cut continues
+/// straight at both ends. In (along, across).
 bool is_before(const std::vector<Point2>& cut, Point2 p) {
   bool before = false;
   for (std::size_t k = 0; k + 1 < cut.size(); ++k) {
@@ -107,7 +107,7 @@ Result<PrintTilePlan> PrintTilePlan::make(int cols, int rows, const PrintTileOpt
   if (auto fits = check_span("rows", rows, options.rows, options.dovetail); !fits) return tl::unexpected(fits.error());
   const std::vector<int> along_cols = divide(cols, options.columns), along_rows = divide(rows, options.rows);
   const double width = (cols - 1.0) / options.columns, height = (rows - 1.0) / options.rows;
-  // A tab and its gap must leave room for its neighbours': half the narrower side is more than all of them take.
+  // A tab and its gap must not meet its neighbours': half the narrower side is more than all of them need.
   const double narrowest = std::min(width * options.cell[0], height * options.cell[1]);
   const double widest = narrowest * (options.dovetail ? kNeck / 4 : 0.25);
   if (!(options.gap >= 0) || options.gap > widest) {

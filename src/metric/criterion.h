@@ -18,12 +18,12 @@
 
 namespace scarp {
 
-/// Whether samples have tolerances of their own, in memory or in a source.
+/// True if samples have tolerances of their own, in memory or in a source.
 bool has_tolerances(const SimplifyOptions& options);
-/// Whether samples in memory have bounds of their own, by tolerances or weights, or because some are ignored.
+/// True if samples in memory have bounds of their own, by tolerances or weights, or because some are ignored.
 bool has_own_bounds(const HeightField& field, const SimplifyOptions& options);
-/// What tolerances, weights and `max_error` (nothing: none of all samples) ask for at a sample of a raster in memory;
-/// +infinity for nothing.
+/// The bound that tolerances, weights and `max_error` (nothing: none of all samples) set at a sample of a raster in
+/// memory; +infinity for none.
 double asked_bound(const SimplifyOptions& options, std::optional<double> max_error, Point at, std::int32_t cols);
 
 /// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for bounds read
@@ -42,17 +42,17 @@ class Criterion {
   const ErrorMetric& metric() const { return *metric_; }
   /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
   std::optional<double> bound() const { return bound_; }
-  /// What the metric holds to in place of bound().
+  /// The aim of the metric in place of bound().
   double aim() const { return aim_ * bound_.value_or(0); }
-  /// Of all tolerances.
+  /// Factor of all tolerances.
   double factor() const { return factor_; }
   /// The max error, of all samples; +infinity for none.
   double most() const { return options_->goals.max_error.value_or(HUGE_VAL); }
-  /// What bounds leave for the rounding of samples.
+  /// Reserve of bounds for the rounding of samples.
   double reserve() const { return field_->sample_rounding; }
   /// Bounds of the samples; empty where bound() holds for all.
   std::span<const float> bounds() const { return bounds_; }
-  /// Where they are read in windows; null: the above say all.
+  /// Bounds that are read in windows; null: the above hold all.
   const SourceBounds* source_bounds() const { return source_bounds_.get(); }
   /// The largest bound that the metric holds to at a valid sample; +infinity: some have none. REQUIRES: samples in
   /// memory.

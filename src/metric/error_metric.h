@@ -19,9 +19,9 @@ struct Fit {
   Candidate worst{-1, {}};    ///< the most important sample; error < 0: there is none
   double guard = 0;           ///< how far worst.error may be from the real number
   double max_error = 0;       ///< largest error, for edge scores
-  double sum_squares = 0;     ///< of the errors, for edge scores; where asked for
-  std::uint64_t scanned = 0;  ///< samples looked at
-  bool unsettled = false;     ///< whether `worst` is the candidate takes an exact look
+  double sum_squares = 0;     ///< sum of squares of the errors, for edge scores; where asked for
+  std::uint64_t scanned = 0;  ///< number of samples scanned
+  bool unsettled = false;     ///< true if an exact computation decides that `worst` is the candidate
   bool complete = true;       ///< false: given up, max_error or sum_squares is above what was asked for
 };
 
@@ -32,7 +32,7 @@ struct FitQuestion {
   double give_up_max = std::numeric_limits<double>::infinity();
   double give_up_squares = std::numeric_limits<double>::infinity();
 
-  /// Whether a scan that has found this much may stop. Without a limit none stops, however large an error is.
+  /// True if a scan that has found this much may stop. Without a limit none stops, however large an error is.
   bool is_given_up(double max_error, double sum_squares) const {
     return (!(max_error < give_up_max) && give_up_max != std::numeric_limits<double>::infinity()) ||
            (!(sum_squares < give_up_squares) && give_up_squares != std::numeric_limits<double>::infinity());

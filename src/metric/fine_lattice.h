@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// The finest lattice that triangles are looked at on. Without a limit one sliver across a large raster would cost more
+/// The finest lattice on which triangles are scanned. Without a limit one sliver across a large raster would cost more
 /// than all the rest.
 inline constexpr int kFinestLattice = 32;
 

@@ -16,7 +16,7 @@ double damped(double feature, Importance::Damping damping);
 /// The damped feature at every sample, row-major; 0 at nodata samples. REQUIRES: has_raster_feature().
 std::vector<float> measure_feature(const Raster& raster, const Importance& importance);
 
-/// Samples in order of their value, largest first, ties in raster order; nodata samples are left out.
+/// Samples in order of their value, largest first, ties in raster order; nodata samples are omitted.
 std::vector<Point> rank_samples(const Raster& raster, const std::vector<float>& values);
 
 }  // namespace scarp

@@ -51,7 +51,7 @@ Fit LatticeMetric::fit(const std::array<Point, 3>& corners, const FitQuestion&) 
 Fit LatticeMetric::fit_evenly(const std::array<Point, 3>& corners) const {
   const Plane plane = plane_of(corners);
   const double least = threshold_ - plane.guard;
-  double worst = std::nextafter(least, -1.0);  // what equals `least` is in doubt too
+  double worst = std::nextafter(least, -1.0);  // an error equal to `least` is in doubt, too
   Point at;
   const ScanKernels& kernels = scan_kernels();
   // Powers of two: each product rounds as slope_x times steps does.

@@ -30,9 +30,9 @@ class LatticeHeights {
   }
 
  private:
-  /// An open table of which at most half is taken.
+  /// An open table of which at most half is filled.
   struct Slot {
-    std::uint64_t key = 0;  // of none
+    std::uint64_t key = 0;  // 0: an empty slot
     float height = 0;
   };
   static constexpr std::size_t kFewest = 64;

@@ -55,7 +55,7 @@ class Envelope {
     std::int32_t x;
     double height;
   };
-  /// Where the parabola of b falls below that of a, to the left of it.
+  /// The x at which the parabola of b falls below that of a, to the left of it.
   double crossing(const Low& a, const Low& b) const {
     const double x = a.x, y = b.x;
     return ((b.height - a.height) / (cell_ * cell_) + (y * y - x * x)) / (2 * (y - x));
@@ -165,8 +165,8 @@ class RegionSamples {
   ColumnRuns columns_;
   double tolerance_;
   std::int32_t reach_, stretch_;   // along a row
-  std::int32_t top_, bottom_;      // of what may be lowered
-  std::int32_t left_, right_ = 0;  // of the samples in the region
+  std::int32_t top_, bottom_;      // rows of samples that may be lowered
+  std::int32_t left_, right_ = 0;  // columns of the samples in the region
 };
 
 class RegionSource final : public SampleSource {

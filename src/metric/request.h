@@ -1,4 +1,4 @@
-// What a run of the engine is asked for.
+// The request for a run of the engine.
 #pragma once
 
 #include <utility>
@@ -10,7 +10,7 @@ namespace scarp {
 
 /// The options of simplify(), or those of simplify_by_paper() with its strategy.
 struct Request : SimplifyOptions {
-  // NOLINTNEXTLINE(google-explicit-constructor): the engine takes options as they are.
+  // NOLINTNEXTLINE(google-explicit-constructor): the engine accepts options as they are.
   Request(SimplifyOptions options) : SimplifyOptions(std::move(options)) {}
   explicit Request(const PaperOptions& options)
       : SimplifyOptions{.goals = options.goals,

@@ -18,10 +18,10 @@ namespace scarp {
 
 namespace {
 
-/// Samples of a row that are looked at together.
+/// Samples of a row that are scanned together.
 constexpr std::int32_t kChunkSamples = 64;
 
-/// Where the importance is 0 the error itself decides, far below any other importance.
+/// If the importance is 0 the error itself decides, far below any other importance.
 constexpr double kUnimportant = 1e-280;
 
 /// Combining kMaxChannels + 1 errors rounds about as often, by 2^-53 each time, and a few times more.

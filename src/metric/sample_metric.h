@@ -28,7 +28,7 @@ inline float per_bound(float bound) { return std::min(1 / bound, kMostFactor); }
 
 /// Borrows everything.
 struct MetricSettings {
-  Raster heights;                   ///< says which samples count
+  Raster heights;                   ///< decides which samples count
   std::vector<MetricField> fields;  ///< at least one
   Norm norm = Norm::kSum;
   double threshold = 0;            ///< bound of the combined error, where `bounds` is null
@@ -41,7 +41,7 @@ struct MetricSettings {
   double goal = 0;  ///< see ErrorMetric::goal()
 };
 
-/// Of heights alone, each with a bound of its own, ranked by the error over it.
+/// Settings for heights alone, each with a bound of its own, ranked by the error over it.
 MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds);
 
 /// With one field of scale 1 bounds are decided exactly. A norm of several is decided within its rounding on the safe

@@ -16,19 +16,19 @@
 
 namespace scarp {
 
-/// Whether streamed samples have bounds of their own.
+/// True if streamed samples have bounds of their own.
 bool has_source_bounds(const HeightField& field, const SimplifyOptions& options);
 
 class SourceBounds {
  public:
-  /// `tolerances`: what was asked for at each sample, alive. `most`: beside that; +infinity for none.
+  /// `tolerances`: the request for each sample, alive. `most`: in addition; +infinity for none.
   SourceBounds(const SampleSource& tolerances, double most, const BoundRule& rule)
       : tolerances_(&tolerances), most_(most), rule_(rule) {}
-  /// What the options ask for, with `factor` times the tolerances. Their sources stay alive. REQUIRES: a max error, or
-  /// tolerances.
+  /// The bounds that the options ask for, with `factor` times the tolerances. Their sources stay alive. REQUIRES: a max
+  /// error, or tolerances.
   SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor);
 
-  /// What refinement aims at in a window, `stride` floats a row. Fails with kUsage where a tolerance or a weight is
+  /// The aims of refinement in a window, `stride` floats a row. Fails with kUsage where a tolerance or a weight is
   /// negative, NaN or, a weight, infinite, and as the sources do.
   Result<void> read_aims(Point first, std::int32_t cols, std::int32_t rows, float* aims, std::ptrdiff_t stride) const;
   /// The same of whole rows, from `first` on, of these samples. Fails with kPromise, too, where less is asked of a
@@ -39,17 +39,17 @@ class SourceBounds {
   Result<void> read_values(std::int32_t first, std::int32_t rows, std::int32_t cols, float* values) const;
   bool has_values() const { return tolerances_ != nullptr || weights_ != nullptr; }
   bool has_weights() const { return weights_ != nullptr; }
-  /// What is promised at the samples of a row, whose values are these; of none where !has_values().
+  /// The bounds promised at the samples of a row, whose values are these; empty values where !has_values().
   void find_bounds(std::int32_t row, std::span<const float> values, std::span<float> bounds) const;
 
-  /// Whether every sample is to be within the max error.
+  /// True if every sample is to be within the max error.
   bool has_most() const;
 
  private:
   Result<void> read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
                     std::ptrdiff_t stride) const;
   const SampleSource* source() const { return weights_ != nullptr ? weights_ : tolerances_; }
-  /// Of a sample with this tolerance or weight that is not ignored.
+  /// The bound of a sample with this tolerance or weight that is not ignored.
   double asked(float value) const;
 
   const SampleSource* tolerances_ = nullptr;

@@ -25,7 +25,7 @@ float tolerance_of_value(float value, bool is_rounded) {
   return is_rounded ? std::nextafter(value, 0.0F) : value;  // not above the value in the file
 }
 
-/// What the values of a raster that was opened mean.
+/// Converts the values of an opened raster to their meaning.
 class RasterValues final : public SampleSource {
  public:
   using Meaning = std::function<float(float)>;
@@ -85,7 +85,7 @@ tl::unexpected<Error> refuse_negative(const OwnedHeightField& raster, float valu
                                              raster.info.path, value, at % raster.cols, row + at / raster.cols));
 }
 
-/// Reports how far a raster has been looked through, now and then.
+/// Reports how far a raster has been scanned, now and then.
 class LookProgress {
  public:
   explicit LookProgress(const ProgressCallback& progress) : progress_(progress) {}
@@ -105,7 +105,7 @@ class LookProgress {
   Clock::time_point last_ = Clock::now();
 };
 
-/// Looks at all values, some rows at a time, from the top, and refuses one below 0. The largest; none: there is none.
+/// Scans all values, some rows at a time, from the top, and refuses one below 0. The largest; none: there is none.
 Result<std::optional<float>> look_through(const OwnedHeightField& raster, const ProgressCallback& progress) {
   constexpr int kSamples = 1 << 18;
   const int most = rows_of(kSamples, raster.cols);
@@ -133,7 +133,7 @@ Result<std::optional<float>> look_through(const OwnedHeightField& raster, const 
   return largest;
 }
 
-/// What a weight of a raster means, of which the largest is given.
+/// The weight for a value of a raster of which the largest is given.
 float weight_of_value(float value, float largest) {
   if (std::isnan(value)) return 0;
   return largest > 1 ? value / largest : value;

@@ -45,7 +45,7 @@ void split_chord(const std::vector<float>& heights, std::int32_t first, std::int
 /// Three samples across the line at each of its steps, NaN beyond the raster: before, on and after the line.
 struct Strip {
   std::array<std::vector<float>, 3> heights;
-  /// Which corners of the cell between step i and i + 1 on one side (0 before, 1 after the line) are heights.
+  /// The corners of the cell between step i and i + 1 on one side (0 before, 1 after the line) that are heights.
   unsigned corners(std::size_t side, std::size_t i) const {
     const auto bit = [&](std::size_t k, std::size_t j, unsigned n) { return std::isnan(heights[k][j]) ? 0u : 1u << n; };
     return bit(side, i, 0) | bit(side, i + 1, 1) | bit(side + 1, i, 2) | bit(side + 1, i + 1, 3);

@@ -1,6 +1,6 @@
 // The border between two tiles: a line of samples, simplified on its own.
 //
-// A pure function of the samples on the line and of the cells beside it. Both tiles that share a border compute the
+// A pure function of the samples on the line and of the cells next to it. Both tiles that share a border compute the
 // same points, whatever else they hold. So their meshes fit without a crack, and the tiles exchange no data.
 #pragma once
 
@@ -27,16 +27,16 @@ struct LineBound {
   std::span<const float> own;  ///< by step, from 0 on, +infinity for none; EMPTY: one for all
 
   double at(std::int32_t step) const { return own.empty() ? of_all : double{own[static_cast<std::size_t>(step)]}; }
-  /// Which of two samples that break their bounds is farther.
+  /// The larger rank belongs to the sample that breaks its bound by more.
   double rank(double error, double bound) const { return own.empty() ? error : error / bound; }
 };
 
 /// Returns the steps that become vertices, ascending and strictly between 0 and line.steps. Every sample of the line
 /// that belongs to the surface on either side lies within its bound, as a real number, of their chain. The farthest
-/// sample of a chord splits it (first among equals), again and again. A sample where the surface beside the line
+/// sample of a chord splits it (first among equals), again and again. A sample where the surface next to the line
 /// changes (a cell with a nodata sample) is kept too, so every corner of an outline on the line is a vertex. The line
-/// lies inside the raster; its field may have nodata. Cost: O(steps · log steps), expected.
-/// Fails as the field's source does.
+/// lies inside the raster; its field may have nodata. Cost: O(steps · log steps), expected. Fails as the field's source
+/// does.
 Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line,
                                                   const LineBound& bound);
 
@@ -44,7 +44,7 @@ Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, cons
 Result<std::vector<std::int32_t>> split_border(const HeightField& field, const BorderLine& line,
                                                std::span<const std::int32_t> kept, const LineBound& bound);
 
-/// A run of steps of a line with the same surface beside it, on either side: cells of four heights, or none.
+/// A run of steps of a line with the same surface on either side: cells of four heights, or none.
 struct BorderRun {
   std::int32_t begin = 0, end = 0;
   bool has_surface = false;  ///< on one side at least

@@ -24,12 +24,12 @@ Question either(const Question& first, const Question& second) {
   return [first, second] { return first() || second(); };
 }
 
-/// Of the max error, for the rounding of heights.
+/// Share of the max error for the rounding of heights.
 constexpr double kHeightShare = 0x1p-8;
 
 bool rows_run_along_x(const Frame& frame) { return frame.is_affine() && frame.affine[2] == 0 && frame.affine[4] == 0; }
 
-/// Of a power of two; false where that is not known.
+/// True if samples are multiples of a power of two; false where that is not known.
 bool samples_are_multiples(const HeightField& field, double step) {
   if (field.samples == nullptr) return false;
   const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
@@ -63,8 +63,8 @@ bool removes_last(const HeightField& field, const SimplifyOptions& options) {
 
 namespace {
 
-/// The judge takes a position for a place of the lattice that is as near as rounding may have moved it, but not farther
-/// off than this share of a cell: cells that are tiny beside their coordinates lose their places.
+/// The judge moves a position to a place of the lattice that is as near as rounding may have moved it, but not farther
+/// off than this share of a cell: cells that are tiny compared with their coordinates lose their places.
 bool doubles_hold_lattice(const HeightField& field, std::int32_t steps) {
   const auto& a = field.frame.affine;
   const double near = steps > 1 ? 0x1p-16 : 0x1p-8;
@@ -132,7 +132,7 @@ std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& ra
 constexpr double kAnyPatience = 100;
 
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold) {
-  // On samples a floor would cost up to a tenth more, and could leave more triangles than normal effort does.
+  // On samples a floor would cost up to a tenth more, and could result in more triangles than normal effort.
   constexpr double kUsualShape = 0.1;
   const auto& a = field.frame.affine;
   FitOptions fit;

@@ -24,8 +24,8 @@ namespace scarp {
 class SampleHeights {
  public:
   explicit SampleHeights(const Raster& raster) : raster_(raster) {}
-  /// Of a field with a source, which stays alive. `known`: heights of the first vertices, so that they need not be
-  /// read.
+  /// Heights for a field with a source, which stays alive. `known`: heights of the first vertices, so that they need
+  /// not be read.
   SampleHeights(const HeightField& field, std::span<const float> known)
       : raster_{nullptr, field.cols, field.rows}, source_(field.source), known_(known) {}
 
@@ -42,10 +42,10 @@ class SampleHeights {
 };
 
 /// How vertices become positions in the frame: offsets from frame_origin(), or from that of a frame in space, rounded
-/// to float32 if asked; heights as they are, but in space. What it refers to outlives it.
+/// to float32 if asked; heights as they are, but in space. Its references outlive it.
 struct VertexPositions {
   const SampleHeights& heights;
-  const VertexLattice& lattice;  ///< of the vertices; their heights come before those of samples
+  const VertexLattice& lattice;  ///< lattice of the vertices; their heights come before those of samples
   const Frame& frame;
   bool round_to_float32 = false;
 };
@@ -69,7 +69,7 @@ class MeltDown {
 
   void order();
   Mesh finish();
-  /// Of the finished mesh's vertices.
+  /// Positions of the finished mesh's vertices.
   LatticePoints points() const;
 
  private:

@@ -2,7 +2,7 @@
 // the lines.
 //
 //     edge     o──·──·──o──·──o      o  vertices of the line: there before refinement, and after every effort
-//              │╲       │   ╱ │      ·  samples that take the line's height: no triangle misses them, so none asks for
+//              │╲       │   ╱ │      ·  samples that get the line's height: no triangle misses them, so none asks for
 //              │  ╲     │ ╱   │         a vertex there
 #pragma once
 
@@ -21,7 +21,7 @@ namespace scarp {
 
 class LockedBorder {
  public:
-  /// `raster`: the field's samples, nodata as NaN. Fails with kUsage where a line that is given leaves the raster,
+  /// `raster`: the field's samples, nodata as NaN. Fails with kUsage where a line that is given goes out of the raster,
   /// stands on nodata or breaks a bound. REQUIRES: options.domain.border is locked, and has a max error, unless the
   /// samples have tolerances.
   static Result<LockedBorder> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster);

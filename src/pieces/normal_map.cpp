@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// Which pixels a sample lies in, along one axis: one or two, since pixels are no smaller than samples.
+/// The pixels of a sample along one axis: one or two, since pixels are no smaller than samples.
 struct Share {
   int pixel = 0;
   double here = 1;  ///< the rest of the sample lies in the next pixel
@@ -83,7 +83,7 @@ class NormalMap {
 
   const HeightField& field_;
   int width_, row_ = 0;
-  Sums sums_, below_;  // of the row of pixels that is being filled, and of the next
+  Sums sums_, below_;  // sums of the row of pixels that is being filled, and of the next
 };
 
 }  // namespace

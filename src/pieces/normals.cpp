@@ -40,7 +40,7 @@ double turn_in_space(const Surroundings& heights, const OffsetMap& offsets, cons
 }
 
 /// The slope along one of the raster's axes at a sample of a locked border: a rise over so many steps. One step without
-/// a rise where a neighbour does not know the sample beyond; no step where none beside has a height.
+/// a rise if a neighbour does not know the sample beyond; no step if no neighbour has a height.
 struct BorderSlope {
   double rise = 0;
   int steps = 1;
@@ -179,7 +179,7 @@ std::vector<std::uint32_t> order_by_row(const LatticePoints& at) {
 }  // namespace
 
 std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at, const Border& border) {
-  constexpr std::int32_t kReach = 2;  // of the samples around the one below a point
+  constexpr std::int32_t kReach = 2;  // reach of the samples around the one below a point
   std::vector<float> normals;
   std::vector<std::uint32_t> order;
   std::vector<Point> points;

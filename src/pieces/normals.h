@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside nodata
+/// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided next to nodata
 /// and borders; between samples the bilinear mean of the valid samples around; 3 values a point, z > 0. Vertical where
 /// no sample around is valid. On the sides of a locked border a function of what both neighbours know; see Border.
 /// Streamed samples are read once, from the top. Throws SourceFailure.

@@ -54,7 +54,7 @@ Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, cons
   const LatticeMetric metric(piece.samples, inserted->heights(), goals.threshold, piece.aims);
   Refinement refinement(metric, piece.tin, Algorithm::kHeap, {},
                         piece.is_refined ? Refinement::Start::kClean : Refinement::Start::kScan);
-  // What refinement left and no line touches keeps the bound.
+  // Triangles of refinement that no line touches keep the bound.
   if (piece.is_refined) refinement.scan(inserted->changed(), goals.threads);
   if (auto refined = insert_until_done(piece, metric, refinement, work); !refined) return refined;
   if (goals.releases_starts) inserted->release_starts(piece.tin);

@@ -2,7 +2,7 @@
 //
 //     seed → insert constraints → refine → fit
 //
-// Each leaves the piece ready for the next. The plan of a run decides which passes run, and with which goals.
+// Each prepares the piece for the next. The plan of a run decides which passes run, and with which goals.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ Result<void> seed(Piece& piece);
 
 /// How constraints are inserted.
 struct ConstraintGoals {
-  double threshold = 0;          ///< of the errors, where the piece has no aims of its own
+  double threshold = 0;          ///< threshold of the errors, where the piece has no aims of its own
   bool releases_starts = false;  ///< edges that are only a start become free in the end, with their vertices
   int threads = 1;
 };
@@ -36,7 +36,7 @@ Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, cons
 /// triangles and as piece.check does. REQUIRES: the metric is of the piece's samples.
 Result<void> refine(Piece& piece, const ErrorMetric& metric, Work& work);
 
-/// What a fit has done.
+/// The result of a fit.
 struct FitOutcome {
   std::uint64_t removed = 0;  ///< vertices
   bool is_cut_short = false;  ///< by the time
@@ -49,7 +49,7 @@ Result<FitOutcome> fit_piece(Piece& piece, FitOptions options);
 inline constexpr const char* kTooManyTriangles =
     "the mesh would have more than 1,431 million triangles: allow a larger error";
 
-/// Bytes a vertex of a piece that constraints and refinement take, its mesh included.
+/// Bytes a vertex of a piece that constraints and refinement use, its mesh included.
 inline constexpr std::uint64_t kRefinementBytesPerVertex = 160;
 
 }  // namespace scarp

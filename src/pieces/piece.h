@@ -20,16 +20,16 @@ namespace scarp {
 
 struct Piece {
   Raster samples;                             ///< NaN is nodata
-  std::int32_t first = 0;                     ///< of its rows of samples, in the raster
+  std::int32_t first = 0;                     ///< first of its rows of samples, in the raster
   Triangulation tin;                          ///< in the piece's own coordinates
   bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared row too
   Raster around = {};                         ///< `samples`, and a row more on each side where there is a neighbour
-  VertexLattice lattice = {};                 ///< of the vertices of `tin`
+  VertexLattice lattice = {};                 ///< lattice of the vertices of `tin`
   /// The aim of refinement, by sample; EMPTY: the run's threshold everywhere.
   std::span<const float> aims = {};
-  /// Whether each sample keeps what refinement aims at, by now.
+  /// True once each sample keeps the aim of refinement.
   bool is_refined = false;
-  /// Whether some surface is left, behind a cut.
+  /// True if any surface remains after the cutline.
   bool has_surface = true;
   /// Called from time to time, with the finished share of the pass and the largest error left. Fails if memory does not
   /// hold so many vertices, and with kCancelled. EMPTY: never called.

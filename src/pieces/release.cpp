@@ -13,7 +13,7 @@ namespace scarp {
 
 namespace {
 
-/// What the rule says about an edge, and what it cost to say.
+/// The verdict of the rule about an edge, and its cost.
 struct EdgeVerdict {
   bool flips = false;
   std::uint64_t samples = 0, triangles = 0;

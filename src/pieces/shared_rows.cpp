@@ -27,7 +27,7 @@ std::vector<std::int32_t> vertices_along(const Piece& strip, std::int32_t y) {
   return cols;
 }
 
-/// Of the aims of a piece, those of a row of its samples.
+/// The aims of a row of a piece's samples.
 template <class Float>
 std::span<Float> along(std::span<Float> aims, const Piece& strip, std::int32_t y) {
   const auto cols = static_cast<std::size_t>(strip.samples.cols);

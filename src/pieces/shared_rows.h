@@ -15,13 +15,13 @@
 
 namespace scarp {
 
-/// Adds to the strip's part of the lines the samples of a shared row that chords beside lines need. If the strip has
+/// Adds to the strip's part of the lines the samples of a shared row that chords next to lines need. If the strip has
 /// aims of its own it does so for all chords; else tiles have split the other chords, to the threshold.
 void split_shared_row(const Piece& strip, bool is_top, double threshold, ConstraintGraph& part);
 
 /// The same for a strip that is made whole: all vertices of the shared row. One that lines meet has no vertices of
-/// tiles, only those of lines and what these leave to be split; both its strips are made whole, and know that. `side`:
-/// of the tiles beyond. Fails as simplify_border().
+/// tiles, only those of lines and those of the chords between them; both its strips are made whole, and know that.
+/// `side`: of the tiles beyond. Fails as simplify_border().
 Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold, std::int32_t side,
                               ConstraintGraph& part);
 

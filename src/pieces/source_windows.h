@@ -14,7 +14,7 @@ namespace scarp {
 std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 std::uint64_t bytes_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 
-/// Lets fit() read windows, of a quarter of the memory at most for a thread, and cuts patches that they mostly hold.
+/// Makes fit() read windows, of a quarter of the memory at most for a thread, and cuts patches that they mostly hold.
 /// They depend on the memory alone, so that the mesh does not on threads. `bounds`: of samples; null: none of their
 /// own. The field and they stay alive.
 void read_windows(const HeightField& field, const MemoryBudget& memory, FitOptions& options,

@@ -52,7 +52,7 @@ StripLines::StripLines(const ConstraintGraph& graph)
   sort_by_upper_ends(outline_, as_ends);
 }
 
-/// Whether lines have points on rows of samples, both included.
+/// True if lines have points on rows of samples, both included.
 bool StripLines::has_points(std::int32_t top, std::int32_t bottom) const {
   const auto first = std::partition_point(points_.begin(), points_.end(),
                                           [&](auto p) { return graph_.points[p].y < top * kLatticeSteps; });
@@ -66,7 +66,7 @@ bool StripLines::makes_whole(std::int32_t first, std::int32_t rows) const {
 ConstraintGraph StripLines::part_of(const Piece& strip) const {
   const std::int32_t top = strip.first * kLatticeSteps, bottom = top + (strip.samples.rows - 1) * kLatticeSteps;
   ConstraintGraph part;
-  std::vector<std::uint32_t> numbers;  // of points_[first + k]
+  std::vector<std::uint32_t> numbers;  // indices of points_[first + k]
   const auto row_of = [&](std::uint32_t point) { return graph_.points[point].y; };
   const auto first = std::partition_point(points_.begin(), points_.end(), [&](auto p) { return row_of(p) < top; });
   const auto last = std::partition_point(first, points_.end(), [&](auto p) { return row_of(p) <= bottom; });

@@ -1,7 +1,7 @@
 // The part that a strip has of the lines of the whole raster.
 //
 //     strip above, done ──────┬───────    a line is cut at the shared row of samples: the vertex there is the line's
-//     strip at hand       line│           alone, so both strips know it. Where it leaves a chord of the shared row,
+//     strip at hand       line│           alone, so both strips know it. Where it cuts a chord of the shared row,
 //     ────────────────────────┴───────    samples split that, by the row's own rule (shared_rows.h).
 //     strips below, not read yet
 //
@@ -27,7 +27,7 @@ class StripLines {
   /// `graph`: of the whole raster, its edges cut at the rows that strips share. Stays alive.
   explicit StripLines(const ConstraintGraph& graph);
 
-  /// Of rows of samples: lines are inserted there before the surface is refined.
+  /// True for rows of samples where lines are inserted before the surface is refined.
   bool makes_whole(std::int32_t first, std::int32_t rows) const;
   /// In the strip's own coordinates; points on shared rows are all there.
   ConstraintGraph part_of(const Piece& strip) const;
@@ -38,9 +38,9 @@ class StripLines {
                                         FunctionRef<std::uint32_t(std::uint32_t)> number_of) const;
 
   const ConstraintGraph& graph_;
-  std::vector<std::uint32_t> points_;                // of the graph, from the top down
+  std::vector<std::uint32_t> points_;                // points of the graph, from the top down
   std::vector<std::uint32_t> edges_;                 // by their upper ends, as the next
-  std::vector<std::array<std::uint32_t, 2>> walls_;  // of its cut
+  std::vector<std::array<std::uint32_t, 2>> walls_;  // walls of its cut
   std::vector<std::array<Point, 2>> outline_;
 };
 

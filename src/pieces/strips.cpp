@@ -19,7 +19,7 @@ namespace scarp {
 
 namespace {
 
-/// Bytes that bounds take for each sample of a strip.
+/// Bytes that bounds need for each sample of a strip.
 constexpr std::uint64_t kAimBytesPerSample = sizeof(float);
 
 /// Every strip's vertices on the same lattice, whatever its own extent.
@@ -125,7 +125,7 @@ class StripWork {
   std::int32_t side_;
   std::optional<FitOptions> fit_;
   std::optional<StripLines> lines_;
-  std::vector<float> aims_;   // of the strip at hand
+  std::vector<float> aims_;   // aims of the current strip
   bool has_surface_ = false;  // any strip so far, behind the cut
   StripTotals& totals_;
 };

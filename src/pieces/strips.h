@@ -19,15 +19,15 @@ namespace scarp {
 /// Totals of the passes over strips so far.
 struct StripTotals {
   double seconds_of_fit = 0, seconds_of_lines = 0, seconds_of_refinement = 0;
-  Work lines;                 ///< of inserting constraints
+  Work lines;                 ///< work of inserting constraints
   Work refinement;            ///< to bounds of their own, where there are no lines
   std::uint64_t removed = 0;  ///< vertices
   bool is_cut_short = false;  ///< by the time: strips that come later stay as they are
 };
 
-/// Lets refine_tiled() work on each strip with the passes of the plan: constraints of `lines` (null: none), bounds of
-/// samples (null: the threshold holds for all), the plan's effort; and adds to `totals`. Effort kMax does not go on
-/// until a time is up, as the first strip would use it all. Progress is told through `tiles.progress`, as it is now.
+/// Makes refine_tiled() work on each strip with the passes of the plan: constraints of `lines` (null: none), bounds of
+/// samples (null: the threshold holds for all), the plan's effort; and adds to `totals`. Effort kMax does not continue
+/// until a time is up, as the first strip would use it all. Progress is reported through the present `tiles.progress`.
 /// All stay alive.
 void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
                     StripTotals& totals, TiledOptions& tiles);

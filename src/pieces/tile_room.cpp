@@ -8,7 +8,8 @@ namespace scarp {
 namespace {
 
 constexpr std::uint64_t kPiece = 62;       ///< bytes a vertex of a TilePiece and its heights
-constexpr std::uint64_t kWorkbench = 128;  ///< of the mesh at work, the stack of triangles, and the numbers of vertices
+constexpr std::uint64_t kWorkbench = 128;  ///< bytes of the mesh at work, the stack of triangles, and the numbers of
+                                           ///< vertices
 
 }  // namespace
 

@@ -9,11 +9,11 @@
 
 namespace scarp {
 
-/// Gives each new tile a share of the memory that the mesh leaves free, so that all tiles at work fit together. The
+/// Gives each new tile a share of the memory that the mesh does not use, so that all tiles at work fit together. The
 /// share depends on the other tiles at work. A tile alone gets all of the free memory.
 class TileRoom {
  public:
-  /// `base`: bytes taken whatever the mesh. `vertices`: of the mesh so far. `tiles`: side by side, at most.
+  /// `base`: bytes used whatever the mesh. `vertices`: of the mesh so far. `tiles`: side by side, at most.
   TileRoom(const MemoryBudget& memory, std::uint64_t base, std::uint64_t vertices, int tiles);
 
   /// The most vertices of a tile that begins now; no limit without a memory limit.

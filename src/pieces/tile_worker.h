@@ -21,7 +21,7 @@ namespace scarp {
 struct TileOutcome {
   Result<void> status;
   TilePiece piece;
-  std::vector<float> heights;  ///< of the piece's points, where the field has a source
+  std::vector<float> heights;  ///< heights of the piece's points, where the field has a source
   Work work;
   bool is_unsuited = false;    ///< heights span magnitudes beyond exact arithmetic
   bool is_broken_off = false;  ///< at the most vertices allowed; there is no piece

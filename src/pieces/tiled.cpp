@@ -106,19 +106,20 @@ bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
   return is_in_file(field) || options.finish_row != nullptr;
 }
 
-/// Of a strip that is read: its samples, and where it is finished a copy and what else that takes.
+/// Bytes of a strip that is read: its samples, and if it is finished a copy and the memory of finishing.
 std::uint64_t bytes_per_sample(const TiledOptions& options) {
   return options.finish_row ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
 }
 
-/// Of the samples of the highest strip, where they are read by rows.
+/// Bytes of the samples of the highest strip, where they are read by rows.
 std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
   std::int32_t rows = 0;
   for (std::size_t i = 0; i < plan.count(); i += plan.per_row()) rows = std::max(rows, plan.window(i).rows);
   return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
 }
 
-/// Of a thread's buffers and finished tiles that wait, beside their vertices: some twice the samples of a tile.
+/// Bytes of a thread's buffers and finished tiles that wait, in addition to their vertices: some twice the samples of a
+/// tile.
 std::uint64_t worker_bytes(const TilePlan& plan) {
   const TileWindow window = plan.window(0);
   return 2 * sizeof(float) * static_cast<std::uint64_t>(window.cols) * static_cast<std::uint64_t>(window.rows);
@@ -172,15 +173,15 @@ class TiledRun {
   }
 
  private:
-  /// With the row above and the row below: borders look at the cells on both sides.
+  /// With the row above and the row below: borders examine the cells on both sides.
   Result<void> load_rows(std::size_t tile) {
     const TileWindow window = plan_.window(tile);
     const std::int32_t first = std::max(window.row - 1, 0);
     return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
   }
 
-  /// One after the other from the first on that has no room beside the others: then no tile is refused what it could
-  /// have, whatever the number of threads.
+  /// One after the other from the first that has no room in addition to the others: then no tile is refused what it
+  /// could have, whatever the number of threads.
   void refine(std::size_t first, std::size_t count) {
     const std::size_t end = first + count;
     const std::size_t refused = refine(first, end, threads_);
@@ -213,7 +214,8 @@ class TiledRun {
     return refused;
   }
 
-  /// Of a tile that outgrows all the room there is. It is taken to become as dense as can be, or four times as much.
+  /// Refuses a tile that outgrows all the room there is. It is assumed to become as dense as can be, or four times as
+  /// much.
   Result<void> refuse(std::size_t tile) const {
     const MemoryBudget& memory = options_.memory;
     const std::uint64_t before = assembly_.vertex_count() + row_.vertex_count(),
@@ -303,7 +305,7 @@ class TiledRun {
   }
 
   const TiledOptions& options_;
-  std::uint64_t base_bytes_ = 0;  // bytes taken whatever the mesh
+  std::uint64_t base_bytes_ = 0;  // bytes used whatever the mesh
   TilePlan plan_;
   double density_;
   bool is_streamed_;
@@ -313,8 +315,8 @@ class TiledRun {
   int threads_;
   std::vector<TileWorker> workers_;
   std::vector<std::optional<TileOutcome>> outcomes_;
-  Assembly assembly_;  // of tiles, or of finished rows
-  Assembly row_;       // of tiles whose row is not finished
+  Assembly assembly_;  // assembly of tiles, or of finished rows
+  Assembly row_;       // assembly of tiles whose row is not finished
   std::vector<float> heights_;
   std::vector<std::uint8_t> fixed_;
   std::int32_t steps_ = 1;

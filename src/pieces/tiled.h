@@ -35,19 +35,20 @@ namespace scarp {
 struct TiledOptions {
   double threshold = 0;
   int threads = 0;
-  std::int32_t tile_side = 0;  ///< 0: chosen from the density of the mesh that the borders let expect
-  /// Whether refine_tiled() may return nothing if the goal is so coarse that borders of tiles would cost vertices.
+  std::int32_t tile_side = 0;  ///< 0: chosen from the density of the mesh expected from the borders
+  /// True if refine_tiled() may return nothing if the goal is so coarse that borders of tiles would cost vertices.
   bool may_decline = false;
   /// The limit is kept by fewer threads, by smaller tiles if the samples come from a file, and finally by refusal.
   MemoryBudget memory = {};
   /// Called on the calling thread for each strip in turn. Its result is final: release_seams() must not follow. EMPTY:
   /// strips stay as they are.
   std::function<Result<void>(Piece& strip)> finish_row = {};
-  /// Whether finish_row makes the whole mesh of `rows` rows of samples from `first` on. Tiles are not refined there.
+  /// True if finish_row makes the whole mesh of `rows` rows of samples from `first` on. Tiles are not refined there.
   /// EMPTY: of none.
   std::function<bool(std::int32_t first, std::int32_t rows)> is_made_whole = {};
-  std::uint64_t finish_bytes_per_vertex = 0;  ///< that it takes, of the row's, the row's mesh included
-  std::uint64_t finish_bytes_per_sample = 0;  ///< that it takes beside a copy of the row's samples
+  std::uint64_t finish_bytes_per_vertex = 0;  ///< bytes of finishing, for each vertex of the row, the row's mesh
+                                              ///< included
+  std::uint64_t finish_bytes_per_sample = 0;  ///< bytes of finishing in addition to a copy of the row's samples
   /// Receives the share of finished tiles and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
 };
@@ -55,9 +56,10 @@ struct TiledOptions {
 struct Tiled {
   DomainMesh domain;
   std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
-  std::vector<float> heights;   ///< of the vertices, where rows were finished, or the field has a source for samples
-  std::int32_t steps = 1;       ///< of the domain's points between two samples
-  /// Of the vertices: 1 where who finished their row fixed them; EMPTY: none is.
+  std::vector<float> heights;   ///< heights of the vertices, where rows were finished, or the field has a source for
+                                ///< samples
+  std::int32_t steps = 1;       ///< number of steps of the domain's points between two samples
+  /// For each vertex: 1 if fixed while its strip was finished; EMPTY: none is.
   std::vector<std::uint8_t> fixed = {};
   Work work;
 };
@@ -67,7 +69,7 @@ struct Tiled {
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options);
 std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side);
 
-/// Where the field's source is not in memory, or rows are finished, one strip after the other is read and
+/// If the field's source is not in memory, or rows are finished, one strip after the other is read and
 /// refined.
 ///
 /// Every sample of the surface lies within `threshold` of the triangulation, if finish_row() keeps it. Nothing where
@@ -75,9 +77,9 @@ std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t sid
 /// kInput if no cell is surface or the triangles are too many; with kUsage if the memory is too little; kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
 
-/// The same of a raster in memory as one tile, whose border is locked: it begins with these vertices on its sides, where
-/// no other comes, and these inside. Nothing also where it has nodata or is too large for one tile. Of the options the
-/// threshold and the memory are read.
+/// The same of a raster in memory as one tile, whose border is locked: it begins with these vertices on its sides,
+/// where no other comes, and these inside. Nothing also where it has nodata or is too large for one tile. Reads the
+/// options' threshold and memory.
 Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const Point> on_sides,
                                           std::span<const Point> inside, const TiledOptions& options);
 

@@ -1,4 +1,4 @@
-// What vertices have beside their positions.
+// The attributes of vertices in addition to their positions.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct LatticePoints {
   std::vector<Point> points;
 };
 
-/// Whether add_attributes() adds any.
+/// True if add_attributes() adds any.
 bool has_attributes(const HeightField& field, const Request& options);
 
 /// Normals and positions in the raster's image where they are asked for, and the field's channels. `field`: as it is

@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// Which triangle has the worst candidate?
+/// Finds the triangle with the worst candidate.
 class CandidateStore {
  public:
   virtual ~CandidateStore() = default;
@@ -26,7 +26,7 @@ class CandidateStore {
   virtual void remove(std::uint32_t id) = 0;
   /// Appends the triangles whose candidate's error is at least `least`, in any order.
   virtual void collect(double least, std::vector<std::uint32_t>& ids) const = 0;
-  /// Entries moved or looked through since the beginning.
+  /// Entries moved or scanned since the beginning.
   virtual std::uint64_t moves() const = 0;
 };
 
@@ -131,7 +131,7 @@ class CandidateQueue final : public CandidateStore {
   std::uint64_t moves_ = 0;
 };
 
-/// No order at all: the worst is found by looking at every triangle, once after each change.
+/// No order at all: the worst is found by scanning every triangle, once after each change.
 class CandidateList final : public CandidateStore {
  public:
   bool empty() const override { return count_ == 0; }

@@ -25,7 +25,7 @@ void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double thr
   const std::int32_t last_col = tile.view().cols - 1, last_row = tile.view().rows - 1;
   for (const Attempt& attempt : is_rough ? kRoughAttempts : kAttempts) {
     const std::int32_t step = attempt.step;
-    // Fewer than some 16 coarse samples a side say nothing about the terrain.
+    // Fewer than some 16 coarse samples a side show nothing about the terrain.
     if (density * step * step > attempt.expected || std::min(last_col, last_row) < 16 * step) continue;
     if (!refine(tile, step, attempt.most, threshold)) continue;
     TileMesh::Id last = 0;

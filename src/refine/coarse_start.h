@@ -1,11 +1,11 @@
-// Where refinement of a tile begins: two triangles, or the mesh of a coarser raster.
+// The start of a tile's refinement: two triangles, or the mesh of a coarser raster.
 //
 // The worst sample of a large triangle is an extreme of the noise as often as a peak of the terrain. On every 8th
 // sample the terrain is the same and the noise has 64 times fewer extremes, and a scan costs 64 times less. So where
 // the mesh is to be coarse, the subsampled tile is refined first, its vertices are inserted (a sample of the coarse
-// raster is one of the fine one), and refinement goes on from there with all samples. On real terrain that gives fewer
-// vertices, sooner (bench/performance.md, "Starts"). Where the coarse mesh would need a large part of the coarse samples
-// the vertices are too many and at the wrong points; then the tile starts from two triangles.
+// raster is one of the fine one), and refinement continues from there with all samples. On real terrain that gives
+// fewer vertices, sooner (bench/performance.md, "Starts"). Where the coarse mesh would need a large part of the coarse
+// samples the vertices are too many and at the wrong points; then the tile starts from two triangles.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ class CoarseStart {
   void insert(const Tile& tile, const SharedSides& shared, double threshold, double density, bool is_rough,
               TileMesh& mesh);
 
-  /// Of the last call.
+  /// Work of the last call.
   const Work& work() const { return work_; }
 
  private:

@@ -22,11 +22,11 @@ void add_points(const SnappedPoints& points, std::size_t stride, ScatteredDomain
 std::size_t take_away_long(ScatteredDomain& domain, double longest);
 
 /// The points at the corners of the domain's boundary, as convex_hull() gives those of the hull. Points within its
-/// edges are left out. REQUIRES: the boundary is a simple polygon.
+/// edges are omitted. REQUIRES: the boundary is a simple polygon.
 std::vector<std::uint32_t> outline_of(const ScatteredDomain& domain);
 
 /// The domain within the concave hull of all points, whose boundary has edges up to `length`, in units of x and y,
-/// where longer ones can be taken away. `hull`: build_domain(points).
+/// where longer ones can be removed. `hull`: build_domain(points).
 Result<ScatteredDomain> build_concave_domain(const SnappedPoints& points, ScatteredDomain hull, double length);
 
 }  // namespace scarp

@@ -101,7 +101,7 @@ bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
     score -= metric_.squares_between(quad.kept[0][0], quad.kept[0][1]);
     score += metric_.squares_between(quad.other[0][0], quad.other[0][1]);
   }
-  // A scan may stop where its triangle alone loses; the hair more leaves ties to the comparison of the sums.
+  // A scan may stop once its triangle alone loses; the slightly larger limit defers ties to the comparison of the sums.
   const auto look = [&](const Quadrilateral::Corners& corners, double most) {
     const double limit = most + 0x1p-40 * score;
     return cache_.look(corners, rule_.score == EdgeScore::kTight ? std::sqrt(limit) : limit);

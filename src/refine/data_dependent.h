@@ -1,9 +1,9 @@
 // Algorithm IV: edges that fit the data (Garland & Heckbert 1995, section 4.4; Scape's CheckSwap).
 //
 // For the quadrilateral of an edge that faces the new vertex both diagonals are scored by the errors of the triangles
-// they make, and the better one is kept; where the shapes differ too much, the better shaped one. What was found out
-// about a triangle is kept until the triangle is gone, so that nothing is scanned twice. Unlike Scape's, every
-// scan covers the closed triangle, so no sample gets lost between two of them.
+// they make, and the better one is kept; where the shapes differ too much, the better shaped one. Facts about a
+// triangle are kept until the triangle is gone, so that nothing is scanned twice. Unlike Scape's, every scan covers the
+// closed triangle, so no sample gets lost between two of them.
 #pragma once
 
 #include <vector>

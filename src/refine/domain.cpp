@@ -43,8 +43,9 @@ HalfEdge edge_towards(const Triangulation& tin, Vertex v, Point to, std::vector<
   return kNone;
 }
 
-/// Marks what lies outside: what no path without a constrained edge connects with the left of an outline's edge.
-/// Samples do not tell: a simplified outline may enclose triangles of nodata alone, with samples at their corners.
+/// Marks what lies outside: triangles that no path without a constrained edge connects with the left of an outline's
+/// edge. Samples do not show it: a simplified outline may enclose triangles of nodata alone, with samples at their
+/// corners.
 Result<void> mark_outside(Triangulation& tin, const Outline& outline) {
   for (Triangle t = 0; t < tin.triangle_count(); ++t) tin.set_outside(t, true);
   std::vector<Triangle> stack, star;

@@ -4,9 +4,9 @@
 // raster. Once the scan of a triangle is fast, that order is the cost: the heap's next triangle lies anywhere, so that
 // every insertion waits for memory, and one insertion at a time has no second thread.
 //
-// THE IDEA. What greedy insertion gains over an arbitrary order it gains locally: a peak must come before the samples
-// on its flank, which it would make needless; a peak a kilometre away does not matter. So a candidate may be inserted
-// when it is worse than the candidates of all triangles that its insertion would remove, and of those that border them:
+// THE IDEA. Greedy insertion's gains over an arbitrary order are local: a peak must come before the samples on its
+// flank, which it would make needless; a peak a kilometre away does not matter. So a candidate may be inserted when it
+// is worse than the candidates of all triangles that its insertion would remove, and of those that border them:
 //
 //      ·───·───·        p: candidate of t
 //     ╱ ╲ ╱ ╲ ╱ ╲       cavity: triangles whose circle holds p (they will go)
@@ -17,8 +17,8 @@
 // Keys (error, then the point of the candidate, lower first) are a total order that knows no ids, so nothing depends on
 // where a triangle happens to be stored. From a triangle that is dominated we step to the worst one that dominates it,
 // and so on uphill: keys grow along such a walk, so it ends, at a local maximum. Walks start from a stack of the
-// triangles that wait; new triangles go on top, so work stays where the caches are warm. Triangles that keep the bound
-// are never on it.
+// triangles that wait; new ones are put on top, so that work stays in warm caches. Triangles that keep the bound are
+// never on it.
 //
 // WHAT IT COSTS AND GAINS: bench/performance.md, "Order". Vertices within a few tenths of a per cent of greedy's on
 // large rasters; the same promise, since the run ends in the same state: no triangle has a candidate.

@@ -1,4 +1,4 @@
-// What is known about triangles, so that none is scanned twice for the same question.
+// The facts known about triangles, so that none is scanned twice for the same question.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class FitCache {
   FitCache(const ErrorMetric& metric, bool squares, double supersample)
       : metric_(metric), squares_(squares), supersample_(supersample) {}
 
-  /// Fit of a triangle that is not outside: remembered, or looked at now. Valid until the next call.
+  /// Fit of a triangle that is not outside: remembered, or computed now. Valid until the next call.
   const Fit& fit_of(const Triangulation& tin, Triangle t) {
     const std::array<Vertex, 3> corners{tin.origin(3 * t), tin.origin(3 * t + 1), tin.origin(3 * t + 2)};
     if (t >= known_.size() || known_[t].corners != ascending(corners)) remember(t, corners, look(tin.corners(t)));
@@ -37,7 +37,7 @@ class FitCache {
     ++triangles_;
     return fit;
   }
-  /// What was looked at is triangle t from now on, while t has these corners.
+  /// The scanned triangle is t from now on, while t has these corners.
   void remember(Triangle t, std::array<Vertex, 3> corners, const Fit& fit) {
     if (t >= known_.size()) known_.resize(t + 1);
     known_[t] = {ascending(corners), fit};

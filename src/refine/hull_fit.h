@@ -1,4 +1,4 @@
-// Whether the convex hull fits scattered points, or bridges bays and has slivers at a straight rim.
+// Checks if the convex hull fits scattered points, or bridges bays and has slivers at a straight rim.
 #pragma once
 
 #include "grid/snapped_points.h"
@@ -6,11 +6,11 @@
 
 namespace scarp {
 
-/// Finds what two concave hulls take away from the Delaunay triangulation of the points, of 50,000 of them where there
-/// are more. The first has edges of three times the length that a tenth of all edges exceeds. Where n points are
-/// scattered evenly it takes some 1 / sqrt(n) of the area: two and a half times that, and 5 %, is a bay. The second has
-/// edges of half that length. It takes up to 0.3 sqrt(n) steep triangles from points scattered evenly, up to 0.6
-/// sqrt(n) from those beside the nodes of a grid, and 0.8 to 1.8 sqrt(n) from those with stations along straight rims.
+/// Finds the part that two concave hulls remove from the Delaunay triangulation of the points, of 50,000 of them where
+/// there are more. The first has edges of three times the length that a tenth of all edges exceeds. If n points are
+/// scattered evenly it removes some 1 / sqrt(n) of the area: two and a half times that, and 5 %, is a bay. The second
+/// has edges of half that length. It removes up to 0.3 sqrt(n) steep triangles from points scattered evenly, up to 0.6
+/// sqrt(n) from those near the nodes of a grid, and 0.8 to 1.8 sqrt(n) from those with stations along straight rims.
 /// Steep: above 80 degrees, and ten times the slope that a tenth of all triangles exceeds. REQUIRES:
 /// build_domain(points) succeeds.
 HullFit find_hull_fit(const SnappedPoints& points);

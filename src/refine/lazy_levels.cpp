@@ -159,11 +159,11 @@ class Levels {
   TileMesh& mesh_;
   TileScanner& scanner_;
   AreaPower power_;
-  std::int64_t floor_;  // least estimate; never 0, which would say that nothing waits
-  std::int64_t base_;   // of the lowest bucket
+  std::int64_t floor_;  // least estimate; never 0, which would mean that nothing waits
+  std::int64_t base_;   // value of the lowest bucket
   std::array<Bucket, kBuckets> buckets_;
   std::uint64_t filled_ = 0;  // bit per bucket
-  Id cursor_ = 0;             // of the sweep
+  Id cursor_ = 0;             // position of the sweep
   bool has_found_ = false;    // in this round of it
   DominantRun done_;
 };

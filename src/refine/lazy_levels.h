@@ -11,13 +11,13 @@
 // and waits in the bucket of that error, 8 buckets an octave, first in, first out. When its turn comes it is scanned;
 // most are gone by then, or clean. If the true error lies more than a quarter octave below the level, the triangle
 // waits once more, in its true bucket; else its candidate is inserted. Estimates at or below the threshold, half of
-// all, do not wait in a bucket: once the buckets are empty, a sweep over all triangles scans what was never looked at.
+// all, do not wait in a bucket: once the buckets are empty, a sweep over all triangles scans the others.
 //
 // An estimate is no bound and need not be one: a wrong one changes the order alone. The promise is that of the dominant
 // order, since the run ends in the same state: every triangle was scanned and none has a candidate.
 //
-// WHERE IT IS USED (tile_order.h): on rough terrain, where the area says about as much as a scan would: there it takes
-// fewer vertices as well. On smooth terrain the dominant order takes fewer. WHAT IT GAINS: bench/performance.md,
+// WHERE IT IS USED (tile_order.h): on rough terrain, where the area predicts about as much as a scan would: there it
+// needs fewer vertices as well. On smooth terrain the dominant order needs fewer. WHAT IT GAINS: bench/performance.md,
 // "Order".
 #pragma once
 
@@ -31,7 +31,7 @@ namespace scarp {
 
 /// How an estimated error follows the area.
 enum class AreaPower {
-  kHalf,  ///< as its square root: an error grows as a length
+  kHalf,  ///< by its square root: an error grows like a length
   kOne,
 };
 

@@ -41,7 +41,7 @@ class DelaunayRule final : public FlipRule {
   }
 };
 
-/// Takes all constraints off but the hull's.
+/// Removes all constraints but the hull's.
 void release_all(Triangulation& tin) {
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     const HalfEdge g = tin.twin(h);
@@ -98,7 +98,7 @@ Result<void> PointLines::check_meetings() const {
       owners.emplace_back(line, k);
     }
   }
-  // Where snapping moves lines, heights where they meet are as uncertain as the lines climb there.
+  // If snapping moves lines, heights where they meet are as uncertain as the lines climb there.
   const double moved = snapped_->is_exact ? 0 : 2;
   const auto z_at = [&](std::uint32_t line, std::size_t k) { return points_->z[sources_[line][k]]; };
   std::optional<Error> error;

@@ -50,8 +50,8 @@ class PointLines {
   const PointSet* points_;
   const SnappedPoints* snapped_;
   std::vector<std::vector<std::uint32_t>> lines_;    ///< lattice points, successive ones differ
-  std::vector<std::vector<std::uint32_t>> sources_;  ///< of each: the point of the set
-  std::vector<std::uint32_t> given_;                 ///< of each: the line of the set
+  std::vector<std::vector<std::uint32_t>> sources_;  ///< for each: the point of the set
+  std::vector<std::uint32_t> given_;                 ///< for each: the line of the set
   std::vector<bool> is_on_line_;
 };
 

@@ -29,10 +29,10 @@ struct Quadrilateral {
     return orient(other[0][0], other[0][1], other[0][2]) > 0 && orient(other[1][0], other[1][1], other[1][2]) > 0;
   }
 
-  Triangle t, u;                                          ///< of h and of its twin
-  Corners kept[2];                                        ///< of t, u
-  Corners other[2];                                       ///< of t, u after a flip
-  std::array<Vertex, 3> first_vertices, second_vertices;  ///< of other[0], other[1]
+  Triangle t, u;                                          ///< triangles of h and of its twin
+  Corners kept[2];                                        ///< corners of t, u
+  Corners other[2];                                       ///< corners of t, u after a flip
+  std::array<Vertex, 3> first_vertices, second_vertices;  ///< vertices of other[0], other[1]
 };
 
 inline double twice_area(const Quadrilateral::Corners& t) { return static_cast<double>(orient(t[0], t[1], t[2])); }
@@ -54,7 +54,7 @@ inline double fatness(const Quadrilateral::Corners& t) {
   return twice_area(t) / longest;
 }
 
-/// Of the thinner triangle.
+/// Fatness of the thinner triangle.
 inline double fatness(const Quadrilateral::Corners (&pair)[2]) { return std::min(fatness(pair[0]), fatness(pair[1])); }
 
 }  // namespace scarp

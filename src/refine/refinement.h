@@ -27,13 +27,13 @@ namespace scarp {
 
 class Refinement {
  public:
-  /// Whether the triangles there are need a look.
+  /// The state of the triangles at the start.
   enum class Start {
     kScan,   ///< scan every triangle that is not outside
-    kClean,  ///< all keep their bounds already, or scan() looks at those that may not
+    kClean,  ///< all keep their bounds already, or scan() scans those that may not
   };
-  /// The metric and `tin` stay alive; nobody else changes them. Edges are Delaunay, or follow the data where `edges`
-  /// says so; triangles of `tin` stay as they are until a point is inserted.
+  /// The metric and `tin` stay alive; no other code changes them. Edges are Delaunay, or follow the data if `edges`
+  /// asks for it; triangles of `tin` stay as they are until a point is inserted.
   Refinement(const ErrorMetric& metric, Triangulation& tin, Algorithm algorithm = Algorithm::kHeap,
              const EdgeRule& edges = {}, Start start = Start::kScan);
 
@@ -64,14 +64,14 @@ class Refinement {
     Triangle triangle;
   };
   std::vector<BatchCandidate> collect(const Batch& batch) const;
-  /// Inserts a sample without looking at the triangles around it until rescan_changed().
+  /// Inserts a sample without scanning the triangles around it until rescan_changed().
   void insert_unseen(Point p, Triangle hint);
   /// True if the triangle was changed since the last rescan_changed().
   bool has_changed(Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
   std::uint32_t gain_near(Point p, Triangle hint) const { return gain(tin_.locate(p, hint)); }
   void rescan_changed();
-  /// Scans triangles, for which nobody else has answered, each once. REQUIRES: on several threads, a metric that they
-  /// may ask at the same time, and no EdgeRule.
+  /// Scans triangles, whose fits are not known from elsewhere, each once. REQUIRES: on several threads, a metric that
+  /// they may ask at the same time, and no EdgeRule.
   void scan(std::span<const Triangle> triangles, int threads = 1);
 
   std::uint64_t triangle_count() const { return inside_; }
@@ -79,7 +79,7 @@ class Refinement {
 
  private:
   void add(Point p, Triangulation::Location location);
-  /// What a scan of a triangle finds.
+  /// The result of scanning a triangle.
   struct Look {
     std::optional<Candidate> candidate;
     std::uint64_t samples = 0;

@@ -184,7 +184,7 @@ void ScatteredRefinement::deal(Vertex v) {
   for (const Triangle t : star_) {
     if (!tin.is_outside(t)) wedges_.push_back(wedge_of(t, v));
   }
-  // All lists are taken before any is written: most of these triangles keep their ids and had lists of their own.
+  // All lists are moved out before any is written: most of these triangles keep their ids and had lists of their own.
   lists_.clear();
   for (const Wedge& wedge : wedges_) {
     lists_.push_back(first_[wedge.triangle]);

@@ -6,7 +6,7 @@
 // the edge both have the same height, and a comparison that rounding could decide is made in exact arithmetic.
 //
 // The domain is the convex hull, or a polygon within it that holds all points: its corners are inserted into the
-// rectangle of the lattice first, its edges are constrained, and what lies beyond is marked outside, as beside the
+// rectangle of the lattice first, its edges are constrained, and what lies beyond is marked outside, as outside the
 // outline of a raster with nodata.
 //
 // Cost: expected O(n log m) for n points and m insertions.
@@ -46,8 +46,8 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points, const std::vec
 
 class ScatteredRefinement {
  public:
-  /// Deals out all points. `heights`: what a point has as a vertex (its z, or that rounded to float32), by point. All
-  /// arguments stay alive and are changed by nobody else.
+  /// Deals out all points. `heights`: the height of a point as a vertex (its z, or that rounded to float32), by point.
+  /// All arguments stay alive and are changed by no other code.
   ScatteredRefinement(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
                       double threshold);
 

@@ -17,7 +17,7 @@ namespace scarp {
 std::vector<Point> insert_by_brute_force(const Raster& raster, Triangulation& tin, double threshold, std::size_t most);
 
 /// Algorithm II (section 4.2): each triangle keeps its candidate; only triangles around the new vertex are tested
-/// again; the worst candidate is found by looking at all of them.
+/// again; the worst candidate is found by scanning all of them.
 std::vector<Point> insert_by_local_search(const Raster& raster, Triangulation& tin, double threshold, std::size_t most);
 
 }  // namespace scarp

@@ -1,12 +1,12 @@
-// Which order suits a tile: a look at its terrain.
+// The order that suits a tile, from its terrain.
 //
 // The lazy order guesses errors from areas (lazy_levels.h). That is a good guess where the terrain is rough: there a
 // triangle's error is an extreme of many samples that know little of each other, and grows slowly with its size. Where
 // it is smooth one bend fills a triangle, and neighbours must be compared.
 //
-// The look: the mean bend (second difference) of samples that lie d apart, and that of samples 2d apart, where d is the
-// distance of neighbouring vertices to be expected. On a smooth surface the bend grows 4 times from d to 2d, on noise
-// not at all, on real terrain 1.1 to 3 times.
+// The test compares the mean bend (second difference) of samples that lie d apart, with that of samples 2d apart, where
+// d is the distance of neighbouring vertices to be expected. On a smooth surface the bend grows 4 times from d to 2d,
+// on noise not at all, on real terrain 1.1 to 3 times.
 #pragma once
 
 #include "geom/tile_view.h"

@@ -27,7 +27,7 @@ void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, 
     const ScanHit& hit = hits_[i];
     record.key = candidate_key(hit.error, hit.at);
     const bool is_certain = double{hit.error} > threshold_ + double{hit.guard};
-    // Where the guard is wider than the threshold, an error computed as 0 may break the bound.
+    // If the guard is wider than the threshold, an error computed as 0 may break the bound.
     const bool is_in_doubt = hit.error > 0 || double{hit.guard} > threshold_;
     if (is_in_doubt && !is_certain) settle(record);
   }

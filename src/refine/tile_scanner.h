@@ -1,4 +1,4 @@
-// Who tells the triangles of a tile their candidates.
+// Finds the candidates of a tile's triangles.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace scarp {
 
-/// What waits in a triangle, as TileMesh's key: the error's bits above the complement of the candidate's point, so that
-/// the larger key is the larger error, or the first point in raster order among equal errors; 0 if nothing waits.
+/// The candidate of a triangle, as TileMesh's key: the error's bits above the complement of the candidate's point, so
+/// that the larger key is the larger error, or the first point in raster order among equal errors; 0 if nothing waits.
 constexpr std::int64_t candidate_key(float error, TilePoint at) {
   return error > 0 ? static_cast<std::int64_t>(std::uint64_t{bit_cast<std::uint32_t>(error)} << 32 |
                                                static_cast<std::uint32_t>(~at))

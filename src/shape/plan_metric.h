@@ -17,15 +17,15 @@ class PlanMetric {
   /// inverted.
   PlanMetric(const std::array<double, 6>& affine, std::int32_t steps);
 
-  Vector to_plan(const Vector& offset) const;     ///< of steps
+  Vector to_plan(const Vector& offset) const;     ///< Image of an offset in steps.
   Vector to_lattice(const Vector& offset) const;  ///< in steps
   Vector between(Point a, Point b) const { return to_plan({double(b.x) - a.x, double(b.y) - a.y}); }
-  double square(Point a, Point b) const;               ///< of their distance
-  double dot(Point apex, Point a, Point b) const;      ///< of the vectors from the apex
-  double shorter_side() const { return short_side_; }  ///< of a sample
+  double square(Point a, Point b) const;               ///< Square of their distance.
+  double dot(Point apex, Point a, Point b) const;      ///< Dot product of the vectors from the apex.
+  double shorter_side() const { return short_side_; }  ///< Shorter side of a sample.
   double longer_side() const { return long_side_; }
-  /// Whether d lies inside the circle through the corners of a positive triangle. Exact where samples are square; else
-  /// what rounding leaves in doubt is outside.
+  /// True if d lies inside the circle through the corners of a positive triangle. Exact where samples are square; else
+  /// a point in doubt by rounding is outside.
   bool is_in_circle(const std::array<Point, 3>& corners, Point d) const;
 
  private:

@@ -1,4 +1,4 @@
-// Triangles of a triangulation as they look in the plan of its mesh: edges, walls, sharp angles.
+// Triangles of a triangulation in the plan of its mesh: edges, walls, sharp angles.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// Whether the angle between two vectors is less than the one whose cosine has this square (of 0 … 90 degrees).
+/// True if the angle between two vectors is less than the one whose cosine has this square (of 0 … 90 degrees).
 /// `squares`: the product of the squares of their lengths.
 inline bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
 
@@ -32,13 +32,13 @@ class PlanShapes {
     const HalfEdge g = tin_.twin(h);
     return g == kNone || tin_.is_constrained(h) || tin_.is_outside(g / 3);
   }
-  /// Whether an angle of the surface is too small.
+  /// True if an angle of the surface is too small.
   bool is_sharp(Triangle t) const {
     if (tin_.is_outside(t)) return false;
     const HalfEdge h = shortest(t);
     return is_sharper(dot_over(h), square(Triangulation::next(h)) * square(Triangulation::previous(h)), cosine2_);
   }
-  /// Whether the small angle is the input's: between two walls, or over an edge that joins two walls of an acute
+  /// True if the small angle is the input's: between two walls, or over an edge that joins two walls of an acute
   /// corner.
   bool is_forced(Triangle t) const {
     const HalfEdge h = shortest(t);
@@ -52,7 +52,7 @@ class PlanShapes {
   }
 
  private:
-  /// Of the vectors from the opposite corner to the ends.
+  /// Dot product of the vectors from the opposite corner to the ends.
   double dot_over(HalfEdge h) const {
     return metric_.dot(tin_.point(tin_.origin(Triangulation::previous(h))), tin_.point(tin_.origin(h)),
                        tin_.point(tin_.origin(Triangulation::next(h))));

@@ -42,7 +42,7 @@ class ShapeFaults {
     return first;
   }
 
-  /// Leaves of each triangle the first that is_current() says yes to.
+  /// Keeps for each triangle the first for which is_current() returns true.
   template <class Current>
   void clean(Current&& is_current) {
     heap_.erase(std::remove_if(heap_.begin(), heap_.end(), [&](const ShapeFault& fault) { return !is_current(fault); }),

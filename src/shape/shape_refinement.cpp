@@ -27,10 +27,10 @@ namespace {
 using Vector = PlanMetric::Vector;
 using Location = Triangulation::Location;
 
-constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, that rounding of positions may take
-constexpr double kClosest = 1.0 / 32;    ///< of a sample: vertices for the sake of angles
-constexpr double kAnyLength = 0;         ///< of the halves of an edge that is too long
-constexpr double kFinestSize = 0.5;      ///< of a sample: sizes that grade reckons with
+constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, reserved for the rounding of positions
+constexpr double kClosest = 1.0 / 32;    ///< in samples: the closest vertices for the sake of angles
+constexpr double kAnyLength = 0;         ///< least length of the halves of an edge that is too long
+constexpr double kFinestSize = 0.5;      ///< in samples: the finest size that grade uses
 constexpr double kSnapShare = 1.0 / 12;  ///< steps of the lattice over the distance to the nearest vertices
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
@@ -117,7 +117,7 @@ class ShapeRefiner {
     return work_off();
   }
 
-  /// The first time all triangles are scanned, then only bad ones are looked at.
+  /// The first time all triangles are scanned, then only bad ones are examined.
   Result<void> sweep_bands() {
     const bool is_first = waiting_.empty();
     waiting_.assign(bands_.count(), {});
@@ -170,7 +170,7 @@ class ShapeRefiner {
   double square(HalfEdge h) const { return shapes_.square(h); }
   HalfEdge shortest(Triangle t) const { return shapes_.shortest(t); }
   bool is_wall(HalfEdge h) const { return shapes_.is_wall(h); }
-  /// Of samples, in which its centre lies.
+  /// The row of samples in which its centre lies.
   std::int32_t row_of(Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
     return static_cast<std::int32_t>((std::int64_t{a.y} + b.y + c.y) / (3 * kLatticeSteps));
@@ -275,7 +275,8 @@ class ShapeRefiner {
       for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
         if (h == entered || orient(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))), p) >= 0)
           continue;
-        // Of two edges that p lies beyond, the one that the way crosses: they share a corner, left or right of it.
+        // If p lies beyond two edges, the exit is the one that the way crosses: they share a corner, left or right of
+        // it.
         if (exit == kNone) {
           exit = h;
         } else if (Triangulation::next(exit) == h) {
@@ -292,7 +293,7 @@ class ShapeRefiner {
     return {};  // lost by rounding
   }
 
-  /// What the insertion of p would take away, and the walls around that whose circles hold p, longest first.
+  /// The triangles that the insertion of p would remove, and the walls around that whose circles hold p, longest first.
   struct Cavity {
     double nearest2 = std::numeric_limits<double>::infinity();
     std::vector<HalfEdge> encroached;
@@ -417,8 +418,8 @@ class ShapeRefiner {
     return true;
   }
 
-  /// The lattice point beside() a line, of which an edge is part. Vertices that lie next to the line leave few lattice
-  /// points: what is nearest to the share that is wanted, and at most `leeway` from it.
+  /// The lattice point beside() a line, of which an edge is part. Few lattice points are possible for vertices next to
+  /// the line: the result is the one nearest to the share that is wanted, and at most `leeway` from it.
   std::optional<Point> beside_line(const std::pair<Point, Point>& line, HalfEdge h, double share, double leeway) const {
     constexpr int kTries = 512;
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
@@ -440,7 +441,7 @@ class ShapeRefiner {
     const double share = std::clamp(shell / length, 0.25, 0.75);
     return begins ? share : 1 - share;
   }
-  /// Whether another wall than that to w begins at v, less than 45 degrees from it.
+  /// True if another wall than that to w begins at v, less than 45 degrees from it.
   bool is_acute(Vertex v, Vertex w) const {
     const Point apex = tin_.point(v), end = tin_.point(w);
     bool found = false;
@@ -504,7 +505,7 @@ class ShapeRefiner {
   }
 
   Bands bands_;
-  std::optional<Band> rows_;  ///< where the samples are not in memory as a whole
+  std::optional<Band> rows_;  ///< used if the samples are not in memory as a whole
   std::optional<Band> bound_rows_;
   SampleView samples_;
   Triangulation& tin_;
@@ -513,17 +514,17 @@ class ShapeRefiner {
   PlanDelaunay delaunay_;
   LatticeHeights heights_;
   LatticeMetric error_metric_;
-  std::vector<std::uint8_t> fixed_;  ///< as they were given
+  std::vector<std::uint8_t> fixed_;  ///< the vertices fixed as given
   PlanShapes shapes_;
   double least_, least_for_size_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
   std::optional<Refinement> refinement_;
   std::optional<SizeField> sizes_;
   ShapeFaults bad_;
   std::size_t band_ = 0;                                       ///< at work
-  double share_ = 1;                                           ///< of bands, that has been at work
+  double share_ = 1;                                           ///< share of bands that has been at work
   std::vector<WaitingTriangles> waiting_;                      ///< by band
   std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
-  std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< of vertices that halve lines: where these run
+  std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< for vertices that halve lines: where these run
   std::vector<Vertex> fallen_;
   std::vector<std::uint8_t> seen_;
   ShapeWork work_;

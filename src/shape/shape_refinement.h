@@ -40,17 +40,17 @@ namespace scarp {
 
 struct ShapeTask {
   ShapeGoals goals;
-  std::array<double, 6> affine;        ///< of the frame
-  double threshold = 0;                ///< of errors
-  std::span<const float> bounds = {};  ///< of samples, as LatticeMetric has them
+  std::array<double, 6> affine;        ///< affine map of the frame
+  double threshold = 0;                ///< threshold of errors
+  std::span<const float> bounds = {};  ///< bounds of samples, as LatticeMetric has them
   bool all_may_go = false;             ///< who comes next may remove, or move, vertices that are no samples
-  /// Told a share of the bands that have been gone through once, all where there are none, the vertices there are and
-  /// the worst error; what it says ends the run.
+  /// Receives the share of the bands that have been gone through once, all if there are none, the number of vertices
+  /// and the worst error; a failure ends the run.
   std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
-  /// Told once, before all, how many triangles there will be at least; what it says ends the run.
+  /// Receives once, before all, the least number of triangles; a failure ends the run.
   std::function<Result<void>(double triangles)> foresee = {};
-  /// Where the raster has no samples: whose source has them, alive, and how many rows are held at a time, at least 4.
-  /// Then bounds of samples come from windows, too; null: the threshold holds for all.
+  /// For a raster without samples: the field whose source has them, alive, and how many rows are held at a time, at
+  /// least 4. Then bounds of samples come from windows, too; null: the threshold holds for all.
   const HeightField* field = nullptr;
   const SourceBounds* source_bounds = nullptr;
   std::int32_t rows_at_once = 0;
@@ -61,22 +61,22 @@ struct ShapeWork {
 };
 
 /// Makes `tin` Delaunay in the frame, but for constrained edges, and adds vertices until every sample keeps its bound
-/// and the goals hold as ShapeGoals says. `lattice`: of the vertices; afterwards in kLatticeSteps, those fixed that
-/// were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, and as progress
-/// and foresee do; throws SourceFailure.
-/// REQUIRES: goals that were checked; sides of at most kMaxCoordinate / kLatticeSteps samples; an outline that is
-/// exact. Cost: expected O(log n) an insertion, but for scanning.
+/// and the goals hold as described at ShapeGoals. `lattice`: of the vertices; afterwards in kLatticeSteps, those fixed
+/// that were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, and as
+/// progress and foresee do; throws SourceFailure. REQUIRES: goals that were checked; sides of at most kMaxCoordinate /
+/// kLatticeSteps samples; an outline that is exact. Cost: expected O(log n) an insertion, but for scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
 
-/// Bytes a vertex that this takes at most, the mesh included.
+/// Most bytes a vertex that this uses, the mesh included.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 
-/// What keeps angles and lengths of edges, as refine_shapes() has left them, while vertices are removed and moved.
-/// Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right angles.
+/// The rule that keeps angles and lengths of edges, as refine_shapes() has made them, while vertices are removed and
+/// moved. Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right
+/// angles.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 
-/// What lines and outline cost the other goals.
+/// The effect of lines and outline on the other goals.
 struct ShapeLosses {
   std::uint64_t forced = 0;        ///< triangles with small angles in corners between lines or outline
   std::uint64_t beside_lines = 0;  ///< other such triangles with a corner on lines or outline

@@ -11,14 +11,14 @@ namespace scarp {
 
 /// The size at a vertex is the least s + grade·d over all vertices, where s is the length of the shortest edge at one
 /// and d the way from there, along edges. Sizes only fall while a mesh grows: an edge that is flipped away has been
-/// taken into account all the same.
+/// considered all the same.
 class SizeField {
  public:
   /// Both stay alive. Lengths below `least` count as that.
   SizeField(const Triangulation& tin, const PlanMetric& metric, double grade, double least)
       : tin_(tin), metric_(metric), grade_(grade), least_(least) {}
 
-  /// Of all vertices. `out`: for each one a half-edge that begins there.
+  /// Measures the sizes of all vertices. `out`: for each one a half-edge that begins there.
   void measure_all(const std::vector<HalfEdge>& out);
   /// After an insertion; `changed`: the triangles around the new vertex. Appends the vertices whose sizes fell, each
   /// once.
@@ -38,7 +38,8 @@ class SizeField {
   const PlanMetric& metric_;
   double grade_, least_;
   std::vector<double> sizes_;
-  std::vector<Vertex> queue_, wave_;  ///< whose neighbours have not heard of it yet, and those that are telling them
+  std::vector<Vertex> queue_, wave_;  ///< vertices whose neighbours have not got its size yet, and those that are
+                                      ///< passing it on
   std::vector<std::uint8_t> states_;  ///< by vertex: kWaits, kFell
 };
 

@@ -26,12 +26,12 @@ constexpr double kLeast = std::numeric_limits<double>::min();
 constexpr std::size_t kFewTriangles = 500;
 constexpr double kJump = 0.9;  // less of the budget is used
 
-/// How a search goes on from where it begins.
+/// How a search continues from its start.
 struct Pace {
   double power;      ///< triangles ~ number^-power, where nothing is known yet
   double farthest;   ///< step, as a ratio, while all meshes fit
-  double far_below;  ///< as a ratio to the first mesh's number: below it an exact mesh is likely to fit
-  double near;       ///< logarithm: nearer runs tell no power
+  double far_below;  ///< ratio to the first mesh's number: below it an exact mesh is likely to fit
+  double near;       ///< logarithm: nearer runs do not determine the power
   double aim;        ///< share of the budget: below it by about what a run scatters
   double closed;     ///< logarithm of the ratio of two numbers on both sides of the budget, which end the search
   int patience;      ///< runs before nearly full will do
@@ -41,7 +41,7 @@ constexpr Pace kFromInsertion{1.3, 2, 1.0 / 64, 0.03, 0.995, 0.002, 4, kMostRuns
 constexpr Pace kFromFew{1.3, 2, 1.0 / 64, 0.03, 0.99, 0.005, 2, kMostRuns};
 constexpr Pace kFromLeastMesh{1, 32, 0x1p-20, 0.02, 0.995, 0.002, 5, kMostRunsFromLeast};
 
-/// A number, and what share of the budget its mesh takes; logarithms.
+/// A number, and the share of the budget that its mesh uses; logarithms.
 struct Sight {
   double number = 0, used = 0;
 };
@@ -54,7 +54,7 @@ double power_between(const Sight& a, const Sight& b, double usual) {
 
 SimplifyOptions without_effort(SimplifyOptions options) {
   options.quality.effort = Effort::kFast;
-  options.goals.objective = Objective::kMax;  // of the search, not of a run
+  options.goals.objective = Objective::kMax;  // the search's objective, not a run's
   return options;
 }
 
@@ -68,7 +68,7 @@ SimplifyOptions BudgetNumber::towards(double number) const {
   options.goals.max_triangles = options.goals.max_vertices = std::nullopt;
   if (!is_factor_) max_error = number;
   if (is_factor_ && max_error) max_error = std::min(number * *max_error, std::numeric_limits<double>::max());
-  options.goals.objective = Objective::kMax;  // of the search, not of a run
+  options.goals.objective = Objective::kMax;  // the search's objective, not a run's
   return options;
 }
 
@@ -129,7 +129,7 @@ class BudgetSearch {
   /// Why meshes within the budget were not to be had, where memory was the reason.
   const std::optional<Error>& no_room() const { return no_room_; }
 
-  /// Whether triangles jump over the budget, which leaves much of it.
+  /// True if triangles jump over the budget, so that much of it is unused.
   bool has_jumped() const {
     return fits_ && exceeds_ && highest() - exceeds_->number < pace_.closed && fits_->used < std::log(kJump);
   }
@@ -210,7 +210,7 @@ class BudgetSearch {
            (!fits_ && std::isinf(first_)) || (exceeds_ && highest() - exceeds_->number < pace_.closed);
   }
 
-  /// Refinement alone tells how triangles grow as the bounds fall, and about what share of them effort leaves.
+  /// Refinement alone shows how triangles grow as the bounds fall, and about what share of them effort keeps.
   Result<double> guess_by_refinement() {
     Sight last{highest(), expected_after(best_)};
     double step = (last.used - std::log(pace_.aim)) / power_;
@@ -238,8 +238,8 @@ class BudgetSearch {
     return expected_after(*made);
   }
 
-  /// What effort is expected to leave of a refined mesh: the more, the nearer its triangles come to the full grid's.
-  /// Lines through what bench/quality/fit.cpp has measured.
+  /// The share of a refined mesh that effort is expected to keep: the more, the nearer its triangles come to the full
+  /// grid's. Lines through what bench/quality/fit.cpp has measured.
   double expected_after(const Simplified& refined) const {
     const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(best_.measurement.samples, 1));
     const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
@@ -266,7 +266,7 @@ class BudgetSearch {
       return is_near_floor(number) ? floor_ : std::exp(number);
     }
     const double width = highest() - exceeds_->number;
-    constexpr int kTrusted = 3;  // runs in vain: a power misleads where outlines alone nearly take the budget
+    constexpr int kTrusted = 3;  // runs in vain: a power misleads where outlines alone nearly use up the budget
     if (!std::isfinite(exceeds_->used) || (!fits_ && stays_ > kTrusted)) {
       number = highest() - width / 2;
     } else if (fits_) {
@@ -275,8 +275,8 @@ class BudgetSearch {
     return std::exp(std::clamp(number, exceeds_->number + width / 20, highest() - width / 20));
   }
 
-  /// Where the line between both sides meets the aim; by the Illinois rule an end that stays weighs less and less, so
-  /// that steep counts, too, are closed in from both sides. REQUIRES: fits_, exceeds_, finite.
+  /// The point where the line between both sides meets the aim; by the Illinois rule an end that stays weighs less and
+  /// less, so that steep counts, too, are closed in from both sides. REQUIRES: fits_, exceeds_, finite.
   double cross_aim() const {
     const double weight = std::pow(0.5, std::max(0, stays_ - 1));
     double below = fits_->used - std::log(pace_.aim), above = exceeds_->used - std::log(pace_.aim);
@@ -317,7 +317,7 @@ class BudgetSearch {
     return {};
   }
 
-  /// Two runs on the same side of the budget tell the power, if they are not too near for that.
+  /// Two runs on the same side of the budget determine the power, if they are not too near for that.
   void see(std::optional<Sight>& side, const Sight& here) {
     if (side && std::isfinite(side->used - here.used) && std::abs(side->number - here.number) > pace_.near)
       power_ = power_between(*side, here, pace_.power);
@@ -352,11 +352,11 @@ class BudgetSearch {
     return made;
   }
 
-  /// What was possible for one number, and is not for another, only ends what lies below it.
+  /// A run that is possible for one number, and is not for another, only ends the search below it.
   void excuse(Error& error) {
     // Slivers of a cutline may vanish at one number and not at another.
     if (error.kind == ErrorKind::kInput) error.kind = ErrorKind::kPromise;
-    // A mesh that takes too much memory may be one that exceeds the budget, too.
+    // A mesh that needs too much memory may be one that exceeds the budget, too.
     if (error.kind == ErrorKind::kUsage || error.kind == ErrorKind::kMemory) {
       no_room_ = error;
       error.kind = ErrorKind::kPromise;
@@ -380,9 +380,9 @@ class BudgetSearch {
   Pace pace_;
   double power_;
   Simplified best_;
-  double first_ = 0;          // what the mesh reaches with which the search begins
+  double first_ = 0;          // error of the mesh with which the search begins
   double far_below_ = 0;      // a logarithm
-  bool has_room_ = false;     // that mesh is at the floor
+  bool has_room_ = false;     // true if that mesh is at the floor
   int runs_ = 0, stays_ = 0;  // but the first; of them the last, on one side of the budget
   bool last_fits_ = false, is_at_floor_ = false;
   std::optional<Sight> fits_, exceeds_;  // the least number that fits, the largest that does not

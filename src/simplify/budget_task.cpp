@@ -47,10 +47,10 @@ double largest_error(const HeightField& field, const SimplifyOptions& options) {
   return 2 * (high - low);
 }
 
-/// Of tolerances, or of weights: of all samples, nodata ones included.
+/// Range of tolerances, or of weights: of all samples, nodata ones included.
 struct ToleranceRange {
-  double least = kInfinity;  ///< of those above 0
-  double largest = 0;        ///< of those that are finite
+  double least = kInfinity;  ///< least of those above 0
+  double largest = 0;        ///< largest of those that are finite
   bool has_zeros = false;
 
   void add(float tolerance) {
@@ -60,7 +60,7 @@ struct ToleranceRange {
   }
 };
 
-/// Of values in memory, or in a source (null: none). Throws SourceFailure.
+/// Range of values in memory, or in a source (null: none). Throws SourceFailure.
 ToleranceRange range_of(std::span<const float> values, const SampleSource* source, const HeightField& field) {
   ToleranceRange range;
   for (const float value : values) range.add(value);

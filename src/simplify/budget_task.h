@@ -1,4 +1,4 @@
-// What a search for the mesh of a budget does on a field: its runs, and where it begins.
+// The budget search on a field: its runs, and where it begins.
 #pragma once
 
 #include "scarp/height_field.h"

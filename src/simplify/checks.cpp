@@ -22,7 +22,7 @@ namespace {
 
 tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
 
-/// What the lines are called.
+/// The name of the lines.
 const char* name_lines(const SimplifyOptions& options) {
   const auto& lines = options.features.breaklines.lines;
   const auto all = [&](bool (*kind)(const Line&)) {
@@ -156,7 +156,7 @@ Result<void> check_needs(const HeightField& field, const SimplifyOptions& option
 bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   const bool has_goal = options.goals.max_error || has_tolerances(options);
   if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
-  // The worst of the whole raster first takes fewer triangles where bounds differ.
+  // Inserting the worst of the whole raster first needs fewer triangles where bounds differ.
   if (options.quality.order == Order::kAuto && has_own_bounds(field, options)) return false;
   // A locked border is refined as one tile, which may begin with points.
   const auto of_order = [&](const Conflict& conflict) {

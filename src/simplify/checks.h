@@ -1,4 +1,4 @@
-// What options must be before a run begins: settings that go together, needs that are met, values within their range.
+// Checks of options before a run begins: settings without conflicts, needs that are met, values within their range.
 #pragma once
 
 #include "scarp/result.h"
@@ -15,7 +15,7 @@ Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& op
 /// Fails with kUsage for a setting without another that it needs, and for values out of range.
 Result<void> check_needs(const HeightField& field, const SimplifyOptions& options);
 
-/// Whether the dominant order can reach the goals.
+/// True if the dominant order can reach the goals.
 bool may_be_dominant(const HeightField& field, const SimplifyOptions& options);
 
 /// The effort that is made: that which was asked for, or what Effort::kAuto stands for. REQUIRES: no conflicts.

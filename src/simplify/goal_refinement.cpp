@@ -203,7 +203,7 @@ Result<bool> GoalRefinement::mend(std::vector<Offender> offenders, Simplified& r
                         Refinement::Start::kClean);
   // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
   const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
-  // Where a fold is to go, any sample may be named.
+  // If a fold is to go, any sample may be named.
   const auto is_useless = [&](const Offender& o) {
     return std::isinf(o.error) && (!raster_.is_valid({o.col, o.row}) || is_vertex(o));
   };

@@ -32,10 +32,10 @@ class GoalRefinement {
   Result<void> start(Simplified& result);
   /// The piece is a mesh of the domain that others made.
   void start_with(DomainMesh domain);
-  /// Inserts from the seeds on, as the strategy says. Fails if not even the seeds fit into a budget, with kInput for
-  /// too many triangles, with kCancelled, and where the memory is too small.
+  /// Inserts from the seeds on, by the strategy. Fails if not even the seeds fit into a budget, with kInput for too
+  /// many triangles, with kCancelled, and where the memory is too small.
   Result<void> run(Simplified& result);
-  /// Inserts what a mesh of others leaves, worst first. Fails as run().
+  /// Inserts the samples missing from a mesh of other passes, worst first. Fails as run().
   Result<void> run_on(Simplified& result);
   /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
   /// false if that cannot help. Fails as run().
@@ -66,7 +66,7 @@ class GoalRefinement {
   MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
   std::optional<StopReason> reached() const;
-  /// Every way of refinement is steps of one or more insertions, with a look at goals, progress and the best prefix
+  /// Every way of refinement is steps of one or more insertions, with a check of goals, progress and the best prefix
   /// after each.
   Result<void> refine(StopReason& stop);
   /// Returns the budget that stopped it. REQUIRES: !reached().
@@ -74,10 +74,10 @@ class GoalRefinement {
   std::optional<StopReason> insert_batch();
   std::optional<StopReason> insert_ranked();
   double fraction(double first_error) const;
-  /// Where the best prefix is looked for.
+  /// True where the best prefix is searched for.
   bool in_last_stretch() const;
   /// Max error is not monotone: a budget may stop on a spike. GoalRefinement is deterministic, so an earlier mesh is
-  /// had by inserting the same points again, without looking at a sample.
+  /// had by inserting the same points again, without reading a sample.
   void take_best_prefix();
   void finish_edges(Simplified& result);
 

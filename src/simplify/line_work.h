@@ -1,4 +1,4 @@
-// When the lines of a run are made ready: before it, or beside the refinement of tiles where that looks at none of
+// When the lines of a run are made ready: before it, or in parallel to the refinement of tiles if that needs none of
 // them.
 #pragma once
 

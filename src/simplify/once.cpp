@@ -54,7 +54,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, Request& option
   result->lines_inserted = lines->inserted;
   result->farthest_line = std::move(lines->farthest);
   const Measurement& measured = result->measurement;
-  // Where the field has a source, what lies beyond a cut is nodata to refinement only.
+  // If the field has a source, samples beyond a cut are nodata to refinement only.
   const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
   if (lines->graph.cut) result->cut_off = valid - measured.samples - measured.uncovered - measured.stray;
   return result;

@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// Whether fast effort stops insertion at a budget. Where it does not, lines are what they are for one error, or rows
+/// True if fast effort stops insertion at a budget. Where it does not, lines are what they are for one error, or rows
 /// of tiles are refined one after the other.
 bool insertion_stops(const HeightField& field, const SimplifyOptions& options);
 

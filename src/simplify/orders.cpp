@@ -34,7 +34,7 @@ Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Raster& raster
   tiles.threshold = plan.is_streamed ? criterion.aim() : criterion.largest_aim();
   tiles.threads = options.run.threads;
   tiles.memory = plan.memory;
-  // Where bounds differ, tiles are made for the largest only.
+  // If bounds differ, tiles are made for the largest only.
   tiles.may_decline = !plan.is_streamed && (options.quality.order == Order::kAuto || !criterion.bounds().empty());
   Reporter reporter(options.run.progress);
   if (options.run.progress) {
@@ -66,7 +66,7 @@ Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Raster&
   return tiled;
 }
 
-/// What tiles and strips did, `seconds` in all.
+/// The passes of tiles and strips, `seconds` in all.
 std::vector<Pass> list_passes(const Plan& plan, const Work& tiles, const StripTotals& strips, bool has_lines,
                               double seconds) {
   const double beside = strips.seconds_of_fit + strips.seconds_of_lines + strips.seconds_of_refinement;
@@ -82,7 +82,7 @@ std::vector<Pass> list_passes(const Plan& plan, const Work& tiles, const StripTo
 
 Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   const HeightField& field = plan.field;
-  // The engine reads nodata as such; what else looks at samples beyond the mesh's own needs them cleaned.
+  // The engine reads nodata as such; all other code that reads samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
   const bool looks_beyond = plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr ||

@@ -1,4 +1,4 @@
-// The two orders of insertion that a run may take.
+// The two orders of insertion of a run.
 #pragma once
 
 #include "pieces/plan.h"
@@ -16,7 +16,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines);
 /// Algorithm III over the whole raster. REQUIRES: samples in memory.
 Result<Simplified> run_greedily(const Plan& plan, LineWork* lines);
 
-/// With a locked border: in the dominant order as one tile, where that may be, else greedily, as beside lines. REQUIRES:
+/// With a locked border: in the dominant order as one tile, where that may be, else greedily, as with lines. REQUIRES:
 /// samples in memory.
 Result<Simplified> run_locked(const Plan& plan, LineWork* lines);
 

@@ -1,4 +1,4 @@
-// What a pass did, as it is reported.
+// The report on a pass.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// A vertex of a finished mesh and its two triangles, kept beside the mesh at work.
+/// A vertex of a finished mesh and its two triangles, kept in addition to the mesh at work.
 inline constexpr std::uint64_t kMeshBytesPerVertex = 48;
 
 inline Pass pass_of(std::string_view name, double seconds, const Work& work = {}) {

@@ -1,5 +1,5 @@
 // A print is proven as it is written: its tops are put back where the raster's samples are, from float32 positions of
-// the print, and judged. What rounding costs is known then, and the next run reserves twice as much.
+// the print, and judged. The cost of rounding is known then, and the next run reserves twice as much.
 #include "scarp/print.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace scarp {
 namespace {
 
-constexpr double kThickness = 0.02;  // of the longest side
+constexpr double kThickness = 0.02;  // share of the longest side
 constexpr double kReserve = 0x1p-10;
 constexpr int kMostPrints = 4;
 

@@ -98,7 +98,7 @@ double largest_height(const HeightField& field, const Mesh& mesh, const HeightRa
 /// The judge's double arithmetic rounds by this share of the largest height and the bound.
 constexpr double kArithmetic = 1e-12;
 
-/// What was asked for at the samples of a row; empty: nothing by sample.
+/// The bounds asked for at the samples of a row; empty: nothing by sample.
 struct AskedOfRow {
   std::span<const float> mask, tolerance, bounds;
 
@@ -111,7 +111,7 @@ struct AskedOfRow {
 
 /// The error of a sample as a share of what was asked for, before the search for a budget's mesh multiplied it.
 struct ShareOfBound {
-  double most = HUGE_VAL;  ///< beside the tolerance
+  double most = HUGE_VAL;  ///< in addition to the tolerance
   double reserve = 0;      ///< for the rounding of samples
   double noise = 0;        ///< an error that the judge's own rounding makes
 
@@ -122,9 +122,9 @@ struct ShareOfBound {
   }
 };
 
-/// Sums up norms of errors, row by row: weighted errors, the largest norm, who breaks a bound. The rows' errors and
-/// each step of their norm are rounded to float32, so what lies that near a bound is doubtful: where mending is
-/// possible it is taken for broken, else for kept.
+/// Sums up norms of errors, row by row: weighted errors, the largest norm, the samples that break a bound. The rows'
+/// errors and each step of their norm are rounded to float32, so what lies that near a bound is doubtful: where mending
+/// is possible it counts as broken, else as kept.
 class SampleVerdict {
  public:
   /// `fields`: whose errors are in the norms.
@@ -190,7 +190,7 @@ class SampleVerdict {
   std::uint64_t count_ = 0, judged_ = 0;
 };
 
-/// Of all that was tallied.
+/// Judges all that was tallied.
 void judge_samples(const SimplifyOptions& options, const Criterion& criterion, const HeightField& field,
                    const Tally& tally, SampleVerdict& verdict) {
   const auto cols = static_cast<std::size_t>(field.cols);
@@ -279,14 +279,14 @@ class WindowedVerdict {
   Result<void> status_;
 };
 
-/// Of the band that a thread judges.
+/// Bytes of the band that a thread judges.
 std::uint64_t band_bytes(const HeightField& field, const SimplifyOptions& options) {
   constexpr std::uint64_t kPerSample = 16, kOfReports = 8;
   return (kPerSample + (has_source_bounds(field, options) ? kOfReports : 0)) * static_cast<std::uint64_t>(field.cols) *
          static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
 }
 
-/// As many as the memory holds bands at work.
+/// The number of threads for which the memory holds bands at work.
 int threads_within(const HeightField& field, const SimplifyOptions& options) {
   return memory_budget(field, options).threads_within(band_bytes(field, options), thread_count(options.run.threads));
 }

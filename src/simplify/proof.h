@@ -13,20 +13,20 @@ namespace scarp {
 
 struct Proof {
   bool kept = true;
-  std::string broken;               ///< what is not kept, as the beginning of a sentence
+  std::string broken;               ///< the promise that is not kept, as the beginning of a sentence
   std::vector<Offender> offenders;  ///< samples whose insertion may mend it
 };
 
-/// What is judged: heights alone, or the topology too.
+/// The extent of a proof: heights alone, or the topology too.
 enum class Look { kHeights, kAll };
 
-/// Fills the measurements of `result` from its mesh; looks for breaches where the error goal ended the run. `exact`:
+/// Fills the measurements of `result` from its mesh; searches for breaches where the error goal ended the run. `exact`:
 /// vertices lie exactly on their samples, so that a breach within the judge's own rounding is none, and the topology,
-/// which holds by construction, is left out whatever `look` says. Fails as measure() does.
+/// which holds by construction, is omitted whatever `look` is. Fails as measure() does.
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
                     Look look, Simplified& result);
 
-/// What prove() takes whatever the mesh.
+/// Memory of prove() whatever the mesh.
 std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options);
 
 }  // namespace scarp

@@ -88,8 +88,8 @@ class EngineRun {
     return refinement_.run(result);
   }
 
-  /// The tiles' mesh becomes one. What the largest bound of all leaves to the others is refined; so is, in curved
-  /// frames, what breaks where its border is fitted to the samples.
+  /// The tiles' mesh becomes one. Samples with bounds below the largest are refined; so are, in curved frames, samples
+  /// that break where its border is fitted to the samples.
   Result<void> free_seams(Tiled tiled, Simplified& result) {
     const auto start = Clock::now();
     refinement_.start_with(std::move(tiled.domain));
@@ -118,7 +118,7 @@ class EngineRun {
     return refinement_.run_on(result);
   }
 
-  /// Whether there are walls or ridges: what refinement would do there without them, it need not do with them.
+  /// True if there are walls or ridges: refinement with them saves vertices that it would insert without them.
   bool inserts_first() const { return lines_ != nullptr && lines_->is_inserted_first; }
 
   /// Points stay, whatever removal could do without.
@@ -244,7 +244,7 @@ class EngineRun {
     if (plan_.frees_vertices && !refinement_.piece().lattice.are_samples()) result.vertices = Vertices::kFree;
   }
 
-  /// As many as the memory leaves room for, each with a window of samples.
+  /// The number of threads that the memory has room for, each with a window of samples.
   int fit_threads(std::uint64_t window) const {
     const int threads = thread_count(options_.run.threads);
     if (!plan_.memory.is_limited()) return threads;
@@ -302,7 +302,7 @@ class EngineRun {
     if (seconds_of_order > 0) result.passes.push_back({"order", seconds_of_order});
   }
 
-  /// Where the outline takes most of the mesh.
+  /// Counts it if the outline needs most of the mesh.
   void count_looser_outline(Simplified& result) const {
     if (options_.domain.outline_tolerance > 0 || plan_.is_streamed || result.outline_triangles == 0) return;
     if (2 * result.outline_triangles < result.mesh.triangle_count()) return;
@@ -310,8 +310,8 @@ class EngineRun {
     if (domain) result.outline_triangles_at_one = count_border_triangles(domain->tin);
   }
 
-  /// What the first proof would find is looked for before the mesh is put in order and its topology judged, which take
-  /// longer. What this cannot mend is left to the proof.
+  /// Breaches that the first proof would find are searched for before the mesh is put in order and its topology judged,
+  /// which need longer. The proof handles faults that this cannot mend.
   Result<void> mend_ahead(Simplified& result) {
     const auto start = Clock::now();
     const auto found = prove(field_, options_, criterion_, exact_, Look::kHeights, result);
@@ -329,8 +329,8 @@ class EngineRun {
     return {};
   }
 
-  /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, or fold
-  /// the mesh in space, the samples that break it are inserted and refinement goes on.
+  /// Judges the mesh as it will be written. If float32 positions or the frame's curvature cost the bound, or fold the
+  /// mesh in space, the samples that break it are inserted and refinement continues.
   Result<void> prove_and_mend(Simplified& result) {
     for (;;) {
       const auto start = Clock::now();
@@ -372,7 +372,7 @@ class EngineRun {
   const Request& options_;
   const Criterion& criterion_;
   const ConstraintGraph* lines_;
-  std::vector<float> heights_;  // of the domain's vertices, where the field has a source
+  std::vector<float> heights_;  // heights of the domain's vertices, where the field has a source
   bool exact_;                  // every vertex can lie exactly on its sample, or on the lattice of fitting
   Reporter reporter_;
   GoalRefinement refinement_;  // its piece is given back as soon as nothing can need it any more

@@ -1,4 +1,4 @@
-// A search, all runs of it, told as one pass: its progress, its work.
+// A search, all runs of it, reported as one pass: its progress, its work.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Tells the whole search as one pass. Each stage takes its share of what was left.
+/// Reports the whole search as one pass. Each stage is given its share of the rest.
 class SearchProgress {
  public:
   explicit SearchProgress(const ProgressCallback& callback) : callback_(callback), reporter_(callback) {}

@@ -34,7 +34,7 @@ Result<Simplified> simplify_within_budget(const HeightField& field, SimplifyOpti
   return lowers_squares(field, options) ? search_squares(options, task) : search_budget(options, task);
 }
 
-/// Where a budget decides how large the mesh is, it has to be smaller.
+/// If a budget decides how large the mesh is, the advice is a smaller budget.
 Error name_budget(const SimplifyOptions& options, Error error) {
   if (error.kind != ErrorKind::kMemory || !error.message.ends_with(kLargerError)) return error;
   error.message.replace(error.message.size() - kLargerError.size(), kLargerError.size(),
@@ -71,8 +71,8 @@ Result<Simplified> make_mesh(const HeightField& field, const SimplifyOptions& op
   return made;
 }
 
-/// With an effort that nobody asked for. Where memory is too little for it, the mesh is refined only. One thread needs
-/// least, so that one decides: the mesh must not depend on their number.
+/// Simplifies with an effort that was not asked for. Where memory is too little for it, the mesh is refined only. One
+/// thread needs least, so that one decides: the mesh must not depend on their number.
 Result<Simplified> simplify_by_default(const HeightField& field, SimplifyOptions options) {
   const bool is_fast = options.quality.effort == Effort::kFast;
   WhyFast why = is_fast ? WhyFast::kOrder : WhyFast::kBudget;
@@ -92,7 +92,7 @@ Result<Simplified> simplify_by_default(const HeightField& field, SimplifyOptions
   return made;
 }
 
-/// Where nobody asks for a number: few samples are done before another thread has started.
+/// Used if no number is asked for: few samples are done before another thread has started.
 int choose_threads(const HeightField& field, const SimplifyOptions& options) {
   constexpr std::int64_t kFewSamples = 1 << 14;
   const bool is_short = options.quality.effort == Effort::kFast || options.quality.effort == Effort::kNormal;
@@ -107,7 +107,7 @@ Result<void> check(const HeightField& field, const SimplifyOptions& options) {
   return {};
 }
 
-/// What failed in `work`, be it by an exception.
+/// Turns an exception in `work` into an error.
 Result<Simplified> without_exceptions(FunctionRef<Result<Simplified>()> work) try {
   return work();
 } catch (const SourceFailure& failure) {

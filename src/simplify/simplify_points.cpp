@@ -81,7 +81,7 @@ double middle(std::span<const double> values) {
   return std::nearbyint(centre / unit) * unit;
 }
 
-/// Refuses points that rounding puts onto one line: what little lies beside it turns triangles over.
+/// Refuses points that rounding puts onto one line: the few points off it turn triangles over.
 Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, const ScatteredDomain& domain) {
   const PointLattice& lattice = snapped.lattice;
   const double reach = lattice.step * std::max(lattice.cols, lattice.rows) / 2;
@@ -188,7 +188,7 @@ class PointRun {
     ++insertions_;
   }
 
-  /// Where the best prefix is looked for.
+  /// True where the best prefix is searched for.
   bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
 
   /// Max error is not monotone: a budget may stop on a spike. An earlier mesh is had by inserting the same points
@@ -287,8 +287,8 @@ class PointRun {
   }
 
   /// Gives up thicker slivers along the hull than before: over one that is a millimetre high the surface may rise by
-  /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as what the judge takes
-  /// for covered.
+  /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as the judge's
+  /// tolerance for covered points.
   bool trim_border(const Mesh& mesh) {
     const double thinnest = std::max({8 * thinnest_border_, 32 * position_rounding(mesh), snapped_.lattice.step});
     const double area = snapped_.lattice.step * snapped_.lattice.step * static_cast<double>(snapped_.lattice.cols) *
@@ -298,8 +298,8 @@ class PointRun {
     return true;
   }
 
-  /// Judges the mesh as it will be written, at the points as they were given. Where snapping or float32 positions cost
-  /// the bound, the points that break it are inserted and refinement goes on.
+  /// Judges the mesh as it will be written, at the points as they were given. If snapping or float32 positions cost the
+  /// bound, the points that break it are inserted and refinement continues.
   Result<void> prove(Simplified& result) {
     MeasureOptions judge;
     judge.run.threads = options_.run.threads;

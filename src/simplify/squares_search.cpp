@@ -123,7 +123,7 @@ class SquaresSearch {
   BudgetNumber number_;
   Budget budget_;
   SearchProgress progress_;
-  bool is_saturated_ = false;  // smaller errors take few triangles more: the budget is near to following every sample
+  bool is_saturated_ = false;  // smaller errors need few triangles more: the budget is near to following every sample
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Greedy insertion visits meshes of every size on its way, so one run draws the curve of the smallest max error by the
 // number of triangles (max error is not monotone, and a run that is given that error stops at just that mesh). A
 // default run, with its own order and removal, needs about half of them: how many is seen by making it, and the curve
-// then tells the error that suits so many triangles. The ratio hardly changes from share to share, so most shares take
+// then shows the error that suits so many triangles. The ratio hardly changes from share to share, so most shares need
 // one run.
 //
 // A large raster is sampled by windows. They are refined together, always the one with the largest error, so that rough
@@ -25,7 +25,7 @@ constexpr std::uint64_t kWholeLimit = 2'000'000;
 constexpr int kWindowSide = 256;
 constexpr int kMaxWindows = 16;
 constexpr std::string_view kPass = "estimate";
-constexpr double kGreedyPart = 0.5;  // of the pass
+constexpr double kGreedyPart = 0.5;  // share of the pass
 // Triangles of a default run per those of greedy insertion, more or less, and seldom fewer.
 constexpr double kUsualRatio = 0.52, kLeastRatio = 0.35;
 
@@ -195,7 +195,7 @@ class ShareSearch {
         aim = std::min(aim, target / ratio_) * (1 - margin);
         margin = std::min(2 * margin, 0.5);
       }
-      // Where the ratio leads out of what is known, halfway.
+      // If the ratio leads out of the known range, halfway.
       if (found && !(fitting < aim && aim < exceeding)) aim = (fitting + exceeding) / 2;
     }
     return found;

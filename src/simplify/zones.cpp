@@ -165,7 +165,7 @@ std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Li
     places.push_back(map_of(mesh, to_map, mesh.positions[3 * v], mesh.positions[3 * v + 1]));
   const SpotsByRow spots(std::move(places));
   const Neighbours neighbours(mesh);
-  constexpr std::size_t kAhead = 8;  // vertices beside the line that may stand between two of its chain
+  constexpr std::size_t kAhead = 8;  // vertices next to the line that may stand between two of its chain
   std::vector<NodeString> strings;
   for (const Line& line : lines) {
     const std::vector<Passed> passed = find_passed(spots, line, reach);

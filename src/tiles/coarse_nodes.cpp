@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-/// Of a number, for what single precision rounds away, outwards.
+/// Rounds a number outwards to single precision.
 float rounded_down(double value) {
   return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
 }
@@ -30,7 +30,7 @@ struct Corner {
 /// A piece of a triangle, convex.
 using Piece = std::vector<Corner>;
 
-/// What lies on the side of `limit` where sign · coordinate <= sign · limit.
+/// Cuts off the part of the piece where sign · coordinate > sign · limit.
 void cut(Piece& piece, double Corner::*coordinate, double limit, double sign, Piece& scratch) {
   scratch.clear();
   for (std::size_t k = 0; k < piece.size(); ++k) {
@@ -303,7 +303,7 @@ CoarseVerdict bound_errors(const TerrainTile& tile, const TileGrid& grid, const 
       }
     }
   }
-  // What the arithmetic of pieces may round away.
+  // Allowance for the rounding of the arithmetic of pieces.
   for (double* const error : {&worst.node_error, &worst.source_error}) *error = *error * (1 + 1e-9) + 1e-6;
   return worst;
 }

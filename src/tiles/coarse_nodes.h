@@ -3,12 +3,12 @@
 // A coarse tile holds 128 × 128 cells of its place. Each cell knows by how much the nodes of the source lie below and
 // above the bilinear surface between its corners, over all nodes in it: bilinear in degrees, as triangles are planes in
 // degrees, whatever the rows of nodes are. Four coarse tiles become one of the level
-// above, every second node left out: the bilinear surfaces of both differ by one that is bilinear too, so that its
+// above, every second node omitted: the bilinear surfaces of both differ by one that is bilinear too, so that its
 // extremes are at corners, and bounds add up. Where they add up to more than the heights in the cell allow, these
 // count.
 //
-// The source's samples lie between the nodes, and may lie outside the bounds of a cell's nodes. One number says by how
-// much at most, be it from the surface or from the range of heights; of a joined cell it is the largest of its parts.
+// The source's samples lie between the nodes, and may lie outside the bounds of a cell's nodes. One number bounds by
+// how much, be it from the surface or from the range of heights; of a joined cell it is the largest of its parts.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ inline constexpr std::int32_t kCoarseCells = 128;
 struct CoarseCell {
   float low = 0, high = 0;
   float min = 0, max = 0;
-  float apart = 0;  ///< of the samples in it from both; NaN where they are not known
+  float apart = 0;  ///< largest distance of the samples in it from both; NaN where they are not known
 };
 
 /// Heights at the corners of a cell; x and y 0 … 1 from its north-western corner.
@@ -43,13 +43,13 @@ struct Corners {
 
 class CoarseTile {
  public:
-  /// Of the nodes of a tile, a multiple of kCoarseCells a side, and the samples that `source` shows there. Fails as it
-  /// does.
+  /// Reduces the nodes of a tile, a multiple of kCoarseCells a side, and the samples that `source` shows there. Fails
+  /// as it does.
   static Result<CoarseTile> reduce(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
                                    const NodeSource& source);
   /// Without heights.
   static CoarseTile flat(float height);
-  /// Of the level above. `children`: north-west, north-east, south-west, south-east.
+  /// Makes a tile of the level above. `children`: north-west, north-east, south-west, south-east.
   static CoarseTile join(const TileGrid& grid, TileId id, const std::array<const CoarseTile*, 4>& children);
 
   /// Little-endian floats: nodes, then cells.

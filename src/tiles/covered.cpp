@@ -10,9 +10,9 @@
 namespace scarp {
 namespace {
 
-/// Places of the raster that are looked at, each way.
+/// Places of the raster that are examined, each way.
 constexpr int kPlaces = 257;
-/// Degrees from Greenwich. Grids look for land two turns away, and no farther.
+/// Degrees from Greenwich. Grids search for land up to two turns away.
 constexpr double kFarthest = 720;
 
 struct Span {
@@ -60,7 +60,7 @@ Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<dou
                             "degrees (gdal_translate -a_srs EPSG:CODE FILE NEW.tif)",
                             longitudes.low, longitudes.high, kFarthest));
   if (to_degrees != nullptr) {
-    // Between the places looked at the raster may reach a step farther, and around a pole all round.
+    // Between the places examined the raster may reach a step farther, and around a pole all round.
     longitudes.low -= longitudes.step;
     longitudes.high += longitudes.step;
     latitudes.low -= latitudes.step;

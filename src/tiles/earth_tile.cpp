@@ -104,7 +104,7 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   const Ground ground(plan.grid, plan.ellipsoid);
   EarthTile placed;
   placed.steps = lattice_steps(plan, tile.id.z);
-  // Where a local grid's raster ends in the tile, so does the mesh.
+  // The mesh ends with a local grid's raster in the tile.
   const std::uint16_t east = *std::max_element(tile.u.begin(), tile.u.end()),
                       north = *std::max_element(tile.v.begin(), tile.v.end());
   placed.west = vertices_along(tile.u, 0, tile.v, Way::kUp);

@@ -1,4 +1,4 @@
-// The geoid EGM96, unpacked. tools/make_egm96.py packs it, and tells how.
+// The geoid EGM96, unpacked. tools/make_egm96.py packs it, and describes how.
 #include "tiles/egm96.h"
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Which tiles a pyramid has, without making one.
+// Finds the tiles of a pyramid without making one.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -17,7 +17,7 @@ namespace {
 /// Flags of the tiles of a level below a block, by rows from the south.
 using Flags = std::vector<bool>;
 
-/// Whether the tiles of the finest level below a block have heights.
+/// True for each tile of the finest level below a block that has heights.
 Result<Flags> find_heights(const PyramidPlan& plan, TileId block, const NodeSource& source) {
   const std::int32_t side = 1 << (plan.max_zoom() - block.z), steps = steps_of(plan, block.z), cells = plan.cells;
   NodeWindow band = plan.grid.window_of(block, steps);

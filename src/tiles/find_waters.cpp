@@ -124,7 +124,7 @@ class Placing {
   }
 
  private:
-  /// Longitudes that go on beyond the antimeridian. An edge of just a turn is one along a side of the whole map.
+  /// Continues longitudes beyond the antimeridian. An edge of just a turn is one along a side of the whole map.
   static Result<void> go_on(Line& line) {
     constexpr double kNothing = 1e-9;
     for (std::size_t k = 1; k < line.points.size(); ++k) {

@@ -25,7 +25,7 @@ class Globe {
   };
   Radii radii(double latitude) const;
   double semi_major() const { return a_; }
-  /// Of curvature, anywhere: of the meridian on the equator.
+  /// Least radius of curvature anywhere: that of the meridian on the equator.
   double least_radius() const { return a_ * (1 - e2_); }
 
   /// A sphere that holds the points, its radius rounded up.
@@ -45,7 +45,7 @@ class Globe {
 
 /// Octahedral, two bytes, of a vector of unit length.
 std::array<std::uint8_t, 2> encode_octahedral(const Space& normal);
-/// Of unit length.
+/// A vector of unit length.
 Space decode_octahedral(const std::array<std::uint8_t, 2>& normal);
 
 double dot(const Space& a, const Space& b);

@@ -33,7 +33,7 @@ class GridZero final : public HeightZero {
       const double x = xs[k] - a[0], y = ys[k] - a[3];
       double col = (x * a[5] - y * a[2]) / determinant_;
       const double row = (y * a[1] - x * a[4]) / determinant_;
-      // Of all turns the one on the grid, or the nearest behind its start.
+      // Chooses the turn on the grid, or the nearest behind its start.
       if (turn_ > 0) col -= turn_ * std::floor((col + 0.5) / turn_);
       heights[k] = at(col, row);
     }

@@ -1,4 +1,4 @@
-// What tiles lie on: an ellipsoid, or the plane of a local grid. Places are in the grid's degrees; see tile_grid.h.
+// The ground of tiles: an ellipsoid, or the plane of a local grid. Places are in the grid's degrees; see tile_grid.h.
 #pragma once
 
 #include "scarp/degrees.h"
@@ -14,7 +14,7 @@ class Ground {
   /// Earth-centred, or on the plane east, north and up of the sample at its centre; metres.
   Space position(double longitude, double latitude, double height) const;
 
-  /// Of unit length each.
+  /// Vectors of unit length each.
   struct Axes {
     Space east{}, north{}, up{};
   };
@@ -23,9 +23,9 @@ class Ground {
   Globe::Radii metres(double latitude) const;
   double unit() const;
 
-  /// What a flat circle lies below the ground's curve at most, of the square of its radius.
+  /// The most that a flat circle lies below the ground's curve, from the square of its radius.
   double sag(double radius2) const { return grid_.is_flat() ? 0 : radius2 / (2 * globe_.least_radius()); }
-  /// As Globe's; on the plane there is no horizon: 0, 0, 0.
+  /// Like Globe's; on the plane there is no horizon: 0, 0, 0.
   Space horizon_point(const Space& centre, std::span<const Space> points) const;
 
  private:

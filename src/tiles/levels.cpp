@@ -23,7 +23,7 @@ constexpr int kBlockDepth = 5;
 constexpr double kQuantaOfError = 32;
 /// And at most this one: heights are rounded to it, which the error has to hold besides.
 constexpr double kLeastQuantaOfError = 4;
-/// Of a globe, in metres: finer heights are noise, and 2²⁴ of them hold no mountain.
+/// Limit on a globe, in metres: finer heights are noise, and 2²⁴ of them hold no mountain.
 constexpr double kLeastQuantum = 0x1p-10;
 /// Quanta that quantized-mesh holds in a tile.
 constexpr double kQuantaOfTile = 32767;
@@ -37,7 +37,7 @@ constexpr double kSpacing = 1.1;
 /// planets with higher mountains.
 constexpr double kHighestOnEarth = 20000, kHighest = 60000;
 
-/// Of a local grid, whose heights may be in units of one's own.
+/// Limit on a local grid, whose heights may be in units of one's own.
 constexpr double kHighestLocal = 1e6;
 
 /// Relief of it in cells, at most: 24 bits hold it in eighths of one.
@@ -46,7 +46,7 @@ constexpr double kSteepest = 0x1p20;
 /// Edges between grid points are so short that the sag is at most an eighth of the geometric error.
 int segments_of(int z, const TileGrid& grid) {
   if (grid.is_flat()) return 1;
-  const int halves = z + std::countr_zero(grid.roots());  // of a whole turn
+  const int halves = z + std::countr_zero(grid.roots());  // number of halves of a whole turn
   return halves < 11 ? 64 >> ((halves + 1) / 2) : 1;
 }
 
@@ -61,14 +61,14 @@ double spacing_of(int z, int cells, double latitude, const TileGrid& grid, const
   return degrees_of_step(z, cells, latitude, grid) * (kPi / 180) * std::sqrt(radii.meridian * radii.parallel);
 }
 
-/// What a grid has of a box; nothing where it ends before it.
+/// The part of a box that a grid has; nothing where it ends before it.
 std::optional<DegreeBox> part_on(const TileGrid& grid, const DegreeBox& box) {
   const DegreeBox all = grid.bounds();
   if (box.south >= all.north || box.north <= all.south) return {};
   return DegreeBox{box.west, std::max(box.south, all.south), box.east, std::min(box.north, all.north)};
 }
 
-/// Whether each row of nodes of a block has a v of its own: rows of some grids crowd at its ends.
+/// True if each row of nodes of a block has a v of its own: rows of some grids crowd at its ends.
 bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
   const TileRows rows(grid, {z, 0, grid.rows(z) - 1}, steps);
   for (std::int32_t row = 0; !rows.are_even() && row < steps; ++row) {
@@ -80,7 +80,7 @@ bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
 int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, const Globe& globe) {
   if (grid.is_flat()) return grid.finest_local(cells);
   const DegreeBox& covered = source.covered;
-  // Where a pole is covered, nodes are as dense as anybody likes there: what counts is the edge.
+  // Nodes are arbitrarily dense at a covered pole: the edge counts.
   const double latitude = covered.north >= 90    ? std::max(covered.south, 0.0)
                           : covered.south <= -90 ? std::min(covered.north, 0.0)
                                                  : (covered.south + covered.north) / 2;
@@ -93,7 +93,7 @@ int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, co
   return z;
 }
 
-/// What heights of a level are multiples of.
+/// The quanta of heights on each level.
 class Quanta {
  public:
   Quanta(double low, double high, bool is_flat) : low_(low), high_(high), is_flat_(is_flat) {
@@ -111,7 +111,7 @@ class Quanta {
   /// REQUIRES: a max error of least_error() or more.
   double of(double max_error) const {
     const double fine = std::max(power_of_two_below(max_error / kQuantaOfError), least_);
-    // GLB holds any relief, and takes fewer bytes for one of so few steps.
+    // GLB holds any relief, and needs fewer bytes for one of so few steps.
     return std::max(fine, std::min(compact_, power_of_two_below(max_error / kLeastQuantaOfError)));
   }
   Result<void> check(double max_error, int level) const {
@@ -135,7 +135,7 @@ class Quanta {
   double compact_ = 0, least_ = 0;
 };
 
-/// Whether it goes all round the globe.
+/// True if it goes all round the globe.
 bool is_round(const TileGrid& grid, const DegreeBox& box) { return !grid.is_flat() && box.east - box.west >= 360; }
 
 /// The range of all, around all.
@@ -155,7 +155,8 @@ SourceFacts join_facts(std::span<const SourceFacts> stack, const TileGrid& grid)
   return all;
 }
 
-/// What two boxes share; where they meet in two places, the larger. A source that goes all round covers any box.
+/// The intersection of two boxes; where they meet in two places, the larger. A source that goes all round covers any
+/// box.
 std::optional<DegreeBox> intersection_of(const TileGrid& grid, const DegreeBox& covered, const DegreeBox& only) {
   std::optional<DegreeBox> best;
   if (is_round(grid, covered)) best = {only.west, covered.south, only.east, covered.north};

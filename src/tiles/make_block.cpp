@@ -35,7 +35,7 @@ std::uint64_t mixed(std::uint64_t hash, double value) {
   return hash ^ (hash >> 32);
 }
 
-/// Of the nodes, and of each sample with its place, whatever the order in which the source shows them.
+/// A hash of the nodes, and of each sample with its place, whatever the order in which the source shows them.
 Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldNodes& nodes) {
   const DegreeBox box = plan.grid.bounds_of(block);
   std::uint64_t sum = nodes.hash();

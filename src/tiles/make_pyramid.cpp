@@ -65,7 +65,7 @@ Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, con
   const DecimatedNodes few(source, plan.grid.per_turn(plan.max_zoom(), plan.cells));
   const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), few);
   if (!nodes) return tl::unexpected(nodes.error());
-  // As in make_coarse(): the first mesh that does not fold is the tile, whatever its error.
+  // Like make_coarse(): the first mesh that does not fold is the tile, whatever its error.
   const auto accept = [](const TerrainTile&) -> Result<TileVerdict> { return TileVerdict{0, {}}; };
   const auto complete = [](TerrainTile& tile) -> Result<void> {
     tile.node_error = std::numeric_limits<double>::quiet_NaN();
@@ -112,7 +112,7 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
 
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink, const Run& run) {
   const std::vector<TileId> blocks = find_blocks(plan);
-  // A tile above the blocks takes about a thousandth of a block's time, or a unit of its cost.
+  // A tile above the blocks needs about a thousandth of a block's time, or a unit of its cost.
   std::uint64_t cost = blocks.size(), done = 0;
   for (const TileId block : blocks) cost += block_cost(plan, block);
   const auto share_of = [&](std::uint64_t part) { return static_cast<double>(part) / static_cast<double>(cost); };

@@ -29,7 +29,8 @@ namespace {
 constexpr int kMeshTrials = 12;
 /// Vertices lie on these parts of a step: those of lines anywhere, free ones on eighths.
 constexpr std::int32_t kParts = 256;
-/// Of the max error, where samples are bound: nothing but the nodes of an edge decides it, and samples lie beside it.
+/// Share of the max error for edges if samples are bound: only the nodes of an edge decide its mesh, and samples lie
+/// next to it.
 constexpr double kEdgeShare = 0.25;
 
 class TileMaker {
@@ -91,7 +92,7 @@ class TileMaker {
     return std::move(*best);
   }
 
-  /// Between the lowest and the highest node of the mesh: a larger max error leaves nothing out.
+  /// Between the lowest and the highest node of the mesh: a larger max error changes nothing.
   double relief() const {
     const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
     return double{*high} - double{*low};
@@ -127,7 +128,7 @@ class TileMaker {
     edges_.right = lay_edge(down, &EdgeVertices::right, [&](std::int32_t i) { return std::pair{right, top + i}; });
   }
 
-  /// Of the tile's nodes, those between two of the lattice of lines.
+  /// Number of the tile's nodes between two of the lattice of lines.
   std::int32_t line_step() const { return steps() / plan_.cells; }
 
   template <class Place>
@@ -173,7 +174,7 @@ class TileMaker {
     }
   }
 
-  /// Of a node from a straight piece of a line, in nodes.
+  /// Distance of a node from a straight piece of a line, in nodes.
   double distance_to_line(std::size_t k, std::int32_t col, std::int32_t row) const {
     const auto& [from, to] = paths_->steps[k];
     const double dx = (to[0] - from[0]) * line_step(), dy = (to[1] - from[1]) * line_step();
@@ -192,7 +193,7 @@ class TileMaker {
     return false;
   }
 
-  /// Of lines whose triangles turn over when they are rounded, the pieces there; or all.
+  /// Omits the pieces of lines whose triangles turn over there when they are rounded; or all.
   void leave_lines_out(const std::vector<SampleAt>& folds, bool all) {
     for (std::size_t k = 0; k < is_left_out_.size(); ++k) {
       const auto is_near = [&](const SampleAt& at) { return distance_to_line(k, at.col, at.row) <= 1; };
@@ -237,7 +238,7 @@ class TileMaker {
   }
 
   TerrainTile quantize(const Mesh& mesh) const {
-    // As a mesh of whole numbers, for the order of its vertices.
+    // A mesh of whole numbers, for the order of its vertices.
     Mesh whole;
     whole.triangles = mesh.triangles;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -270,8 +271,8 @@ class TileMaker {
     return abx * acy - acx * aby;
   }
 
-  /// Needles beside lines that rounding has turned over: an inner corner goes to the best place up to two 32767ths
-  /// away.
+  /// Unfolds slivers next to lines that rounding has turned over: moves an inner corner to the best place up to two
+  /// quanta away.
   static void unfold(TerrainTile& tile) {
     std::vector<std::vector<std::size_t>> stars;
     const auto least_area = [&](std::uint32_t v) {

@@ -1,4 +1,4 @@
-// Where degrees lie among nodes.
+// Positions of degrees among nodes.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ class NodePlaces {
  public:
   NodePlaces(const TileGrid& grid, std::int64_t per_turn) { lattice_ = {per_turn, 0, 0, 0, 0, grid}; }
 
-  /// Of a longitude, which may lie beyond a turn.
+  /// Column of a longitude, which may lie beyond a turn.
   double col(double longitude) const { return (longitude + 180) / 360 * static_cast<double>(lattice_.per_turn); }
 
   /// Between the rows whose latitudes are on both sides of it; 0 or the last row beyond.

@@ -1,5 +1,5 @@
 // Triangles have corners on units of the tile, nodes lie on its steps-th parts: in parts of both, a (units · steps)th,
-// all are whole numbers, and the functions of the sides that tell in from out are exact in 64 bits.
+// all are whole numbers, and the functions of the sides that separate in from out are exact in 64 bits.
 #include "tiles/node_scan.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct UnitPoint {
   std::int64_t x = 0, y = 0;
 };
 
-/// What is on the right of a way to the south, or on the left of one to the north, on rows that the way crosses.
+/// The region on the right of a way to the south, or on the left of one to the north, on rows that the way crosses.
 class Side {
  public:
   Side(UnitPoint from, UnitPoint to, std::int64_t node)
@@ -39,7 +39,7 @@ class Side {
   }
 
  private:
-  /// A column next to the side, as rounding leaves it.
+  /// A column next to the side, up to rounding.
   std::int32_t near(std::int32_t row) const {
     const auto y = static_cast<double>(node_ * row - from_.y);
     return static_cast<std::int32_t>(
@@ -127,7 +127,7 @@ class NodeScan {
     std::fill_n(covered_.begin() + static_cast<std::ptrdiff_t>(side_ * static_cast<std::size_t>(row)) + first, count,
                 std::uint8_t{1});
     const auto error = [&](std::int32_t i) { return std::abs(start + step * i - double{heights[i]}); };
-    // Maxima beside each other, for vectors.
+    // Maxima side by side, for vectors.
     std::array<double, kLanes> lanes{};
     for (std::int32_t i = 0; i < whole; i += kLanes) {
       for (std::int32_t k = 0; k < kLanes; ++k) {
@@ -153,7 +153,7 @@ class NodeScan {
   std::vector<std::uint8_t> covered_;
   NodeErrors errors_;
   double largest_ = 0;
-  // Of the triangle at hand.
+  // State of the current triangle.
   UnitPoint base_;
   double height_ = 0, slope_x_ = 0, slope_y_ = 0, worst_ = 0;
   SampleAt worst_at_{};

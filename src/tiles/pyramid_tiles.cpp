@@ -16,7 +16,7 @@ bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& cov
   return false;
 }
 
-/// Where a tile lies on Hilbert's curves through the roots, each from its south-western to its south-eastern
+/// The position of a tile on Hilbert's curves through the roots, each from its south-western to its south-eastern
 /// corner.
 std::uint64_t place_on_curve(TileId id) {
   const std::uint32_t last = (std::uint32_t{1} << id.z) - 1;

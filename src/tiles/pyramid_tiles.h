@@ -1,4 +1,4 @@
-// Which tiles a pyramid has, down to its blocks.
+// The tiles of a pyramid, down to its blocks.
 #pragma once
 
 #include <array>
@@ -14,16 +14,17 @@ namespace scarp {
 /// Tiles of one level by row, then column.
 using TileSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Whether the source may have a height in the tile, or so near that its normals reach it.
+/// True if the source may have a height in the tile, or so near that its normals reach it.
 bool is_covered(const PyramidPlan& plan, TileId id);
 
-/// Whether the level is one that a source asks for there, or the tile is a wanted sibling of such a tile.
+/// True if the level is one that a source asks for there, or the tile is a wanted sibling of such a tile.
 bool is_wanted(const PyramidPlan& plan, TileId id);
 
 /// The four tiles of the next level: south-west, south-east, north-west, north-east.
 std::array<TileId, 4> children_of(TileId id);
 
-/// Of each level up to the block level: tiles that may have heights, their ancestors, and the siblings of all.
+/// The tiles of each level up to the block level: those that may have heights, their ancestors, and the siblings of
+/// all.
 std::vector<TileSet> choose_tiles(const PyramidPlan& plan);
 
 }  // namespace scarp

@@ -51,7 +51,7 @@ void add_deltas(Writer& writer, const std::vector<std::uint16_t>& values) {
   }
 }
 
-/// Where heights lie between the header's two.
+/// Steps of heights between the header's two.
 struct HeightSteps {
   float low = 0, high = 0;
   std::vector<std::uint16_t> h;

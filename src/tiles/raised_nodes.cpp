@@ -64,7 +64,7 @@ class RaisedNodes final : public NodeSource {
   bool has_samples() const override { return source_.has_samples(); }
 
   Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
-    // Of a large box one part after the other, so that there are not too many places whose zero is exact.
+    // A large box is read in parts, so that there are not too many places whose zero is exact.
     if (box.east - box.west > kMostDegrees || box.north - box.south > kMostDegrees) {
       const double x = (box.west + box.east) / 2, y = (box.south + box.north) / 2;
       for (const DegreeBox& part : {DegreeBox{box.west, box.south, x, y}, DegreeBox{x, box.south, box.east, y},
@@ -73,7 +73,7 @@ class RaisedNodes final : public NodeSource {
       }
       return {};
     }
-    std::optional<ZeroGrid> zeros;  // of a part of the earth where samples are
+    std::optional<ZeroGrid> zeros;  // zeros of a part of the earth where samples are
     std::vector<float> raised;
     return source_.visit_samples(box, [&](const SampleRow& row) {
       const auto [first, end] =

@@ -1,4 +1,4 @@
-// Which points of a straight row lie in a box.
+// The points of a straight row that lie in a box.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// From the first point in the box to the one after the last: of `count` at equal steps. What lies beside the box by
+/// From the first point in the box to the one after the last: of `count` at equal steps. A point outside the box by
 /// less than 1/100,000,000 of it, as rounding may put it, is in it, too.
 inline std::pair<std::size_t, std::size_t> range_within(double x, double step_x, double y, double step_y,
                                                         std::size_t count, const DegreeBox& box) {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kAnchorSamples = 16;
 /// Samples that are read at once, about.
 constexpr int kRowSamplesTogether = 1 << 20;
-/// Places in a box that are looked at, each way, to find the raster's part of it.
+/// Places in a box that are examined, each way, to find the raster's part of it.
 constexpr int kLooks = 33;
 /// Nearer to the poles than this, meridians are not side by side.
 constexpr double kStraightLatitude = 85;
@@ -142,7 +142,7 @@ Result<void> SampleRows::visit_placed(const DegreeBox& box, const SampleVisitor&
       if (std::isfinite(apart)) step = std::max(step, apart);
     }
   }
-  // Between the places looked at the raster may reach farther, by less than from one to the next.
+  // Between the places examined the raster may reach farther, by less than from one to the next.
   reach.grow(step);
   const Window window = window_over(reach);
   if (window.is_empty()) return {};

@@ -1,4 +1,4 @@
-// A tile beside the samples of its source, each at its own place between the nodes.
+// Compares a tile with the samples of its source, each at its own place between the nodes.
 #pragma once
 
 #include <vector>

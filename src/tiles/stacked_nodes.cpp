@@ -11,7 +11,7 @@
 namespace scarp {
 namespace {
 
-/// Degrees that a source's own rounding may let it reach beyond what it covers.
+/// Degrees that a source's own rounding may add to what it covers.
 constexpr double kBeyond = 1e-9;
 
 /// Columns or rows of a window, the first and the one after the last.

@@ -10,7 +10,7 @@ namespace {
 
 /// Tolerances that are tried, each 63/64 of the one before; then every node is a vertex.
 constexpr int kTrials = 64;
-/// Of the max error; the rest is for the rounding of who judges.
+/// Share of the max error; the rest is for rounding in the judge.
 constexpr double kShare = 511.0 / 512;
 
 /// Largest error of the line through `vertices` as clients decode it.

@@ -42,8 +42,8 @@ double rounded(double cell) {
   return std::ldexp(std::floor(std::ldexp(cell, -exponent) + 0.5), exponent);
 }
 
-/// Degrees of a place on the map of Mercator, −1 … 1 from the southern to the northern end of its square. Of arithmetic
-/// alone, so that the bits are the same on every machine; within 10⁻¹³ degrees.
+/// Degrees of a place on the map of Mercator, −1 … 1 from the southern to the northern end of its square. Uses
+/// arithmetic alone, so that the bits are the same on every machine; within 10⁻¹³ degrees.
 double mercator_latitude(double place) {
   // φ = 2 atan(tanh(y / 2)), y = π · place; e^(−y) is the 16th power of that of y / 16, by Taylor's series.
   const double x = -std::numbers::pi * std::abs(place) / 16;

@@ -10,11 +10,11 @@
 namespace scarp {
 namespace {
 
-/// A node of a level's lattice on the whole globe, from 180° W and the north pole; columns go on around it.
+/// A node of a level's lattice on the whole globe, from 180° W and the north pole; columns continue around it.
 using Node = std::array<std::int64_t, 2>;
 using Place = std::array<double, 2>;
 
-/// Of a step of the lattice.
+/// Tolerance in steps of the lattice.
 constexpr double kTolerance = 0.5;
 
 double distance_to(const Place& p, const Place& a, const Place& b) {
@@ -59,7 +59,8 @@ struct Crossing {
   std::int64_t share, whole;
 };
 
-/// Of a segment with the tiles' edges that are so many steps apart, across `axis`; those between low and high alone.
+/// Adds the crossings of a segment with the tiles' edges that are so many steps apart, across `axis`; those between low
+/// and high alone.
 void add_crossings(const Node& a, const Node& b, std::size_t axis, std::int64_t cells, std::int64_t low,
                    std::int64_t high, std::vector<Crossing>& crossings) {
   const std::size_t other = 1 - axis;
@@ -146,7 +147,7 @@ class LevelLines {
     return &tiles_[{static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(x)}];
   }
 
-  /// Of all tiles whose edge it lies on.
+  /// Adds the node to all tiles whose edge it lies on.
   void add_edge_node(const Node& node) {
     const std::int64_t column = floor_of(node[0], cells_), row = floor_of(node[1], cells_);
     const auto col = static_cast<std::int32_t>(node[0] - column * cells_);
@@ -167,13 +168,13 @@ class LevelLines {
     }
   }
 
-  /// Of the tile that both ends lie in; along an edge the tiles' outlines have it already.
+  /// Adds the step to the tile that both ends lie in; along an edge the tiles' outlines have it already.
   void add_step(const Node& a, const Node& b) {
     if (a == b) return;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (a[axis] == b[axis] && a[axis] % cells_ == 0) return;
     }
-    // Of twice the middle, which lies on no edge.
+    // The tile of the middle, which lies on no edge; computed from twice the middle.
     const std::int64_t column = floor_of(a[0] + b[0], 2 * cells_), row = floor_of(a[1] + b[1], 2 * cells_);
     const auto local = [&](const Node& node) {
       return std::array<std::int64_t, 2>{node[0] - column * cells_, node[1] - row * cells_};

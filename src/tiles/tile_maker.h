@@ -12,8 +12,8 @@ namespace scarp {
 /// A bound of the largest |mesh − node| of a tile, of the mesh that clients decode.
 struct TileVerdict {
   double error = 0;
-  std::vector<SampleAt> offenders;  ///< nodes that break the tile's max error; empty where they are not known
-  double sample_error = 0;          ///< as `error`, of samples, where they are bound; else 0
+  std::vector<SampleAt> offenders;    ///< nodes that break the tile's max error; empty where they are not known
+  double sample_error = 0;            ///< like `error`, for samples, where they are bound; else 0
   std::vector<SampleAt> beside = {};  ///< nodes next to samples that break it
 };
 using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
@@ -24,8 +24,8 @@ using TileCompletion = std::function<Result<void>(TerrainTile& tile)>;
 Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid);
 
 /// A mesh of the nodes that satisfies the tile's max error where rounded positions can, else the one with the least.
-/// That max error is the level's, doubled while the tile's bytes are more than the plan's limit and its interior can have
-/// fewer vertices. Without an encoder there are no bytes and no limit.
+/// That max error is the level's, doubled while the tile's bytes are more than the plan's limit and its interior can
+/// have fewer vertices. Without an encoder there are no bytes and no limit.
 Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge,
                               const TileCompletion& complete, const TileEncoder& encode);
 

@@ -1,4 +1,4 @@
-// What a tile's mesh has besides its vertices: normals, sag, and its positions for who judges it.
+// The parts of a tile's mesh besides its vertices: normals, sag, and its positions for the judge.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@ struct NodeArea {
 
   friend bool operator==(const NodeArea&, const NodeArea&) = default;
 };
-/// What has land of a tile with so many steps: all of it, but for tiles that a local grid's raster fills in part.
+/// The part with land of a tile with so many steps: all of it, but for tiles that a local grid's raster fills in part.
 NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps);
 
 /// steps + 1 nodes a side, and `halo` more on each side; beyond the grid's ends the last row's own.
@@ -25,16 +25,16 @@ class TileNodes {
   static Result<TileNodes> read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                 const NodeSource& source);
 
-  /// All of one height, with one more around; at least so many steps, and as many as it takes to end where the land
+  /// Nodes all of one height, with one more around; at least so many steps, and as many as needed to end where the land
   /// does.
   static TileNodes flat(const PyramidPlan& plan, TileId id, std::int32_t least_steps);
 
   std::int32_t steps() const { return steps_; }
   const NodeArea& land() const { return land_; }
-  bool has_heights() const { return has_heights_; }  ///< of its own nodes at least one
-  /// Of its own nodes some got the background's height.
+  bool has_heights() const { return has_heights_; }  ///< true if at least one of its own nodes has a height
+  /// True if some of its own nodes got the background's height.
   bool has_voids() const { return !voids_.empty(); }
-  /// Whether the four of its own nodes around a place between them had heights. REQUIRES: 0 <= col, row <= steps.
+  /// True if the four of its own nodes around a place between them had heights. REQUIRES: 0 <= col, row <= steps.
   bool has_heights_around(double col, double row) const;
   /// All nodes, those around it too, have the background's height.
   bool is_flat() const { return is_flat_; }
@@ -48,14 +48,15 @@ class TileNodes {
     return static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
            static_cast<std::size_t>(col + halo_);
   }
-  /// Nodes without a height get the background's. `first_col`, `end_col`: of its own nodes only these columns have heights.
+  /// Nodes without a height get the background's. `first_col`, `end_col`: of its own nodes only these columns have
+  /// heights.
   void fill_voids(float background, std::int32_t first_col, std::int32_t end_col);
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 
   std::int32_t steps_ = 0, halo_ = 0;
   NodeArea land_;
   std::vector<float> heights_;
-  std::vector<bool> voids_;  ///< of its own nodes; empty without any
+  std::vector<bool> voids_;  ///< voids of its own nodes; empty without any
   bool has_heights_ = false, is_flat_ = true;
 };
 
@@ -70,7 +71,7 @@ class HeldNodes final : public NodeSource {
   /// REQUIRES: the window lies in the one that is held, with columns of the same turn.
   Result<void> read(const NodeWindow& window, std::span<float> out) const override;
   NodeWindow land(const NodeWindow& window) const override;
-  /// Of the source, which is borrowed: samples are not held.
+  /// Samples of the source, which is borrowed: they are not held.
   bool has_samples() const override { return source_->has_samples(); }
   Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
     return source_->visit_samples(box, visit);
@@ -78,8 +79,8 @@ class HeldNodes final : public NodeSource {
 
  private:
   const NodeSource* source_ = nullptr;
-  NodeWindow window_;  ///< what was asked for
-  NodeWindow land_;    ///< what is held of it
+  NodeWindow window_;  ///< the nodes asked for
+  NodeWindow land_;    ///< the part of them that is held
   std::vector<float> heights_;
 };
 

@@ -1,4 +1,4 @@
-// Where the rows of nodes of a tile lie for clients, who divide the degrees between its southern and its northern end
+// The latitudes of a tile's rows of nodes for clients, who divide the degrees between its southern and its northern end
 // into 32767 equal steps, or into those of a local grid.
 #pragma once
 

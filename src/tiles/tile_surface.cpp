@@ -11,7 +11,7 @@ namespace {
 
 /// A point this far beyond a side, times the side's length, is still in the triangle. Rounding makes 1e-7 of it.
 constexpr double kSlack = 1e-6;
-/// Triangles that a walk passes at most before all are looked at: on meshes that are not Delaunay it may go in circles.
+/// Triangles that a walk passes at most before all are scanned: on meshes that are not Delaunay it may go in circles.
 constexpr int kLongestWalk = 64;
 
 template <class Facet>

@@ -1,8 +1,8 @@
 // The mesh of a tile, and how far it is from rows of points.
 //
 // The points of a row lie side by side on a straight line, so that most lie in the triangle of the one before: there
-// the mesh's height along the row is linear. Where the row leaves a triangle, a walk across the edges that the next
-// point lies beyond finds its triangle.
+// the mesh's height along the row is linear. If the row exits a triangle, a walk across the edges that the next point
+// lies beyond finds its triangle.
 #pragma once
 
 #include <array>
@@ -31,14 +31,14 @@ struct FarPoint {
 /// Largest |mesh − height| over points in a tile.
 class TileSurface {
  public:
-  /// Whether a point counts: asked for those alone that would change the answer.
+  /// True if a point counts: asked only for those that would change the answer.
   using Counts = std::function<bool(double u, double v)>;
 
   /// REQUIRES: triangles are positive and cover the tile. `limit`: far_points() are those with a larger error.
   explicit TileSurface(const TerrainTile& tile, double limit = std::numeric_limits<double>::infinity(),
                        Counts counts = {});
 
-  /// Points beside the tile do not count. Cost: some nanoseconds a point.
+  /// Points outside the tile do not count. Cost: some nanoseconds a point.
   void judge(const PointRow& row);
 
   double largest_error() const { return worst_; }
@@ -59,9 +59,9 @@ class TileSurface {
 
   std::vector<Facet> facets_;
   Counts counts_;
-  double side_ = 0;  ///< of the tile, in units
+  double side_ = 0;  ///< side of the tile, in units
   double limit_ = 0, worst_ = 0;
-  std::uint32_t start_ = 0;    ///< where the row before began
+  std::uint32_t start_ = 0;    ///< triangle where the row before began
   std::vector<FarPoint> far_;  ///< by facet, where there is a limit
 };
 

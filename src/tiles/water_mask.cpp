@@ -17,7 +17,7 @@ constexpr int kMaskSide = 256;  ///< texels, as quantized-mesh has them
 constexpr int kMaskParts = 4;   ///< places a texel, each way
 constexpr int kMaskPlaces = kMaskSide * kMaskParts;
 
-/// Which of the places of a tile lie in polygons.
+/// The places of a tile that lie in polygons.
 class MaskPlaces {
  public:
   MaskPlaces(const TileWaters& waters, TileId id) : is_water_(std::size_t{kMaskPlaces} * kMaskPlaces, 0) {

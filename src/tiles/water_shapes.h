@@ -19,7 +19,7 @@ struct NodeBox {
   int cols = 0, rows = 0;
 };
 
-/// As many nodes side by side as lines can count.
+/// Number of nodes side by side that lines can count.
 inline constexpr std::int64_t kMostNodes = (std::int64_t{1} << 22) - 1;
 
 /// Nodes on both sides of points, two more, and no more of them than the source covers; nothing: it covers none.
@@ -35,7 +35,7 @@ class NodesAround {
 
 /// Coordinates are columns and rows of the lattice.
 std::vector<Line> lines_of(const TileLake& lake);
-/// Nothing beside the source, or for a lake with more nodes side by side than lines can count.
+/// Nothing outside the source, or for a lake with more nodes side by side than lines can count.
 std::optional<NodeBox> box_of(const TileLake& lake, const TileWaters& waters);
 
 /// From nodes of a box, counted from its first, to columns and rows of the lattice.
@@ -51,7 +51,7 @@ struct RiverNode {
   std::int64_t row = 0, col = 0;
   float height = 0;
 };
-/// By rows, each once, at the lowest of the river's heights beside it.
+/// By rows, each once, at the lowest of the river's heights next to it.
 std::vector<RiverNode> nodes_of(const TileRiver& river);
 
 }  // namespace scarp

@@ -16,15 +16,15 @@ namespace scarp {
 namespace {
 
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
-/// Nodes a side of a box whose samples are looked at at once.
+/// Nodes a side of a box whose samples are examined at once.
 constexpr double kMostNodesAtOnce = 1024;
 
-/// What is known of a node. Of two that claim one the greater has it.
+/// The water that claims a node. If two claim it, the greater has it.
 enum class Claim : std::uint8_t { kNone, kRim, kRiver, kLake };
 
 std::int64_t ceil_of(std::int64_t a, std::int64_t b) { return -floor_of(-a, b); }
 
-/// What water makes of the nodes of a window.
+/// The effect of water on the nodes of a window.
 class Claims {
  public:
   Claims(const NodeWindow& window, std::int64_t per_turn)
@@ -189,7 +189,7 @@ class WateredNodes final : public NodeSource {
     const TileRiver* river;
     NodeBox box;
   };
-  /// What each holds, once somebody has looked.
+  /// The samples of each, once they were read.
   struct Kept {
     std::vector<std::shared_ptr<const std::vector<SampleRun>>> lakes;
     std::vector<std::shared_ptr<const std::vector<RiverNode>>> rivers;
@@ -217,7 +217,7 @@ class WateredNodes final : public NodeSource {
     return static_cast<float>(upper + ty * (lower - upper));
   }
 
-  /// Whether a box, and a node around it, meets the window's in any turn.
+  /// True if a box, and a node around it, meets the window's in any turn.
   bool meets(const NodeBox& box, const NodeWindow& window) const {
     const std::int64_t turn = waters_->per_turn, stride = turn / window.per_turn;
     const std::int64_t first = window.col * stride, last = (window.col + window.cols - 1) * stride;

@@ -10,7 +10,7 @@ namespace scarp {
 
 namespace {
 
-/// What is appended: points and half-edges, counted from 0.
+/// The parts to append: points and half-edges, counted from 0.
 struct PieceView {
   const TilePiece& piece;
   Point first;
@@ -53,7 +53,7 @@ void PieceMaker::clear(std::size_t vertices) {
   std::fill(slots_.begin(), slots_.end(), Slot{0, kNone});
 }
 
-/// Where p is, or would be.
+/// The slot where p is, or would be.
 PieceMaker::Slot& PieceMaker::find(TilePoint p) {
   constexpr std::uint32_t kGolden = 2654435769;  // 2^32 / golden ratio: neighbours are spread
   std::size_t i = (p * kGolden) >> shift_;

@@ -65,7 +65,7 @@ class Assembly {
     std::int32_t at;
     HalfEdge edge;
   };
-  /// What one side of a tile has for its neighbour, by coordinate.
+  /// The vertices and edges that one side of a tile has for its neighbour, by coordinate.
   struct Border {
     std::vector<std::pair<std::int32_t, Vertex>> vertices;
     std::vector<BorderEdge> edges;
@@ -81,11 +81,11 @@ class Assembly {
   void sew(const Border& theirs, Border& ours);
 
   Triangulation tin_;
-  std::size_t column_ = 0;  // of the next piece
+  std::size_t column_ = 0;  // column of the next piece
   bool is_first_row_ = true, is_whole_ = true;
   Border beside_;                       // right side of the piece to the left
   std::vector<Border> below_;           // lower side of the piece above, by column
-  Border left_, top_, right_, bottom_;  // of the piece at hand
+  Border left_, top_, right_, bottom_;  // borders of the current piece
   std::vector<Vertex> ids_;             // its vertices
   std::vector<HalfEdge> seams_;
 };

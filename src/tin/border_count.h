@@ -1,4 +1,4 @@
-// What the border of a domain takes by itself.
+// The size of a domain's border by itself.
 #pragma once
 
 #include <cstdint>

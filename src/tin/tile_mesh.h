@@ -1,8 +1,8 @@
 // The workbench of one tile: a constrained Delaunay triangulation that grows by cavities instead of flips.
 //
-// A triangle is 32 bytes, two to a cache line, and holds all that insertion looks at: corners as points, links, and a
-// word that belongs to the owner (its candidate). There is no array of vertices: a vertex is its point. Each insertion
-// finds the cavity of the point (the triangles whose circle holds it, up to constrained edges), then writes every new
+// A triangle is 32 bytes, two to a cache line, and holds all that insertion reads: corners as points, links, and a word
+// that belongs to the owner (its candidate). There is no array of vertices: a vertex is its point. Each insertion finds
+// the cavity of the point (the triangles whose circle holds it, up to constrained edges), then writes every new
 // triangle once; Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular
 // ties.
 #pragma once
@@ -27,8 +27,8 @@ class TileMesh {
 
   struct alignas(32) Record {
     std::array<TilePoint, 3> corners;  // positive orientation
-    std::array<Link, 3> links;     // what lies beyond edge k
-    std::int64_t key;              // the owner's, at least 0; kOutside: not part of the domain
+    std::array<Link, 3> links;         // links beyond edge k
+    std::int64_t key;                  // the owner's, at least 0; kOutside: not part of the domain
   };
   static_assert(sizeof(Record) == 32);
   static constexpr std::int64_t kOutside = -1;
@@ -48,14 +48,14 @@ class TileMesh {
   const Record& operator[](Id t) const { return records_[t]; }
   bool is_outside(Id t) const { return records_[t].key < 0; }
 
-  /// What the insertion of p would change: the triangles it removes, and those beyond them. Valid until the next call.
-  /// REQUIRES: p in the closed triangle t, no corner of it.
+  /// The effect of inserting p: the triangles it removes, and those beyond them. Valid until the next call. REQUIRES: p
+  /// in the closed triangle t, no corner of it.
   struct Cavity {
     std::span<const Id> removed;  ///< t first
     struct Side {
       TilePoint from, to;  ///< the cavity lies to the left
       Link beyond;
-      bool outside;  ///< of the removed triangle that the side belonged to
+      bool outside;  ///< for the removed triangle that the side belonged to
     };
     std::span<const Side> sides;  ///< counter-clockwise around p
   };

@@ -45,7 +45,7 @@ class Triangulation {
   /// REQUIRES: cols, rows in 2 … kMaxCoordinate + 1.
   Triangulation(std::int32_t cols, std::int32_t rows);
 
-  /// What it is made of, for those who change many triangles at once.
+  /// Its arrays, for code that changes many triangles at once.
   struct Arrays {
     static constexpr std::uint8_t kOutside = 8;
     Array<Point> points;
@@ -73,7 +73,7 @@ class Triangulation {
   bool is_outside(Triangle t) const { return (flags_[t] & kOutside) != 0; }
   void set_outside(Triangle t, bool outside);
 
-  /// Where a point lies.
+  /// The location of a point.
   struct Location {
     enum class Kind { kInside, kOnEdge, kOnVertex } kind = Kind::kInside;
     HalfEdge edge = 0;  ///< kInside: any half-edge of the triangle; kOnEdge: the edge (its lower half-edge); kOnVertex:
@@ -87,7 +87,7 @@ class Triangulation {
 
   /// Inserts p and restores the Delaunay property, or what `rule` holds for one: it is asked about edges that face the
   /// new vertex, and each flip adds a spoke to it, so the questions end. Returns the vertex that is there. An edge's
-  /// constraint holds on both halves; p may lie beside it while the four triangles are positive. Cost: expected O(1).
+  /// constraint holds on both halves; p may lie off it while the four triangles are positive. Cost: expected O(1).
   Vertex insert(Point p, Location location, FlipRule* rule = nullptr);
 
   /// Asks the rule about the edges of the list, and again about the four edges around each one that it flips, until it
@@ -107,13 +107,14 @@ class Triangulation {
   /// chain. Returns false, without change, if it would cross a constrained edge. REQUIRES: a != b.
   bool constrain(Vertex a, Vertex b);
 
-  /// Takes the constraint off an edge, on both sides.
+  /// Removes the constraint of an edge, on both sides.
   void release(HalfEdge h);
 
   /// A triangle at the vertex that was inserted last: a good hint for locate().
   Triangle last_touched() const { return last_; }
 
-  /// Give memory back. Without links nobody may ask for twins or insert; without triangles only vertices are left.
+  /// Give memory back. Without links, asking for twins or inserting is not allowed; without triangles only vertices
+  /// remain.
   void drop_links() { twins_.release(); }
   /// The corners of the triangles that are not outside, 3 each; only vertices are left. REQUIRES: no links.
   Array<Vertex> take_corners();
@@ -127,8 +128,8 @@ class Triangulation {
 
   Triangulation() = default;
 
-  /// What a segment meets on its way from a vertex: the edges it crosses (each from its right end to its left end),
-  /// then the vertex it comes to first.
+  /// The elements that a segment meets on its way from a vertex: the edges it crosses (each from its right end to its
+  /// left end), then the vertex it comes to first.
   struct Passage {
     std::vector<HalfEdge> crossed;
     Vertex reached = kNone;

@@ -98,7 +98,7 @@ static void try_field(void) {
   EXPECT(rounded[0] == 0.1f && rounded[1] == 16777216 && isnan(rounded[2]) && isinf(rounded[3]));
 #endif
 
-  /* Arrays beside the heights, nodata, a solid. */
+  /* Arrays in addition to the heights, nodata, a solid. */
   static float mask[kCols * kRows], tolerance[kCols * kRows];
   for (int k = 0; k < kCols * kRows; ++k) {
     mask[k] = k % kCols < kCols / 2 ? 1.0f : 0.25f;
@@ -233,8 +233,8 @@ static void try_errors(void) {
   scarp_tiles_free(NULL);
 }
 
-/* Numbers that no memory can hold, and structs that nobody has made. */
-/* Structs that nobody has initialised. */
+/* Numbers that no memory can hold, and structs that were not made. */
+/* Structs that were not initialised. */
 static void try_unwritten(void) {
   scarp_mesh* mesh = NULL;
   scarp_field field = make_field();
@@ -484,7 +484,7 @@ static void try_points(void) {
   EXPECT(scarp_simplify_points(&points, &options, &mesh) == SCARP_INPUT);
 }
 
-/* Whether the file holds these bytes. */
+/* 1 if the file holds these bytes. */
 static int holds(const char* path, const scarp_bytes* bytes) {
   FILE* file = fopen(path, "rb");
   if (file == NULL) return 0;

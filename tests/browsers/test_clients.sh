@@ -40,7 +40,7 @@ for format in qm 3dtiles; do
   succeeds "$scarp" tile land.tif "site/land.$format" --of "$format" --report "land.$format.json" -q
 done
 succeeds "$scarp" tile date.tif site/date.qm -q
-# Of the grid of web maps, whose tiles end at other latitudes: what clients decode must be what was judged.
+# The grid of web maps, whose tiles end at other latitudes: clients must decode what was judged.
 succeeds "$scarp" tile planet.tif site/planet.web --grid mercator -e 20 --report planet.web.json -q
 python3 - > nodes << 'E2'
 import math
@@ -169,7 +169,7 @@ def closed(answer):
     return f"{answer['slits']} pixels of sky below the horizon"
 
 
-# As terrain of both formats and as a plain tileset, along the ground.
+# Shown as terrain of both formats and as a plain tileset, along the ground.
 centre = [(a + b) / 2 for a, b in zip(rows[0][:2], rows[-1][:2])]
 for number, (away, high) in enumerate(((0.4, 12000), (0.3, 15000))):
     for form, words in (("qm", {"kind": "globe", "of": "qm"}), ("3dtiles", {"kind": "globe", "of": "3dtiles"}), ("3dtiles", {"kind": "tileset"})):

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The page of docs/guide/globe.md in a browser, as it stands, beside tiles that scarp serve serves; its lines for 3D Tiles and
-# nginx, and the lines in three.js of globe.md and games.md.
+# The page of docs/guide/globe.md in a browser, as it stands, next to tiles that scarp serve serves; its lines for 3D
+# Tiles and nginx, and the lines in three.js of globe.md and games.md.
 source "$(dirname "$0")/../program/lib.sh"
 need python3 gdallocationinfo node chromium
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
@@ -19,7 +19,7 @@ serve() {
 }
 address_of() { grep -o 'http://[^ ]*/$' "$1"; }
 serve packages "$python_program" "$SCARP_SOURCE/tools/globe/serve.py" "$js/node_modules" 0
-# What the pages ask of other hosts comes from npm's packages.
+# Requests of the pages to other hosts are answered from npm's packages.
 python3 - "$SCARP_SOURCE/docs/guide/globe.md" "$(address_of packages)" << 'E2'
 import re, sys
 guide, packages = open(sys.argv[1], encoding="utf-8").read(), sys.argv[2]
@@ -28,7 +28,7 @@ for name, page in zip(["globe/page.html"], pages, strict=True):
     page = page.replace("https://cesium.com/downloads/cesiumjs/releases/1.140/", packages + "cesium/")
     open(name, "w", encoding="utf-8").write(page)
 E2
-# The same page with the lines that take 3D Tiles.
+# The same page with the lines for 3D Tiles.
 succeeds "$scarp" tile "$dem" city --of 3dtiles --vertical egm96 -q
 serve tileset "$scarp" serve city --port 0
 blocks=$SCARP_SOURCE/tools/guide_blocks.py

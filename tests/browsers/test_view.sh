@@ -30,7 +30,7 @@ succeeds "$scarp" simplify "$dem" image.glb -e 20 --drape quarters.png --drape-f
 succeeds "$scarp" simplify "$dem" packed_image.glb -e 20 --drape quarters.png --drape-format jpeg --compress -q
 succeeds "$scarp" simplify "$dem" places.glb -e 20 --uvs -q
 
-# The page: beside the mesh, or where -o says; nothing is replaced.
+# The page: next to the mesh, or at -o's path; nothing is replaced.
 succeeds "$scarp" view plain.glb "$dem"
 grep -q '^plain.html: .* open it in a browser$' "$logs/out" || fail "the page is not named: $(cat "$logs/out")"
 refuses 4 'plain.html' "$scarp" view plain.glb "$dem"
@@ -72,7 +72,7 @@ succeeds "$scarp" view set.3tz -o archive.html
 succeeds "$scarp" generate fractal 150 150 no_place.tif -q
 succeeds "$scarp" tile no_place.tif plane --grid local --cell-size 90 -e 20 -q
 succeeds "$scarp" view plane
-# Under the same four colours, which leave tiles at the border bare.
+# Under the same four colours, which do not cover tiles at the border.
 make_image quarters.tif '220 if (col < 202) == (row < 172) else 40' '200 if col >= 202 else 40' '230 if col < 202 and row >= 172 else 40'
 succeeds "$scarp" tile "$dem" draped --of 3dtiles --vertical egm96 --zoom 10 --drape quarters.tif --drape-format jpeg -q
 succeeds "$scarp" view draped
@@ -92,7 +92,7 @@ grep -q "the finest level of the page is 10 of 11.* 'scarp serve damaged'" "$log
 rm "$tile"
 succeeds "$scarp" view damaged -o thin.html
 grep -q "damaged is not whole: .* is announced, but missing; 'scarp tile check damaged'" "$logs/err" || fail "a missing tile is not told: $(cat "$logs/err")"
-# Elsewhere, without its page: a sentence that tells how to build it.
+# Elsewhere, without its page: a sentence that explains how to build it.
 mkdir -p other/bin
 cp "$scarp" other/bin/
 refuses 2 "'make viewer'" other/bin/scarp view plain.glb -o x.html
@@ -101,7 +101,7 @@ cp plain.glb '<!--<script>.glb'
 succeeds "$scarp" view '<!--<script>.glb' -o name.html
 if grep -qF '<!--<script>' name.html; then fail "a name begins a script"; fi
 
-# Of Python: the same mesh and raster.
+# From Python: the same mesh and raster.
 library=$SCARP_BUILD/bindings/c/libscarp_c.so
 if [ -e "$library" ] && /usr/bin/python3 -c 'import numpy, rasterio' 2> /dev/null; then
   PATH=$SCARP_BUILD/bin:$PATH PYTHONPATH=$SCARP_SOURCE/bindings/python/src PYTHONDONTWRITEBYTECODE=1 SCARP_LIBRARY=$library succeeds /usr/bin/python3 -c '
@@ -133,7 +133,8 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   head -c 3000 "$dem" > cut.tif
   succeeds gdal_translate -q -ot Float32 -srcwin 0 0 60 50 -scale 0 10000 7 7 -a_nodata 7 "$dem" void.tif
   succeeds gdal_translate -q -srcwin 0 0 1 150 "$dem" column.tif
-  # A name that a shell must not read; samples without a cell; a colour picture; heights in feet; more samples than a page takes.
+  # A name that a shell must not read; samples without a cell; a colour picture; heights in feet; more samples than a
+  # page accepts.
   succeeds gdal_translate -q -srcwin 0 0 60 50 "$dem" "; touch x \$(touch y) 'q' .tif"
   printf 'ncols 9\nnrows 8\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9\n' > stray.asc
   for row in 0 1 2 3 4 5 6 7; do
@@ -198,7 +199,7 @@ broken = bytearray(plain)
 struct.pack_into("<H", broken, binary + views[1]["byteOffset"], 65535)
 open("index.glb", "wb").write(broken)
 
-# Lines beside the triangles.
+# Lines in addition to the triangles.
 words = json.loads(plain[20:20 + length])
 primitives = words["meshes"][0]["primitives"]
 primitives.append({**primitives[0], "mode": 1})

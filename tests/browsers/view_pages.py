@@ -1,4 +1,5 @@
-# What the browser is asked of each page of test_view.sh, and what must be true of its answers: view_pages.py [jobs].
+# The questions to the browser about each page of test_view.sh, and what must be true of its answers: view_pages.py
+# [jobs].
 import base64, functools, json, os, subprocess, sys
 READ = "[document.getElementById('readout').innerText, document.title]"
 JUDGED = "scarp_page.shown.every(terrain => terrain.is_judged)"
@@ -13,7 +14,7 @@ def job(check, name, steps, axe=False, **words):
 
 
 def told(report):
-    """What the readout says, as `measure` knows it."""
+    """The readout, from the report of `measure`."""
     words = json.load(open(report))
     unit = words["input"]["unit"]
     six = lambda value: repr(float(f"{value:.6g}")).removesuffix(".0") + (f" {unit}" if unit else "")
@@ -80,7 +81,7 @@ def unmoved(values):
     assert exaggeration == 1 and sun == [315, 40] and shown == 1 and orbit == first, values
 
 
-# What is no number in its range leaves the page as it is at first.
+# A value that is no number in its range does not change the page's first state.
 for fragment in ("#view=0,0,0,0,0,0&exaggeration=1,2&azimuth=NaN&altitude=&level=x", "#view=,,,,,&exaggeration=1e300", "#view=1e300,1,1,1,1,1&constructor=1"):
     job(unmoved, "plain.html", [{"until": READY, "read": "[scarp_page.look.exaggeration, Object.values(scarp_page.scene.orbit()).flat().map(x => x.toFixed(4)),"
                                  " Object.values(scarp_page.look.sun), scarp_page.level + 1, (scarp_page.scene.reset(), Object.values(scarp_page.scene.orbit()).flat()"
@@ -96,7 +97,7 @@ def levels(values):
     count, (left, right, top, bottom) = values[0]
     assert count == 3 and left > 0 and right < 390 and top > 0 and bottom < 780, values[0]  # all of it in sight
     same("level2.json", values[2][0])
-    # Where the engine is inside its slider stands at the error of the level.
+    # Starts with the slider at the error of the level if the engine is inside.
     without_engine, error = values[3]
     assert without_engine or abs(float(error) / json.load(open("level2.json"))["max_error"] - 1) < 0.01, values[3]
 
@@ -153,8 +154,8 @@ for name in ("set", "archive"):
     job(functools.partial(tile_levels, name), f"{name}.html", [
         {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP}, {"read": CRACKS},
         {"do": COARSE, "until": "scarp_page.level === 2 && !scarp_page.scene.asked", "shot": f"tiles_{name}_coarse"}])
-# Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and beside it; which parts of the page
-# tell of the image.
+# Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and
+# outside it; which parts of the page show the image.
 QUARTERS = """(() => {
   const {scene, shown: [terrain], document: {place}} = scarp_page, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.positions[k - c + 2] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
   scene.draw();
@@ -177,7 +178,8 @@ def draped(values):
     assert relief[:3] != finest[:3] and relief[1:3] == [True, False], relief[:4]
     for level in sheets:
         assert sum(with_image for with_image, _ in level) > 1 and len({ground for _, ground in level if ground}) <= 1, sheets
-    earth = ",".join(str(round(255 * (1.055 * c ** (1 / 2.4) - 0.055))) for c in (0.47, 0.42, 0.33))  # of tiles without an image
+    # The colour of tiles without an image.
+    earth = ",".join(str(round(255 * (1.055 * c ** (1 / 2.4) - 0.055))) for c in (0.47, 0.42, 0.33))
     assert sheets[0][0] == [False, earth], sheets[0]
 
 
@@ -256,7 +258,7 @@ open("empty.html", "w").write(empty)
 job(lambda values: values[0].index("here"), "empty.html", [{"until": NOTICE, "read": NOTICE}])
 
 
-# The file's normals, beside those of the triangles: the mean cosine.
+# The file's normals, compared with those of the triangles: the mean cosine.
 NORMALS = """(() => {
   const {terrain, surface: {geometry}} = scarp_page.scene.views[0], given = geometry.attributes.normal.array.slice();
   geometry.computeVertexNormals();
@@ -360,7 +362,7 @@ def restored(values):
 
 REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged or cut off"), ("head.tif", "no TIFF file"), ("wrong.xyz", "no file that this page reads"),
            ("broken.png", "no PNG image"), ("cut.png", "damaged or cut off"), ("void.tif", "holds no height"), ("column.tif", "1 x 150"), ("no_tile.png", "no PNG image"))
-# Name, what the notes say, the decoding; whether the program reads the same samples.
+# Name, text of the notes, decoding, and true if the program reads the same samples.
 OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrarium.png", "terrarium", "terrarium", True), ("mapbox.png", "mapbox", "mapbox", True),
            ("grey16.png", "Grey levels", "", True), ("interlaced.png", "Grey levels", "", False), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("terraces.tif", "", "", True), ("colour.tif", "red is taken", "", True),
            ("masked.tif", "", "", True), ("doubles.tif", "", "", True),
@@ -460,7 +462,7 @@ if os.path.exists("live.html"):
               " exaggeration: document.getElementById('exaggeration-text').textContent, notes: document.getElementById('notes').textContent,"
               " command: document.getElementById('command').textContent, is_of_full: document.getElementById('command-note').textContent.includes('full raster'),"
               " label: document.getElementById('error-text').textContent, readout: document.getElementById('readout').innerText})")
-    # What Download makes, caught before it is a file.
+    # The result of Download, caught before it is a file.
     SAVED = ("new Promise(done => { const make = URL.createObjectURL; URL.createObjectURL = blob => { const reader = new FileReader();"
              " reader.onload = () => done(reader.result.split(',')[1]); reader.readAsDataURL(blob); URL.createObjectURL = make;"
              " return make(blob); }; document.getElementById('format').value = '%s'; document.getElementById('save').click();"
@@ -478,7 +480,7 @@ if os.path.exists("live.html"):
         steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
                    "after": "document.getElementById('notice').hidden = true"}]
     job(rasters, "try.html", steps, axe=True)
-    # Of drops one after the other the last wins, however long those before take.
+    # After drops one after the other the last wins, however slow those before are.
     drop = lambda name, path: {"drop": [{"name": name, "path": os.path.abspath(path)}]}
     job(overtaken, "try.html", [
         {"until": NOTICE, "do": "(load => { window.loads = []; scarp_page.load = files => void loads.push(load(files)); })(scarp_page.load)"},
@@ -501,7 +503,7 @@ if os.path.exists("live.html"):
         {"until": READY}, {"do": DRAG % 40 + "; scarp_page.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
                            "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
         {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}])
-    # One that ends without an event, as browsers end what wants too much memory: its lock tells.
+    # One that ends without an event, as browsers end a worker that uses too much memory: its lock shows it.
     job(ended, "live.html", [
         {"until": READY}, {"do": DRAG % 40, "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
         {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}], before="const { Blob: Whole } = window; window.Blob = class extends Whole"

@@ -4,7 +4,7 @@ memory and streamed, as one hash of all files of the run. A run that fails stand
 
 usage: table.py PROGRAM DEM TABLE [--update]     in an empty folder
 
-Compares with TABLE, or writes it. The program's version, which stands in most files, is left out of the hash."""
+Compares with TABLE, or writes it. The program's version, which stands in most files, is excluded from the hash."""
 import concurrent.futures
 import hashlib
 import os
@@ -14,8 +14,8 @@ import subprocess
 import sys
 import zipfile
 
-# File, height of a step or ridge, and the --memory that leaves less than the samples need: `hills` and `coast` stay in
-# their file, `fault` and `town` are kept in 16 bits.
+# File, height of a step or ridge, and the --memory that has less room than the samples need: `hills` and `coast` stay
+# in their file, `fault` and `town` are kept in 16 bits.
 RASTERS = {"fault": ("fault.tif", 80, "72900k"), "hills": ("hills.bil", 200, "72500k"),
            "coast": ("coast.bil", 200, "72500k"), "town": ("town.bil", 8, "72500k")}
 FILES = {"lines": "lines.geojson", "hard": "hard.geojson", "river": "river.geojson", "pond": "pond.geojson", "site": "site.geojson",
@@ -23,7 +23,7 @@ FILES = {"lines": "lines.geojson", "hard": "hard.geojson", "river": "river.geojs
 
 
 def contents(path):
-    """Of a file, or of each file in an archive, whose checksums know the version."""
+    """Contents of a file, or of each file in an archive, whose checksums know the version."""
     if not zipfile.is_zipfile(path):
         return [(path.name, path.read_bytes())]
     with zipfile.ZipFile(path) as archive:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Programs that are not ours read every format that we write, and count what our report counted: the Khronos glTF
-# validator, assimp, meshio, and admesh for closed solids. A judge that is not installed is named and left out.
+# validator, assimp, meshio, and admesh for closed solids. A judge that is not installed is named and skipped.
 source "$(dirname "$0")/../program/lib.sh"
 work=$scratch
 judges=0
@@ -54,7 +54,7 @@ if command -v assimp >/dev/null; then
       assimp info "$work/$kind.$format" >"$work/assimp.txt" 2>&1 || { cat "$work/assimp.txt"; complain "assimp cannot read $kind.$format"; }
       triangles=${kind}_triangles vertices=${kind}_vertices
       same "assimp, faces of $kind.$format" "$(awk '/^Faces:/ {print $2}' "$work/assimp.txt")" "${!triangles}"
-      if [ "$format" != stl ]; then  # which names places, not vertices
+      if [ "$format" != stl ]; then  # it names places, not vertices
         same "assimp, vertices of $kind.$format" "$(awk '/^Vertices:/ {print $2}' "$work/assimp.txt")" "${!vertices}"
       fi
     done

@@ -88,7 +88,7 @@ if npm_judges three; then
   grep -q '^true true true$' "$logs/out" && grep -q '^true usage ' "$logs/out" && [ -s tile.glb ] || fail "the guide's code does not do what it says"
   succeeds node tiler.mjs
   [ -s tile.terrain ] && [ -s layer.json ] || fail "the guide makes no tile"
-  # The lines of README.md, which take an array for given.
+  # The lines of README.md, which assume an array.
   {
     echo 'const width = 300, height = 200, heights = Float32Array.from({ length: 60000 }, (_, k) => 90 * Math.sin((k % 300) / 30) * Math.cos(k / 9000));'
     python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/README.md" js

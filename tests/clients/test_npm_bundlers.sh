@@ -17,7 +17,7 @@ if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vit
   for installed in "$js"/node_modules/*; do [ -e "node_modules/$(basename "$installed")" ] || ln -s "$installed" node_modules/; done
   succeeds node dropins.mjs
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022,dom --typeRoots none typed.mts
-  # Without types of a browser, and as older programs look for them.
+  # Without types of a browser, and as older programs search for them.
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022 --typeRoots none plain.mts
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module esnext --moduleResolution node10 --target es2022 --lib es2022 --typeRoots none node10.ts
   told=$(node app.mjs)

@@ -31,7 +31,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// What the first bytes ask for.
+/// The request in the first bytes.
 struct Task {
   scarp::OwnedHeightField field;
   scarp::SimplifyOptions options;
@@ -76,7 +76,7 @@ Task read_task(Bytes& bytes) {
   return task;
 }
 
-/// Mostly a quarter of a sample, sometimes next to it, sometimes beside the raster.
+/// Mostly a quarter of a sample, sometimes next to it, sometimes outside the raster.
 double coordinate(std::uint8_t byte, int samples) {
   const int place = byte % 64 % (4 * samples + 8) - 6;
   return place / 4.0 + (byte >= 192 ? (byte - 192) / 1000.0 : 0);
@@ -113,13 +113,13 @@ using Plan = std::array<double, 2>;
 
 constexpr double kReach = 0.0085;  // lines move by 3/512 in each coordinate
 
-/// A piece of a line, and whether it goes on beyond its ends.
+/// A piece of a line, and whether it continues beyond its ends.
 struct Piece {
   Plan p, q;
   bool goes_on_before = false, goes_on_behind = false;
 };
 
-/// What lies in the raster and not next to its border, where a line that runs along it may come in anywhere.
+/// The part that lies in the raster and not next to its border, where a line that runs along it may come in anywhere.
 bool clip(const scarp::OwnedHeightField& field, Piece& piece) {
   const Plan whole = piece.p, way{piece.q[0] - whole[0], piece.q[1] - whole[1]};
   const Plan most{field.cols - 1.0, field.rows - 1.0};
@@ -155,7 +155,7 @@ class Walk {
     }
   }
 
-  /// Edges beside the piece, none farther than lines may move, lead from one end to the other.
+  /// True if edges next to the piece, none farther than lines may move, lead from one end to the other.
   bool follows(const Piece& piece) const {
     const Plan way{piece.q[0] - piece.p[0], piece.q[1] - piece.p[1]};
     const double length = std::hypot(way[0], way[1]);

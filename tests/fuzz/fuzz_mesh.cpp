@@ -6,7 +6,7 @@
 #include "scarp/io.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto mesh = scarp::decode_mesh({data, size}, "fuzz.stl");  // the name lets damaged STL through to its reader
+  const auto mesh = scarp::decode_mesh({data, size}, "fuzz.stl");  // the name sends damaged STL to its reader
   if (!mesh) {
     if (mesh.error().message.empty() || mesh.error().kind != scarp::ErrorKind::kInput) std::abort();
     return 0;
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (mesh->channel_count < 0 || mesh->channels.size() != count * static_cast<std::size_t>(mesh->channel_count)) {
     std::abort();
   }
-  // What was read can be written; what PLY and VTU keep, which is everything, reads back the same.
+  // A mesh that was read can be written; the contents of PLY and VTU, which is everything, read back the same.
   for (const auto format : {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl,
                             scarp::MeshFormat::kTin, scarp::MeshFormat::k2dm, scarp::MeshFormat::kVtp,
                             scarp::MeshFormat::kLandXml, scarp::MeshFormat::kDxf, scarp::MeshFormat::k3mf}) {

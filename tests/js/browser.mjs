@@ -1,4 +1,4 @@
-// A page of headless Chromium that draws WebGL by software and tells what went wrong.
+// A page of headless Chromium that draws WebGL by software and reports failures.
 import { chromium } from "playwright-core";
 
 const kPatience = 1200e3;  // ms

@@ -1,7 +1,7 @@
 // The lines of a guide in three.js: guide_three.mjs SHOTS CHROMIUM ADDRESS...
 //
-// Each page draws as window.draw() does until window.is_drawn. Prints JSON: of each the errors of the console, and how much of
-// the picture is not background. Leaves SHOTS/three_0.png and so on.
+// Each page draws as window.draw() does until window.is_drawn. Prints JSON: of each the errors of the console, and how
+// much of the picture is not background. Writes SHOTS/three_0.png and so on.
 import { open_page } from "./browser.mjs";
 
 const [shots, program, ...addresses] = process.argv.slice(2);

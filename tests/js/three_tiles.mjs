@@ -1,15 +1,15 @@
 // A set of 3D Tiles in 3d-tiles-renderer (three.js), as clients that are not CesiumJS load it, without a screen:
 //   three_tiles.mjs FOLDER PLACES.json
-// PLACES.json: [[longitude, latitude], …] in degrees, near each other. Looks down on the first from 60 km until all tiles
-// of the finest level in sight are there. Prints JSON: heights above the ellipsoid where a ray straight down meets the tiles (null: it
-// meets none), the tiles that are drawn, and what could not be loaded.
+// PLACES.json: [[longitude, latitude], …] in degrees, near each other. Views the first from above from 60 km until all
+// tiles of the finest level in sight are there. Prints JSON: heights above the ellipsoid where a ray straight down
+// meets the tiles (null: it meets none), the tiles that are drawn, and what could not be loaded.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
 const [folder, places_file] = process.argv.slice(2);
 const places = JSON.parse(readFileSync(places_file, "utf8")).map(place => place.map(degrees => degrees * Math.PI / 180));
 
-// What the renderer takes from a browser.
+// The parts of a browser that the renderer uses.
 globalThis.self = globalThis.window = globalThis;
 globalThis.location = new URL("http://localhost/");
 globalThis.requestAnimationFrame = callback => setTimeout(callback, 0);

@@ -1,8 +1,10 @@
-// Looks at pages of the viewer in a real browser, from disk: viewer.mjs JOBS.json SHOTS [CHROMIUM]
+// Checks pages of the viewer in a real browser, from disk: viewer.mjs JOBS.json SHOTS [CHROMIUM]
 //
-// JOBS.json: a list of {page, folder, width, height, dark, forced_colors, no_script, before, steps, axe}. `folder`: what may be asked of besides the page. `before` is run in the page before its own script;
-// each step is {drop: [{name, path}], do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one answer a job: the
-// values of `do` and `read`, errors of the console, what was asked of elsewhere, and what axe-core objects to.
+// JOBS.json: a list of {page, folder, width, height, dark, forced_colors, no_script, before, steps, axe}. `folder`:
+// what may be asked of besides the page. `before` is run in the page before its own script; each step is {drop: [{name,
+// path}], do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one
+// answer a job: the values of `do` and `read`, errors of the console, what was asked of elsewhere, and what axe-core
+// objects to.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";

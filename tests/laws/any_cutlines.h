@@ -113,7 +113,7 @@ inline double distance_to_rings(const Cutline& cutline, double x, double y) {
   return least;
 }
 
-/// Of a cell: valid corners, as bits.
+/// Valid corners of a cell, as bits.
 inline int corners_of(const Field& field, std::int32_t col, std::int32_t row) {
   int corners = 0;
   for (int k = 0; k < 4; ++k) corners |= field.raster().is_valid({col + k % 2, row + k / 2}) ? 1 << k : 0;
@@ -167,7 +167,7 @@ inline std::vector<double> heights_at(const std::vector<std::array<Corner, 3>>& 
   return heights;
 }
 
-/// Where triangles cover what has no data or lies outside the polygons, or miss what lies in them: of 200 places, the
+/// A place where triangles cover nodata or points outside the polygons, or miss points in them: of 200 places, the
 /// first; "" for none.
 inline std::string find_wrong_cover(const Field& field, const Cutline& cutline,
                                     const std::vector<std::array<Corner, 3>>& triangles, Draughtsman& draughtsman) {

@@ -105,7 +105,8 @@ inline std::vector<EdgeVertex> without_dust(std::vector<EdgeVertex> edge) {
   return edge;
 }
 
-/// Where the rows of nodes of a tile lie in the degrees between its ends, as steps: by the library's own mathematics.
+/// Positions of the rows of nodes of a tile in the degrees between its ends, as steps: by the library's own
+/// mathematics.
 inline std::vector<double> lines_of(TileId id, std::int32_t steps, const TileGrid& grid) {
   constexpr double kPi = 3.141592653589793;
   std::vector<double> degrees, lines;

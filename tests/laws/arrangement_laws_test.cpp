@@ -116,7 +116,7 @@ bool between(Point a, Point b, Point p) {
 }
 bool on(Point a, Point b, Point p) { return orient(a, b, p) == 0 && between(a, b, p); }
 
-/// What breaks law (1), by looking at all pairs.
+/// A pair that breaks law (1), by testing all pairs.
 std::string find_crossing(const Arrangement& result) {
   const auto& v = result.vertices;
   for (const Edge& e : result.edges) {

@@ -42,8 +42,8 @@ int valid_corners_of(const Raster& raster, std::int32_t x, std::int32_t y) {
          raster.is_valid({x + 1, y + 1});
 }
 
-// Heights with 8 bits after the point and thresholds with 10: the sums are whole numbers, by nobody's arithmetic but
-// the compiler's.
+// Heights with 8 bits after the point and thresholds with 10: the sums are whole numbers, by the compiler's arithmetic
+// alone.
 RC_GTEST_PROP(border_chain, keeps_the_bound_on_the_line_exactly, ()) {
   Field field = any_field(3, 200);
   for (float& z : field.samples) z = std::round(z * 256) / 256;
@@ -61,7 +61,7 @@ RC_GTEST_PROP(border_chain, keeps_the_bound_on_the_line_exactly, ()) {
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     const std::int32_t a = places[k], b = places[k + 1];
     for (std::int32_t i = a + 1; i < b; ++i) {
-      // Of the surface: a whole cell beside the line, on either side of the sample.
+      // The surface: a whole cell next to the line, on either side of the sample.
       bool is_surface = false;
       for (const std::int32_t x : {i - 1, i})
         for (const std::int32_t y : {line.row - 1, line.row})

@@ -50,7 +50,7 @@ float bound_at(const Field& field, const std::vector<float>& bounds, Point p) {
 /// A triangle on the lattice, by exact arithmetic and by doubles, at every sample of the field that lies in it.
 struct Oracle {
   bool keeps = true;
-  double energy = 0, stiffness = 0, push = 0, worst = 0;  // of those whose bound is no less than `least`
+  double energy = 0, stiffness = 0, push = 0, worst = 0;  // values of those whose bound is no less than `least`
 
   Oracle(const Field& field, const std::vector<float>& bounds, const std::array<Point, 3>& places,
          const std::array<float, 3>& heights, double least = 1e-2) {

@@ -191,7 +191,7 @@ TEST(budget_search, is_told_as_one_pass_and_can_be_cancelled) {
   }
 }
 
-/// Runs that are made up: a bound takes so many triangles, `share` of them with effort; budgets take all.
+/// Runs that are made up: a bound needs so many triangles, `share` of them with effort; budgets use all.
 struct MadeUp {
   std::function<double(double error)> triangles;
   double share = 0.42;

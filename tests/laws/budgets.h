@@ -1,4 +1,4 @@
-// What every mesh within a budget keeps, and terrain that fills budgets well.
+// Laws of every mesh within a budget, and terrain that fills budgets well.
 #pragma once
 
 #include <rapidcheck/gtest.h>

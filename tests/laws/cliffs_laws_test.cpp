@@ -60,7 +60,7 @@ struct Piece {
   Point a, b;
 };
 
-/// Whether the closed segments have a point in common.
+/// True if the closed segments have a point in common.
 bool meet(const Piece& p, const Piece& q) {
   const auto sign = [](std::int64_t v) { return (v > 0) - (v < 0); };
   const auto within = [](const Piece& s, Point at) {
@@ -82,7 +82,7 @@ std::vector<Piece> pieces_of(const std::vector<WallVertex>& line) {
 
 Point lattice_place(Point sample) { return {sample.x * kLatticeSteps, sample.y * kLatticeSteps}; }
 
-/// Whether each way between two neighbours that crosses the line is a crack, its high sample on the line's left.
+/// Checks that each way between two neighbours that crosses the line is a crack, its high sample on the line's left.
 void check_sides(const Raster& raster, double height, const std::vector<Piece>& line) {
   for (std::int32_t y = 0; y < raster.rows; ++y) {
     for (std::int32_t x = 0; x < raster.cols; ++x) {

@@ -134,8 +134,7 @@ std::optional<std::vector<Corners>> delaunay_by_brute_force(const SnappedPoints&
   return triangles;
 }
 
-/// The boundary of the triangles as one ring through no point twice that leaves no point out; nothing where there is
-/// none.
+/// The boundary of the triangles as one ring through no point twice that omits no point; nothing where there is none.
 std::optional<std::map<std::uint32_t, std::uint32_t>> boundary_of(const std::vector<Corners>& triangles,
                                                                   std::size_t count) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -157,7 +156,8 @@ std::optional<std::map<std::uint32_t, std::uint32_t>> boundary_of(const std::vec
   return next;
 }
 
-/// The chi-shape by its definition: takes the triangle at the longest edge that can go, and looks at everything again.
+/// The chi-shape by its definition: removes the triangle at the longest edge that can go, and examines everything
+/// again.
 std::map<std::uint32_t, std::uint32_t> chi_by_brute_force(const SnappedPoints& points, std::vector<Corners> triangles,
                                                           double longest) {
   for (;;) {

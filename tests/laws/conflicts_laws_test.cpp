@@ -52,7 +52,7 @@ testing::Field make_land() {
   return land;
 }
 
-/// What all runs share, and one run's field and options.
+/// The common parts of all runs, and one run's field and options.
 struct Scene {
   testing::Field land = make_land();
   std::vector<float> mask = std::vector<float>(land.samples.size(), 0.5f);
@@ -192,7 +192,7 @@ std::vector<Setting> all_settings() {
   };
 }
 
-/// What each sample may be off by; +infinity where there is no bound. A budget leaves tolerances a factor.
+/// The allowed error of each sample; +infinity where there is no bound. With a budget, tolerances have a factor.
 std::vector<float> bounds_of(const Scene& scene, bool keeps_error, double factor, double tolerance) {
   const SimplifyOptions& options = scene.options;
   const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
@@ -256,10 +256,10 @@ bool names(const Conflict& conflict, Field one, Field other) {
   return (is(conflict.one, one) && is(conflict.other, other)) || (is(conflict.one, other) && is(conflict.other, one));
 }
 
-/// Goals beside which two settings may go together.
+/// Goals with which two settings may be combined.
 const Field kGoals[] = {Field::kMaxError, Field::kMaxTriangles};
 
-/// Runs a pair, with the first goal beside which it can. True if it is refused beside all of them.
+/// Runs a pair, with the first goal that allows it. True if it is refused with all of them.
 bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
   bool is_named = false;
   for (const Field goal : kGoals) {
@@ -303,7 +303,7 @@ bool is_alone_refused(const Setting& setting) {
   return false;
 }
 
-/// A factor of all tolerances is searched for, or the table says why not.
+/// A factor of all tolerances is searched for, or the table explains why not.
 void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   SCOPED_TRACE(std::string(name_of(setting.field)) + (is_streamed ? ", streamed" : ", in memory"));
   Scene scene;
@@ -324,7 +324,7 @@ void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   expect_kept(scene, *made, kTightTolerance);
 }
 
-/// Under sanitizers a tenth of the pairs, and a third of the settings beside two others.
+/// Under sanitizers a tenth of the pairs, and a third of the settings with two others.
 constexpr std::size_t kPairStep = testing::kIsSanitized ? 10 : 1, kSettingStep = testing::kIsSanitized ? 3 : 1;
 
 TEST(conflicts, settings_beside_tolerances_and_a_budget_run_or_are_refused_by_the_table) {

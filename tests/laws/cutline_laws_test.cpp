@@ -59,7 +59,7 @@ RC_GTEST_PROP(cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_
   }
 }
 
-/// The judge's own look, which finds the bound kept and the mesh whole.
+/// The judge's own measurement, which finds the bound kept and the mesh whole.
 Measurement judged(const Field& field, const SimplifyOptions& options, const Simplified& result) {
   MeasureOptions judge;
   judge.cutline = &options.features.cutline;

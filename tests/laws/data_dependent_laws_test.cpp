@@ -28,7 +28,7 @@ Field any_field(std::int32_t largest) {
   return testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, relief, *rc::gen::element(0.0, 0.1));
 }
 
-/// Errors of all valid samples in the closed triangle, by looking at every sample of the raster.
+/// Errors of all valid samples in the closed triangle, by scanning every sample of the raster.
 struct Errors {
   double largest = 0, squares = 0;
 };

@@ -21,7 +21,7 @@ using testing::any_field;
 using testing::Field;
 using testing::Relief;
 
-/// Heights and what lies beside them.
+/// Heights and their channels.
 struct Coloured {
   Field heights;
   std::vector<Field> layers;
@@ -49,7 +49,7 @@ Coloured any_coloured(std::int32_t largest) {
   return made;
 }
 
-/// Of a sample, by brute force; NaN where no triangle holds it.
+/// Norm of a sample, by brute force; NaN where no triangle holds it.
 double norm_at(const Mesh& mesh, const HeightField& view, Norm norm, int col, int row) {
   double sum = 0, squares = 0, largest = 0;
   for (int k = -1; k < static_cast<int>(view.channels.size()); ++k) {
@@ -188,7 +188,7 @@ TEST(channels_of_efforts, refuse_free_vertices) {
   EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
 }
 
-/// Of the mesh seen from above, exact: lattice points are eighths of samples.
+/// Area of the mesh seen from above, exact: lattice points are eighths of samples.
 double area_of(const Mesh& mesh) {
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

@@ -106,7 +106,7 @@ TEST(effort, each_level_takes_fewer_triangles) {
                                          {Effort::kHigh, Vertices::kFree},
                                          {Effort::kMax, Vertices::kFree}}) {
     auto options = with_effort(4, effort, vertices);
-    if (effort != Effort::kFast) options.quality.min_shape = 0;  // as normal effort has it
+    if (effort != Effort::kFast) options.quality.min_shape = 0;  // like normal effort
     const auto result = simplify(field.view(), options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_LT(result->mesh.triangle_count(), before);

@@ -201,14 +201,14 @@ FitCorner any_corner(const Field& field) {
   return corner;
 }
 
-/// The verdict, the energies and the pull by looking at every sample of the raster.
+/// The verdict, the energies and the pull by scanning every sample of the raster.
 struct Oracle {
   bool keeps = true;
   double energy = 0, eighth = 0, worst = 0;  // worst: in thresholds
   double stiffness = 0, push = 0;
 
   struct Residual {
-    double error, weight;  // of the first corner
+    double error, weight;  // error and weight of the first corner
   };
   std::vector<Residual> residuals;
 

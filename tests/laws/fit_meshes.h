@@ -110,7 +110,7 @@ inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted,
   return "";
 }
 
-/// Of the errors at samples, those on edges once for each triangle.
+/// Sum of the errors at samples, those on edges once for each triangle.
 inline double sum_of_squares(const Raster& raster, const Fitted& fitted) {
   double sum = 0;
   for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
@@ -149,7 +149,7 @@ struct ShapeOracle {
   bool operator<(const ShapeOracle& other) const { return area * other.longest < other.area * longest; }
 };
 
-/// Of the triangles of the domain; at most `most`.
+/// Shape of the triangles of the domain; at most `most`.
 inline ShapeOracle worst_shape(const Triangulation& tin, double aspect, ShapeOracle most) {
   for (Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (!tin.is_outside(t)) most = std::min(most, ShapeOracle(tin.corners(t), aspect));

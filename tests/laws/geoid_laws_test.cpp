@@ -42,7 +42,7 @@ TEST(Egm96, HasTheHeightsThatEverybodyKnows) {
   const auto geoid = egm96();
   EXPECT_NEAR(height_at(*geoid, 0, 90), 13.61, 0.005);
   EXPECT_NEAR(height_at(*geoid, 123, -90), -29.53, 0.005);
-  // NGA's test points of EGM96, which takes all of its 360 degrees there; 15 minutes of arc smooth them.
+  // NGA's test points of EGM96, which uses all of its 360 degrees there; 15 minutes of arc smooth them.
   EXPECT_NEAR(height_at(*geoid, 269.7791550, 38.6281550), -31.628, 0.1);
   EXPECT_NEAR(height_at(*geoid, 305.0211140, -14.6212170), -2.969, 0.1);
   EXPECT_NEAR(height_at(*geoid, 102.4487290, 46.8743190), -43.575, 0.1);
@@ -85,7 +85,7 @@ RC_GTEST_PROP(grid_zero_law, is_bilinear_between_its_nodes, ()) {
   RC_ASSERT(made.has_value());
   const double col = any_degrees(0, cols) - 0.5, row = any_degrees(0, rows) - 0.5;
   const double found = height_at(**made, west + col * cell, north - row * cell);
-  // The textbook: all four, weights of 0 left out.
+  // The textbook: all four, weights of 0 omitted.
   const double at_col = goes_round ? col : std::clamp(col, 0.0, cols - 1.0), at_row = std::clamp(row, 0.0, rows - 1.0);
   double height = 0;
   for (const int down : {0, 1}) {
@@ -97,7 +97,7 @@ RC_GTEST_PROP(grid_zero_law, is_bilinear_between_its_nodes, ()) {
       height += weight * double{nodes[static_cast<std::size_t>(static_cast<int>(y) * cols + wrapped)]};
     }
   }
-  // On a node's own line rounding may ask for the nodes beside it.
+  // On a node's own line rounding may ask for the nodes next to it.
   if (std::isnan(height) || std::isnan(found)) {
     const bool is_on_line =
         std::abs(at_col - std::round(at_col)) < 1e-6 || std::abs(at_row - std::round(at_row)) < 1e-6;

@@ -22,7 +22,7 @@ struct Unit {
 };
 struct Place {
   std::string crs, geotransform;
-  double metres;  ///< of x and y; 0: degrees, or nobody knows
+  double metres;  ///< unit of x and y; 0: degrees, or unknown
 };
 
 Unit any_unit() {
@@ -61,7 +61,7 @@ struct Raster {
                        named + (scale == 1 ? "" : "<Scale>" + std::to_string(scale) + "</Scale>"));
   }
   std::string path() const { return folder.file("dem.vrt"); }
-  /// Of a unit of the file's heights.
+  /// Length of a unit of the file's heights.
   double metres() const { return !unit.name.empty() ? unit.metres : place.metres > 0 ? place.metres : 1; }
   double physical(std::size_t k) const { return turn * scale * metres() * static_cast<double>(values[k]); }
 };

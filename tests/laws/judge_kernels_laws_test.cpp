@@ -49,7 +49,7 @@ struct TestBand {
   }
 };
 
-/// What the judge does about samples that count: errors from the largest so far on are settled, and become the largest.
+/// Handles samples that count like the judge: errors from the largest so far on are settled, and become the largest.
 struct Looker {
   const Facet& facet;
   const FacetTask& task;
@@ -160,7 +160,7 @@ RC_GTEST_PROP(judge_kernels_laws, facets_agree_to_the_bit, ()) {
     RC_ASSERT(have_same_bits(judge_all(judge::judge_kernels(), field, facets, false, watch), expected));
 }
 
-/// The share of the samples of each magnitude shows in the buckets, zeros taken back.
+/// The share of the samples of each magnitude shows in the buckets, zeros subtracted.
 std::vector<std::int64_t> counts_of(const Buckets& buckets) {
   std::vector<std::int64_t> counts(1 << 20);
   for (std::size_t i = 0; i < buckets.count; ++i) ++counts[buckets.values[i]];

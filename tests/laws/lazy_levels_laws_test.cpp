@@ -1,4 +1,4 @@
-// The lazy order keeps the promise of the dominant one, whatever its estimates say.
+// The lazy order keeps the promise of the dominant one, whatever its estimates are.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -56,7 +56,7 @@ RC_GTEST_PROP(lazy_levels, ends_with_every_sample_within_the_bound_and_every_tri
   RC_ASSERT(refine_dominant(started.mesh, scanner).insertions == 0u);
 }
 
-// A threshold of 0, or one below the smallest normal float, must not make estimates that say "clean".
+// A threshold of 0, or one below the smallest normal float, must not make estimates that mean "clean".
 RC_GTEST_PROP(lazy_levels, keeps_thresholds_that_float32_holds_as_zero, ()) {
   const Field field = *rc::gen::element(false, true)
                           ? testing::sloping_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 40),

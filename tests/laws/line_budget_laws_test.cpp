@@ -54,7 +54,7 @@ Field edited(Field field, const Simplified& made) {
   return field;
 }
 
-/// The number that the sentence says would do.
+/// The number that is enough according to the sentence.
 std::uint64_t needed(const std::string& sentence) {
   const auto at = sentence.find(" need ");
   return at == std::string::npos ? 0 : std::stoull(sentence.substr(at + 6));

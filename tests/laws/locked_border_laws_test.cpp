@@ -28,7 +28,7 @@ using testing::Relief;
 
 constexpr float kNodata = std::numeric_limits<float>::quiet_NaN();
 
-/// Of whole heights and 511 · `unit` of room: every pair of samples, in whole numbers.
+/// The textbook for whole heights and 511 · `unit` of room: every pair of samples, in whole numbers.
 class Textbook {
  public:
   Textbook(const std::vector<float>& heights, std::int64_t unit) : room_(511 * unit) {
@@ -100,7 +100,7 @@ struct Edge {
   std::vector<float> heights, behind;
 
   bool is_height(std::size_t i) const { return i < heights.size() && !std::isnan(heights[i]); }
-  /// Whether the surface reaches the step after sample i: a cell with three heights or more.
+  /// True if the surface reaches the step after sample i: a cell with three heights or more.
   bool is_covered(std::size_t i) const {
     return is_height(i) && is_height(i + 1) && !(std::isnan(behind[i]) && std::isnan(behind[i + 1]));
   }
@@ -269,7 +269,7 @@ RC_GTEST_PROP(locked_border, has_the_same_normals_on_both_sides, ()) {
   if (!left || !right) return;  // no surface
   const auto here = vertices_on(left->mesh, first, edges_of(first)[side]);
   for (const auto& [step, vertex] : vertices_on(right->mesh, second, edges_of(second)[side_second])) {
-    // Where nodata is beside the edge, one of both may have a vertex more, also between samples.
+    // If nodata is next to the edge, one of both may have a vertex more, also between samples.
     if (step >= edges_of(second)[side_second].points.size()) continue;
     if (const auto same = here.find(step); same != here.end()) RC_ASSERT(same->second == vertex);
   }

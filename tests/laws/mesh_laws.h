@@ -1,4 +1,4 @@
-// What must hold of every triangulation, said once.
+// The laws of every triangulation, written once.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ enum class Edges { kDelaunay, kAny };
 
 /// The first law that is broken, "" if none: (1) twins point at each other along the same edge, constraints agree; (2)
 /// triangles are positive; (3) Euler: the areas add up to the rectangle and V − E + F = 1; (4) locally Delaunay but
-/// across constraints (unless `edges` says kAny); (5) the mark "outside" changes only across constraints.
+/// across constraints (unless `edges` is kAny); (5) the mark "outside" changes only across constraints.
 inline std::string verify_triangulation(const Triangulation& tin, std::int32_t cols, std::int32_t rows,
                                         Edges edges_are = Edges::kDelaunay) {
   std::int64_t area2 = 0;

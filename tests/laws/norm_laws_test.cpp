@@ -1,4 +1,4 @@
-// Fitting where heights and channels count together: what it lets through is what the error metric of refinement would.
+// Fitting where heights and channels count together: it accepts the same triangles as the error metric of refinement.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -24,7 +24,7 @@ using testing::Field;
 using testing::is_same;
 using testing::Relief;
 
-/// Heights, channels of other reliefs beside them, and how they count.
+/// Heights, channels of other reliefs, and how they count.
 struct Stack {
   std::vector<Field> layers;  // the first is the heights
   std::vector<MetricField> judged;
@@ -74,7 +74,7 @@ Stack any_stack(std::int32_t largest) {
     const bool counts = k > 0 || *rc::gen::arbitrary<bool>();
     if (counts) stack.judged.push_back({stack.layers[k].samples.data(), scale});
   }
-  // Where heights are nodata channels may be anything.
+  // Channels may be anything at nodata heights.
   for (std::size_t i = 0; i < stack.layers[0].samples.size(); ++i) {
     if (std::isnan(stack.layers[0].samples[i])) stack.layers[1].samples[i] = std::numeric_limits<float>::infinity();
   }
@@ -113,7 +113,7 @@ std::optional<std::array<Point, 3>> any_corners(const Stack& stack) {
 /// In double, sample by sample.
 struct Oracle {
   double worst = 0, energy = 0;         // in bounds
-  std::vector<double> stiffness, push;  // of each field
+  std::vector<double> stiffness, push;  // for each field
   double excess = 0, over_bound = 0;    // largest norm less slack bounds, less bounds
 
   Oracle(const Stack& stack, const std::array<Point, 3>& corners, double unit, double slack = 1)
@@ -261,7 +261,7 @@ RC_GTEST_PROP(norms, are_kept_by_every_effort_on_any_number_of_threads, ()) {
   RC_ASSERT(is_same(again.tin, first.tin));
 }
 
-// Channels that say nothing new: as many as there are, they count like heights.
+// Channels without new information: as many as there are, they count like heights.
 TEST(norms, of_the_same_field_thrice_take_as_many_triangles_as_heights_alone) {
   const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
   Stack stack{{field}, {}, Norm::kMax, 4, {}};

@@ -115,7 +115,7 @@ RC_GTEST_PROP(points, keep_the_promise_in_float32_or_say_that_they_cannot, ()) {
     RC_ASSERT(double{static_cast<float>(position)} == position);
 }
 
-/// Algorithm I: look at everything before each insertion.
+/// Algorithm I: examine everything before each insertion.
 std::vector<std::uint32_t> insert_by_brute_force(const SnappedPoints& snapped, double threshold) {
   ScatteredDomain domain = *build_domain(snapped);
   for (;;) {
@@ -160,7 +160,7 @@ RC_GTEST_PROP(points, are_inserted_in_the_order_of_brute_force, ()) {
   if (goal > 0) {
     RC_ASSERT(domain.point_of == expected);
   } else {
-    // Points that a plane explains up to rounding are told apart exactly by the engine only.
+    // Points that a plane explains up to rounding are distinguished exactly by the engine only.
     const std::size_t common = std::min(domain.point_of.size(), expected.size());
     RC_ASSERT(
         std::equal(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(common), domain.point_of.begin()));

@@ -143,7 +143,7 @@ TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_til
     const auto tiles = find_tiles(made->plan, &land);
     ASSERT_TRUE(tiles) << tiles.error().message;
     EXPECT_EQ(*tiles, made->report.tiles);
-    // Without a look at nodes: at least these.
+    // Without reading nodes: at least these.
     const auto perhaps = find_tiles(made->plan, nullptr);
     ASSERT_TRUE(perhaps);
     for (std::size_t z = 0; z < tiles->size(); ++z)

@@ -36,7 +36,7 @@ void thin_out(OwnedHeightField& field, int stride) {
   field.rows = (field.rows + stride - 1) / stride;
 }
 
-/// Sanitized builds take at most this many samples a side, of the whole raster.
+/// Sanitized builds use at most this many samples a side, of the whole raster.
 constexpr int kSanitizedSide = 150;
 
 class RealRasters : public ::testing::TestWithParam<const char*> {

@@ -140,7 +140,7 @@ RC_GTEST_PROP(refinement, keeps_the_bound_exactly_and_covers_every_cell, ()) {
   RC_ASSERT(domain_area2 >= cells_area2);
 }
 
-// A field of cliffs at any threshold ends, and threshold 0 leaves exactly the samples that planes cannot explain.
+// A field of cliffs at any threshold ends, and threshold 0 inserts exactly the samples that planes cannot explain.
 TEST(refinement, a_plane_needs_no_vertex_but_the_corners) {
   Field field{40, 30, std::vector<float>(1200)};
   for (std::int32_t y = 0; y < 30; ++y)

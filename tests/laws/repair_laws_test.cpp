@@ -1,4 +1,4 @@
-// Removal with repair, and what it is made of: moves, flips, and taking all of them back.
+// Removal with repair, and what it is made of: moves, flips, and undoing all of them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -77,7 +77,7 @@ RC_GTEST_PROP(repair, keeps_the_bound_the_domain_and_the_constraints, ()) {
   RC_ASSERT(fitted.counts.repaired <= fitted.counts.tried);
 }
 
-/// Of the valid samples.
+/// Range of the valid samples.
 std::pair<float, float> range_of(const Field& field) {
   std::pair<float, float> range{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
   for (const float sample : field.samples) {
@@ -388,7 +388,7 @@ double rise_of_energy(const Patch& patch, const Picture& before) {
   return sum;
 }
 
-/// Whether a triangle around v broke the threshold.
+/// True if a triangle around v broke the threshold.
 bool was_over(const Patch& patch, const Picture& before, Patch::Id v, double threshold) {
   Patch::Star star;
   patch.find_star(v, star);
@@ -396,7 +396,7 @@ bool was_over(const Patch& patch, const Picture& before, Patch::Id v, double thr
                      [&](Patch::Id f) { return before.faces[f].worst > threshold; });
 }
 
-/// Of the faces that have changed none is below the floor and worse than all that they were before.
+/// True if no changed face is below the floor and worse than all that they were before.
 bool keeps_shape(const Patch& patch, const Picture& before, const ShapeRule& rule) {
   testing::ShapeOracle floor(rule.floor), worst(1.0);
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
@@ -494,7 +494,7 @@ RC_GTEST_PROP(vertex_step, that_seeks_room_lets_the_energy_rise_only_where_the_s
   Bench bench;
   RC_PRE(bench.cut());
   Patch& patch = bench.patch;
-  // What the mesh keeps is within the slack of less.
+  // A bound that the mesh keeps is within the slack of a smaller one.
   const TriangleError error =
       TriangleError(bench.field.raster(), patch.window().first, bench.threshold / 1.5, {2, ErrorRule::Power::kEight});
   for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);

@@ -241,7 +241,7 @@ RC_GTEST_PROP(RidgeLaws, MeshesWithRidgesKeepTheBoundAndAreSound, ()) {
   RC_ASSERT(three->mesh.positions == one->mesh.positions);
 }
 
-/// Whether edges of the mesh lead from a to b, all on the segment.
+/// True if edges of the mesh lead from a to b, all on the segment.
 bool is_chain(const std::vector<std::array<double, 4>>& edges, std::array<double, 2> a, std::array<double, 2> b) {
   const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
   double covered = 0;

@@ -75,7 +75,7 @@ struct RowScene {
   }
 };
 
-/// Whether the middle of two points lies in the surface, or on its outline.
+/// True if the middle of two points lies in the surface, or on its outline.
 bool is_on_surface(const Triangulation& tin, Point a, Point b) {
   const auto twice = [&](Vertex v) { return Point{2 * tin.point(v).x, 2 * tin.point(v).y}; };
   const Point middle{a.x + b.x, a.y + b.y};
@@ -175,7 +175,7 @@ RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   RC_ASSERT(streamed.has_value() == held.has_value());
   if (!held) return;
   RC_ASSERT(streamed->inserted == held->inserted);
-  // Beside nodata the outline is cut at every sample.
+  // Next to nodata the outline is cut at every sample.
   const bool is_whole =
       std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
   if (!is_whole) return;

@@ -1,5 +1,5 @@
-// Whether this is a sanitized build, many times slower: such a build looks for faults of memory and
-// arithmetic on the way, not for rare cases, and does with fewer cases and samples than Release.
+// True in a sanitized build, many times slower: such a build searches for faults of memory and arithmetic on the way,
+// not for rare cases, and does with fewer cases and samples than Release.
 #pragma once
 
 #if defined(__has_feature)

@@ -21,7 +21,7 @@ std::vector<TilePoint> random_points(const TileView& tile, std::mt19937& random,
   return points;
 }
 
-/// Whether all kernels agree with the twin about random triangles of the field.
+/// Checks that all kernels agree with the twin about random triangles of the field.
 void expect_agreement(const Field& field, std::uint32_t seed, int triangle_count, std::vector<double> thresholds) {
   std::mt19937 random(seed);
   const ScanTile tile(field);
@@ -88,7 +88,7 @@ RC_GTEST_PROP(scan_kernels_laws, agree_on_wild_heights, ()) {
 }
 
 // The error as a real number: heights · area is a sum of products that long double holds for heights of few bits, and
-// nearly holds otherwise (2⁻⁶⁴); the guard leaves that room.
+// nearly holds otherwise (2⁻⁶⁴); the guard includes that room.
 RC_GTEST_PROP(scan_kernels_laws, guard_bounds_the_rounding, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   std::mt19937 random(seed);

@@ -23,7 +23,7 @@ double length(const Mesh& mesh, std::uint32_t v, std::uint32_t w) {
                     mesh.positions[3 * v + 1] - mesh.positions[3 * w + 1]);
 }
 
-/// Of the corner of a triangle, in degrees.
+/// Angle at the corner of a triangle, in degrees.
 double angle(const Mesh& mesh, std::size_t corner) {
   const std::size_t t = corner / 3;
   const std::uint32_t apex = mesh.triangles[corner], v = mesh.triangles[3 * t + (corner + 1) % 3],
@@ -123,8 +123,7 @@ std::vector<Line> any_two_lines(const Field& field) {
   return lines;
 }
 
-/// The mesh, of samples in memory or of a source; the bound, soundness and what the report tells of it have been looked
-/// at.
+/// The mesh, of samples in memory or of a source; the bound, soundness and its report are checked.
 Simplified simplified(const HeightField& field, SimplifyOptions options) {
   const testing::ArraySource source(field);
   const bool is_streamed = *rc::gen::arbitrary<bool>();
@@ -152,7 +151,7 @@ RC_GTEST_PROP(shape, angles_that_theory_grants_hold_without_an_exception, ()) {
   view.frame = any_frame(field.rows);
   SimplifyOptions options = any_run();
   options.quality.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
-  // What comes after angles costs none.
+  // A goal that comes after angles costs none.
   if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_edge = *rc::gen::element(0.5, 2.0, 5.0);
   const Simplified result = simplified(view, options);
   // Corners of nodata have 45 degrees at least where samples are squares.
@@ -185,7 +184,7 @@ RC_GTEST_PROP(shape, edges_grow_no_faster_than_asked, ()) {
   SimplifyOptions options = any_run();
   options.quality.shape.grade = *rc::gen::element(0.05, 0.2, 1.0);
   if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_angle = 25;
-  // What comes after grade costs none.
+  // A goal that comes after grade costs none.
   if (*rc::gen::arbitrary<bool>())
     options.quality.shape.min_edge = longer_side(view.frame) * *rc::gen::element(0.7, 2.0, 6.0);
   if (*rc::gen::element(false, false, true)) {
@@ -332,7 +331,7 @@ RC_GTEST_PROP(shape, edges_that_are_too_short_are_counted_and_cost_no_promise, (
 }
 
 TEST(shape, vertices_for_angles_and_lengths_make_no_short_edge) {
-  // A plane with a peak: the bound needs its foot and its top, four samples apart; angles would go on from there.
+  // A plane with a peak: the bound needs its foot and its top, four samples apart; angles would continue from there.
   Field field = testing::random_field(1, 81, 81, testing::Relief::kRidges);
   std::fill(field.samples.begin(), field.samples.end(), 0.0f);
   field.samples[40 * 81 + 40] = 10;

@@ -1,4 +1,4 @@
-// Frames in space: what the judge says of meshes on a round earth, and that simplify() keeps its promise there.
+// Frames in space: the judge's results for meshes on a round earth, and that simplify() keeps its promise there.
 #include <gtest/gtest.h>
 
 #include <cmath>

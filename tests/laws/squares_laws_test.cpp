@@ -150,7 +150,7 @@ SimplifyOptions within(std::uint64_t triangles, Effort effort, Objective objecti
   return options;
 }
 
-/// Of very unlike curvature: a volcano on a plain of low waves.
+/// Land of very unlike curvature: a volcano on a plain of low waves.
 Field volcano() {
   Field field{200, 150, {}};
   for (int y = 0; y < field.rows; ++y) {

@@ -20,7 +20,7 @@ namespace {
 using testing::Field;
 using testing::Relief;
 
-constexpr double kRounding = 1e-6;  // of the test's own interpolation
+constexpr double kRounding = 1e-6;  // rounding of the test's own interpolation
 
 Field any_field(std::int32_t largest, std::vector<double> nodata = {0.0, 0.0, 0.1, 0.4}) {
   const auto cols = *rc::gen::inRange(2, largest), rows = *rc::gen::inRange(2, largest);
@@ -177,7 +177,7 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
         largest = std::max(largest, error);
       }
       if (!covered) continue;
-      // The test takes each field's worst triangle at a shared sample; all agree there up to rounding.
+      // The test uses each field's worst triangle at a shared sample; all agree there up to rounding.
       const double norm = options.goals.norm == Norm::kSum       ? sum
                           : options.goals.norm == Norm::kSquares ? std::sqrt(squares)
                                                                  : largest;
@@ -377,7 +377,7 @@ TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
                   1.5f);
 }
 
-/// A spike beside a corner, and a lower bump far from all corners: by the error the spike comes first, by the error
+/// A spike next to a corner, and a lower bump far from all corners: by the error the spike comes first, by the error
 /// times the distance the bump. One pass cannot rank by what depends on the mesh.
 TEST(features, distance_attenuates_errors_near_vertices) {
   Field field{33, 33, std::vector<float>(33 * 33, 0.0f)};

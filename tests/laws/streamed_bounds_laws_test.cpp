@@ -46,13 +46,13 @@ struct Scene {
     options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
     options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
     options.run.threads = *rc::gen::element(1, 2);
-    // Beyond what exact arithmetic tells from 0.
+    // Beyond values that exact arithmetic distinguishes from 0.
     const auto few = *rc::gen::element<std::size_t>(1 << 20, 7);
     for (std::size_t i = 0; i < bounds.size(); i += few) bounds[i] *= 1e-30f;
   }
   Scene(const Scene&) = delete;
 
-  /// What each sample is to keep, and a little for the judge's arithmetic.
+  /// The bound promised at each sample, and a little for the judge's arithmetic.
   std::vector<float> promised() const {
     std::vector<float> all = bounds;
     for (float& bound : all) {

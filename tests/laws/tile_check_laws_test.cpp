@@ -167,7 +167,7 @@ Compared expect_made_well(TileFormat format, const TileGrid& grid = {}) {
     for (const CheckedLevel& level : check.levels) {
       compared.edges += level.edges;
       EXPECT_TRUE(level.promised_bound && level.distance);
-      // All that was promised is needed somewhere: the nodes were really looked at.
+      // All that was promised is needed somewhere: the nodes were really checked.
       if (format == TileFormat::kQuantizedMesh && &level == &check.levels.back()) {
         EXPECT_NEAR(level.node_error.value_or(-1), level.promised_node_error.value_or(-2), 1e-6);
       }
@@ -220,7 +220,7 @@ T number_at(const Bytes& bytes, std::size_t at) {
   return value;
 }
 
-// Where things are in quantized-mesh.
+// Offsets in quantized-mesh.
 constexpr std::size_t kCentre = 0, kLow = 24, kHigh = 28, kRadius = 56, kHorizonAt = 64, kCount = 88, kVertices = 92;
 
 struct Planted {
@@ -326,7 +326,7 @@ TEST(tile_check, finds_a_set_whose_projection_is_not_that_of_its_tiles) {
   text.replace(text.find("EPSG:3857"), 9, "EPSG:4326");
   layer.assign(text.begin(), text.end());
   const TileCheck check = made.check();
-  // Vertices are not where spheres say, and a root is missing.
+  // Vertices lie outside their spheres, and a root is missing.
   EXPECT_GT(check.faults[static_cast<std::size_t>(TileFaultKind::kHeader)], 0u) << described(check);
   EXPECT_GT(check.faults[static_cast<std::size_t>(TileFaultKind::kAvailability)], 0u) << described(check);
   made.options.grid = kMercator;
@@ -438,7 +438,7 @@ TEST(tile_check, finds_skirts_that_hang_badly) {
   changed = placed;
   changed.feet[2].pop_back();
   expect(changed, "leaves out a part of an edge");
-  // As other programs' tiles.
+  // Like other programs' tiles.
   changed = placed;
   changed.feet = {};
   Made made = good;

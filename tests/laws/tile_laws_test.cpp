@@ -105,7 +105,7 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   };
   RC_ASSERT(places(errors.worst) == places(judged.offenders));
   tile.triangles.resize(tile.triangles.size() - 3);
-  // The judge forgives a node that lies beside a triangle by less than a 256th of a step.
+  // The judge forgives a node that lies outside a triangle by less than a 256th of a step.
   RC_ASSERT(scan_nodes(tile, nodes, limit).uncovered >= judge(tile, nodes, limit).uncovered);
 }
 
@@ -125,7 +125,7 @@ RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bou
   const double asked = plan.levels[static_cast<std::size_t>(z)].max_error;
   RC_ASSERT(kept->tile.max_error >= asked);
   if (free->bytes.size() <= plan.max_tile_bytes) RC_ASSERT(kept->bytes == free->bytes);
-  // What does not fit has nothing left to leave out.
+  // A tile that does not fit has nothing more to omit.
   if (kept->bytes.size() > plan.max_tile_bytes) {
     plan.max_tile_bytes = 1;
     const auto least = make_kept_tile(plan, id, land, encode);
@@ -160,7 +160,7 @@ std::vector<DegreeLine> any_lines(TileId id) {
   return lines;
 }
 
-/// Whether no edge of the mesh passes the straight way from one node of the level to another, but by rounding.
+/// True if no edge of the mesh passes the straight way from one node of the level to another, but by rounding.
 bool is_chain_of_edges(const QuantizedMesh& mesh, const std::array<TileLines::Node, 2>& step, int cells) {
   std::array<double, 4> way{};
   for (std::size_t k = 0; k < 2; ++k) {

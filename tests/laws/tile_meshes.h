@@ -1,4 +1,4 @@
-// What must hold of every mesh of a tile, said once, and how to look at it.
+// The laws of every mesh of a tile, written once, with access to its parts.
 #pragma once
 
 #include <fmt/format.h>
@@ -111,7 +111,7 @@ inline std::int64_t outside_area2(const Triangulation& tin) {
   return area2;
 }
 
-/// Whether a height of the triangle's plane, a mean of its corners' heights, is within the threshold by more than a few
+/// True if a height of the triangle's plane, a mean of its corners' heights, is within the threshold by more than a few
 /// roundings: exact arithmetic gives up where magnitudes differ wildly.
 inline bool is_clearly_kept(const std::array<Point, 3>& corners, const std::array<float, 3>& heights, Point p,
                             double sample, double threshold) {
@@ -125,7 +125,7 @@ inline bool is_clearly_kept(const std::array<Point, 3>& corners, const std::arra
 }
 
 /// A sample of the closed triangle that breaks the bound as a real number, or a corner that is nodata; "" if there is
-/// none. By looking at every sample of the bounding box.
+/// none. By scanning every sample of the bounding box.
 inline std::string find_broken_bound(const Raster& raster, const std::array<Point, 3>& corners, double threshold) {
   std::array<float, 3> heights;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -164,7 +164,7 @@ inline std::string find_broken_bound(const Raster& raster, const Triangulation& 
   return "";
 }
 
-/// A slope in float32: rounding alone tells its samples from a plane's.
+/// A slope in float32: rounding alone distinguishes its samples from a plane's.
 inline Field sloping_field(std::uint32_t seed, std::int32_t cols, std::int32_t rows) {
   std::mt19937 random(seed);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };

@@ -1,4 +1,4 @@
-// Which order suits a tile is a question to its samples alone.
+// The order that suits a tile depends on its samples alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(tile_order, is_dominant_where_the_mesh_is_dense_or_small) {
 }
 
 TEST(tile_order, is_dominant_where_nothing_can_be_told) {
-  EXPECT_EQ(order_of(noise(16, 4000)), TileOrder::kDominant);  // no sample has others far enough beside it
+  EXPECT_EQ(order_of(noise(16, 4000)), TileOrder::kDominant);  // no sample has others far enough from it
   Field empty = noise(257, 257);
   for (float& sample : empty.samples) sample = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(order_of(empty), TileOrder::kDominant);

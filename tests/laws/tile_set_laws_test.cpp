@@ -202,7 +202,7 @@ TEST(tile_sets, what_is_there_stays) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, ErrorKind::kOutput);
     EXPECT_TRUE(write_set(set, path, true));
-    // What does not say that it is Scarp's is not replaced.
+    // A set without Scarp's mark is not replaced.
     AnySet other = set;
     other.files["layer.json"] = bytes_of("{}");
     const std::string foreign = scratch.path("foreign" + ending);
@@ -217,7 +217,7 @@ TEST(tile_sets, what_is_there_stays) {
     fs::create_directory(scratch.path("folder" + ending));
     EXPECT_FALSE(write_set(set, scratch.path("folder" + ending), true));
   }
-  // What came to be meanwhile.
+  // A set that was created meanwhile.
   for (const std::string& ending : kEndings) {
     const std::string path = scratch.path("late" + ending);
     auto writer = create_tile_set(path, set.format, true);

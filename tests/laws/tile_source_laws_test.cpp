@@ -1,4 +1,4 @@
-// Laws of tiles and the samples of their source: what is said of them is what each sample says at its own place.
+// Laws of tiles and the samples of their source: claims about them hold for each sample at its own place.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -134,7 +134,7 @@ PyramidPlan plan_of(int finest, Effort effort) {
   return *plan_pyramid(facts, settings);
 }
 
-/// Beside cliffs the rounding of a place moves a height, and so does what a curved place has between exact ones.
+/// Next to cliffs the rounding of a place moves a height, and so does interpolation between exact places.
 double allowance(bool is_squeezed) { return is_squeezed ? 1.0 : 1e-3; }
 
 TEST(tile_source_laws, samples_that_are_bound_are_nearer_and_land_that_nodes_can_follow_keeps_the_max_error) {

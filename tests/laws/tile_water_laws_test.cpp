@@ -1,5 +1,5 @@
-// Laws of water in the nodes of tiles: a node is a function of its place alone, whatever window asks for it, and it is
-// what the polygons say.
+// Laws of water in the nodes of tiles: a node is a function of its place alone, whatever window asks for it, and it
+// follows the polygons.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -60,8 +60,8 @@ TileLake any_lake(double level) {
   return lake;
 }
 
-/// 1 in the polygon, −1 outside, 0 too near to tell: flatten_lakes() takes nodes within a 128th of an edge's line, just
-/// beyond its ends, too.
+/// 1 in the polygon, −1 outside, 0 too near to decide: flatten_lakes() includes nodes within a 128th of an edge's line,
+/// just beyond its ends, too.
 int side_of(const TileLake& lake, double col, double row) {
   bool is_inside = false, is_near = false;
   const auto& ring = lake.rings.front();

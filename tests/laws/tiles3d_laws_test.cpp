@@ -1,4 +1,4 @@
-// Laws of 3D Tiles: neighbours share vertices to the bit, bounds hold in space, and subtrees tell what is there.
+// Laws of 3D Tiles: neighbours share vertices to the bit, bounds hold in space, and subtrees list the tiles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -383,7 +383,7 @@ TEST(tiles3d_laws, every_node_is_within_the_bound_of_the_decoded_triangles) {
 
 bool is_set(std::span<const std::uint8_t> bits, std::size_t at) { return (bits[at / 8] >> (at % 8) & 1) != 0; }
 
-/// A subtree, read as the specification says.
+/// A subtree, read by the specification.
 class SubtreeReader {
  public:
   explicit SubtreeReader(const std::vector<std::uint8_t>& bytes) {
@@ -482,7 +482,7 @@ TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
       EXPECT_LE(length(minus(at, {facts.sphere[0], facts.sphere[1], facts.sphere[2]})), facts.sphere[3]);
     for (const double value : facts.horizon_point) EXPECT_TRUE(std::isfinite(value));
   }
-  // What is proven of each level is no more than the error that clients are told.
+  // The proven error of each level is no more than the error given to clients.
   const double error = tileset["root"]["children"][0]["geometricError"];
   for (std::size_t z = 0; z < made.report.levels.size(); ++z) {
     EXPECT_GE(std::ldexp(error, -static_cast<int>(z)),
@@ -490,7 +490,7 @@ TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
   }
 }
 
-/// An image whose colours tell the place of each pixel's middle.
+/// An image whose colours encode the place of each pixel's middle.
 class PlaceImage final : public GlobeImage {
  public:
   explicit PlaceImage(double per_degree) : per_degree_(per_degree) {}

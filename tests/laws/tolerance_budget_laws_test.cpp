@@ -1,4 +1,5 @@
-// Budgets where samples have bounds of their own: what fits is kept to, and one factor tells what every sample keeps.
+// Budgets where samples have bounds of their own: bounds that fit are kept, and one factor gives the bound that every
+// sample keeps.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -72,7 +73,7 @@ void expect_kept(const Scene& scene, const Simplified& made) {
   std::vector<float> kept = scene.bounds;
   for (float& bound : kept) {
     const double asked = std::min(double{bound}, scene.options.goals.max_error.value_or(HUGE_VAL));
-    // A tolerance of 0 that no factor keeps is told by an infinite factor.
+    // A tolerance of 0 that no factor keeps is reported as an infinite factor.
     const double least =
         std::isinf(asked) || std::isinf(made.tolerance_factor) ? HUGE_VAL : made.tolerance_factor * asked;
     bound = static_cast<float>(least * (1 + 1e-7) + 1e-9);

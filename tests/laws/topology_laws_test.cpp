@@ -1,4 +1,4 @@
-// What the border alone says about overlaps and T-junctions is what the search over all triangles says.
+// The border alone gives the same overlaps and T-junctions as the search over all triangles.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -61,7 +61,7 @@ Mesh spiral(double turns, double outwards, double width, double tilt) {
   return mesh;
 }
 
-/// Squares of two triangles each, turned by `tilt`; some triangles are left out, some vertices are moved.
+/// Squares of two triangles each, turned by `tilt`; some triangles are omitted, some vertices are moved.
 Mesh moth_eaten(std::mt19937& random, int side, unsigned holes, double moved, double tilt) {
   Mesh mesh;
   for (int y = 0; y <= side; ++y) {
@@ -100,7 +100,7 @@ RC_GTEST_PROP(topology_laws, borders_tell_what_the_search_tells, ()) {
   if (mesh.triangles.empty()) return;
   const bool is_quick = expect_agreement(mesh);
   if (holes == 0) RC_ASSERT(is_quick);
-  // A second piece over it, beside it, or touching it.
+  // A second piece over it, next to it, or touching it.
   const Mesh other = moth_eaten(random, 5, 0, 0, tilt);
   const double along = *rc::gen::element(0.0, 2.0, 2.5, 5.0, 40.0);
   const auto first = static_cast<std::uint32_t>(mesh.vertex_count());

@@ -1,4 +1,5 @@
-// Laws of views: several rasters as one, a part of one and coarser cells say what the rasters say, sample by sample.
+// Laws of views: several rasters as one, a part of one and coarser cells have the values of the rasters, sample by
+// sample.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -19,14 +20,14 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// What a raster says of its one band.
+/// The metadata of a raster's one band.
 struct Said {
   std::string type = "Float32", unit;
   double scale = 1, offset = 0;
   std::optional<double> nodata;
 };
 
-/// Where a raster lies, and what it is in.
+/// The position of a raster, and its units.
 struct Place {
   std::string crs = "EPSG:32617";
   double west = 500000, top = 4000000,
@@ -152,7 +153,7 @@ void expect_one_said(const RasterInfo& view, const RasterInfo& raster) {
   if (view.nodata) RC_ASSERT(text(moved(*view.nodata)) == text(moved(*raster.nodata)));
 }
 
-/// Either a value from outside takes the place of the declared one, or not.
+/// Either a value from outside replaces the declared one, or not.
 ReadOptions any_options() {
   ReadOptions options;
   options.crs = "source";

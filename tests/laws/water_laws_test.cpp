@@ -73,7 +73,7 @@ bool are_same(const std::vector<Lake>& a, const std::vector<Lake>& b) {
   });
 }
 
-/// Polygons of any kind, with and without holes, on one another, across the border and beside the raster.
+/// Polygons of any kind, with and without holes, on one another, across the border and outside the raster.
 std::vector<Line> any_lakes(const Field& field) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const auto between = [&](double low, double high) {
@@ -219,7 +219,7 @@ RC_GTEST_PROP(water, that_rivers_meet_in_a_source_is_that_in_memory, ()) {
   }
 }
 
-/// What find_flats() is to find, by flooding, each area's outline traced in a raster of its own.
+/// The expected result of find_flats(), by flooding, each area's outline traced in a raster of its own.
 std::vector<Lake> flood_flats(const Field& field, std::uint64_t min_samples) {
   std::vector<bool> is_seen(field.samples.size(), false);
   const auto index = [&](Point p) { return static_cast<std::size_t>(p.y * field.cols + p.x); };

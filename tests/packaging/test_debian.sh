@@ -1,7 +1,7 @@
 #!/bin/bash
-# Debian's packages: built from a tarball of this checkout, without a word from lintian, unpacked and used, installed and
-# removed again. Then the shared library of that build in a prefix that moves: found by CMake, by pkg-config, and by the
-# program beside it. Where Debian's tools are missing, the second alone.
+# Debian's packages: built from a tarball of this checkout, without a word from lintian, unpacked and used, installed
+# and removed again. Then the shared library of that build in a prefix that moves: found by CMake, by pkg-config, and by
+# the program next to it. Where Debian's tools are missing, the second alone.
 . "$(dirname "$0")/../program/lib.sh"
 need c++ cmake
 source_tree=$SCARP_SOURCE
@@ -86,13 +86,13 @@ if has_debian; then
   version=$(sed -n 's/^project(scarp VERSION \([0-9.]*\).*/\1/p' "$source_tree/CMakeLists.txt")
   head -n 1 "$source_tree/debian/changelog" | grep -qF "scarp ($version-" || fail "debian/changelog has another version"
   grep -qxF "  version: $version" "$source_tree/packaging/conda/meta.yaml" || fail "packaging/conda/meta.yaml has another version"
-  # Of the packages that the build needs. make and g++ are build-essential.
+  # All packages that the build needs. make and g++ are build-essential.
   awk '$1 == "build" { print $2 }' "$source_tree/tools/packages.txt" | grep -vxE 'make|g\+\+' | while read -r package; do
     sed -n '/^Build-Depends:/,/^[A-Z].*:/p' "$source_tree/debian/control" | grep -qwF "$package" ||
       fail "$package is no Build-Depends"
   done
   succeeds "$source_tree/tools/source_tarball.sh" .
-  # What is not optimized compiles in a third of the time.
+  # Code that is not optimized compiles in a third of the time.
   export DEB_BUILD_OPTIONS="nocheck noopt noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$scratch/page.html
   echo "<!DOCTYPE html>" > "$SCARP_VIEWER_PAGE"
   JOBS=$jobs try "$source_tree/tools/debian_packages.sh" "scarp-$version-source.tar.gz" "$work"

@@ -1,8 +1,8 @@
 #!/bin/bash
-# For `make soak`, since it takes as long as a build. Each source of the library and the program includes what it needs:
+# For `make soak`, since it runs as long as a build. Each source of the library and the program includes what it needs:
 # elsewhere sources are compiled in batches, where one lives on the headers of its neighbours until the batches change.
-# tools/check_includes.py finds most missing includes in a second. The compiler only looks (-fsyntax-only), half the time
-# of compiling; a second run looks at what has changed since.
+# tools/check_includes.py finds most missing includes in a second. The compiler only checks (-fsyntax-only), half the
+# time of compiling; a second run checks files that have changed since.
 set -euo pipefail
 folder=$SCARP_BUILD/each_source
 touch_target="<CMAKE_COMMAND> -E touch <TARGET>"

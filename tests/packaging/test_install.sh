@@ -1,5 +1,5 @@
 #!/bin/bash
-# What `make install` installs is complete and usable from outside the tree: by find_package, by pkg-config, by hand.
+# The files of `make install` are complete and usable from outside the tree: by find_package, by pkg-config, by hand.
 # Scarp inside another project (add_subdirectory) works without GDAL; illegal options fail to configure.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}

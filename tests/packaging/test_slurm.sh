@@ -10,8 +10,8 @@ host=${host%%.*}
 mkdir -p slurm/state slurm/log slurm/run
 export SLURM_CONF=$PWD/slurm/slurm.conf
 
-# A cluster on loopback. A machine without control groups, or with those of systemd, starts its nodes too: what is asked
-# for is the plugin that looks at none before it is used.
+# A cluster on loopback. A machine without control groups, or with those of systemd, starts its nodes too: the plugin
+# that is asked for uses none before it is needed.
 configure() {
   read -r -a ports <<< "$(python3 - <<'PYTHON'
 # Four free ports, below those that the system gives to whoever asks for any.
@@ -70,12 +70,12 @@ stop() {
   wait "${daemons[@]}" 2> /dev/null || true
   daemons=()
 }
-# lib.sh takes the folder away when the test ends.
+# lib.sh removes the folder when the test ends.
 ends=$(trap -p EXIT | sed "s/^trap -- '//; s/' EXIT$//")
 trap 'stop; eval "$ends"' EXIT
 
 all_idle() { sinfo -h -o '%t %D' 2> /dev/null | grep -q "^idle 3"; }
-# Another program may take a port before its daemon does: three attempts.
+# Another program may open a port before its daemon does: three attempts.
 for _ in 1 2 3; do
   configure
   slurmctld -D > slurm/log/ctld.out 2>&1 & daemons+=($!)

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   scarp::Mesh colored = scarp::test::grid_mesh(
       20, 30, [](int, int) { return true; }, true);
   scarp::test::add_attributes(colored, 4);
-  scarp::Mesh photo = colored;  // channels that its colours say
+  scarp::Mesh photo = colored;  // channels that its colours hold
   photo.channel_count = 3;
   photo.channels.assign(photo.colors.begin(), photo.colors.end());
   photo.uvs.clear();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants a fault in a set of tiles, without any of Scarp's code.
 
-  break_tiles.py FAULT PATH: changes the file (a tile of quantized-mesh, or a set in one file) as FAULT says.
+  break_tiles.py FAULT PATH: changes the file (a tile of quantized-mesh, or a set in one file) by FAULT.
 """
 
 import gzip
@@ -32,7 +32,7 @@ def heights(data):
 
 
 def normals(data):
-    """Of all vertices: a bit of the last bytes."""
+    """Normals of all vertices: a bit of the last bytes."""
     count, = struct.unpack_from("<I", data, COUNT)
     for at in range(len(data) - 2 * count, len(data), 2):
         data[at] ^= 16

@@ -1,4 +1,5 @@
-"""GeoTIFFs as GDAL writes them: the viewer's page makes of each the mesh that the program makes, or says in a sentence why not.
+"""GeoTIFFs as GDAL writes them: the viewer's page makes of each the mesh that the program makes, or explains in a
+sentence why not.
 
 usage: dropped_geotiffs.py DEM SCARP NODE GEOTIFFS.MJS SOURCES NPM_PACKAGE
 """
@@ -33,7 +34,7 @@ def read_glb(name):
 
 
 def make(name, *words, source="base.tif", says=None):
-    """`says`: what the sentence holds of a file that the page refuses."""
+    """`says`: part of the sentence about a file that the page refuses."""
     gdal("gdal_translate", *words, source, f"{name}.tif")
     if says:
         refused[f"{name}.tif"] = says
@@ -76,7 +77,7 @@ for packing in ("NONE", "LZW", "DEFLATE", "PACKBITS", "ZSTD", "LERC", "LERC_DEFL
             tiled = ("TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16") if (kind == "Int16") == (order == "BIG") else ("BLOCKYSIZE=7",)
             predictor = () if packing not in ("LZW", "DEFLATE", "ZSTD") else ("PREDICTOR=2",) if kind == "Int16" else ("PREDICTOR=3",)
             if order == "BIG" and kind == "Float64":
-                predictor = ()  # which GDAL 3.6 itself reads as other numbers than it was given
+                predictor = ()  # GDAL 3.6 itself reads it as other numbers than it was given
             says = "big-endian numbers packed by LERC" if order == "BIG" and "LERC" in packing else None
             make(f"{packing}_{kind}_{order}", "-ot", kind, *create(f"COMPRESS={packing}", f"ENDIANNESS={order}", *tiled, *predictor), source="real.asc", says=says)
 for order in ("LITTLE", "BIG"):
@@ -118,7 +119,7 @@ for order in ("LITTLE", "BIG"):
     make(f"sparse_{order}", "-ot", "Float32", *create("SPARSE_OK=TRUE", "TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16", f"ENDIANNESS={order}"), source="holes.tif")
 make("sparse_zeros", *create("SPARSE_OK=TRUE", "TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16", "COMPRESS=DEFLATE"), source="shown.asc")
 
-# Where it lies.
+# Their positions.
 make("point", "-mo", "AREA_OR_POINT=Point")
 make("degrees", "-a_srs", "EPSG:4979", "-a_ullr", "9.9", "10.2", "9.951", "10.15")
 make("feet", "-a_srs", "EPSG:2264", "-a_ullr", "1000", "9000", "1610", "8530")
@@ -129,7 +130,7 @@ open("turned.vrt", "w", encoding="utf-8").write(text[:first] + "<GeoTransform>50
 make("turned", source="turned.vrt")
 make("turned_point", "-mo", "AREA_OR_POINT=Point", source="turned.vrt")
 
-# What the page does not read.
+# Files that the page does not read.
 make("jpeg", "-ot", "Byte", *create("COMPRESS=JPEG"), says="compression 7")
 make("lzma", *create("COMPRESS=LZMA"), says="compression 34925")
 make("complex", "-ot", "CFloat32", says="complex")

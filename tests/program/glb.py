@@ -1,4 +1,4 @@
-"""Takes a GLB apart: glb.py FILE image N OUT writes its image N; glb.py FILE json prints its JSON."""
+"""Splits a GLB: glb.py FILE image N OUT writes its image N; glb.py FILE json prints its JSON."""
 import json
 import struct
 import sys

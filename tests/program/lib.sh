@@ -1,4 +1,4 @@
-# What the tests of the program share. Source it first; the test then runs in an empty scratch folder.
+# Common parts of the program's tests. Source it first; the test then runs in an empty scratch folder.
 #
 #   $scarp   the program          $dem    the bundled raster (403 x 344, int16, 236 .. 1076 m, EPSG:4326)
 #   $data    the project's data   $logs   stdout and stderr of the last `try`, outside the scratch folder
@@ -14,7 +14,7 @@ mkdir "$root/run" "$logs"
 trap 'rm -rf "$root"' EXIT
 cd "$root/run"
 
-# The interpreter itself: what a version manager puts in its place takes longer to start than most programs here to run.
+# The interpreter itself: the substitute of a version manager needs longer to start than most programs here to run.
 if command -v python3 > /dev/null; then
   python_program=$(python3 -c 'import sys; print(sys.executable)')
   python3() { "$python_program" "$@"; }
@@ -24,7 +24,7 @@ fail() {
   echo "FAILED: $*" >&2
   if [ -s "$logs/err" ]; then
     sed 's/^/  stderr: /' "$logs/err" >&2
-  elif [ -s "$logs/out" ]; then  # what tests of node say
+  elif [ -s "$logs/out" ]; then  # messages of node's tests
     { grep -EA 12 '^(not ok|✖)' "$logs/out" || tail -n 20 "$logs/out"; } | tail -n 20 | sed 's/^/  stdout: /' >&2
   fi
   exit 1
@@ -42,8 +42,8 @@ need() {
   done
 }
 
-# npm_judges PACKAGE...: the foreign readers of tests/js, which npm installs into $js once for all tests; false, and a line
-# that says so, where they cannot be had.
+# npm_judges PACKAGE...: the foreign readers of tests/js, which npm installs into $js once for all tests; false, and a
+# line that reports it, where they cannot be had.
 js=$SCARP_BUILD/js
 npm_judges() {
   local package
@@ -91,8 +91,8 @@ names_port() {
   [ -n "$port" ]
 }
 
-# run_within MEGABYTES COMMAND...: the command's exit code, and a failure if it takes more memory at any moment. What a
-# sanitizer takes is not the program's, and not looked at.
+# run_within MEGABYTES COMMAND...: the command's exit code, and a failure if it uses more memory at any moment. A
+# sanitizer's memory is not the program's, and not checked.
 run_within() {
   local most=$1
   shift
@@ -137,7 +137,7 @@ holds() {
   awk "BEGIN { exit !($1) }" || fail "does not hold: $1"
 }
 
-# Makes a raster that takes the engine some seconds: the bundled one, enlarged 10 x 10.
+# Makes a raster that keeps the engine busy for some seconds: the bundled one, enlarged 10 x 10.
 make_big_raster() {
   need gdal_translate
   gdal_translate -q -r cubic -ot Float32 -outsize 1000% 1000% "$dem" "$1"

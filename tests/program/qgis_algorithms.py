@@ -36,7 +36,7 @@ registry = QgsApplication.processingRegistry()
 
 
 class Feedback(QgsProcessingFeedback):
-    """Keeps what it is told; cancels at the first progress if asked to."""
+    """Keeps its messages; cancels at the first progress if asked to."""
 
     def __init__(self, cancels=False):
         super().__init__()
@@ -88,7 +88,7 @@ for row in rows:
     assert (name in offered) == (row["group"] != "Scattered points"), name
     assert name not in offered or offered[name].help() == row["help"], name
 
-# A mesh layer with as many faces as the report says; the file is the one that the program makes.
+# A mesh layer with as many faces as in the report; the file is the one that the program makes.
 feedback = Feedback()
 made = processing.run(
     "scarp:rastertomesh",

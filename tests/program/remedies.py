@@ -2,8 +2,9 @@
 
 usage: remedies.py SCARP SOURCE EXAMPLES [NAME...]     (in an empty folder)
 
-Each row of remedies_table.py makes a situation, runs Scarp, takes the remedy out of what it prints, does it, and goes on
-to a result. Then each sentence of the sources that names a command or an option must have been printed by some row.
+Each row of remedies_table.py makes a situation, runs Scarp, extracts the remedy from its output, applies it, and
+continues to a result. Then each sentence of the sources that names a command or an option must have been printed by
+some row.
 """
 import os
 import pathlib
@@ -156,7 +157,7 @@ def main():
     chosen = sys.argv[4:]
     base = root / "base"
     base.mkdir()
-    (root / "programs").mkdir()  # what stands for programs that are not installed
+    (root / "programs").mkdir()  # stand-ins for programs that are not installed
     shutil.copy(source / "tests/program/pdal.py", root / "programs/pdal")
     (root / "programs/pdal").chmod(0o755)
     for file in examples.iterdir():

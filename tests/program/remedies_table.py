@@ -1,8 +1,8 @@
-"""The remedies that Scarp's sentences name, each with a situation. remedies.py says how a row is tried.
+"""The remedies that Scarp's sentences name, each with a situation. remedies.py describes how a row is tried.
 
-C: a command. It is taken out of what `run` prints (the one with the number `way`), `fill` stands for its words in capitals,
-it is done, and `run` is repeated with the new file in place of the old one, or `then`.
-O: an option. What `run` prints holds `says`, and `then`, which does as told, ends well.
+C: a command. It is extracted from the output of `run` (the one with the number `way`), `fill` stands for its words in
+capitals, it is done, and `run` is repeated with the new file in place of the old one, or `then`. O: an option. The
+output of `run` holds `says`, and `then`, which follows it, succeeds.
 """
 
 import json
@@ -85,7 +85,7 @@ def unit(source, name, word):
     return f"gdal_translate -q -of VRT {source} '{name}'; sed -i 's#<VRTRasterBand[^>]*>#&<UnitType>{word}</UnitType>#' '{name}'; "
 
 
-# Where a raster lies.
+# The position of a raster.
 C("asc in degrees", "scarp simplify d.asc o.glb -e 20", ASC)
 C("png in degrees", "scarp simplify d.png o.glb -e 20", "gdal_translate -q -of PNG -co WORLDFILE=YES -ot UInt16 dem.tif d.png; rm d.png.aux.xml")
 C("a name with blanks", "scarp simplify 'my dem.asc' o.glb -e 20", ASC + "; mv d.asc 'my dem.asc'")
@@ -143,7 +143,7 @@ C("a type that makes no mosaic", "scarp info utm.tif 'complex east.tif'", "gdal_
 C("south up", "scarp info 'south up.vrt' utm_east.tif", "gdal_translate -q -of VRT utm.tif 'south up.vrt'; sed -i 's#<GeoTransform>.*</GeoTransform>#<GeoTransform>740000, 90, 0, 4016760, 0, 90</GeoTransform>#' 'south up.vrt'", says="begin at different sides")
 C("once around, beside the grid", "scarp info 'one end.tif' 'other end.tif'", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 152 40 180 33 dem.tif 'one end.tif'; gdal_translate -q -a_srs EPSG:4326 -a_ullr -179.8 40 -151.8 33 dem.tif 'other end.tif'", says="on the other side of the end of x")
 
-# What a raster holds.
+# The contents of a raster.
 C("complex numbers", "scarp simplify complex.tif o.glb -e 20", "gdal_translate -q -ot CFloat32 dem.tif complex.tif")
 C("beyond float32", "scarp simplify beyond.tif o.glb -e 20%", "gdal_translate -q -ot Float64 -a_nodata none -scale 0 1 0 1e37 dem.tif beyond.tif")
 O("beyond float32, nodata", "scarp simplify one.vrt o.glb -e 20", "give --nodata ", "scarp simplify one.vrt o.glb -e 20 --nodata $(scarp simplify one.vrt o.glb -e 20 2>&1 | grep -o 'nodata [^,]*' | cut -d' ' -f2)", lut("one.vrt", "0:0,934:934,935:1e39,936:936,2000:2000", "-ot Float64"))
@@ -332,7 +332,7 @@ O("a format of images", "scarp tile dem.tif g --of 3dtiles -e 20 --zoom 9 --vert
 O("a set that is there", FLAT, "or --overwrite", FLAT + " --overwrite", FLAT + " -q")
 O("planets", "scarp tile dem.tif mars.tif g -e 20 --zoom 9 --vertical ellipsoid", "or --ellipsoid", "scarp tile dem.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs '+proj=longlat +a=3396190 +b=3376200' east.tif mars.tif")
 
-# What is left of the tiles' commands.
+# The rest of the tiles' commands.
 PLAN = "scarp tile plan utm.tif plan.json --grid local -e 20 --cells 16 --vertical ellipsoid"
 O("the next commands of a plan", PLAN, "next: scarp tile run plan.json --shard 1/1.* then scarp tile finish plan.json OUTPUT", PLAN + " -q && scarp tile run plan.json --shard 1/1 -q && scarp tile finish plan.json g")
 O("a damaged part", "scarp tile finish plan.json g", r"is damaged: delete it, and make its blocks again \(scarp tile run PLAN\)", "rm plan.parts/*.part; scarp tile run plan.json -q; scarp tile finish plan.json g",
@@ -350,7 +350,7 @@ O("feet up", "scarp simplify feet.vrt o.obj -e 20 --crs EPSG:32616", "--z-scale 
 O("a port in use", "scarp serve plan.json --port $(cat port)", "by --port, or 0 for any", "timeout 2 scarp serve plan.json --port 0; [ $? = 124 ]",
   "scarp tile plan dem.tif plan.json -e 20 --zoom 9 --cells 16 --vertical egm96 -q; python3 -c \"import socket,time; s=socket.socket(); s.bind(('127.0.0.1',0)); s.listen(); print(s.getsockname()[1],flush=True); time.sleep(20)\" > port 2> /dev/null & until [ -s port ]; do sleep 0.05; done")
 
-# Space, prints, what measure and view say.
+# Space, prints, messages of measure and view.
 O("a pole in space", "scarp simplify pole.tif o.glb -e 20 --crs enu", "with --te", "scarp simplify pole.tif o.glb -e 20 --crs enu --te 1 80 30 85", "gdal_translate -q -a_srs EPSG:4326 -a_ullr 0 100 40 80 dem.tif pole.tif")
 O("half the earth in space", "scarp simplify wide.tif o.glb -e 20 --crs EPSG:4978", "cut that off with --te", "scarp simplify wide.tif o.glb -e 20 --crs EPSG:4978 --te 0 65 40 80", "gdal_translate -q -a_srs EPSG:4326 -a_ullr -170 89 170 62 dem.tif wide.tif")
 O("far from the middle in space", "scarp simplify wide.tif o.glb -e 20 --crs enu", "take it in parts with --te", "scarp simplify wide.tif o.glb -e 20 --crs enu --te 0 -10 40 10", "gdal_translate -q -a_srs EPSG:4326 -a_ullr -80 30 80 -30 dem.tif wide.tif")
@@ -373,8 +373,9 @@ O("the extent of a synthetic raster", "scarp generate smooth 9 9 a.tif --te 1 2 
 
 # Parts of sentences that other tests make, or that name no way out.
 NOT_RUN = [
-    "filling its nodata needs all samples in memory",  # of the library: the program refuses --nodata-policy before
-    # Of view, whose page is built by npm: test_view.sh.
+    "filling its nodata needs all samples in memory",  # message of the library: the program refuses --nodata-policy
+                                                       # before
+    # Messages of view, whose page is built by npm: test_view.sh.
     "is too large for a page", "the finest level of the page is", "is not whole:", "and a page judges by a raster alone",
     "options of a raster are given", "is a set of tiles, which is shown without a raster",
 ]

@@ -146,7 +146,7 @@ for first in (b"Content-Length: %d\r\n\r\n%s" % (len(behind), behind),
     two = raw(b"GET /layer.json HTTP/1.1\r\nHost: x\r\n" + first + last)
     assert two.startswith(b"HTTP/1.1 200") and two.count(b"\nDate: ") == 2 and two.count(b"HTTP/1.1 404") == 1, first
 
-# Those who dawdle hold up nobody, and are dropped.
+# Slow clients hold up no other client, and are dropped.
 idle = [socket.create_connection(("127.0.0.1", port), timeout=600) for _ in range(200)]
 slow = socket.create_connection(("127.0.0.1", port), timeout=600)
 

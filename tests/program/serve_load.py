@@ -22,7 +22,7 @@ kept = {name: (folder / name).read_bytes() for name in names}
 hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
 hard = 20000 if hard == resource.RLIM_INFINITY else hard
 resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
-# 5,000 connections at most, where the system lets this process have them.
+# 5,000 connections at most, if the system allows this process so many.
 share = min(1.0, (hard - 100) / 6000)
 
 
@@ -116,7 +116,7 @@ for k, one in enumerate(friends):
         answer = read_answer(one)
     assert answer == (200, kept[want])
 
-# Beside them: those who send a byte now and then, heads without an end, and headers without number;
+# Next to them: clients that send a byte now and then, heads without an end, and headers without number;
 slow = [connect() for _ in range(count(500))]
 for letter in b"GET /layer.json HT":
     for one in slow:

@@ -38,7 +38,7 @@ names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.t
 kept = {name: (folder / name).read_bytes() for name in names}
 finished = json.loads((folder / "layer.json").read_text())
 
-# The same tiles, and the bound of each where all nodes were looked at.
+# The same tiles, and the bound of each where all nodes were examined.
 connection = connect()
 layer = json.loads(ask(connection, "/layer.json").data)
 assert layer["available"] == finished["available"] and layer["bounds"] == finished["bounds"]
@@ -62,7 +62,7 @@ def compare_all():
     return estimated
 
 
-# Whether or not the coarse levels are prepared by now; and surely afterwards.
+# Holds before the coarse levels are prepared, and surely afterwards.
 assert compare_all() <= set(range(blocks))
 if server is not None:
     deadline = time.monotonic() + 600

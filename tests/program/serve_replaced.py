@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A set that another one takes the place of while it is served.
+"""A set that is replaced while it is served.
 
   serve_replaced.py PORT OLD NEW COMMAND...: OLD and NEW are folders with the tiles of the two sets; the command puts the
   new one in place. Both are asked for all the time; afterwards only the new one is there.

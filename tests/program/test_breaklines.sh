@@ -34,7 +34,7 @@ for lines in soft hard ring ugly; do
     python3 "$SCARP_SOURCE/tests/program/walk_lines.py" "${lines}1.obj" "$lines.geojson" 160 120 || fail "$lines lines are not in the mesh of $effort effort"
     holds "$(json r.json max_error) <= 12"
     [ "$(json r.json topology sound)" = true ] || fail "$lines lines and $effort effort make an unsound mesh"
-    # A soft line leaves the raster as it is.
+    # A soft line does not change the raster.
     if [ "$lines" = soft ]; then
       [ "$(json r.json breaklines edited_samples)" = 0 ] || fail "soft lines change samples"
       succeeds "$scarp" measure hills.tif soft1.obj --fail-above 12
@@ -47,7 +47,7 @@ succeeds "$scarp" simplify hills.tif level.obj -e 12 --up z --breaklines soft.ge
 succeeds "$scarp" simplify hills.tif both.glb -e 12 --breaklines soft.geojson --breaklines ring.geojson --report r.json --overwrite
 [ "$(json r.json breaklines laid)" = 4 ] || fail "not all lines of two files are inserted"
 
-# Lines that nobody gave heights: told in numbers, with a way out that works.
+# Lines without heights: reported in numbers, with a way out that works.
 python3 - <<'PYTHON'
 import json
 def line(points): return {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": points}}
@@ -68,7 +68,7 @@ succeeds "$scarp" simplify high.tif zero.obj -e 12 --breaklines zero.geojson --s
 ! grep -q "from the raster" "$logs/err" || fail "a line on the raster is warned of"
 succeeds "$scarp" measure high.tif zero.obj --fail-above 12 -q
 
-# What cannot be is refused, by name.
+# Impossible requests are refused, by name.
 refuses 2 "cross.geojson" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson
 for rule in first mean highest; do
   succeeds "$scarp" simplify hills.tif "$rule.obj" -e 12 --up z --breaklines cross.geojson --line-conflict "$rule"
@@ -91,7 +91,7 @@ succeeds "$scarp" simplify low.tif low.obj -e 0.5 --breaklines low.geojson --ove
 grep -Eq "warning: --breaklines: low.geojson feature 0 lies up to 4[0-9.]* from the raster, and all its heights are 0" "$logs/err" ||
   fail "a line at height 0 on low land cuts a trench without a word"
 
-# A height that no float32 holds; lines far from the raster, which is told; a file that says that its CRS is undefined.
+# A height that no float32 holds; lines far from the raster, which is reported; a file that declares its CRS undefined.
 python3 - <<'PYTHON'
 import json
 def line(name, points):
@@ -113,7 +113,7 @@ fi
 
 refuses 2 "missing.gpkg" "$scarp" simplify hills.tif x.glb -e 12 --breaklines missing.gpkg
 
-# Where the grid is bent no line is straight: the option is named, and the way out.
+# No line is straight on a bent grid: the option is named, and the way out.
 python3 - <<'PYTHON'
 import json
 line = {"type": "LineString", "coordinates": [[-84.40, 36.20], [-84.10, 36.40]]}

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --cliff: walls take tens of triangles, the bound holds, and the report tells of them.
+# --cliff: walls need tens of triangles, the bound holds, and the report lists them.
 source "$(dirname "$0")/lib.sh"
 need python3
 
@@ -37,7 +37,7 @@ succeeds "$scarp" simplify house.asc none.obj -e 0.5
 [ "$(json high.json cliffs walls)" = 0 ] || fail "a wall where there is none"
 [ "$(grep -vc '^#' high.obj)" = "$(grep -vc '^#' none.obj)" ] || fail "--cliff changes a mesh without cliffs"
 
-# Beside other lines: walls stay away from them.
+# With other lines: walls stay away from them.
 cat > road.geojson << 'JSON'
 {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
   {"type": "LineString", "coordinates": [[1002, 2010], [1190, 2160]]}}]}

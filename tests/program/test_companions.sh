@@ -48,7 +48,7 @@ make_raster half.tif 0.5
 succeeds "$scarp" simplify fine.tif fine.glb -e 1000 --mask half.tif --report s.json --overwrite
 holds "$(json s.json max_error) + $(json s.json sample_rounding) <= 2000"
 
-# Tolerances are a goal of their own, alone or beside an error.
+# Tolerances are a goal of their own, alone or with an error.
 succeeds "$scarp" simplify "$dem" t.glb --tolerance bounds.tif --report s.json --overwrite
 grep -q '^Kept every tolerance, after [0-9.]* s$' "$logs/out" || fail "the summary does not tell that tolerances are kept"
 succeeds "$scarp" measure "$dem" t.glb --tolerance bounds.tif --json
@@ -88,7 +88,7 @@ gdal_translate -q -a_scale 1e38 tiny.tif endless.tif
 succeeds "$scarp" simplify "$dem" endless.obj --tolerance endless.tif
 grep -q '^scarp: warning: endless.tif: 688 values are infinite or too large for a float32 and taken as no value$' "$logs/err" ||
   fail "the warning does not tell of the file's values"
-# A budget without room for samples of tolerance 0 breaks some, and says so.
+# A budget without room for samples of tolerance 0 breaks some, and reports it.
 make_raster strict.tif '0 if row % 3 == 0 else nan'
 succeeds "$scarp" simplify "$dem" strict.obj -t 500 --tolerance strict.tif --report s.json --overwrite
 [ "$(json s.json tolerance_factor)" = '"inf"' ] || fail "samples of tolerance 0 are said to be kept"
@@ -101,7 +101,7 @@ grep -qE "^v 10 [0-9.]+ -323" scripted.obj && grep -qE "^v 11 [0-9.]+ -323" scri
 holds "$(json s.json ignored) == 2"
 succeeds "$scarp" simplify "$dem" scripted.ply -e 20 --script steps.txt
 grep -q 'ignored  *2 samples without a bound' "$logs/out" || fail "the summary does not tell what is ignored"
-# Where the script is right that a sample is an outlier, the rest is bounded, whatever else weighs.
+# If the script is right that a sample is an outlier, the rest is bounded, whatever else weighs.
 make_raster spiked.tif '900 if (col, row) == (150, 150) else 300 + col / 4 + row % 3'
 printf 'i 150 150\n' > steps.txt
 for more in "" "--mask ones.tif" "--batch const"; do
@@ -147,13 +147,13 @@ succeeds "$scarp" measure spots.tif spots.glb --fail-above 6 --image --script st
 cp "$logs/out" m.json
 same combined_max_error bounded_max_error ignored
 holds "$(json m.json combined_max_error) > 100 && $(json m.json bounded_max_error) <= 6"
-# Weights of 0 are left out as well.
+# Weights of 0 are ignored as well.
 succeeds "$scarp" simplify "$dem" masked.glb -e 20 --mask weights.tif --report s.json --overwrite
 succeeds "$scarp" measure "$dem" masked.glb --mask weights.tif --json
 cp "$logs/out" m.json
 same max_error bounded_max_error
 
-# What does not fit is refused, with the way out.
+# A file that does not fit is refused, with the way out.
 gdal_translate -q -outsize 100 100 weights.tif small.tif
 refuses 2 "--mask small.tif is 100 x 100 samples instead of 403 x 344" simplify -e 20 --mask small.tif
 refuses 2 "first (gdalwarp -te -84.41375" simplify -e 20 --mask small.tif

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# --mask, --script, --normals, --error-raster, --map and --preview with --memory: weights, ignored samples and neighbours are read
-# in windows beside heights that stay in their file, errors and pictures go to their files by rows. What they say of a
-# mesh is what they say in memory, to the last bit; the bytes are those of any number of threads; the memory is enough.
+# --mask, --script, --normals, --error-raster, --map and --preview with --memory: weights, ignored samples and
+# neighbours are read in windows while heights stay in their file, errors and pictures go to their files by rows. Their
+# results for a mesh are those in memory, to the last bit; the bytes are those of any number of threads; the memory is
+# enough.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalinfo
 
@@ -21,7 +22,7 @@ with open("long.txt", "w") as script:
     for k in range(200000): print("i", k % 500, k // 500, file=script)
 PYTHON
 
-small=74 # of which the samples, 1.2 MB, may take 1, so they stay in their file, and strips are low
+small=74 # the samples, 1.2 MB, may use 1 of it, so they stay in their file, and strips are low
 same() { # same A B KEY...: the reports agree
   python3 -I -S - "$@" <<'PYTHON' || fail "the figures are not those in memory"
 import json, sys
@@ -77,7 +78,7 @@ grep -q "cannot write full.tif" "$logs/err" || fail "the sentence does not name 
 [ "$(wc -l < "$logs/err")" = 1 ] || fail "not one line on stderr"
 [ -z "$(find . -name '.scarp-*' -o -name 'full*' -o -name w.tif)" ] || fail "files are left"
 
-# Blocks of other sizes than the heights' beside them: of weights that are read, and of what is written.
+# Blocks of other sizes than the heights' with them: of weights that are read, and of what is written.
 gdal_translate -q -ot Int16 -a_nodata none -co TILED=YES -outsize 1500 6000 smooth.tif tall.tif
 gdal_translate -q -ot Byte -a_nodata none -co TILED=YES -scale 0 300 0 200 -outsize 1500 6000 smooth.tif heavy.tif
 within 86 "$scarp" simplify tall.tif tall.obj -e 20 --error-raster tall_errors.tif --memory 86M -j 2
@@ -109,7 +110,7 @@ for memory in "--memory ${small}M" ""; do
 done
 same coarse0.json coarse12.json weighted_max_error weighted_rmse bounded_max_error max_error
 
-# What cannot be is refused before the work.
+# Impossible requests are refused before the work.
 refuses 2 "--mask broken.tif: the value -" "$scarp" simplify hills.tif x.obj -e 20 --mask broken.tif --memory "${small}M"
 refuses 2 "gdal_translate" "$scarp" simplify hills.tif x.obj -e 20 --mask narrow.tif --memory "${small}M"
 refuses 1 "--memory is too little: --script takes 20M" "$scarp" simplify hills.tif x.obj -e 20 --script long.txt --memory "${small}M"

@@ -37,7 +37,7 @@ refuses 2 "no attribute 'Z_M'" "$scarp" simplify contours.gpkg x.glb -e 5 --z-fi
 succeeds "$scarp" info contours.gpkg
 grep -q '^  lines ' "$logs/out" || fail "info does not count the lines"
 
-# What cannot be, in one sentence.
+# Impossible requests, in one sentence.
 collection() { echo "{\"type\":\"FeatureCollection\",\"features\":[$1]}"; }
 line() { echo "{\"type\":\"Feature\",\"properties\":{\"ELEV\":$1},\"geometry\":{\"type\":\"LineString\",\"coordinates\":$2}}"; }
 collection "$(line 10 '[[0,0],[1,1]]'),$(line 20 '[[0,1],[1,0]]')" >crossing.geojson

@@ -77,7 +77,7 @@ refuses 1 "--double is for PLY" "$scarp" simplify utm.tif out.glb -e 20 --double
 succeeds "$scarp" simplify utm.tif there.obj -e 20 --crs 3857 --report r.json --overwrite
 [ "$(json r.json frame crs) $(json r.json frame to_source)" = '"EPSG:3857" null' ] || fail "3857 is not EPSG:3857"
 
-# Which axis is up, and files that do not say it.
+# The axis that is up, and files that do not declare it.
 for format in obj ply stl; do
   for up in y z; do
     succeeds "$scarp" simplify utm.tif up.$format -e 20 --up $up --overwrite
@@ -94,7 +94,7 @@ refuses 1 "--up x is unknown" "$scarp" simplify utm.tif out.obj -e 20 --up x
 succeeds "$scarp" simplify utm.tif print.obj -e 20 --solid size=100mm
 read -r x0 x1 y0 y1 z0 z1 < <(python3 look.py box print.obj)
 holds "$z1 < 20 && $y1 > 60"
-# A mesh that says nothing is judged where it fits.
+# A mesh without metadata is judged where it fits.
 for frame in source local; do
   succeeds "$scarp" simplify utm.tif $frame.obj -e 20 --up z --crs $frame --overwrite
   succeeds "$scarp" measure utm.tif <(grep -v '^#' $frame.obj) --fail-above 20
@@ -160,7 +160,7 @@ wide="--cell-size 9 --z-scale 0.014 --z-offset 236"
 succeeds "$scarp" simplify wide.png whole.glb -e 60 $wide --effort fast -q
 succeeds "$scarp" measure wide.png whole.glb --fail-above 60 --json
 cp "$logs/out" whole.json
-for memory in 115M 95M; do  # as 16-bit codes, and from the file: the same heights, as the judge has them
+for memory in 115M 95M; do  # in memory as 16-bit codes, and from the file: the same heights, as the judge has them
   succeeds "$scarp" simplify wide.png streamed.glb -e 60 $wide --effort fast --memory $memory -q --overwrite
   succeeds "$scarp" measure wide.png streamed.glb --fail-above 60 -q
   succeeds "$scarp" measure wide.png whole.glb --memory $memory --json
@@ -170,7 +170,7 @@ for memory in 115M 95M; do  # as 16-bit codes, and from the file: the same heigh
 done
 echo "frames, axes, .prj files and scales are right"
 
-# STL beyond the local frame: the report's numbers take those of the file to the raster.
+# STL beyond the local frame: the report's numbers map those of the file to the raster.
 for crs in source grid; do
   succeeds "$scarp" simplify "$dem" place.stl -e 50 --crs $crs --report place.json --overwrite
   grep -q "the file holds offsets from" "$logs/out" || fail "no word of offsets with --crs $crs"

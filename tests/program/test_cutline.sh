@@ -23,8 +23,8 @@ layer("beyond.geojson", ("Polygon", [ring([[-90, 30], [-80, 30], [-80, 40], [-90
 layer("point.geojson", ("Point", [x, y]))
 PYTHON
 
-# Of an OBJ: its plan area, triangles, those whose height is below a tenth of their longest edge, and of these the ones
-# with no corner on the border.
+# Facts about an OBJ: its plan area, triangles, those whose height is below a tenth of their longest edge, and of these
+# the ones with no corner on the border.
 cat > mesh.py <<'PYTHON'
 import sys
 vertices, faces = [], []
@@ -50,7 +50,7 @@ for f in faces:
 print(repr(area), len(faces), thin, free)
 PYTHON
 
-# What GDAL says of the polygons: their area, and the samples in them.
+# GDAL's results for the polygons: their area, and the samples in them.
 burn() { # FILE OUT
   rm -f "$2"
   succeeds gdal_rasterize -q -burn 1 -init 0 -ot Byte -tr 0.000833333333333 0.000833333333333 \
@@ -168,7 +168,7 @@ for effort in fast high; do
   succeeds "$scarp" measure "$dem" walls.ply --cutline star.geojson --fail-above 5
 done
 
-# Nobody knows where rings from so far away enter the raster.
+# It is unknown where rings from so far away enter the raster.
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
  {"type": "Polygon", "coordinates": [[[1, 1], [1e17, 5], [-1e17, 1e17], [1, 1]]]}}]}' >far.geojson
 refuses 2 "feature 0 has a vertex at 1e+17, 5, too far away to be placed" "$scarp" simplify "$dem" x.glb -e 20 --cutline far.geojson

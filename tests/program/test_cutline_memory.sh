@@ -60,7 +60,7 @@ for key in max_error rmse samples "cutline samples_outside"; do
   [ "$(json streamed.json $key)" = "$(json measured.json $key)" ] || fail "measure finds another $key in little memory"
 done
 
-# Beside breaklines, moved inwards, with flats and goals for angles, and nothing at all.
+# With breaklines, moved inwards, with flats and goals for angles, and nothing at all.
 succeeds "$scarp" simplify hills.tif lines.obj -e 12 --up z "${cut[@]}" --breaklines line.geojson --inset 3 --memory "$small" --report lines.json
 succeeds "$scarp" measure hills.tif lines.obj "${cut[@]}" --inset 3 --fail-above 12 --memory "$small"
 holds "$(json lines.json cutline samples_outside) > $(json held.json cutline samples_outside)"

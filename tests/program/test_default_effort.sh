@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The default effort is normal wherever that runs; where it is fast, summary and report say why.
+# The default effort is normal wherever that runs; where it is fast, summary and report explain why.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -67,7 +67,7 @@ succeeds "$scarp" simplify points.csv points.glb --points -e 2 --report points.j
 grep -qF 'fast (scattered points are only refined)' "$logs/out" || fail "the summary of points does not tell the effort"
 [ "$(json points.json strategy effort) $(json points.json strategy why_fast)" = '"fast" "points"' ] || fail "the report of points"
 
-# Where memory has room for refinement but not for removal: the same mesh on any number of threads.
+# With memory for refinement but not for removal: the same mesh on any number of threads.
 succeeds "$scarp" generate fractal 1000 700 rough.tif -q
 for threads in 1 3; do
   succeeds "$scarp" simplify rough.tif "rough$threads.glb" -e 0.3% --memory 90M -j "$threads" --report r.json --overwrite

@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need gdal_translate
 
-# A raster with nodata and a bound that takes some thousand vertices.
+# A raster with nodata and a bound that needs some thousand vertices.
 gdal_translate -q -a_nodata 300 "$dem" holes.tif
 for format in glb obj ply stl; do
   mkdir "$format"

@@ -1,6 +1,6 @@
 #!/bin/bash
-# One table of options says the same to --help, the man page, the completions and the page of all options, and the choices
-# that it lists are those that the program accepts. No line of Markdown is too long to read in a terminal.
+# One table of options gives the same text to --help, the man page, the completions and the page of all options, and the
+# choices that it lists are those that the program accepts. The words of comments, help and docs are checked.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need python3
 succeeds python3 "$SCARP_SOURCE/tools/generate_docs.py" "$scarp" share
@@ -19,7 +19,7 @@ fi
 names_option() { grep -Eq -- "(^|[^[:alnum:]-])$1([^[:alnum:]-]|\$)" "$2"; }
 # The man page with its escapes undone.
 sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
-# fish says `-l max-error` for --max-error.
+# fish writes `-l max-error` for --max-error.
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$fish_completions" >fish.txt
 
 commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
@@ -130,7 +130,7 @@ while read -r command option choices; do
 done <choices.txt
 
 check_words=$SCARP_SOURCE/tools/check_words.py
-python3 "$check_words" "$SCARP_SOURCE" >words.txt || fail "a line of Markdown is too long: $(head -n 3 words.txt)"
+python3 "$check_words" "$SCARP_SOURCE" >words.txt || fail "words: $(head -n 3 words.txt)"
 mkdir pages
 long_line=$(printf '%0161d' 0)
 printf '| %s |\n    %s\n```\n%s\n```\n' "$long_line" "$long_line" "$long_line" >pages/fine.md

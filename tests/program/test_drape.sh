@@ -67,7 +67,7 @@ grep -q 'covers 49.6 % of the raster: the rest is white' "$logs/err" || fail "no
 printf 'P6 4 3 255\n%s' "$(head -c 36 /dev/zero | tr '\0' 'a')" > flat.ppm
 succeeds "$scarp" simplify flat.pgm e.glb -e 500 --drape flat.ppm -q
 
-# An image without a place over a raster that has one, of equal size: as if it lay there.
+# An image without a place over a raster that has a place, of equal size: as if it had that place.
 gdal_translate -q -of PNG chess.tif twin.png
 rm -f twin.png.aux.xml
 succeeds "$scarp" simplify "$dem" twin.glb -e 20 --drape twin.png --drape-format png

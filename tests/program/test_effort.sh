@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
-# The mesh is smaller by what bench/quality.md lets expect, and every sample keeps the bound.
+# The mesh is smaller by as much as bench/quality.md lists, and every sample keeps the bound.
 for error in 84 16.8 8.4; do
   succeeds "$scarp" simplify "$dem" fast.glb -e "$error" --effort fast --report fast.json --overwrite
   succeeds "$scarp" simplify "$dem" normal.glb -e "$error" --effort normal --report normal.json --overwrite
@@ -29,8 +29,8 @@ assert passes["fit"]["removals"] > 1000 and passes["tiles"]["removals"] == 0, pa
 PYTHON
 grep -aq -- '--effort normal"' normal.glb || fail "the metadata does not tell the effort"
 
-# max goes deeper; what it reaches within a limit depends on the machine, but never falls behind refinement. A limit that
-# is over before removal begins leaves refinement's mesh, or what removal has made of it.
+# max goes deeper; its result within a limit depends on the machine, but never falls behind refinement. After a limit
+# that is over before removal begins the result is refinement's mesh, or removal's so far.
 succeeds "$scarp" simplify "$dem" max.glb -e 168 --effort max --report max.json --overwrite
 succeeds "$scarp" simplify "$dem" high.glb -e 168 --effort high --report high.json --overwrite
 holds "$(json max.json triangles) < $(json high.json triangles)"
@@ -73,7 +73,7 @@ holds "$(thinnest shape0.2.stl) >= 0.1999 || $(thinnest shape0.2.stl) >= 0.999 *
 holds "$(thinnest shape0.stl) < $(thinnest shape0.2.stl)"
 
 for effort in normal high; do
-  # Solids, projections and formats go on from there.
+  # Solids, projections and formats continue from there.
   succeeds "$scarp" simplify "$dem" solid.stl -e 20 --effort "$effort" --base -100 --overwrite
   succeeds "$scarp" measure "$dem" solid.stl --fail-above 20
   succeeds "$scarp" simplify "$dem" utm.glb -e 20 --effort "$effort" --crs EPSG:32616 --overwrite
@@ -132,7 +132,7 @@ succeeds "$scarp" simplify "$dem" few.glb -t 2000 --tolerance falling.tif --repo
 [ "$(json few.json strategy effort)" = '"normal"' ] || fail "tolerances beside a budget take $(json few.json strategy effort)"
 grep -q 'kept: tolerances times ' "$logs/out" || fail "the summary does not tell the factor"
 
-# What removal has no place for is named.
+# Settings that removal has no place for are named.
 for strategy in "--importance local" "--importance local --one-pass" "--algorithm heap" "--batch const" "--edges data"; do
   # shellcheck disable=SC2086
   refuses 1 "${strategy%% *}" "$scarp" simplify "$dem" never.glb -e 20 --effort normal $strategy
@@ -147,7 +147,7 @@ refuses 1 "--effort fast cannot be combined with --time-limit" "$scarp" simplify
 refuses 1 "--time-limit cannot be combined with --max-triangles beside --effort max" \
   "$scarp" simplify "$dem" never.glb -t 2000 --effort max --time-limit 3
 refuses 1 "--time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort high --time-limit soon
-# Where fast effort is the default, what asks for more gets it.
+# If fast effort is the default, settings that ask for more get it.
 for reason in "--mask weights.tif" "--script /dev/null" "--order greedy" "--memory 1G"; do
   # shellcheck disable=SC2086
   succeeds "$scarp" simplify "$dem" shaped.glb -e 60 --min-shape 0.1 $reason --report shaped.json --overwrite

@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# At least 97 % is used; what greedy insertion reaches is surpassed by what bench/quality.md lets expect.
+# At least 97 % is used; greedy insertion is surpassed by as much as bench/quality.md lists.
 for budget in 2000 8000; do
   succeeds "$scarp" simplify "$dem" fast.glb -t "$budget" --effort fast --report fast.json --overwrite
   for effort in normal high; do

@@ -36,7 +36,7 @@ succeeds "$scarp" measure crop.tif exact.ply --image --fail-above 0
 succeeds "$scarp" simplify photo.tif grey.ply -e 2% --image --band 2 --effort high --report grey.json
 succeeds "$scarp" measure photo.tif grey.ply --image --band 2 --fail-above "$(json grey.json goal max_error)"
 
-# Budgets lower the norm; bounds of samples are kept beside textures.
+# Budgets lower the norm; bounds of samples are kept with textures.
 for level in fast normal high; do
   succeeds "$scarp" simplify photo.tif "$level.ply" -t 1000 --image --effort "$level" --report "$level.json" --overwrite
   holds "$(json "$level.json" triangles) <= 1000"

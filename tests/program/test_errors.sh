@@ -197,7 +197,7 @@ refuses 2 "empty.tif" "$scarp" measure "$dem" empty.tif
 try "$scarp" measure "$dem" half.obj --fail-above 100
 [ "$code" = 2 ] || [ "$code" = 3 ] || fail "half an OBJ file passes"
 
-# A write that fails is told, not lost.
+# A write that fails is reported, not lost.
 if [ -w /dev/full ]; then
   try bash -c '"$1" info "$2" > /dev/full' - "$scarp" "$dem"
   [ "$code" = 4 ] || fail "a full standard output ends with $code instead of 4"

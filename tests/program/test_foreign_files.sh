@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Files that others made, or made to harm: each is read, or refused in one sentence, and nothing is left beside it.
+# Files that others made, or made to harm: each is read, or refused in one sentence, and no file remains next to it.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gzip python3
 
@@ -32,7 +32,7 @@ for points in points.dat points.txt; do
 done
 rm ./*
 
-# Nothing is written beside an input.
+# Nothing is written next to an input.
 printf '<?xml version="1.0"?><gml:FeatureCollection xmlns:gml="http://www.opengis.net/gml"><gml:featureMember><f fid="1">%s</f>%s' \
   '<gml:polygonProperty><gml:Polygon><gml:outerBoundaryIs><gml:LinearRing><gml:coordinates>-84.4,36.2 -84.2,36.2 -84.2,36.4 -84.4,36.2</gml:coordinates></gml:LinearRing></gml:outerBoundaryIs></gml:Polygon></gml:polygonProperty>' \
   '</gml:featureMember></gml:FeatureCollection>' > area.gml
@@ -94,7 +94,7 @@ refuses 2 "huge.dat: none of its 2 x 2 samples is a height: 4 are infinite or be
 succeeds "$scarp" measure "$dem" closed.glb --fail-above 50
 if "$scarp" info "$dem" >&- 2>&-; then fail "info succeeds without a place for its table"; fi
 
-# Cells of a micrometre, far from the origin: doubles hardly tell one from the next.
+# Cells of a micrometre, far from the origin: doubles hardly distinguish one from the next.
 gdal_translate -q -a_srs EPSG:32617 -a_ullr 500000 4000000.000344 500000.000403 4000000 "$dem" micro.tif
 succeeds "$scarp" simplify micro.tif micro.obj -e 20 --effort high
 succeeds "$scarp" measure micro.tif micro.obj --fail-above 20

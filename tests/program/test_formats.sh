@@ -15,7 +15,7 @@ done
 succeeds "$scarp" simplify "$dem" HILLS.GLB -e 20
 cmp hills.glb HILLS.GLB || fail "the case of the extension matters"
 
-# Frames. The mesh remembers which one it has; measure needs no --crs, and may be told.
+# Frames. The mesh remembers which one it has; measure needs no --crs, and may be given one.
 for crs in source local grid EPSG:32616 EPSG:3857; do
   for format in glb obj ply; do
     out=${crs#*:}.$format

@@ -203,7 +203,7 @@ else
   echo "left out: GDAL's Python (python3-gdal)"
 fi
 
-# What VTK's formats hold beside positions.
+# Contents of VTK's formats in addition to positions.
 succeeds "$scarp" simplify utm.tif n.vtu -e 20 --normals --uvs
 if python=$(python_with meshio); then
   "$python" - <<'PYTHON' || fail "meshio finds other normals or places in the image"

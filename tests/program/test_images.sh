@@ -6,7 +6,7 @@ need python3 gdal_translate gdalbuildvrt gdalinfo
 make_image photo.tif '(col * 255) // 402' '128 + 100 * math.sin(col * row / 40000)' 'row // 2 if col > row else 200'
 GDAL_PAM_ENABLED=NO gdal_translate -q -of PNG photo.tif photo.png
 
-# agree: simplify's report and measure's say the same of every band.
+# agree: simplify's report and measure's agree on every band.
 agree() {
   python3 - s.json m.json <<'PYTHON'
 import json, math, sys

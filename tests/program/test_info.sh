@@ -21,7 +21,7 @@ for k in 0 1 2; do
 done
 [ "$(json info.json suggestions_are_estimates)" = false ] || fail "a small raster is estimated"
 
-# Beyond 2 million samples: an estimate, and it says so.
+# Beyond 2 million samples: an estimate, which is marked as one.
 gdal_translate -q -r cubic -ot Float32 -outsize 1612 1376 -a_nodata 300 "$dem" large.tif
 succeeds "$scarp" info large.tif
 grep -q 'an estimate from windows' "$logs/out" || fail "the estimate is not called one"
@@ -34,7 +34,7 @@ budget=$(json info.json suggestions 1 triangles)
 succeeds "$scarp" simplify large.tif out.glb -e "$error" --report r.json --overwrite
 holds "$(json r.json triangles) <= 2 * $budget && $(json r.json triangles) >= 0.5 * $budget"
 
-# Nodata is told.
+# Nodata is reported.
 gdal_translate -q -a_nodata 300 "$dem" holes.tif
 succeeds "$scarp" info holes.tif
 grep -q 'missing .*%, nodata 300' "$logs/out" || fail "nodata is not told"

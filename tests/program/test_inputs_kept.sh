@@ -63,7 +63,7 @@ cp lakes.geojson cut.tif
 refuses 1 "--error-raster cut.tif is an input file" \
   "$scarp" measure dem.tif o.glb --cutline cut.tif --error-raster cut.tif --overwrite
 
-# What a file lies in.
+# The archive that a file lies in.
 python3 -c 'import zipfile; zipfile.ZipFile("z.zip", "w").write("dem.tif")'
 mkdir in
 cp z.zip in/deep.zip

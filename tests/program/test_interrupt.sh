@@ -5,7 +5,7 @@ make_big_raster big.tif
 
 # start COMMAND...: in the background, with the number $pid.
 start() {
-  : > "$logs/err"  # what the last run said is not this one's
+  : > "$logs/err"  # the last run's messages are not this one's
   # A background job of a script ignores SIGINT unless job control is on.
   set -m
   "$@" > "$logs/out" 2> "$logs/err" &
@@ -13,7 +13,7 @@ start() {
   set +m
 }
 
-# is_ready SIGNAL: the program takes the signal itself. Where the system does not tell: it has begun to work.
+# is_ready SIGNAL: the program handles the signal itself. If the system does not show it: it has begun to work.
 is_ready() {
   local caught
   if [ ! -r "/proc/$pid/status" ]; then is_in_pass; return; fi
@@ -22,10 +22,10 @@ is_ready() {
   (((0x${caught:-0} >> ($(kill -l "$1") - 1)) & 1))
 }
 
-# is_in_pass [NAME]: the run, which is told --json-progress, works, at this pass.
+# is_in_pass [NAME]: the run, with --json-progress, works, at this pass.
 is_in_pass() { grep -q "\"pass\":\"${1-}" "$logs/err"; }
 
-# stop SIGNAL: the exit code goes to $code, what is said but for progress to $logs/said.
+# stop SIGNAL: the exit code goes to $code, all messages but progress to $logs/said.
 stop() {
   kill "-$1" "$pid" 2> /dev/null || fail "the run ended by itself"
   code=0

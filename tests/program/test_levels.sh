@@ -3,10 +3,10 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
-# meet.py DIGITS NORTH_WEST NORTH_EAST SOUTH_WEST SOUTH_EAST: OBJs of rasters that share a row and a column; how many vertices on
-# a shared line one of two neighbours has and the other has not, and how many there are. Heights are compared to the last
-# bit, places too where DIGITS is 17: origins of parts in degrees are rounded by gdal_translate. A vertex that only one
-# has does not count where its surface ends: there it has a border edge that leaves the line.
+# meet.py DIGITS NORTH_WEST NORTH_EAST SOUTH_WEST SOUTH_EAST: OBJs of rasters that share a row and a column; how many
+# vertices on a shared line one of two neighbours has and the other has not, and how many there are. Heights are
+# compared to the last bit, places too where DIGITS is 17: origins of parts in degrees are rounded by gdal_translate. A
+# vertex that only one has does not count where its surface ends: there it has a border edge that departs from the line.
 cat > meet.py <<'PYTHON'
 import sys
 digits = int(sys.argv[1])
@@ -119,7 +119,7 @@ refuses 1 "--lock-border needs --max-error" "$scarp" simplify "$dem" x.glb -t 50
 refuses 1 "the locked border and the outline of the valid data alone need" \
   "$scarp" simplify "$dem" x.glb -e 10 -t 50 --lock-border
 
-# One tile in the dominant order, as long as nobody asks for the other.
+# One tile in the dominant order, unless the other is asked for.
 succeeds "$scarp" simplify "$dem" tile.glb -e 10 --lock-border --report tile.json
 [ "$(json tile.json strategy order)" = '"dominant"' ] || fail "a locked border takes $(json tile.json strategy order)"
 succeeds "$scarp" simplify "$dem" worst.glb -e 10 --lock-border --order greedy --effort normal --report worst.json

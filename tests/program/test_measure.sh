@@ -86,7 +86,7 @@ print("\n".join(l for l in lines if l is not smallest))
 PYTHON
 fails 'not sound: [123] gaps?' pinhole.obj 2
 holds "$(try "$scarp" measure "$dem" pinhole.obj --json; json "$logs/out" topology gaps) >= 1"
-# The table of a mesh of another place says so.
+# The table of a mesh of another place reports it.
 awk '$1 == "v" { $2 += 1e7 } { print }' good.obj > away.obj
 # A mesh that lies elsewhere is not judged: no number, exit code 3, and where the two lie.
 for options in "" "--fail-above 20"; do
@@ -114,8 +114,8 @@ refuses 1 "--fail-above 1mm is an error on a print" "$scarp" measure "$dem" perc
 # The mesh before the raster.
 refuses 1 "percent.glb is a mesh: the raster comes first, scarp measure" "$scarp" measure percent.glb "$dem"
 
-# A mesh lies where its file says, not around the centre of any raster: a raster elsewhere, a window of a larger one, and
-# the window itself in another type.
+# A mesh lies where its file puts it, not around the centre of any raster: a raster elsewhere, a window of a larger one,
+# and the window itself in another type.
 need gdal_translate
 gdal_translate -q -srcwin 20 30 201 180 "$dem" window.tif
 gdal_translate -q -of AAIGrid window.tif window.asc
@@ -136,7 +136,7 @@ for name in window.glb window.obj window.ply; do
     grep -q "covered by no triangle" "$logs/err" || fail "no word that samples are uncovered"
   done
 done
-# --crs overrides what the file says; a raster without georeference has no place that could differ.
+# --crs overrides the file's metadata; a raster without georeference has no place that could differ.
 succeeds "$scarp" simplify window.tif window.glb -e 20 --overwrite
 try "$scarp" measure moved.tif window.glb --crs local --fail-above 60 --json
 holds "$(json "$logs/out" samples) > 20000"

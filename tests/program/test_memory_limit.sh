@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# --memory: rasters that do not fit are read window by window, judged alike to the last bit, and what cannot do so says so.
+# --memory: rasters that do not fit are read window by window, judged alike to the last bit, and the options that cannot
+# do so report it.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gdalbuildvrt
-small=72M # leaves nothing for samples: every raster stays in its file
+small=72M # has no room for samples: every raster stays in its file
 
 succeeds "$scarp" simplify "$dem" hills.glb -e 5 -q
 succeeds "$scarp" measure "$dem" hills.glb --json
@@ -25,7 +26,7 @@ for case in "$dem $small" "mosaic.vrt $small" "$dem 72.8M" "$dem 1G"; do
   done
 done
 
-# What needs all samples is refused by name, with the memory that would do; with that much it works.
+# An option that needs all samples is refused by name, with the memory that is enough; with that much it works.
 refuses 1 '--texture needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --texture "$dem"
 echo "s 7 9" > inserts.txt
 for option in "--render r.png" "--nodata-policy fill" \
@@ -42,7 +43,7 @@ succeeds "$scarp" simplify "$dem" rendered.glb -e 5 --memory "$(cat enough)" --r
 { printf 'ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 1\n'; for ((k = 0; k < 800; ++k)); do echo 3e38 "1e-$((k % 30))"; done; } > huge.asc
 refuses 2 'only be refined in memory: leave --memory out, or allow 74M' "$scarp" simplify huge.asc o.glb -e 1 --memory $small
 
-# What outgrows the limit is refused, with what would do; that much does.
+# A mesh that outgrows the limit is refused, with the memory that is enough; that much is enough.
 succeeds "$scarp" generate fractal 900 900 fractal.tif -q
 for raster in fractal.tif "$dem"; do
   for limit in 72M 74M; do

@@ -24,12 +24,12 @@ succeeds "$scarp" measure tiles/a.tif tiles/b.tif tiles/c.tif tiles.stl --fail-a
 succeeds "$scarp" info tiles/a.tif tiles/b.tif
 grep -q '403 columns x 344 rows' "$logs/out" || fail "info does not see the mosaic"
 
-# Where no tile has a value, samples are missing: there is no value that stands for them.
+# Samples are missing if no tile has a value: there is no value that stands for them.
 succeeds "$scarp" simplify tiles/a.tif tiles/b.tif gap.stl -e 20 --report gap.json
 [ "$(json gap.json input void)" = "$((200 * 194))" ] || fail "the gap is not missing: $(json gap.json input void)"
 holds "$(json gap.json input min) >= 236"
 
-# What Scarp made of a raster is no part of the folder that the raster lies in.
+# A raster that Scarp made of another is no part of the folder that the raster lies in.
 mkdir work
 gdal_translate -q -ot Float32 utm.tif work/m.tif
 succeeds "$scarp" simplify work/m.tif work/a.tif -e 60 --error-raster work/z.tif
@@ -48,7 +48,7 @@ succeeds "$scarp" generate fractal 60 50 work/hills.tif --size 30
 succeeds "$scarp" info work --no-suggest
 grep -q '^  read as *work/hills.tif, without what Scarp made: a.tif' "$logs/out" || fail "a synthetic raster is no input"
 
-# What makes no mosaic.
+# Rasters that make no mosaic.
 gdalwarp -q -t_srs EPSG:32616 tiles/b.tif zone.tif
 gdal_translate -q -ot Float32 tiles/b.tif float.tif
 gdal_translate -q -a_nodata -9999 tiles/b.tif nodata.tif
@@ -56,7 +56,7 @@ gdal_translate -q -outsize 50% 50% tiles/b.tif coarse.tif
 gdal_translate -q -a_ullr 506015 4010320 512105 4005820 tiles/b.tif shifted.tif
 refuses 2 "zone.tif is in EPSG:32616, and tiles/a.tif in EPSG:32617: bring it there first (gdalwarp -t_srs EPSG:32617" \
   "$scarp" simplify tiles/a.tif zone.tif o.stl -e 20
-for other in float.tif nodata.tif; do # of another type, and with another nodata value, of which there is none
+for other in float.tif nodata.tif; do # rasters of another type, and with another nodata value, of which there is none
   succeeds "$scarp" simplify tiles/a.tif $other tiles/c.tif other.stl -e 20 --overwrite
   same whole.stl other.stl
 done
@@ -96,7 +96,7 @@ gdal_translate -q -ot Int16 few.asc few.tif
 succeeds "$scarp" simplify few.tif means.tif -e 0 --resolution 2
 grep -q 'read as *means of 2 x 2 cells, 2 x 2 each (without the last 1 columns and 0 rows)' "$logs/out" || fail "the summary does not tell the means"
 [ "$(gdal_translate -q -of XYZ means.tif /vsistdout/ | cut -d' ' -f3 | head -3 | tr '\n' ' ')" = "2 4 7.75 " ] || fail "wrong means"
-# Of the valid samples: declared nodata has no part in a mean, nor what --nodata names.
+# The mean of the valid samples: declared nodata has no part in it, nor has the value of --nodata.
 sed 's/-9 -9 9$/5 6 9/; s/^2 3 4 5/2 3 4 -9/' few.asc > mixed.asc
 gdal_translate -q -ot Int16 mixed.asc mixed.tif
 gdal_translate -q -a_nodata none mixed.tif plain.tif
@@ -105,7 +105,7 @@ for input in "mixed.tif" "plain.tif --nodata -9"; do
   means=$(gdal_translate -q -of XYZ mixed.csv.tif /vsistdout/ | cut -d' ' -f3 | tr '\n' ' ')
   [[ "$means" = "2 3.66"*" 7.75 5.5 " ]] || fail "means of $input: $means"
 done
-# What GDAL rounds in a mean counts: the bound holds for the exact ones.
+# GDAL's rounding of a mean counts: the bound holds for the exact ones.
 python3 - > thirds.asc <<'PYTHON'
 print("ncols 60\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 1")
 for row in range(60):

@@ -37,7 +37,7 @@ write("down.nc", [43 - 0.1 * i for i in range(30)], even, float_axes=True)
 write("metres.nc", [4e6 + 100 * i for i in range(30)], [5e5 + 100 * i for i in range(40)], degrees=False)
 write("mercator.nc", mercator(1), [5 + i for i in range(40)])
 write("down_mercator.nc", mercator(1)[::-1], [5 + i for i in range(40)])
-write("fine_mercator.nc", mercator(0.05), even)  # GDAL takes its rows for even ones
+write("fine_mercator.nc", mercator(0.05), even)  # GDAL assumes even rows
 write("uneven.nc", [70 - 2 * i - 0.02 * i * i for i in range(30)], [5 + 2 * i for i in range(40)])
 write("middle.nc", [40 + 0.1 * i + (0.02 * math.sin(i * math.pi / 7) if 1 < i < 13 or 16 < i < 28 else 0) for i in range(30)], even)
 write("down_z.nc", [40 + 0.1 * i for i in range(30)], even, positive="down")

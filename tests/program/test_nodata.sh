@@ -33,7 +33,7 @@ succeeds "$scarp" simplify undeclared.asc a.obj -e 1 --nodata -9999 --report a.j
 [ "$(json a.json input void)" = $voids ] || fail "--nodata is not used"
 [ ! -s "$logs/err" ] || fail "a warning about nodata that --nodata names"
 [ "$(json a.json input undeclared_nodata)" = "[]" ] || fail "nodata that is named is suspected"
-# Without it they are heights, and told, with the option, in memory and streamed.
+# Without it they are heights, and reported, with the option, in memory and streamed.
 warning="$voids samples are exactly -9999, far below all others (1[0-9.]* to [89][0-9.]*): if they mean nodata, give --nodata -9999\$"
 for limit in "" "--memory 72.5M"; do
   # shellcheck disable=SC2086
@@ -93,7 +93,7 @@ grep -q '^scarp: warning: .*1.*infinit' "$logs/err" || grep -qi '^scarp: warning
 holds "$(python3 -c "import json; print(len(json.load(open('i.json'))['warnings']))") == 1"
 succeeds "$scarp" simplify inf.bil inf.glb -e 1 -q --overwrite
 
-# Where outlines alone need most of the mesh, the summary says what -t says; a simpler outline needs fewer.
+# If outlines alone need most of the mesh, the summary reports the number that -t does; a simpler outline needs fewer.
 awk 'BEGIN {
   print "ncols 80\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
   for (r = 0; r < 60; ++r) {
@@ -118,7 +118,7 @@ succeeds "$scarp" simplify hill.asc hole.obj -e 1 --overwrite
 if grep -q '^  outlines' "$logs/out"; then fail "a small outline is told of"; fi
 [ ! -s "$logs/err" ] || fail "-q warns"
 
-# A frame of -9999 around land of one height is told, and two heights of which neither is odd are not.
+# A frame of -9999 around land of one height is reported, and two heights of which neither is odd are not.
 make_raster frame.tif "-9999 if min(row, col, 343 - row, 402 - col) < 5 else 7"
 try "$scarp" info frame.tif --no-suggest
 grep -q "samples are exactly -9999, far below all others (7 to 7)" "$logs/out" "$logs/err" || fail "no word of -9999 around a flat raster"

@@ -82,7 +82,7 @@ for output in crs.tif crs.pgm; do
 done
 succeeds "$scarp" simplify "$dem" crs.svg -e 100 --crs EPSG:32616
 [ ! -s "$logs/err" ] || fail "a wrong word about --crs in crs.svg"
-# A folder that takes no files is found out before the work, and is not said to be missing.
+# A folder that accepts no files is found out before the work, and is not reported as missing.
 if [ -d /proc ]; then
   refuses 4 "x.tif cannot be written: " "$scarp" simplify missing.tif out.glb -e 20 --error-raster /proc/x.tif
   if grep -q 'not exist\|no folder' "$logs/err"; then fail "/proc is said not to exist"; fi

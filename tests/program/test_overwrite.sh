@@ -17,7 +17,7 @@ done
 refuses 4 "m.png exists already" "$scarp" measure "$dem" out.glb --map m.png
 succeeds "$scarp" measure "$dem" out.glb --map m.png --overwrite
 
-# A failed run leaves the old file, also with --overwrite.
+# A failed run keeps the old file, also with --overwrite.
 cp out.glb before.glb
 refuses 2 "missing.tif" "$scarp" simplify missing.tif out.glb -e 1 --overwrite
 cmp out.glb before.glb

@@ -6,7 +6,7 @@ mkdir rasters empty
 succeeds "$scarp" generate fractal 100 90 rasters/hills.tif --seed 5
 succeeds "$scarp" generate sharp-step 60 70 rasters/step.pgm
 
-# gnuplot is looked for first.
+# gnuplot is searched for first.
 mkdir bin
 refuses 4 'install the Debian package gnuplot-nox' env PATH="$scratch/bin" "$scarp" paper --data rasters --out out
 need gnuplot
@@ -51,7 +51,7 @@ grep -qE '^\| hills \| 90 \| [0-9]+\.[0-9]{3} \|' timed/paper.md || fail "no sec
 
 grep -q '^- Attenuated against plain global error: RMS ' out/paper.md || fail "the attenuated error is not compared"
 
-# Both ways to look at the same insertion: settled swaps never raise the RMS, and a cell far from Scape's is explained.
+# Both views of the same insertion: settled swaps never raise the RMS, and a cell far from Scape's is explained.
 awk -F'|' '/^### Swaps over/ { on = 1 } /^### Meshes/ { on = 0 }
   on && $3 + 0 > 0 { rows++; if ($4 + 0 > $3 + 0 || $6 + 0 > $5 + 0) bad = 1 } END { exit !(rows >= 5 && !bad) }' out/paper.md ||
   fail "settled swaps raise an error"

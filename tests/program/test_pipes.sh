@@ -4,7 +4,7 @@ source "$(dirname "$0")/lib.sh"
 need python3
 cp "$dem" "$logs/grid.tif"
 "$scarp" simplify "$logs/grid.tif" grid.stl -e 20 -q
-after_header() { tail -c +81 "$1"; }  # which holds the command
+after_header() { tail -c +81 "$1"; }  # it holds the command
 
 "$scarp" simplify - piped.stl -e 20 < "$logs/grid.tif" > "$logs/out"
 cmp <(after_header grid.stl) <(after_header piped.stl)

@@ -1,5 +1,5 @@
 #!/bin/bash
-# What a text of columns holds: numbers, northings, heights, the nodes of a raster; attributes in place of zeros.
+# Contents of a text of columns: numbers, northings, heights, the nodes of a raster; attributes in place of zeros.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need python3 gdal_translate
 

@@ -26,7 +26,7 @@ succeeds "$scarp" measure survey.csv hills.glb --fail-above 0.5 --json
 python3 -c 'import json,sys; r=json.load(sys.stdin); assert r["passed"] and r["samples"] == 3001' <"$logs/out" || fail "measure --json"
 refuses 3 "exceeds 0.001" "$scarp" measure survey.csv hills.glb --fail-above 0.001 -q
 
-# The mesh lies around the middle of the points, says so, and is put back by the judge.
+# The mesh lies around the middle of the points, reports it, and is put back by the judge.
 for name in near.obj near.ply near.glb near.stl; do
   succeeds "$scarp" simplify survey.csv "$name" -e 1 --report near.json --overwrite -q
   succeeds "$scarp" measure survey.csv "$name" --fail-above 1 -q
@@ -87,7 +87,7 @@ if command -v ogr2ogr >/dev/null; then
   succeeds "$scarp" measure vector.gpkg local.glb --fail-above 1 -q
 fi
 
-# A mesh of a raster has a frame that points do not have: the sentence says who asked for it.
+# A mesh of a raster has a frame that points do not have: the sentence names who asked for it.
 succeeds "$scarp" simplify "$dem" grid.ply -e 50 --crs grid -q
 refuses 1 "grid.ply says of itself that its coordinates are the columns and rows" "$scarp" measure survey.csv grid.ply
 refuses 1 "cannot be given in 'grid'" "$scarp" measure survey.csv grid.ply --crs grid
@@ -147,7 +147,7 @@ wide, convex = (open(name, "rb").read().split(b"end_header\n", 1)[1] for name in
 assert wide == convex
 PY
 
-# What cannot be, in one sentence, and nothing written.
+# Impossible requests, in one sentence, and nothing written.
 : >empty.csv
 printf 'x,y,z\n' >header.csv
 printf '1,2,3\n4,5,nan\n7,8,10\n' >nan.csv

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a run says while it works: nothing when it is quick or not watched, a line on a terminal, JSON where asked for.
+# Messages of a run while it works: nothing when it is quick or not watched, a line on a terminal, JSON where asked for.
 source "$(dirname "$0")/lib.sh"
 need python3
 make_big_raster big.tif
@@ -7,7 +7,7 @@ make_big_raster big.tif
 succeeds "$scarp" simplify big.tif out.glb -e 40
 [ ! -s "$logs/err" ] || fail "progress although stderr is no terminal"
 
-# -q says nothing at all.
+# -q prints nothing at all.
 succeeds "$scarp" simplify big.tif out.glb -e 40 -q --overwrite
 [ ! -s "$logs/err" ] && [ ! -s "$logs/out" ] || fail "-q is not quiet"
 
@@ -46,7 +46,7 @@ if command -v script > /dev/null; then
   grep -aq 'refine.*%.*vertices' typescript || fail "no progress on a terminal"
   grep -aq 'Reached the error goal' typescript || fail "no summary on a terminal"
   script -qec "'$scarp' simplify '$dem' out.glb -e 100 --report quick.json --overwrite" typescript < /dev/null > /dev/null
-  # On a machine that is busy it may take longer, and show it then.
+  # On a machine that is busy it may need longer, and show it then.
   if awk "BEGIN { exit !($(json quick.json seconds total) < 1) }" && grep -aq 'vertices.*left' typescript; then
     fail "progress for a run below one second"
   fi

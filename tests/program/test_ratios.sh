@@ -40,7 +40,7 @@ rows_of = lambda name: list(csv.DictReader(open(f"{root}/bench/{name}", encoding
 def near(claim, true, digits):
     return abs(float(claim.replace(",", "")) - true) <= 0.5 * 10 ** -digits + 1e-9
 
-# Where, the words, and the true number of each group with the digits that it is told in.
+# The place, the words, and the true number of each group with the digits that it is printed with.
 claims = [
     ("--help", rf"normal: also remove vertices; {N} of the triangles of fast", [(triangles["normal"] / triangles["fast"], 2)]),
     ("--help", rf"high: also move vertices; {N}\.", [(triangles["high"] / triangles["fast"], 2)]),
@@ -142,7 +142,7 @@ for where in "--help", "README.md", "docs/cookbook.md":
                              texts[where]):
         inside = any(a <= found.start() and found.end() <= b for a, b in told[where])
         assert inside, f"{where} claims '{found.group()}', which no table is asked about: add it to the claims"
-# What takes more triangles than the default is not shown as taking fewer.
+# A setting that needs more triangles than the default is not shown as needing fewer.
 for where, text in texts.items():
     for found in re.finditer(r"--edges data[^\n]{0,60}fewer[^\n]{0,40}", text):
         assert "--order greedy" in found.group(), f"{where} recommends '{found.group()}'"

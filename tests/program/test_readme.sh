@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every command of the README, the cookbook and the guides runs as it stands, in the folder of examples, and does what it says.
+# Every command of the README, the cookbook and the guides runs as it stands, in the folder of examples, and does what its text
+# promises.
 source "$(dirname "$0")/lib.sh"
 need python3 gdaldem gdalwarp
 readme=$SCARP_SOURCE/README.md
@@ -7,7 +8,7 @@ readme=$SCARP_SOURCE/README.md
 PATH=$(dirname "$scarp"):$PATH
 
 # commands FILE: those of the cookbook's rows, of indented code (with what makes their input), and of sessions (```console, behind a $),
-# without comments. A line that ends in \ goes on.
+# without comments. A line that ends in \ continues.
 commands() {
   python3 - "$1" <<'PYTHON'
 import re, sys
@@ -21,7 +22,7 @@ for line in text.split("\n"):
 PYTHON
 }
 
-# serves COMMAND: a server says its address, and ends without a word when it is told to.
+# serves COMMAND: a server prints its address, and ends without a message when stopped.
 serves() {
   local server code=0
   bash -c "exec $1 --port 0" > "$logs/out" 2> "$logs/err" &

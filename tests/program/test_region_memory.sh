@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# --tolerance, --roi and --falloff with --memory: bounds are read in windows beside heights that stay in their file, the
-# same ones as in memory; the bytes are those of any number of threads, the memory is enough, and what bounds take counts.
+# --tolerance, --roi and --falloff with --memory: bounds are read in windows while heights stay in their file, the same
+# ones as in memory; the bytes are those of any number of threads, the memory is enough, and the memory of bounds
+# counts.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -24,7 +25,7 @@ layer("road.geojson", "LineString", [[[-20.3, 560.2], [320.6, 350.4], [490.8, 20
 layer("long.geojson", "LineString", [[[i % 500, i // 500] for i in range(90000)]])
 PYTHON
 
-small=74 # of which the samples, 1.2 MB, may take 1, so they stay in their file, and strips are low
+small=74 # the samples, 1.2 MB, may use 1 of it, so they stay in their file, and strips are low
 sites=(--roi site.geojson=2 --roi road.geojson=5 --falloff 90)
 same() { # same A B KEY...: the reports agree
   python3 -I -S - "$@" <<'PYTHON' || fail "the figures are not those in memory"
@@ -62,7 +63,7 @@ same one.json much.json bounded_max_error
 check fast none --roi site.geojson=2 --roi road.geojson=5
 same little.json much.json bounded_max_error bounded_max_error_at
 
-# Beside goals of shapes.
+# With goals of shapes.
 within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min-angle 20 --effort normal --memory "${small}M" \
   --report shaped.json
 [ "$(json shaped.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
@@ -89,7 +90,7 @@ done
 same coarse0.json coarse12.json over_tolerance weighted_max_error weighted_rmse
 holds "$(json coarse0.json over_tolerance) > 1000"
 
-# What cannot be is refused before the work.
+# Impossible requests are refused before the work.
 refuses 2 "--tolerance broken.tif: the value -" "$scarp" simplify hills.tif x.obj --tolerance broken.tif --memory "${small}M"
 refuses 2 "gdal_translate" "$scarp" simplify hills.tif x.obj --tolerance narrow.tif --memory "${small}M"
 for command in "simplify hills.tif x.obj -e 40" "measure hills.tif coarse.obj --fail-above 40"; do

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --ridges: lines along crests and beds, preferred or kept; the bound holds, and the report tells of them.
+# --ridges: lines along crests and beds, preferred or kept; the bound holds, and the report lists them.
 source "$(dirname "$0")/lib.sh"
 need python3
 
@@ -79,7 +79,7 @@ for height in 0 -2 tall; do refuses 1 "--ridges" "$scarp" simplify hills.asc x.g
 refuses 1 "--keep-ridges needs --ridges" "$scarp" simplify hills.asc x.glb -e 2 --keep-ridges
 refuses 1 "--max-error" "$scarp" simplify hills.asc x.glb --tolerance hills.asc --ridges 10
 
-# None that high: a warning says so.
+# None that high: a warning reports it.
 succeeds "$scarp" simplify hills.asc none.obj -e 2 --ridges 1000 --overwrite
 grep -q '^scarp: warning: --ridges 1000: no ridge or valley was found' "$logs/err" || fail "no word on ridges that are not there"
 run none.obj

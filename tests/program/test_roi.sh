@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_rasterize gdal_translate
 
-# Regions of interest: their bound within, the bound of all beyond, and between them what the distance says.
+# Regions of interest: their bound within, the bound of all beyond, and between them a bound by the distance.
 python3 - <<'PYTHON'
 import json
 square = [[[-84.30, 36.25], [-84.25, 36.25], [-84.25, 36.30], [-84.30, 36.30], [-84.30, 36.25]]]
@@ -24,7 +24,7 @@ for effort in fast high; do
   succeeds "$scarp" measure "$dem" near.glb --fail-above 50 --roi site.geojson=2 --falloff 5000 --roi road.geojson=10
   holds "$(json near.json triangles) > $(json roi.json triangles)"
 done
-# Lines in the mesh leave the bounds of the samples as they are.
+# Lines in the mesh do not change the bounds of the samples.
 for effort in fast normal high; do
   succeeds "$scarp" simplify "$dem" lines.glb -e 50 --roi site.geojson=2 --falloff 5000 --breaklines road.geojson \
     --effort "$effort" --report lines.json --overwrite

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Values that do not fit float32: what their rounding costs is told, and counts against every bound.
+# Values that do not fit float32: the cost of their rounding is reported, and counts against every bound.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate python3
 gdal_translate -q -srcwin 0 0 40 30 -ot Float64 -scale 236 1076 100000.1 100900.7 "$dem" fine.tif
@@ -35,7 +35,8 @@ succeeds "$scarp" simplify fine.tif goal.glb -e 5 --report goal.json
 holds "$(json goal.json max_error) + $(json goal.json sample_rounding) <= 5"
 succeeds "$scarp" measure fine.tif goal.glb --fail-above 5 -q
 
-# What a refusal of 0 names is kept, and little more than the rounding; decoded tenths, far coordinates and big numbers.
+# The error that a refusal of 0 names is kept, and little more than the rounding; decoded tenths, far coordinates and
+# big numbers.
 gdal_translate -q -srcwin 0 0 40 30 -a_scale 0.1 -a_offset 3 "$dem" tenths.tif
 gdal_translate -q -srcwin 0 0 40 30 -ot Int32 -scale 236 1076 1000000001 1000900007 "$dem" whole.tif
 for raster in fine.tif tenths.tif whole.tif; do
@@ -56,13 +57,13 @@ for raster in fits.tif eighths.tif; do
   succeeds "$scarp" measure "$raster" exact.glb --fail-above 0 -q
 done
 
-# Coordinates so large that double does not tell samples apart are named; around the centre there is room.
+# Coordinates so large that double does not separate samples are named; around the centre there is room.
 gdal_translate -q -of VRT -srcwin 0 0 40 30 "$dem" far.vrt
 sed -i 's|<GeoTransform>.*</GeoTransform>|<GeoTransform>1e20, 1, 0, 1e20, 0, -1</GeoTransform>|; s|<SRS.*</SRS>||' far.vrt
 refuses 3 "coordinates of 1e+20 cannot tell samples 1 apart" "$scarp" simplify far.vrt far.glb -e 5 --crs source
 succeeds "$scarp" simplify far.vrt far.glb -e 5 --crs local -q
 
-# Where the samples are the values, nothing is said.
+# If the samples are the values, nothing is reported.
 succeeds "$scarp" simplify "$dem" plain.glb -e 0 --report plain.json
 if grep -q 'rounded' "$logs/out" || grep -q '^  "sample_rounding"' plain.json; then fail "a rounding that is none"; fi
 

@@ -47,7 +47,7 @@ for archive in world.pmtiles world.mbtiles; do
   stop TERM
 done
 
-# A set that another takes the place of, in a folder and in one file, is served from then on.
+# A set that is replaced, in a folder and in one file, has its new tiles served from then on.
 old=(--vertical ellipsoid --zoom 4 --effort fast -q)
 new=(--vertical ellipsoid --zoom 3 --background 7 --effort fast -q)
 replaced=$SCARP_SOURCE/tests/program/serve_replaced.py
@@ -60,7 +60,7 @@ for set in set set.pmtiles set.mbtiles set.3tz; do
   stop INT
 done
 
-# Without the viewer's page beside the program, a map of the tiles is shown.
+# Without the viewer's page next to the program, a map of the tiles is shown.
 mkdir -p alone/bin
 cp "$scarp" alone/bin/scarp
 if alone/bin/scarp --version > /dev/null 2>&1; then

@@ -80,7 +80,7 @@ assert wet > 50, wet
 PYTHON
 done
 
-# Samples that lie next to a long shore leave it few places to be split at.
+# Samples that lie next to a long shore allow few places to split it.
 succeeds "$scarp" generate smooth 1200 60 flat.tif --seed 1 -q
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",
  "coordinates": [[[57.7, 15.8], [1172.1, 9.4], [1137.5, 38.7], [41.8, 43.6], [57.7, 15.8]]]}}]}' >long.geojson
@@ -88,7 +88,7 @@ succeeds "$scarp" simplify flat.tif long.obj -e 10 --up z --max-edge 60 --water 
 read -r count smallest shortest longest < <(python3 "$shape_of" long.obj)
 holds "$longest <= 60"
 
-# Edges that are shorter than asked are counted, and told.
+# Edges that are shorter than asked are counted, and reported.
 succeeds "$scarp" simplify hills.tif short.obj -e 10 --up z --min-edge 3 --max-edge 20 --report r.json --overwrite
 [ "$(json r.json shape asked_min_edge)" = 3.0 ] || fail "the report does not tell the shortest edge that was asked for"
 holds "$(json r.json shape shorter) > 0 && $(json r.json shape longest_edge) <= 20"
@@ -119,7 +119,7 @@ grep -q "warning: --min-angle 20: smaller angles are left in .* triangles, down 
   fail "no warning of small angles"
 grep -q "no vertex could be added" "$logs/out" && fail "the summary still blames vertices that could not be added"
 
-# More effort never takes more triangles, whatever the goals.
+# More effort never needs more triangles, whatever the goals.
 counts=
 for effort in normal high; do
   succeeds "$scarp" simplify "$dem" graded.2dm -e 20 --crs local --min-angle 25 --max-edge 1500 --grade 0.3 --effort "$effort" --report r.json --overwrite
@@ -144,7 +144,7 @@ done
 read -r whole moved <<<"$counts"
 holds "$moved < 1.1 * $whole"
 
-# What cannot be is refused, by name.
+# Impossible requests are refused, by name.
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle 40
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle some
 refuses 1 "--max-edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0

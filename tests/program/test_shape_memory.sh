@@ -6,7 +6,7 @@ need python3
 shape_of=$SCARP_SOURCE/tests/program/shape_of.py
 
 succeeds "$scarp" generate smooth 1000 800 hills.tif --seed 3 -q
-limit=77 # of which the samples, 3.2 MB, may take 2.5
+limit=77 # the samples, 3.2 MB, may use 2.5 of it
 
 for effort in fast normal high; do
   within "$limit" "$scarp" simplify hills.tif one.2dm -e 12 --min-angle 25 --effort "$effort" --memory "${limit}M" -j 1 \
@@ -43,7 +43,7 @@ read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
 holds "$longest <= 80"
 succeeds "$scarp" measure hills.tif graded.obj --up z --fail-above 12
 
-# What is refused stays within the limit until then, and what could never be had is refused at once.
+# A request that is refused stays within the limit until then, and an impossible one is refused at once.
 refuses_within() {
   try run_within "$limit" "$scarp" simplify hills.tif x.obj --memory "${limit}M" "$@"
   [ "$code" = 1 ] || fail "exit code $code instead of 1: $*"

@@ -5,7 +5,7 @@ need python3
 
 succeeds "$scarp" simplify "$dem" hills.glb -e 20 --preview hills.png --report hills.json
 [ ! -s "$logs/err" ] || fail "something on stderr"
-# The last line says which goal ended the run, and nothing that stands above it.
+# The last line names which goal ended the run, and nothing that stands above it.
 tail -n 1 "$logs/out" | grep -Eq '^Reached the error goal, after [0-9.]+ s$' || fail "the last line is: $(tail -n 1 "$logs/out")"
 for words in 'triangles  *[0-9,]* *, [0-9.]* % of the full grid.s 275,772' 'effort  *normal$' 'order  *dominant$' 'frame  *local metres' \
   'max error  *[0-9.]* at column [0-9]*, row [0-9]* (asked 20)$' '^  *at longitude -84\.[0-9]*, latitude 36\.[0-9]* in EPSG:4326$'; do
@@ -52,7 +52,7 @@ for key in vertices triangles samples uncovered; do
 done
 holds "$(json judged.json max_error) - $(json hills.json max_error) < 1e-6 && $(json hills.json max_error) - $(json judged.json max_error) < 1e-6"
 
-# The mesh says what it is, without saying where it was made.
+# The mesh's metadata describe it, without the place where it was made.
 json judged.json mesh metadata > metadata.json
 [ "$(json metadata.json generator)" = "\"Scarp $("$scarp" --version | cut -d' ' -f2)\"" ] || fail "generator"
 [ "$(json metadata.json command)" = '"scarp simplify jacksboro_fault.tif OUTPUT --max-error 20"' ] || fail "command: $(cat metadata.json)"

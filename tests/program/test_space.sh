@@ -56,7 +56,7 @@ done
 [ "$(json r.json frame kind)" = '"enu"' ] || fail "the report's frame is another"
 grep -qa '^property float x' s.ply || fail "a PLY east, north and up has doubles"
 
-# A bound so coarse that the earth's curve takes triangles: on a map two would do.
+# A bound so coarse that the earth's curve needs triangles: on a map two would do.
 python3 -c 'import struct, sys; sys.stdout.buffer.write(struct.pack("<f", 0) * (601 * 601))' > sea.img
 printf 'ENVI\nsamples = 601\nlines = 601\nbands = 1\ndata type = 4\ninterleave = bsq\nbyte order = 0\n' > sea.hdr
 for corner in "10 60 12 58" "179 -15 181 -17" "269 40 271 38"; do
@@ -67,7 +67,7 @@ for corner in "10 60 12 58" "179 -15 181 -17" "269 40 271 38"; do
   succeeds "$scarp" measure sea.tif sea.glb --fail-above 50
 done
 
-# What is not so.
+# Settings that are refused.
 refuses 1 "--crs enu cannot be combined with --base" "$scarp" simplify "$dem" x.stl -e 10 --crs enu --base 0
 refuses 1 "--crs enu cannot be combined with 2DM as OUTPUT" "$scarp" simplify "$dem" x.2dm -e 10 --crs enu
 refuses 1 "--crs EPSG:4978 cannot be combined with --preview" \

@@ -83,7 +83,7 @@ for mode in silent later drip; do
   ends_soon "a server that is $mode" TERM "$scarp" simplify "http://127.0.0.1:$port/tiled.tif" out.glb -e 5
 done
 
-# Pipes that nobody writes, and that nobody reads.
+# Pipes without a writer, and without a reader.
 mkfifo pipe
 ends_soon "a pipe without a writer" INT "$scarp" simplify pipe out.glb -e 5
 exec 8< <(exec sleep 1000)

@@ -45,12 +45,12 @@ done
 grep -aq 'OUTPUT --max-error 150 --order greedy"' greedy.glb || fail "the metadata does not tell the order"
 holds "$(json a.json work samples_scanned) > 100000 && $(json a.json work passes) > 100"
 
-# What can change the mesh is in its metadata, in a fixed order and as it was given.
+# Every setting that can change the mesh is in its metadata, in a fixed order and as it was given.
 succeeds "$scarp" simplify "$dem" meta.obj -t 300 --edge-score tight --edges data --importance 'global*(local+1)' -q
 grep -q "simplify jacksboro_fault.tif OUTPUT --max-triangles 300 --importance 'global\*(local+1)' --edges data --edge-score tight\$" meta.obj ||
   fail "the metadata does not tell the strategy: $(grep -m 1 'simplify' meta.obj)"
 
-# Data-dependent edges need fewer triangles on this terrain, batches more; the report says what was done.
+# Data-dependent edges need fewer triangles on this terrain, batches more; the report describes the work.
 succeeds "$scarp" simplify "$dem" d.glb -e 25 --order greedy --report delaunay.json
 succeeds "$scarp" simplify "$dem" e.glb -e 25 --report data.json --edges data
 succeeds "$scarp" simplify "$dem" f.glb -e 25 --report batch.json --batch const
@@ -66,7 +66,7 @@ assert json.load(open(sys.argv[1]))["strategy"] == {
     "roi": None, "falloff": None}
 PYTHON
 
-# The order: dominant where it may be, and the same if asked for; the report tells which was taken.
+# The order: dominant where it may be, and the same if asked for; the report names the one used.
 succeeds "$scarp" simplify "$dem" auto.glb -e 25 --report auto.json
 succeeds "$scarp" simplify "$dem" dominant.glb -e 25 --order dominant --report dominant.json
 cmp auto.glb dominant.glb || fail "--order dominant is not the default"
@@ -78,7 +78,7 @@ holds "$(json auto.json triangles) < 1.1 * $(json delaunay.json triangles)"
 succeeds "$scarp" simplify "$dem" budget.glb -e 25 -t 100000 --effort fast --report budget.json
 [ "$(json budget.json strategy order)" = '"greedy"' ] || fail "a budget takes $(json budget.json strategy order)"
 
-# What a run's passes took: each once in the table, and the same in the report.
+# The cost of a run's passes: each once in the table, and the same in the report.
 succeeds "$scarp" simplify "$dem" timed.glb -e 25 --timing --report timed.json
 cp "$logs/out" timed.txt
 python3 - timed.json timed.txt read tiles seams fit freeze order prove judge write <<'PYTHON'

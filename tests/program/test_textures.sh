@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Textures count beside heights: -e stays a true bound on the heights, the judge agrees, what does not fit is refused.
+# Textures count with heights: -e stays a true bound on the heights, the judge agrees, a texture that does not fit is
+# refused.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalbuildvrt gdalinfo
 

@@ -29,7 +29,7 @@ holds "$(json one.json edges) > 50 && $(json one.json corners) > 20 && $(json on
 # Threads change nothing.
 succeeds "$scarp" tile check globe --source "$dem" --vertical egm96 --json -j 3
 diff <(grep -v '"seconds"\|"command"' one.json) <(grep -v '"seconds"\|"command"' "$logs/out") || fail "3 threads find otherwise"
-# Of a plan, which says what the nodes are; and of 3D Tiles, in a container.
+# Checks with a plan, which defines the nodes; and of 3D Tiles, in a container.
 succeeds "$scarp" tile plan "$dem" world.json --vertical egm96 -q
 succeeds "$scarp" tile check globe --source world.json -q
 succeeds "$scarp" tile "$dem" globe.3tz --of 3dtiles --vertical egm96 -q
@@ -49,7 +49,7 @@ rm "broken/$tile" && finds availability "$tile is announced, but missing" broken
 rm -r broken && cp -r globe broken && mkdir -p broken/8/3 && cp "globe/$tile" broken/8/3/5.terrain
 finds availability "8/3/5.terrain is there" broken
 rm -r broken && cp -r globe broken && rm broken/layer.json && finds availability "layer.json is missing" broken
-# Clients find no tile by a layer.json that does not say where they are, or counts them otherwise.
+# Clients find no tile by a layer.json that does not hold their addresses, or counts them otherwise.
 layer() { rm -r broken && cp -r globe broken && sed -i "$1" broken/layer.json; }
 layer 's/"tiles"/"tales"/' && finds availability "layer.json does not name its files" broken
 layer 's/{x}.{y}/{y}\/{x}/' && finds availability "layer.json does not name its files" broken
@@ -63,7 +63,8 @@ succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear "$dem" utm.tif
 succeeds "$scarp" tile utm.tif city --grid local --vertical egm96 --effort fast -q
 succeeds "$scarp" tile check ball --source "$dem" --vertical egm96 -q
 succeeds "$scarp" tile check city --source utm.tif --vertical egm96 -q
-# told SET CHANGE WORDS [OPTION...]: `root` is the first tile, `first` the first of implicit tiles, `own` what Scarp adds.
+# `told SET CHANGE WORDS [OPTION...]`: `root` is the first tile, `first` the first of implicit tiles, `own` Scarp's
+# additions.
 told() {
   local set=$1 change=$2 words=$3
   shift 3
@@ -122,7 +123,8 @@ refuses 2 "no such file or folder" "$scarp" tile check missing
 refuses 2 "no set of tiles" "$scarp" tile check "$dem"
 refuses 1 "--vertical is for the raster of --source" "$scarp" tile check globe --vertical egm96
 refuses 1 "world.json has decided it" "$scarp" tile check globe --source world.json --vertical egm96
-# The set knows what its heights are above, in each container; an option that says otherwise is believed, and finds faults (above).
+# The set holds the zero of its heights, in each container; an option that names another is believed, and finds faults
+# (above).
 succeeds "$scarp" tile check globe --source "$dem" -q
 succeeds "$scarp" tile check ball --source "$dem" -q
 succeeds "$scarp" tile check globe.3tz --source "$dem" -q

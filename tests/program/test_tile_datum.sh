@@ -42,12 +42,12 @@ succeeds gdalwarp -q -t_srs EPSG:32616 forty.tif forty_utm.tif
 succeeds "$scarp" tile "$dem" warped --geoid forty_utm.tif --zoom 8 -q
 diff -r raised/8 warped/8 || fail "a surface in UTM is another one"
 
-# Nobody knows: as they are.
+# An unknown zero: as they are.
 succeeds "$scarp" tile "$dem" none --vertical none --zoom 8 -q
 diff -r flat/8 none/8 || fail "--vertical none changes heights"
 grep -q "nobody names" none/layer.json || fail "layer.json does not tell that nobody knows the datum"
 
-# What cannot be: each says the way out.
+# Impossible requests: each names the way out.
 refuses 1 "--geoid FILE" "$scarp" tile "$dem" no
 refuses 1 "--geoid FILE" env PROJ_DATA="$PWD/bare_proj" PROJ_LIB="$PWD/bare_proj" "$scarp" tile "$dem" no --vertical egm2008
 refuses 1 "no vertical CRS" "$scarp" tile "$dem" no --vertical EPSG:4326

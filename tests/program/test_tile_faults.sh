@@ -56,7 +56,7 @@ for end in cut zeros noise head; do
     head) truncate -s 17 "$part" ;;
   esac
   if [ $end = zeros ]; then
-    # The last record is whole in length, but not in content: that is told, and its file is named.
+    # The last record is whole in length, but not in content: that is reported, and its file is named.
     succeeds "$scarp" tile run plan.json --parts gone -q
     try "$scarp" tile finish plan.json no.pmtiles --parts gone
     [ "$code" = 2 ] && grep -q "$part is damaged: delete it" "$logs/err" || fail "$(cat "$logs/err")"

@@ -9,7 +9,7 @@ breaker=$SCARP_SOURCE/tests/program/break_tiles.py
 
 succeeds "$scarp" tile "$dem" web --grid mercator --vertical egm96 --report r.json -j 1
 [ "$(json web/layer.json projection)" = '"EPSG:3857"' ] || fail "layer.json does not name Web Mercator"
-# As many metres a cell as level 11 of the geographic grid.
+# The cells have the size of those of level 11 of the geographic grid.
 [ "$(json web/layer.json maxzoom)" = 12 ] || fail "3 seconds of arc are level 12"
 read -r tiles edges low high < <(python3 "$reader" web)
 holds "$tiles > 50 && $edges > 70 && $low == 0 && $high > 1030 && $high < 1055"
@@ -81,7 +81,7 @@ finds border broken
 finds bound broken --source "$dem" --vertical egm96
 rm -r broken && cp -r web broken && sed -i 's/EPSG:3857/EPSG:4326/' broken/layer.json
 finds header broken
-# What layer.json does not say, an option does.
+# An option replaces missing data of layer.json.
 sed -i '/"projection"/d' broken/layer.json
 finds header broken
 succeeds "$scarp" tile check broken --grid mercator -q

@@ -74,7 +74,7 @@ succeeds tiles utm --breaklines utm.gpkg:roads --zoom 10 -q
 python3 "$reader" utm > /dev/null || fail "neighbours differ with lines in UTM"
 [ "$(find one -name '*.terrain' | wc -l)" = "$(find utm -name '*.terrain' | wc -l)" ] || fail "UTM lines make other tiles"
 
-# A limit of bytes leaves lines where they are.
+# A limit of bytes does not move lines.
 succeeds tiles small --breaklines lines.geojson --max-tile-bytes 3k --zoom 10 -q
 python3 "$reader" small > /dev/null || fail "neighbours differ within a limit"
 

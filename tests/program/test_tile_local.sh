@@ -31,7 +31,7 @@ for z in 0 1 2 3; do
 done
 succeeds "$scarp" tile check city --source utm.tif --json
 cp "$logs/out" check.json
-# What Scarp's own check measures is what Python did.
+# Scarp's own check measures the same as Python.
 python3 - << 'E'
 import json
 check = json.load(open("check.json"))["levels"]
@@ -42,7 +42,7 @@ for level, line in zip(check, open("judged"), strict=True):
     assert abs(worst - bound) < 1e-9, "the bound is not what the file's numbers say"
 E
 
-# The plane's place: exact at the centre, and off elsewhere by no more than the report says, and by about that.
+# The plane's place: exact at the centre, and off elsewhere by no more than in the report, and by about that.
 python3 - "$cols" "$rows" "$cell" > places << 'E'
 import sys
 cols, rows, cell = int(sys.argv[1]), int(sys.argv[2]), float(sys.argv[3])
@@ -177,7 +177,7 @@ assert "3DTILES_ellipsoid" not in json.load(open("city/tileset.json")).get("exte
 assert json.load(open("mars.json"))["ellipsoid"] == [3396190, 3396190]
 E
 
-# Feet become metres, and that is said once; where nobody tells the unit of the heights, they are in that of x and y.
+# Feet become metres, and that is reported once; where the unit of the heights is unknown, they are in that of x and y.
 quick=(--grid local --vertical ellipsoid --effort fast -e 200)
 for crs in 2225 2225+6360; do
   succeeds gdal_translate -q -a_srs EPSG:$crs -a_ullr 6000000 2100000 6040000 2070000 "$dem" feet.tif
@@ -239,7 +239,7 @@ python3 "$judge" grown steep.f32 130 90 0 1 > judged
 refuses 1 "needs steps of 0.00390625 where the earlier plan has 0.00195" "$scarp" tile plan land.pgm no.json --changed-since low0.0625.json
 refuses 1 "0.001 at level 2, the finest, is too fine for heights of 0 to 65535" "$scarp" tile steep.pgm no --cells 64 -e 0.001
 
-# What makes no sense is refused.
+# Requests without sense are refused.
 local=("$scarp" tile utm.tif no --grid local)
 refuses 1 "quantized-mesh lies on the ellipsoid" "${local[@]}" --of qm
 refuses 1 "--water cannot be combined with --grid local: lakes and rivers are laid in degrees" "${local[@]}" --water lakes.shp

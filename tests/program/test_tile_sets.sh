@@ -14,7 +14,7 @@ for ending in pmtiles mbtiles 3tz; do
   succeeds "$scarp" tile "$dem" again.$ending --vertical egm96 -j 3 -q
   cmp world.$ending again.$ending || fail "3 threads make another $ending"
 
-  # What is there stays; Scarp's own is replaced.
+  # Existing files stay; Scarp's own are replaced.
   refuses 4 "--overwrite" "$scarp" tile "$dem" world.$ending --vertical egm96
   succeeds "$scarp" tile "$dem" again.$ending --vertical egm96 --zoom 8 --overwrite -q
   cmp -s world.$ending again.$ending && fail "$ending was not replaced"
@@ -43,7 +43,7 @@ for output in killed killed.pmtiles killed.mbtiles killed.3tz kept.pmtiles; do
   fi
 done
 
-# What a killed run left goes with the next of the same name; what another has, or one that lives, stays.
+# The remains of a killed run are removed by the next of the same name; those of another, or of one that lives, stay.
 [ "$(ls -d .scarp-tiles-* | wc -l)" = 1 ] || fail "the killed run left no folder"
 left=$(ls -d .scarp-tiles-*)
 succeeds "$scarp" tile "$dem" another --vertical egm96 --zoom 8 -q

@@ -18,7 +18,7 @@ succeeds "$scarp" tile folder folder/set.mbtiles --vertical egm96 --zoom 8 -q
 succeeds "$scarp" tile folder folder/set --vertical egm96 --zoom 8 -q
 diff -r from_folder folder/set || fail "a set inside the folder is read"
 
-# The first that has a height wins, and what has none lets the next one show.
+# The first that has a height wins, and a source without one shows the next.
 succeeds gdal_create -of GTiff -ot Float32 -a_srs EPSG:4979 -a_ullr 10.2 45.8 10.6 45.4 -outsize 60 60 -burn 100 low.tif
 succeeds gdal_create -of GTiff -ot Float32 -a_srs EPSG:4979 -a_ullr 10 46 11 45 -outsize 60 60 -burn 200 high.tif
 # heights FOLDER: of the finest tile in the middle of the small raster, rounded, each once.
@@ -160,7 +160,7 @@ touch coarse.tif
 refuses 2 "coarse.tif has changed" "$scarp" tile run gone.json --shard 2/2
 touch -r time coarse.tif
 succeeds "$scarp" tile run gone.json --shard 2/2 -q
-# finish needs no raster, and says so where one is another by now.
+# finish needs no raster, and reports it if one has changed by now.
 mv coarse.tif away.tif
 succeeds "$scarp" tile finish gone.json gone
 grep -q "coarse.tif" "$logs/err" || fail "finish does not tell that a raster is gone"

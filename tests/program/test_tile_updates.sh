@@ -81,7 +81,7 @@ cp after.tif seen.tif
 succeeds "$scarp" tile seen.tif anew.pmtiles "${few[@]}" -q
 cmp anew.pmtiles hashed.pmtiles || fail "an edit that keeps size and time"
 
-# What cannot be.
+# Impossible requests.
 refuses 1 "does not go with --changed-since" "$scarp" tile plan land.tif no.json --changed-since a.json --effort high
 refuses 2 "cannot read missing.json" "$scarp" tile plan land.tif no.json --changed-since missing.json
 make_raster high.tif "1900 if col == 5 and row == 5 else $hills"

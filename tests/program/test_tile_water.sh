@@ -122,7 +122,7 @@ succeeds gdal_translate -q -a_srs EPSG:4326 land.tif sea.tif
 succeeds "$scarp" tile sea.tif sea --vertical egm96 --water lake.geojson --zoom 9 --report sea.json -q
 holds "($(json sea.json water lakes 0 level) - $(json land3.json water lakes 0 level)) ^ 2 < 1e-4"
 
-# Across the antimeridian, a lake in one piece and one that goes on beyond 180 degrees are the same.
+# Across the antimeridian, a lake in one piece and one that continues beyond 180 degrees are the same.
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 179.9 10.2 180.24 9.9 "$dem" date.tif
 ring() {
   printf '{"type":"Polygon","coordinates":[[[179.953,10.12],[%s,10.15],[%s,10.03],[179.962,9.96],[179.953,10.12]]]}' "$1" "$2"

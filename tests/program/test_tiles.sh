@@ -4,7 +4,7 @@ source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalwarp
 reader=$SCARP_SOURCE/tests/program/tiles.py
 
-# Heights above nobody knows what are no heights on a globe.
+# Heights above an unknown zero are no heights on a globe.
 refuses 1 "--vertical egm96" "$scarp" tile "$dem" globe
 
 succeeds "$scarp" tile "$dem" globe --vertical egm96 --report r.json -j 1
@@ -15,7 +15,7 @@ holds "$tiles > 50 && $edges > 70"
 # The land lies 31 to 33 m below its heights above the sea there; around it the ellipsoid's own surface.
 holds "$low == 0 && $high > 1030 && $high < 1055"
 [ "$(find globe -name '*.terrain' | wc -l)" = "$tiles" ] || fail "files and tiles differ"
-# What is promised of each level is what layer.json says.
+# The promise of each level is the one in layer.json.
 for z in 11 10 9 8 7 6; do
   holds "$(json r.json levels $z node_error) <= $(json r.json levels $z asked)"
   holds "$(json r.json levels $z bound) == $(json globe/layer.json scarp levels $z bound)"
@@ -43,7 +43,7 @@ for z in 11 10 9 8 7 6; do
 done
 [ $broken -gt 0 ] || fail "samples are bound without asking for it: the test shows nothing"
 
-# Where bounds are not kept, the warning tells nodes from samples, and the way out of each.
+# If bounds are not kept, the warning separates nodes from samples, and the way out of each.
 succeeds "$scarp" tile "$dem" rough --vertical egm96 --bound samples --zoom 7 -e 20 --effort fast --report rough.json
 grep -q "tiles\? of the levels .*: level 7 has .* m at nodes and .* m at samples where 20 m were asked. Nodes .* give a larger --zoom" "$logs/err" ||
   fail "no word of samples"
@@ -74,7 +74,7 @@ grep -q "what neighbours share alone takes more" "$logs/err" || fail "no warning
 refuses 1 "holds no tile" "$scarp" tile "$dem" no --vertical egm96 --max-tile-bytes 0
 refuses 1 "--max-tile-bytes" "$scarp" tile "$dem" no --vertical egm96 --max-tile-bytes x
 
-# What is there stays.
+# Existing files stay.
 refuses 4 "--overwrite" "$scarp" tile "$dem" globe --vertical egm96
 mkdir other && touch other/mine
 refuses 4 "no set of tiles" "$scarp" tile "$dem" other --vertical egm96 --overwrite
@@ -118,7 +118,7 @@ refuses 4 "no folder can be made" "$scarp" tile "$dem" missing/no --vertical egm
 printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n4 5 6\n7 8 9\n" > bare.asc
 refuses 2 "where on the globe" "$scarp" tile bare.asc no --grid geographic
 
-# What is not Scarp's is not deleted.
+# Files of others are not deleted.
 touch globe/mine
 refuses 4 "globe/mine is not Scarp's" "$scarp" tile "$dem" globe --vertical egm96 --overwrite
 mkdir theirs && echo '{"format":"quantized-mesh-1.0"}' > theirs/layer.json

@@ -7,10 +7,10 @@ reader=$SCARP_SOURCE/tests/program/tiles3d.py
 succeeds "$scarp" tile "$dem" globe --vertical egm96 --of 3dtiles --report r.json -j 1
 read -r tiles subtrees low high < <(python3 "$reader" globe)
 holds "$tiles > 50 && $subtrees >= 4"
-# The land's heights above the ellipsoid lie between what the root's region says.
+# The land's heights above the ellipsoid lie between the limits of the root's region.
 holds "$low < 0 && $high > 1030 && $high < 1200"
 [ "$(find globe -name '*.glb' | wc -l)" = "$tiles" ] || fail "files and tiles differ"
-# What is told of each level is proven, and asked of clients, too.
+# The error given for each level is proven, and used by clients, too.
 # Nothing is a bad drawing of a planet, from whatever distance.
 holds "$(json globe/tileset.json geometricError) > 6e6 && $(json globe/tileset.json root geometricError) > 6e6"
 root_error=$(json globe/tileset.json root children 0 geometricError)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tools/try_files.py tells what a program does with a folder of files, and finds each kind of fault.
+# tools/try_files.py reports the results of a program on a folder of files, and finds each kind of fault.
 source "$(dirname "$0")/lib.sh"
 need python3
 try_files() { try env PYTHONDONTWRITEBYTECODE=1 python3 "$SCARP_SOURCE/tools/try_files.py" "$@"; }
@@ -12,7 +12,7 @@ grep -q '^| exit code 0 | 1 | 1 | 1 |$' "$logs/out" || fail "the raster is not i
 grep -q '^| exit code 2 | 1 | 1 | 0 |$' "$logs/out" || fail "the refusal is not in the table"
 grep -q '^2 files, 0 faults$' "$logs/out" || fail "the last line is another"
 
-# fake SCRIPT WORDS: a program that does as the script says; the table tells WORDS.
+# fake SCRIPT WORDS: a program that runs the script; the table prints WORDS.
 fake() {
   printf '#!/bin/sh\n%s\n' "$1" > "$logs/fake"
   chmod +x "$logs/fake"

@@ -62,7 +62,7 @@ while read -r name metres cell; do
   succeeds "$scarp" simplify "$name.vrt" "$name.stl" -e 6
   [ "$(grep -c 'become metres' "$logs/err")" = 1 ] || fail "$name: nothing is told of the way to metres"
   grep -q 'in the file' "$logs/out" || fail "$name: the summary has no unit of the file"
-  # Formats that say nothing of themselves, and other frames in metres.
+  # Formats without metadata, and other frames in metres.
   succeeds "$scarp" measure "$name.vrt" "$name.stl" --fail-above 6
   [[ $name = utm_* ]] || [ $name = plane_up ] || continue
   succeeds "$scarp" simplify "$name.vrt" "$name.glb" -e 6 --crs enu -q --overwrite
@@ -77,7 +77,7 @@ plane_m 1 9.144018288036576
 plane_up $survey 9.144018288036576
 LIST
 
-# An assumption is told, with its way out, which changes the heights as it says.
+# An assumption is reported, with its way out, which changes the heights accordingly.
 succeeds "$scarp" simplify plane.vrt plane.glb -e 6 --overwrite
 grep -q 'taken for US survey foot, as x and y are.*--z-unit m' "$logs/err" || fail "nothing is told of an assumption"
 succeeds "$scarp" simplify plane.vrt plane.glb -e 6 --z-unit m --overwrite
@@ -106,7 +106,7 @@ PYTHON
 done
 succeeds "$scarp" simplify utm_ft.vrt same.tif -e 20ft --overwrite
 gdalinfo same.tif | grep -q 'Unit Type: ft' || fail "a raster loses its unit"
-# What info suggests is that error in every format.
+# The suggestion of info is that error in every format.
 goal=$("$scarp" info utm_ft.vrt 2> /dev/null | sed -n 's/.*-e \([0-9.]*ft\)$/\1/p' | head -1)
 [ -n "$goal" ] || fail "info suggests no error in feet"
 succeeds "$scarp" simplify utm_ft.vrt utm_ft.glb -e "$goal" --overwrite
@@ -171,7 +171,8 @@ PYTHON
 succeeds "$scarp" measure points.vrt points.glb --points --fail-above 3
 succeeds "$scarp" measure points.vrt points.glb --points --fail-above 9.85ft
 
-# Their unit is that of the vertical CRS, or of the name of a column or attribute, or what --z-unit says. LOW HIGH: the land in metres.
+# Their unit is that of the vertical CRS, or of the name of a column or attribute, or that of --z-unit. LOW HIGH: the
+# land in metres.
 land() {
   succeeds "$scarp" simplify "${@:4}" "$1" -e 0.5m --report r.json --overwrite
   python3 - "$1" "$2" "$3" <<'PYTHON' || fail "${*:4} $1: heights, or what is as wide as it should not be"

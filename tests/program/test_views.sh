@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What a raster says stays with every view of it; what does not fit together is refused, and the way out works.
+# The metadata of a raster stay with every view of it; rasters that do not fit together are refused, and the way out
+# works.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gdalwarp gdalbuildvrt python3
 gdal_edit() { /usr/bin/python3 "$(command -v gdal_edit.py)" "$@"; }
@@ -78,7 +79,7 @@ gdal_edit -a_nodata -9999 d.tif
 succeeds "$scarp" simplify c.tif d.tif o.tif -e 0 --overwrite --report r.json
 [ "$(json r.json input void)" = 20000 ] || fail "the gap is not missing"
 holds "$(json r.json input min) >= 1"
-# --nodata takes the place of what is declared: the gap is still one.
+# --nodata replaces the declared value: the gap is still one.
 gdal_translate -q -a_nodata -9999 -srcwin 0 0 100 100 utm.tif c.tif
 gdal_translate -q -a_nodata -9999 -srcwin 100 100 100 100 utm.tif d.tif
 succeeds "$scarp" simplify c.tif d.tif o.tif -e 0 --nodata -1 --overwrite --report r.json
@@ -134,7 +135,7 @@ done
 succeeds "$scarp" simplify sides sides.glb -e 40 --crs EPSG:32660
 grep -q 'read as *mosaic of 2 rasters, both ends of x side by side' "$logs/out" || fail "the summary does not tell"
 
-# Two zones: the wedges beside a warped raster are holes, not land at 0.
+# Two zones: the wedges next to a warped raster are holes, not land at 0.
 gdal_translate -q -a_srs EPSG:26916 a.tif zone.tif
 refuses 2 "zone.tif is in EPSG:26916, and a.tif in EPSG:26917: bring it there first" "$scarp" info a.tif zone.tif
 way_out

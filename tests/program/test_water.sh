@@ -123,7 +123,7 @@ refuses 1 "--water-percentile" "$scarp" simplify "$dem" x.glb -e 20 --water lake
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water-percentile 10
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --water nothing.gpkg
 
-# The stream of the examples follows its valley; a line over a spur is told, with a way out that works.
+# The stream of the examples follows its valley; a line over a spur is reported, with a way out that works.
 succeeds "$scarp" simplify "$dem" stream.glb -e 20 --rivers "$data/examples/streams.geojson" --report stream.json
 ! grep -q "below the raster, for" "$logs/err" || fail "the stream of the examples crosses higher ground"
 python3 -c 'import json; assert max(r["deepest_cut"] for r in json.load(open("stream.json"))["rivers"]) < 20' ||

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# --water with --rivers, and --detect-flats, with --memory: the lakes are those of a raster in memory, level in the
-# mesh across all strips; the bytes are those of any number of threads, and what lakes take counts.
+# --water with --rivers, and --detect-flats, with --memory: the lakes are those of a raster in memory, level in the mesh
+# across all strips; the bytes are those of any number of threads, and the memory of lakes counts.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 

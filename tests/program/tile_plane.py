@@ -133,7 +133,7 @@ class Tile:
         items, is_short = self.items(position), position["componentType"] == 5123
         self.places = []
         for v in range(position["count"]):
-            # What is normalized is a number of steps: matrix / 65535 is one.
+            # A normalized value is a number of steps: matrix / 65535 is one.
             numbers = struct.unpack_from("<3H", items, 8 * v) if is_short else struct.unpack_from("<3f", items, 12 * v)
             scales = [matrix[5 * k] / (65535 if is_short else 1) for k in range(3)]
             x, y, z = (matrix[12 + k] + scales[k] * numbers[k] for k in range(3))
@@ -167,7 +167,7 @@ def main():
     heights.reverse()
     tileset = json.loads((folder / "tileset.json").read_text())
     scarp, box = tileset["asset"]["extras"]["scarp"], tileset["root"]["boundingVolume"]["box"]
-    # Of 29 bits.
+    # For 29 bits.
     assert all(math.isclose(size, cell, rel_tol=2e-9) for size in scarp["grid"]["cell"]), scarp["grid"]
     cell = scarp["grid"]["cell"][0]
     low, high = box[2] - box[11], box[2] + box[11]
@@ -205,7 +205,7 @@ def main():
                         met.add(row * cols + col)
                         worst = max(worst, abs(az + to_b * (bz - az) + to_c * (cz - az) - heights[row][col]))
         assert len(met) == cols * rows, f"level {z}: {cols * rows - len(met)} samples lie on no triangle"
-        # What is told is what the file's numbers say, not a little less.
+        # The reported error is that of the file's numbers, not a little less.
         assert worst <= level["node_error"] * (1 + 1e-9) + 1e-6, (z, worst, level["node_error"])
         print(len(of_level), triangles, worst, level["bound"])
 

@@ -15,7 +15,7 @@ import struct
 import sys
 import zipfile
 
-LEVEL_OF_TILES = -3  # of a path z/x/y.terrain
+LEVEL_OF_TILES = -3  # index from the end of a path z/x/y.terrain
 
 
 def hilbert(zoom, x, y):

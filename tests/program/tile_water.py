@@ -32,7 +32,7 @@ def main():
         for p, q in edges:
             if (p[1] <= row) != (q[1] <= row):
                 cuts.append(p[0] + (row - p[1]) / (q[1] - p[1]) * (q[0] - p[0]))
-                # Nodes a 128th beside the shore are water, too.
+                # Nodes a 128th off the shore are water, too.
                 away = abs(cuts[-1] - round(cuts[-1])) * abs(q[1] - p[1]) / math.dist(p, q)
                 assert away > 1 / 100, f"the lake's edge is on a node: {row}, {away}"
         return sorted(cuts)

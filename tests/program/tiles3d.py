@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads a folder of 3D Tiles terrain without any of Scarp's code.
 
-  tiles3d.py FOLDER: walks tileset.json and its subtrees as the specification says; fails if a tile that they announce
+  tiles3d.py FOLDER: walks tileset.json and its subtrees by the specification; fails if a tile that they announce
   is missing, one is there that they do not announce, a number in a property table is not a height, sphere or horizon
   point that can be, or a file's parts do not fit; prints tiles, subtrees, and the region's lowest and highest height.
 """
@@ -110,7 +110,7 @@ def main():
         x, y, z = gltf["nodes"][0]["matrix"][12:15]
         sphere = origins[key]
         assert math.dist((x, -z, y), sphere[:3]) <= 3 ** 0.5 * 3 * sphere[3], f"{uri} is elsewhere"
-        # And the tile's middle is where its place says: y from the south.
+        # And the tile's middle is where its address puts it: y from the south.
         root_number, level, column, row = key
         if level < 3:
             continue

@@ -8,7 +8,7 @@ segment, in order, are joined, and each end on the raster is a vertex; fails whe
 import json
 import sys
 
-SIDE, NEAR = 16, 0.006  # of a cell of the index; off a line by rounding to the lattice
+SIDE, NEAR = 16, 0.006  # share of a cell of the index; off a line by rounding to the lattice
 
 vertices, edges = [], set()
 for line in open(sys.argv[1]):
@@ -47,7 +47,7 @@ def walk(p, q):
         vx, vy, vz = vertices[v]
         along = ((vx - p[0]) * x + (vy - p[1]) * y) / length
         beside = abs((vx - p[0]) * y - (vy - p[1]) * x) / length
-        # Beside a hard line a sample may lie nearer than the lattice tells apart, with another height.
+        # Next to a hard line a sample may lie nearer than the lattice distinguishes, with another height.
         other = len(p) == 3 and abs(vz - p[2] - along / length * (q[2] - p[2])) > 0.02
         if beside < NEAR and -NEAR <= along <= length + NEAR and not other:
             on.append((along, v))

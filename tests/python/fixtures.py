@@ -1,6 +1,6 @@
-"""What the tests of Scarp for Python share. Parts that need a package that is not there are skipped.
+"""Common parts of the tests of Scarp for Python. Parts that need a package that is not there are skipped.
 
-SCARP_PROGRAM: the program, whose bytes are compared; SCARP_DEM: a raster. SCARP_SHARE=N: leaks are looked for with an
+SCARP_PROGRAM: the program, whose bytes are compared; SCARP_DEM: a raster. SCARP_SHARE=N: leaks are searched for with an
 Nth (DEFAULT: a tenth) of 10,000 meshes and 1,000 refiners.
 """
 import array
@@ -14,7 +14,7 @@ except ImportError:
 
 PROGRAM = os.environ.get("SCARP_PROGRAM")
 DEM = os.environ.get("SCARP_DEM")
-SHARE = int(os.environ.get("SCARP_SHARE", "10"))  # of what is done many times, one in so many
+SHARE = int(os.environ.get("SCARP_SHARE", "10"))  # one in so many of the tasks done many times
 
 
 def need(*modules):

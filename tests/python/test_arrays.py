@@ -235,7 +235,7 @@ class Arrays(unittest.TestCase):
         self.assertLessEqual(mesh.max_error, 1.5)
         self.assertLess(mesh.vertex_count, 500)
         self.assertTrue({tuple(v) for v in np.round(mesh.vertices, 2)} <= {tuple(p) for p in np.round(points, 2)})
-        # As its help has it: rows of three are points, unless something says that they are a raster.
+        # Like in its help: rows of three are points, unless something shows that they are a raster.
         proof = mesh.report
         for given in (points, points.tolist(), np.asfortranarray(points)):
             report = scarp.measure(given, mesh)
@@ -350,7 +350,7 @@ class Arrays(unittest.TestCase):
             Delatin(z, blur=2)
         with self.assertRaisesRegex(ValueError, "give height and width"):
             Delatin(z.ravel())
-        # As scripts use it: no warning, and arrays that are the caller's own.
+        # Used like in scripts: no warning, and arrays that are the caller's own.
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             steep = Delatin(100 * z, max_error=200)

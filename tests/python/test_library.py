@@ -139,7 +139,7 @@ class Library(unittest.TestCase):
             with self.assertRaises(Own):
                 scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=bad)
 
-        # What it raised holds nothing in a circle.
+        # The exception holds nothing in a circle.
         gc.collect()
         gc.disable()
         try:

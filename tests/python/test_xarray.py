@@ -24,7 +24,7 @@ def degrees(dims=("lat", "lon"), **more):
 
 
 def place_of(source, **more):
-    """The transform and the CRS that the library is told."""
+    """The transform and the CRS that the library is given."""
     field = _inputs.read(source, **more).field
     return list(field.geotransform), (field.crs or b"").decode()
 
@@ -47,7 +47,7 @@ class DataArrays(unittest.TestCase):
                       heights.to_dataset(), heights.astype("f8"), heights.chunk() if has_dask() else heights):
             mesh = scarp.simplify(other, 2)
             self.assertTrue(is_same(mesh, expected) and mesh.origin == expected.origin, other.dims)
-        # Masks lie as the array that they are given beside; samples are named in it.
+        # Masks have the layout of the array that they are given with; samples are named in it.
         beside, of = heights.copy(data=mask), expected.report.max_error_at
         for other in (heights[::-1], heights[:, ::-1], heights.transpose(), heights.transpose()[::-1, ::-1]):
             like = beside.transpose(*other.dims).sel({dim: other.coords[dim] for dim in other.dims})
@@ -137,7 +137,7 @@ class DataArrays(unittest.TestCase):
         turned = xarray.DataArray(hills(), dims=("y", "x"), coords={"spatial_ref": ((), 0, told)})
         self.expect(turned, (500000, 30, 5, 4000000, 5, -30), "EPSG:32611")
         self.expect(turned.drop_vars("spatial_ref"), (0, 1, 0, 0, 0, -1), "")
-        # Of a part the coordinates count, whatever the geotransform of the whole says.
+        # The coordinates of a part count, whatever the geotransform of the whole is.
         part = grid().assign_coords(spatial_ref=((), 0, {**told, "GeoTransform": "500000 30 0 4000000 0 -30"}))[20:, 10:]
         self.expect(part, (500300, 30, 0, 3999400, 0, -30), "EPSG:32611")
 
@@ -158,7 +158,7 @@ class DataArrays(unittest.TestCase):
         for kind, words, source in cases:
             with self.assertRaisesRegex(kind, words):
                 scarp.simplify(source, 2)
-        # Whoever says the transform needs no coordinates.
+        # A call with a transform needs no coordinates.
         self.assertEqual(place_of(curved, transform=(0, 1, 0, 0, 0, -1))[0], [0, 1, 0, 0, 0, -1])
         self.assertLessEqual(scarp.simplify(several["a"], 2).max_error, 2)
 

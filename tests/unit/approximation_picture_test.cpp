@@ -1,4 +1,4 @@
-// Pictures of what the mesh says: Gouraud shading, channels, comparisons, lines.
+// Pictures of the mesh's values: Gouraud shading, channels, comparisons, lines.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// Leaves nothing on the shelf but one small block: the oldest go first.
+/// Empties the shelf but for one small block: the oldest go first.
 void empty_shelf() {
   for (std::size_t bytes = 0; bytes < kMostKept; bytes += kLargestKept)
     leave_block({std::malloc(kLargestKept), kLargestKept});

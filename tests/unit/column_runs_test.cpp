@@ -1,4 +1,4 @@
-// Steps to the nearest sample of a set in a column, against a look at every sample.
+// Steps to the nearest sample of a set in a column, against a scan of every sample.
 #include "grid/column_runs.h"
 
 #include <gtest/gtest.h>

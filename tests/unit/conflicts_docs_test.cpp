@@ -16,7 +16,8 @@ namespace {
 
 const std::string kPath = source_dir() + "/docs/conflicts.md";
 
-/// The option where there is one, else the library's word; what only a value of an option tells stands behind it.
+/// The option where there is one, else the library's word; a value of an option stands behind it where only that sets
+/// it.
 std::string word_of(Field field) {
   switch (field) {
     case Field::kIgnored:
@@ -51,7 +52,7 @@ std::string word_of(Field field) {
 }
 
 std::string words_of(Fields fields) {
-  // What the program's options do not tell apart.
+  // Differences that the program's options do not show.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
   std::string words;

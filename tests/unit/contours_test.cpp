@@ -96,7 +96,7 @@ TEST(contours, are_chains_of_edges_that_keep_the_bound) {
 
 TEST(contours, keep_the_bound_in_float32_where_their_points_are_crowded) {
   PointSet points = hill();
-  // As contours of a raster have it: two vertices a micrometre apart.
+  // Like contours of a raster: two vertices a micrometre apart.
   for (PointLine& line : points.lines) {
     const std::uint32_t point = line.points[7];
     line.points.insert(line.points.begin() + 8, static_cast<std::uint32_t>(points.size()));

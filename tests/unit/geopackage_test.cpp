@@ -1,4 +1,4 @@
-// What another reader than GDAL's makes of it is tested by tests/program/test_gis_formats.sh.
+// The result of another reader than GDAL's is tested by tests/program/test_gis_formats.sh.
 #include <gtest/gtest.h>
 
 #include "mesh_samples.h"

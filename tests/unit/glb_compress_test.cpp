@@ -295,7 +295,7 @@ TEST(GlbImages, AreLaidOverTheMesh) {
   EXPECT_EQ(j["textures"][1]["source"], 1);
   EXPECT_EQ(j["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
   EXPECT_EQ(j["materials"][0]["normalTexture"]["index"], 1);
-  // The image says all about normals: red is x, so the tangent points east and normals up.
+  // The image holds all normals: red is x, so the tangent points east and normals up.
   const auto back = decode_mesh(*bytes, "x.glb");
   ASSERT_TRUE(back) << back.error().message;
   for (std::size_t v = 0; v < back->vertex_count(); ++v) EXPECT_EQ(back->normals[3 * v + 2], 1);

@@ -1,4 +1,4 @@
-// GLB files taken apart and put together again.
+// GLB files split and joined again.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Levels of detail, and sheets beside each other, in one GLB file.
+// Levels of detail, and sheets side by side, in one GLB file.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

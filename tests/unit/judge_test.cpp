@@ -98,7 +98,7 @@ TEST(Judge, WeighsByTolerancesInMemoryAndInWindows) {
   EXPECT_EQ(streamed->ignored, held->ignored);
   EXPECT_EQ(streamed->bounded.value, held->bounded.value);
   EXPECT_EQ(streamed->bounded.at, held->bounded.at);
-  // A bound of all samples leaves none without.
+  // A bound of all samples covers each of them.
   options.max_error = 100;
   EXPECT_EQ(judge_mesh(with_source(field, heights), given.mesh, options)->ignored, 0u);
 }

@@ -1,4 +1,4 @@
-// What is lent is read by its name as if it were a file.
+// A lent raster is read by its name as if it were a file.
 #include "scarp/lent.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Samples in polygons, against a count of what lies beside each.
+// Samples in polygons, against a count of those next to each.
 #include "grid/line_marks.h"
 
 #include <gtest/gtest.h>

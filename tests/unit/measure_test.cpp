@@ -71,7 +71,7 @@ Long distance_outside(const OracleTriangle& t, Long px, Long py) {
   return least;
 }
 
-/// Thinner than the tolerance: beside it the judge looks at its nearest point, the oracle has no opinion.
+/// Thinner than the tolerance: next to it the judge uses its nearest point, the oracle has no opinion.
 bool is_sliver(const OracleTriangle& t) {
   const Long area = std::abs(cross(t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0]));
   Long longest = 0;
@@ -502,7 +502,7 @@ TEST(Measure, SeesAShiftFarBelowACell) {
   }
 }
 
-// Were the buckets laid over the far vertex too, all triangles would share one, and this would take minutes.
+// Were the buckets spread over the far vertex too, all triangles would share one, and this would need minutes.
 TEST(Measure, IsNotSlowedDownByAVertexFarAway) {
   const Terrain terrain = wavy_terrain(129, 129);
   HeightField field = terrain.view();

@@ -1,4 +1,4 @@
-// What all mesh formats promise: damage is noticed or harmless, never a crash, and an error is one sentence with the
+// Promises of all mesh formats: damage is noticed or harmless, never a crash, and an error is one sentence with the
 // name.
 
 #include <gtest/gtest.h>

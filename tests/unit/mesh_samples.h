@@ -12,7 +12,7 @@
 namespace scarp::test {
 
 /// Two triangles for each grid cell (i, j) that `has_cell` accepts, over (cols + 1)·(rows + 1) vertices with bumpy
-/// heights above 1. Offsets are float32 values. Vertices without a triangle are left out.
+/// heights above 1. Offsets are float32 values. Vertices without a triangle are omitted.
 inline Mesh grid_mesh(int cols, int rows, const std::function<bool(int, int)>& has_cell, bool normals = false) {
   Mesh mesh;
   std::vector<std::uint32_t> ids(static_cast<std::size_t>((cols + 1) * (rows + 1)), 0xFFFFFFFF);

@@ -28,7 +28,7 @@ std::vector<T> some_values(int modulus, int shift) {
 std::vector<std::uint32_t> bits_of(const HeightField& field) {
   std::vector<float> samples(kSamples);
   EXPECT_TRUE(read_window(field, 0, 0, kWide, kHigh, samples.data(), kWide));
-  // Windows of another shape must say the same.
+  // Windows of another shape must give the same samples.
   std::vector<float> window(5 * 8, -1.0f);
   EXPECT_TRUE(read_window(field, 9, 11, 5, 4, window.data(), 8));
   std::vector<std::uint32_t> bits;

@@ -1,4 +1,4 @@
-// What the columns of a text hold.
+// The contents of a text's columns.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

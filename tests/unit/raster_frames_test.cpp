@@ -1,4 +1,4 @@
-// Where rasters lie: frames, CRS options, their errors.
+// Positions of rasters: frames, CRS options, their errors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +65,7 @@ TEST_F(RasterFrames, CellsHaveTheWidthThatWasGiven) {
   EXPECT_TRUE(offsets_are_exact(read->frame, kCols, kRows));
   const auto place = place_in_source(read->frame, read->info, kRows);
   ASSERT_TRUE(place);
-  EXPECT_EQ(place->origin(), (std::array<double, 2>{20, 14}));  // as grid_frame() has it
+  EXPECT_EQ(place->origin(), (std::array<double, 2>{20, 14}));  // like grid_frame()
   EXPECT_NEAR(place->to_source[1], 10, 1e-5);
   EXPECT_TRUE(place->crs.empty());
 

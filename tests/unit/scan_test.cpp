@@ -58,7 +58,7 @@ RC_GTEST_PROP(scan, visits_exactly_a_sliver, ()) {
   RC_ASSERT(scanned(corners) == expected);
 }
 
-// A tall raster of few columns is full of these: row by row a thousand of them take minutes.
+// A tall raster of few columns is full of these: row by row a thousand of them need minutes.
 TEST(scan, a_sliver_costs_its_samples_not_its_rows) {
   constexpr std::int32_t kFar = 1'000'000'000;
   std::int64_t samples = 0;

@@ -1,4 +1,4 @@
-// What is told of solids, where they are put, and solids for readers that know places only.
+// The facts about solids, where they are put, and solids for readers that know places only.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ TEST(MeasureSolid, FindsEveryFault) {
   for (const std::uint32_t v : {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0}) pinched.triangles.push_back(4 + v);
   EXPECT_EQ(measure_solid(pinched).list_faults(), "1 pinched vertex");
   EXPECT_EQ(measure_solid(pinched).parts, 2u);
-  // Corners that only doubles tell apart.
+  // Corners that only doubles distinguish.
   Mesh small = tetrahedron();
   small.positions[3] = 1e-60;
   const SolidFacts facts = measure_solid(small);
@@ -62,7 +62,7 @@ TEST(BuildSolid, PartsThatTouchInAPointAreApart) {
     const SolidFacts facts = measure_solid(*solid);
     EXPECT_EQ(facts.parts, 32u);
     EXPECT_EQ(facts.triangles, board.triangle_count() + 32 * (4 + 4 + 2));
-    // add_base() leaves them in one place, which readers of places cannot tell apart.
+    // add_base() keeps them in one place, which readers of places cannot distinguish.
     ASSERT_TRUE(add_base(board, -2));
     EXPECT_GT(measure_solid(board).faulty_edges, 0u);
   }

@@ -127,7 +127,7 @@ TEST(Solid, Checkerboards) {
   EXPECT_EQ(check_solid(board), 32 * (4 + 2u));  // loose squares
   const Mesh coarse = grid_mesh(12, 12, [](int i, int j) { return (i / 3 + j / 3) % 2 == 0; });
   EXPECT_EQ(check_solid(coarse), 8 * (4 + 2u));
-  // A frame of cells whose hole touches the hole beside it in a point, and the outer border too.
+  // A frame of cells whose hole touches the hole next to it in a point, and the outer border too.
   const Mesh touching =
       grid_mesh(6, 6, [](int i, int j) { return !((i == 1 && j == 1) || (i == 2 && j == 2) || (i == 0 && j == 3)); });
   check_solid(touching);
@@ -223,7 +223,7 @@ TEST(ExactOrient, AgreesWithIntegersAndItsLaws) {
     ASSERT_EQ(exact_orient(b, a, c), -sign);
   }
   EXPECT_GT(flat, 1000);
-  // One unit in the last place decides, far below what the rounded determinant can tell.
+  // One unit in the last place decides, far below the resolution of the rounded determinant.
   EXPECT_EQ(exact_orient({0.5, 0.5}, {12, 12}, {24, 24}), 0);
   EXPECT_EQ(exact_orient({0.5, std::nextafter(0.5, 1)}, {12, 12}, {24, 24}), 1);
   EXPECT_EQ(exact_orient({0.5, std::nextafter(0.5, 0)}, {12, 12}, {24, 24}), -1);

@@ -1,4 +1,4 @@
-// What makes two jobs of tiles the same, and what a block depends on.
+// The settings that make two jobs of tiles the same, and the inputs of a block.
 #include "scarp/tile_job.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST(tile_job, keys_tell_settings_from_sources) {
   effort.plan.effort = Effort::kHigh;
   EXPECT_NE(settings_key_of(job), settings_key_of(effort));
   EXPECT_EQ(sources_key_of(job), sources_key_of(effort));
-  // With the content known, time and name say nothing.
+  // With the content known, time and name do not count.
   TileJob one = job, two = job;
   one.rasters[0].content = two.rasters[0].content = 7;
   two.rasters[0].path = "/copy.tif";
@@ -100,7 +100,7 @@ TEST(tile_job, keys_tell_settings_from_sources) {
   EXPECT_EQ(sources_key_of(one), sources_key_of(two));
   two.rasters[0].content = 8;
   EXPECT_NE(sources_key_of(one), sources_key_of(two));
-  // What a VRT names counts, and what the plan expects does not.
+  // The files that a VRT names count, and the plan's expectations do not.
   TileJob more = job;
   more.files = {{"/member.tif", 5, 6}};
   EXPECT_NE(sources_key_of(job), sources_key_of(more));

@@ -110,7 +110,7 @@ TEST(Holes, BesideNodataAndHalfCellsAreSeen) {
         add_vertex(mesh, terrain.frame, c, r, std::isnan(sample) ? 0 : sample);
       }
     }
-    // Counter-clockwise around a cell, from its upper left corner; a missing one leaves three.
+    // Counter-clockwise around a cell, from its upper left corner; without one there are three.
     for (int r = 0; r + 1 < terrain.rows; ++r) {
       for (int c = 0; c + 1 < terrain.cols; ++c) {
         std::vector<std::uint32_t> ring;
@@ -128,7 +128,7 @@ TEST(Holes, BesideNodataAndHalfCellsAreSeen) {
 }
 
 TEST(Holes, OfSliversAndLongEdgesAreSeen) {
-  // Thinner than the step with which the judge looks beyond an edge.
+  // Thinner than the step with which the judge tests beyond an edge.
   const Terrain terrain = wavy_terrain(201, 3);
   Mesh mesh;
   for (int r = 0; r < 3; r += 2) {

@@ -1,4 +1,4 @@
-// Heights that stand for nodata without being declared, and those that only look so.
+// Heights that stand for nodata without being declared, and those that only appear so.
 #include <gtest/gtest.h>
 
 #include <utility>

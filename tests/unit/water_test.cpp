@@ -103,7 +103,7 @@ TEST(water, is_level_in_the_mesh) {
     if (longest > 0) options.quality.shape = {.min_angle = 25, .max_edge = longest};
     const auto result = simplify(field, options);
     ASSERT_TRUE(result) << result.error().message;
-    const auto inside = [](double x, double y) {  // of the shore and not of the island
+    const auto inside = [](double x, double y) {  // point of the shore and not of the island
       return x > 12.3 && x < 28 && y > 12.5 && y < 33.2 && !(x > 18 && x < 23 && y > 20 && y < 25.8);
     };
     std::size_t level = 0;

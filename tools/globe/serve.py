@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Serves a folder on this machine alone: serve.py FOLDER [PORT]. Where PORT is taken, or 0, a free one; the address is printed.
+"""Serves a folder on this machine alone: serve.py FOLDER [PORT]. If PORT is in use, or 0, a free one; the address is
+printed.
 
-Tiles of quantized-mesh are compressed files, which clients must be told."""
+Tiles of quantized-mesh are compressed files, which the headers must declare."""
 
 import functools
 import http.server

@@ -20,7 +20,7 @@ const address_of = page => page === 'README.md' ? 'index.html' : page.replace(/\
 const slug = text => text.toLowerCase().replace(/<[^>]*>/g, '').replace(/&[a-z]+;/g, '').replace(/[^\p{L}\p{N}\s_-]/gu, '').trim().replace(/\s/g, '-');
 const anchors = new Map(), wanted = [], copied = new Set(), missing = [];
 
-/** Where a link of `page` leads on the site. */
+/** The address on the site of a link of `page`. */
 function follow(page, href) {
   if (/^[a-z]+:/.test(href)) return href;
   const [path, anchor] = href.split('#'), target = path === '' ? page : normalize(join(dirname(page), path));
@@ -34,7 +34,7 @@ function follow(page, href) {
     copied.add(target);
     return relative(here, target) + end;
   }
-  return null;  // of the sources: not on the site
+  return null;  // a file of the sources: not on the site
 }
 
 function write_page(page) {

@@ -12,7 +12,7 @@
 namespace scarp::cli {
 namespace {
 
-/// What a level and the run itself tell alike.
+/// The facts that a level and the run itself report alike.
 struct LevelNumbers {
   std::optional<double> asked;
   const Simplified& simplified;

@@ -1,4 +1,4 @@
-// The levels of a run beside the finest, which is the run's own mesh.
+// The levels of a run apart from the finest, which is the run's own mesh.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace scarp::cli {
 
 /// Simplifies all levels. The finest is what is returned, the others are the outcome's.
 Result<Simplified> simplify_as_levels(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome);
-/// Takes a level's place in the outcome while `work` looks at it.
+/// Swaps a level into the outcome while `work` uses it.
 template <class Work>
 auto with_level(Outcome& outcome, Level& level, Work&& work) {
   const auto swap = [&] {

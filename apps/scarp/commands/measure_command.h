@@ -28,14 +28,14 @@ class MeasureCommand {
   /// `command_line` is what the user typed, for the report.
   Result<void> run(const std::string& command_line) const;
 
-  /// What becomes of the errors of streamed samples, row by row.
+  /// Handles the errors of streamed samples, row by row.
   struct StreamedErrors {
     std::optional<ErrorMap> map = std::nullopt;
     std::optional<RasterFile> raster = std::nullopt;
   };
   /// run() on a raster, as far as it needs no terminal: reads both and judges.
   Result<void> judge_inputs(const Runner& runner, Judged& judged, StreamedErrors& errors) const;
-  /// Whether the input is points; then this is the same.
+  /// True if the input is points; then this is the same.
   bool are_points() const { return points_.are_meant(raster_.path()); }
   Result<void> judge_points_inputs(const Runner& runner, JudgedPoints& judged) const;
 

@@ -19,7 +19,7 @@ struct PointsArguments {
   Given duplicates, layer, z_field, columns, boundary;
 
   void add_to(CLI::App& command);
-  /// True if the input is to be read as points: it was asked for, or its name says so.
+  /// True if the input is to be read as points: it was asked for, or its name shows it.
   bool are_meant(const std::string& path) const { return points || columns || is_point_file(path); }
   /// Fails if one of several inputs holds points, which make no mosaic.
   Result<void> check_single(const std::vector<std::string>& paths) const;
@@ -27,9 +27,9 @@ struct PointsArguments {
   Result<void> check_unused(const std::string& path) const;
 };
 
-/// What `scarp measure` was asked to do with points.
+/// The request of `scarp measure` for points.
 struct MeasurePointsArguments {
-  RasterArguments input;  ///< of which some options are for points, too
+  RasterArguments input;  ///< options of rasters, some of them for points, too
   std::string mesh;
   Given fail_above, threads;
   bool json = false, quiet = false, json_progress = false;

@@ -57,7 +57,7 @@ Result<PointSet> read(const std::string& path, const PointsArguments& arguments,
                             .default_frame = as.default_frame});
 }
 
-/// As --crs; empty: local for degrees, else the points' own.
+/// The value of --crs; empty: local for degrees, else the points' own.
 std::string crs_option(const SimplifyPlan& plan) {
   if (!plan.read.crs.empty()) return plan.read.crs;
   return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
@@ -74,7 +74,7 @@ void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
   for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
 }
 
-/// How far a mesh was moved from the source's coordinates, if it says so, and that nothing else was done to it.
+/// How far a mesh was moved from the source's coordinates, if its metadata hold it, and show no other change.
 std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
   const auto said = mesh.metadata.find("to_source");
   if (said == mesh.metadata.end()) return std::nullopt;
@@ -84,14 +84,14 @@ std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
   return std::array{affine[0].get<double>(), affine[3].get<double>()};
 }
 
-/// How the points of such a mesh are read, unless `given` says otherwise.
+/// How the points of such a mesh are read, unless `given` sets them.
 Result<ReadOptions> remember_reading(const RasterArguments& given, const Mesh& mesh, const std::string& path) {
   const auto find = [&](const char* key) {
     const auto entry = mesh.metadata.find(key);
     return entry == mesh.metadata.end() ? Given() : Given(entry->second);
   };
   RasterArguments asked = given;
-  if (find("duplicates")) asked = remember_options(given, mesh);  // what a raster was scaled by is its own
+  if (find("duplicates")) asked = remember_options(given, mesh);  // a raster's own scale
   asked.cell_size = given.cell_size;
   if (!given.crs) asked.crs = find("crs_option");
   if (!given.crs && asked.crs == Given("local") && way_to_source(mesh)) asked.crs = "source";
@@ -103,8 +103,8 @@ Result<ReadOptions> remember_reading(const RasterArguments& given, const Mesh& m
   return options;
 }
 
-/// Puts a mesh in a local frame back to where the points lie: by what it says of itself, or, where a format has no
-/// place for that, where they do not meet otherwise.
+/// Puts a mesh in a local frame back to where the points lie: by its metadata, or, where a format has no place for
+/// them, where they do not meet otherwise.
 void put_back(const PointSet& points, Mesh& mesh) {
   if (const auto way = way_to_source(mesh)) return move(1, *way, mesh);
   if (points.is_local || mesh.metadata.contains("frame")) return;
@@ -295,7 +295,7 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
   Result<Mesh> mesh = read_mesh(given.mesh);
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   judged.mesh = std::move(*mesh);
-  // What was asked of the mesh holds for its judge, unless it is told otherwise.
+  // The settings of the mesh hold for its judge, unless options set others.
   const auto remembered = [&](const Given& option, const char* key) -> Given {
     const auto entry = judged.mesh.metadata.find(key);
     return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);

@@ -22,7 +22,7 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Scarp's own outputs whose CRS, if they have one, no .prj file tells.
+/// Scarp's own outputs whose CRS, if they have one, needs no .prj file.
 bool needs_none(const fs::path& name) {
   const auto format = choose_output_format(Given(), name.string());
   return lower_extension(name.string()) == ".json" ||

@@ -10,7 +10,7 @@ namespace scarp::cli {
 
 struct Runner {
   ProgressCallback progress;
-  /// Asked by efforts that take long, once on_keeping() was called: whether the mesh so far will do. May be empty.
+  /// Polled by slow efforts, once on_keeping() was called: true if the mesh so far will do. May be empty.
   std::function<bool()> is_enough = {};
   /// From now on there is a mesh that keeps the promise. May be empty.
   std::function<void()> on_keeping = {};

@@ -23,7 +23,7 @@ class ServeCommand {
 
  private:
   struct Served {
-    OpenedJob job;  ///< of a raster or a plan
+    OpenedJob job;  ///< job of a raster or a plan
     LiveTileSet* live = nullptr;
     std::unique_ptr<TileAnswers> answers;
   };

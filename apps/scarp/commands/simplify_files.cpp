@@ -16,7 +16,7 @@
 namespace scarp::cli {
 namespace {
 
-/// What measure needs as --crs.
+/// The --crs that measure needs.
 std::string crs_option(const SimplifyPlan& plan, const Frame& frame) {
   if (!plan.read.crs.empty()) return plan.read.crs;
   if (frame.kind == Frame::Kind::kGrid) return "grid";
@@ -143,7 +143,7 @@ std::vector<Mesh> named_solids(const SimplifyPlan& plan, const Outcome& outcome)
   return solids;
 }
 
-/// A file for each print tile; the first file is OUTPUT's, whose place the first of them takes.
+/// A file for each print tile; the first of them replaces OUTPUT's file.
 Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
   const std::vector<std::string> paths = print_paths(plan, *outcome.print);
   const std::vector<Mesh> solids = named_solids(plan, outcome);
@@ -166,7 +166,7 @@ Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Out
   return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
 }
 
-/// Whether OUTPUT is made from the samples as well as from the mesh.
+/// True if OUTPUT is made from the samples as well as from the mesh.
 bool reads_samples(const SimplifyPlan& plan) {
   return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value() || plan.html.has_value();
 }
@@ -286,7 +286,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   }
   if (plan.zones.find_lines() != nullptr) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
-  // They may take more memory than the mesh and its file.
+  // They may use more memory than the mesh and its file.
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
   if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
   if (plan.levels) {

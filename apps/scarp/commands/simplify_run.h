@@ -1,4 +1,4 @@
-// What a run of `scarp simplify` comes to and tells, on a raster or on points.
+// Results and messages of a run of `scarp simplify`, on a raster or on points.
 #pragma once
 
 #include <cstdint>
@@ -31,10 +31,10 @@ ReadyFile ready(const ProjectionFile& file);
 struct SimplifyRun {
   std::optional<double> asked;  ///< max error in z units
   Simplified simplified;
-  std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
+  std::uint64_t vertices = 0, triangles = 0;              ///< size of the terrain
   std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
   std::optional<Print> print;                             ///< with --solid
-  std::vector<ProjectionFile> projections;                ///< beside OUTPUT, or each level
+  std::vector<ProjectionFile> projections;                ///< next to OUTPUT, or each level
   std::vector<std::string> warnings;
   bool was_ended = false;  ///< a run that is cut short, by who waited for it
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
@@ -66,10 +66,10 @@ std::string seconds_line(const SimplifyRun& run);
 /// The lines of --timing: a table of the passes, reading first and writing last.
 std::string timing_lines(const SimplifyRun& run);
 
-/// What was asked for, beside the error that was reached: " (asked 0.5)", " (asked 0.5, not reached)"; "" for nothing.
-/// `exceptions`: what it does not hold for.
+/// The request, added to the error that was reached: " (asked 0.5)", " (asked 0.5, not reached)"; "" for nothing.
+/// `exceptions`: samples for which it does not hold.
 std::string describe_asked(const SimplifyRun& run, const char* exceptions = "");
-/// The last line of the summary: which goal ended the run. `exact`: said where nothing was lost; null: something was.
+/// The last line of the summary: which goal ended the run. `exact`: text for a mesh without loss; null: there was some.
 std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const char* exact);
 
 }  // namespace scarp::cli

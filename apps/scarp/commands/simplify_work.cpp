@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
 
-/// Of files beside the raster's.
+/// Bytes of vector files, in addition to the raster's.
 std::uint64_t vector_bytes(const SimplifyPlan& plan) {
   const bool has_none = plan.lines.breaklines.empty() && plan.lines.water.empty() && plan.lines.rivers.empty() &&
                         plan.zones.find_lines() == nullptr && plan.cut.files.empty() && plan.companions.roi.empty();
@@ -171,7 +171,7 @@ void add_judging(Clock::time_point start, Outcome& outcome) {
   outcome.simplified.seconds_measure += seconds;
 }
 
-/// simplify() tells the largest errors of all samples; where some are ignored, this finds those of the others.
+/// simplify() reports the largest errors of all samples; where some are ignored, this finds those of the others.
 Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
   const Companions& companions = outcome.companions;
@@ -209,7 +209,7 @@ Result<void> check_promise(const Outcome& outcome) {
   const std::optional<double> asked = has_tolerance ? simplified.tolerance_factor : outcome.asked;
   if (asked && (!has_budget_ended || has_tolerance)) {
     const double height_scale = outcome.channels.empty() ? 1 : outcome.channels.height_scale;
-    // With weights the engine took the rounding of the samples off each bound before it weighed the errors.
+    // With weights the engine subtracted the rounding of the samples from each bound before it weighed the errors.
     const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
     const double allowance =
         judging_allowance(*asked, measured.heights) + 1e-12 * outcome.channels.magnitude +
@@ -223,8 +223,8 @@ Result<void> check_promise(const Outcome& outcome) {
   return fail(ErrorKind::kPromise, kBroken + format_plural(measured.uncovered, "sample") + " without a triangle");
 }
 
-/// simplify() leaves out the topology where it holds by construction; a report states what was looked at, not what must
-/// be so. A print is judged as a whole: its proof was that of the terrain.
+/// simplify() omits the topology where it holds by construction; a report states what was checked, not what must hold.
+/// A print is judged as a whole: its proof was that of the terrain.
 Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan& plan, Outcome& outcome) {
   MeasureOptions options;
   options.cutline = outcome.cut.judged();
@@ -244,7 +244,7 @@ Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan
   return {};
 }
 
-/// Efforts that take long hold a mesh that keeps the bound all the while.
+/// Slow efforts hold a mesh that keeps the bound all the while.
 bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
   const bool is_long = options.quality.effort == Effort::kHigh || options.quality.effort == Effort::kMax;
   return is_long && !options.goals.max_triangles && !options.goals.max_vertices && options.run.memory.limit == 0;
@@ -267,7 +267,7 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   return std::move(printed->simplified);
 }
 
-/// What the library says of an outline tolerance, in the words of the option.
+/// Rewrites the library's error about an outline tolerance in terms of the option.
 Error name_outline(Error error) {
   constexpr std::string_view kTolerance = "an outline tolerance";
   if (const std::size_t at = error.message.find(kTolerance); at != std::string::npos)

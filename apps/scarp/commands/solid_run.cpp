@@ -22,7 +22,7 @@ std::string size_text(const SolidFacts& facts, const PrintOptions& plan) {
 /// In print units.
 double relief_of(const Print& print) { return (print.heights.max - print.heights.min) * print.placement.scale[2]; }
 
-/// What to ask for where the print is nearly flat.
+/// The advice for a print that is nearly flat.
 std::string relief_line(const PrintOptions& plan, const Print& print) {
   constexpr double kLow = 5, kGood = 8, kMost = 100;  // millimetres, millimetres, times
   const double relief = relief_of(print), factor = std::ceil(kGood / relief);

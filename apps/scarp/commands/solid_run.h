@@ -1,4 +1,4 @@
-// Making a print of a terrain, and telling of it.
+// Makes a print of a terrain, and reports on it.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 namespace scarp::cli {
 namespace {
 
-/// Of the source: one that is larger stays in its file.
+/// Limit for the source: one that is larger stays in its file.
 constexpr std::uint64_t kSourceBytes = std::uint64_t{1} << 30;
 
 /// Nothing for a raster without a place on the globe. Borrows the plane.

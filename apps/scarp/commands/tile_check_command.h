@@ -26,7 +26,7 @@ class TileCheckCommand {
   Result<void> check_unused() const;
 
   CLI::App* command_;
-  TileArguments tiles_;  ///< of the source
+  TileArguments tiles_;  ///< options of the source
   std::string set_;
   Given source_, threads_;
   bool json_ = false, quiet_ = false, json_progress_ = false;

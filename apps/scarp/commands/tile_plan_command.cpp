@@ -20,7 +20,7 @@
 namespace scarp::cli {
 namespace {
 
-/// As many tasks as clusters take in an array by default.
+/// The number of tasks that clusters accept in an array by default.
 constexpr std::uint64_t kMostShards = 1000;
 std::string format_hours(double seconds) {
   return seconds < 7200 ? fmt::format("{} minutes", format_number(std::ceil(seconds / 6) / 10))

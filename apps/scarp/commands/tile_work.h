@@ -15,7 +15,7 @@ struct MadeTiles {
   std::vector<std::string> warnings;
 };
 
-/// Fails with kUsage for a set that the container of that name cannot tell of.
+/// Fails with kUsage for a set that the container of that name cannot describe.
 Result<void> check_container(const TileJob& job, const std::string& output);
 
 /// Makes the set under its final name, or nothing. Counts its tiles meanwhile.

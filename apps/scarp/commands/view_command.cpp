@@ -39,7 +39,7 @@ Result<void> open_in_browser(const std::string& path) {
               fmt::format("{} is written, but xdg-open cannot open it: open it in a browser", path));
 }
 
-/// A folder of something else is told apart by what is not in it.
+/// A folder of something else lacks these files.
 bool is_tile_set(const std::string& path) {
   std::error_code error;
   const std::filesystem::path folder = path;

@@ -1,4 +1,5 @@
-// Textures and images: further values at the samples, which count as errors beside the heights or in their place.
+// Textures and images: further values at the samples, which count as errors in addition to the heights or in their
+// place.
 #pragma once
 
 #include <optional>
@@ -17,13 +18,13 @@ class App;
 
 namespace scarp::cli {
 
-/// What the options say.
+/// The channels that the options ask for.
 struct ChannelPlan {
   bool image = false;                 ///< INPUT itself is the image; the heights are 0
-  std::vector<std::string> textures;  ///< files beside INPUT, in the order given
+  std::vector<std::string> textures;  ///< files in addition to INPUT, in the order given
   double texture_weight = 0.5;        ///< 0: heights only … 1: textures only
   Norm norm = Norm::kSum;
-  std::vector<double> weights;  ///< of the channels; empty: all alike
+  std::vector<double> weights;  ///< weights of the channels; empty: all alike
 
   bool has_channels() const { return image || !textures.empty(); }
 };
@@ -44,12 +45,12 @@ struct Channels {
   std::vector<std::string> names;  ///< "red", "band 4", …
   std::vector<double> scales;      ///< Channel::scale of each band
   double height_scale = 1;
-  double relief = 0;     ///< what a percentage is of, with --image: the largest range of a band, 255 if all are bytes
+  double relief = 0;     ///< reference of a percentage, with --image: the largest range of a band, 255 if all are bytes
   double magnitude = 0;  ///< largest norm of the scaled values, at most: what the judge's rounding is relative to
 
   std::size_t count() const { return bands.bands.size(); }
   bool empty() const { return bands.bands.empty(); }
-  /// 8-bit colours, or grey, say all there is.
+  /// True if 8-bit colours, or grey, hold all of the data.
   bool are_colors() const { return bands.is_8bit && (count() == 1 || (count() == 3 && bands.is_color)); }
   /// Gives `field`, on the same grid, these channels. They must stay alive.
   void attach_to(HeightField& field) const;

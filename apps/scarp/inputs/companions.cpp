@@ -123,7 +123,7 @@ void warn_of_missing(const CompanionArguments& given, const std::vector<bool>& f
   }
 }
 
-/// Fails if the memory has no room for what is beside heights that have a source.
+/// Fails if the memory has no room for the regions in addition to heights that have a source.
 Result<void> check_regions(const OwnedHeightField& field, const std::vector<Region>& regions, std::uint64_t memory) {
   std::uint64_t vertices = 0;
   for (const Region& region : regions) {
@@ -185,7 +185,7 @@ Result<void> read_weights(const std::string& path, const RasterInfo& raster, con
   return {};
 }
 
-/// The steps of --script, which count beside heights that have a source.
+/// Reads the steps of --script, which count in addition to heights that have a source.
 Result<void> read_steps(const std::string& path, const OwnedHeightField& field, const CompanionRun& run,
                         Companions& companions) {
   Result<Script> script = read_script(path, field.cols, field.rows);

@@ -1,4 +1,4 @@
-// Rasters that say nothing of their scale.
+// Rasters without information about their scale.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace scarp::cli {
 
-/// What to say of a raster without georeference whose relief dwarfs its width, so that its mesh is a needle: how to
+/// The warning for a raster without georeference whose relief dwarfs its width, so that its mesh is a needle: how to
 /// give the width of a cell, or scale the heights. Nothing if it does not, or if the range is not known.
 std::optional<std::string> find_needle(const OwnedHeightField& field, const RasterInfo& info);
 

@@ -15,7 +15,7 @@
 namespace scarp::cli {
 namespace {
 
-/// The six numbers; nothing if the file does not tell them, or not as it should.
+/// The six numbers; nothing if the file does not hold them, or in a wrong form.
 std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh) {
   const auto entry = mesh.metadata.find("to_source");
   if (entry == mesh.metadata.end()) return std::nullopt;
@@ -31,7 +31,7 @@ std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh) {
   return numbers;
 }
 
-/// The frame whose x and y `to_source` takes to the source's coordinates, as `samples` does columns and rows.
+/// The frame whose x and y `to_source` maps to the source's coordinates, as `samples` maps columns and rows.
 std::array<double, 6> frame_before(const std::array<double, 6>& to_source, const std::array<double, 6>& samples) {
   const auto& t = to_source;
   const double determinant = t[1] * t[5] - t[2] * t[4];
@@ -44,7 +44,7 @@ std::array<double, 6> frame_before(const std::array<double, 6>& to_source, const
   return affine;
 }
 
-/// Of a cell: less than that apart, two frames are one that was written with other roundings.
+/// In cells: less than that apart, two frames are one that was written with other roundings.
 constexpr double kSamePlace = 1e-3;
 
 /// The largest distance of any corner of the raster in the two frames, in cells.
@@ -126,7 +126,7 @@ RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh)
                                                     {"unit", &asked.z_unit},
                                                     {"cell_size", &asked.cell_size}};
   for (const auto& [key, option] : options) {
-    if (option == &asked.z_scale && given.z_unit) continue;  // which may hold the way from that unit to metres
+    if (option == &asked.z_scale && given.z_unit) continue;  // it may hold the way from that unit to metres
     const auto entry = mesh.metadata.find(key);
     if (!*option && entry != mesh.metadata.end()) *option = entry->second;
   }
@@ -134,7 +134,7 @@ RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh)
 }
 
 void turn_up(bool is_y_up, const std::string& path, Mesh& mesh) {
-  // A file that says which axis is up has been turned as it says.
+  // A file that declares which axis is up was turned by that.
   if (!is_y_up || mesh.metadata.contains("up") || find_mesh_format(path) == MeshFormat::kGlb) return;
   mesh.metadata["up"] = "y";
   undo_y_up(mesh);

@@ -1,4 +1,4 @@
-// Where a mesh lies, and where what judges it does.
+// The position of a mesh, and that of the raster that judges it.
 #pragma once
 
 #include <array>
@@ -28,16 +28,16 @@ Extent extent_of(const Mesh& mesh);
 Extent extent_of(const HeightField& field);
 Extent extent_of(const PointSet& points);
 
-/// The raster's options, with what the mesh says of itself where they were not given.
+/// The raster's options, completed by the mesh's metadata where they were not given.
 RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh);
-/// Turns a mesh whose file, `path`, does not say which axis is up, if y is.
+/// Turns a mesh whose file, `path`, does not declare which axis is up, if y is.
 void turn_up(bool is_y_up, const std::string& path, Mesh& mesh);
 
-/// For a mesh that says nothing of its frame: the raster's own coordinates, if it fits the raster there better than in
-/// the frame that was read. True where heights have become metres in that one and must be read anew, as "source".
+/// For a mesh without metadata about its frame: the raster's own coordinates, if it fits the raster there better than
+/// in the frame that was read. True where heights have become metres in that one and must be read anew, as "source".
 bool fit_frame(const Mesh& mesh, OwnedHeightField& field);
 
-/// For a mesh whose metadata tell in numbers where it lies (`to_source`): the frame in which they hold for the samples,
+/// For a mesh whose metadata give its position in numbers (`to_source`): the frame in which they hold for the samples,
 /// in place of one around the raster's own centre, which may not be the mesh's. Returns warnings. Does nothing to
 /// rasters without georeference, and where both frames are the same.
 std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field);

@@ -26,7 +26,7 @@ void warn_of_dry_lines(const Features& features, const std::vector<River>& river
 /// The "water" and "rivers" lists of a report.
 Json describe_lakes(const std::vector<Lake>& lakes);
 Json describe_rivers(const std::vector<River>& rivers);
-/// Of the summary; empty without lakes and rivers.
+/// Lines of the summary; empty without lakes and rivers.
 std::string waters_lines(const std::vector<Lake>& lakes, const std::vector<River>& rivers);
 
 }  // namespace scarp::cli

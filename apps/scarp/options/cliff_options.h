@@ -27,7 +27,7 @@ struct CliffArguments {
 
 /// The "cliffs" object of a report; null without --cliff.
 Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs);
-/// Of the summary; empty without --cliff.
+/// Line of the summary; empty without --cliff.
 std::string cliffs_line(const std::optional<Cliffs>& cliffs);
 /// Warns where walls were asked for and none was found.
 void warn_of_missing_walls(const CliffArguments& given, const std::optional<Cliffs>& cliffs,

@@ -1,4 +1,4 @@
-// The commands, and what their help says below the options.
+// The commands, and the text of their help below the options.
 #include "options/option_table.h"
 
 namespace scarp::cli {
@@ -39,7 +39,7 @@ constexpr CommandRow kCommandRows[] = {
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 70 internal error.\n"},
     {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh or 3D Tiles, for CesiumJS and others",
      "INPUT OUTPUT [OPTIONS]",
-     "Tiles of neighbours have the same edges, and each tells its error bound, the earth's curve included.\n"
+     "Tiles of neighbours have the same edges, and each has its error bound, the earth's curve included.\n"
      "OUTPUT is a folder, or one file: .pmtiles, .mbtiles or .3tz.\n"
      "Serve the folder with the header 'Content-Encoding: gzip' for its .terrain files.\n"
      "Examples:\n"
@@ -51,7 +51,7 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile dem.tif globe --of 3dtiles                3D Tiles: tileset.json, subtrees, GLB files\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTilePlan, "tile-plan", "Plan tiles that many processes make, on one machine or a cluster", "INPUT PLAN [OPTIONS]",
-     "Also: scarp tile plan. Makes a few tiles, and tells what all of them will take.\n"
+     "Also: scarp tile plan. Makes a few tiles, and estimates the cost of all of them.\n"
      "Examples:\n"
      "  scarp tile plan dem.tif world.json --vertical egm96\n"
      "  scarp tile plan dem.tif world.json --slurm run.sh    then: bash run.sh world\n"
@@ -59,7 +59,7 @@ constexpr CommandRow kCommandRows[] = {
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileRun, "tile-run", "Make a share of the tiles of a plan", "PLAN [OPTIONS]",
      "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block is\n"
-     "on the disk at once: a run that was killed goes on where it was.\n"
+     "on the disk at once: a run that was killed resumes where it was.\n"
      "Examples:\n"
      "  scarp tile run world.json                     all blocks that are missing\n"
      "  scarp tile run world.json --shard 3/200 -j 1\n"
@@ -82,11 +82,11 @@ constexpr CommandRow kCommandRows[] = {
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kServe, "serve", "Serve tiles over HTTP, of a set or made of a raster, on this machine alone by default",
      "INPUT [OPTIONS]",
-     "Tiles are sent with the headers that clients need, and of a set in one file ranges of bytes, too.\n"
-     "Of a raster, or of a plan, tiles are made when they are asked for. Ctrl-C ends it.\n"
+     "Tiles are sent with the headers that clients need; a set in one file is sent by ranges of bytes, too.\n"
+     "Tiles of a raster, or of a plan, are made when they are asked for. Ctrl-C ends it.\n"
      "Examples:\n"
      "  scarp serve globe                                    at http://127.0.0.1:8080/\n"
-     "  scarp serve dem.tif --vertical egm96                 tiles that nobody has made yet\n"
+     "  scarp serve dem.tif --vertical egm96                 tiles made when asked for\n"
      "  scarp serve world.pmtiles --port 0                   at a free port, which is printed\n"
      "  scarp serve world.mbtiles --host 0.0.0.0             to other machines\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
@@ -112,7 +112,7 @@ constexpr CommandRow kCommandRows[] = {
     {kPaper, "paper", "Repeat the experiments of the 1995 paper", "--data DIR [OPTIONS]",
      "The paper is Garland & Heckbert, Fast Polygonal Approximation of Terrains and Height Fields.\n"
      "Plots are drawn by gnuplot (Debian: gnuplot-nox). Rasters with missing samples, or with more than\n"
-     "4 million samples, are left out. Experiments with colours use astronaut.png, kodim05.png,\n"
+     "4 million samples, are omitted. Experiments with colours use astronaut.png, kodim05.png,\n"
      "kodim23.png and the pair santa_barbara_elev.tif, santa_barbara_aerial.tif where the folder has them.\n"
      "Examples:\n"
      "  scarp paper --data scape/Samples --overwrite\n"

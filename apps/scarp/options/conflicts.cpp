@@ -8,7 +8,7 @@
 namespace scarp::cli {
 namespace {
 
-/// Those that the options tell; whether a script inserts or ignores samples stands in its file.
+/// The settings that the options show; whether a script inserts or ignores samples stands in its file.
 Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
   Fields fields = fields_of(HeightField(), plan.simplify);
   const bool is_split = plan.solid && plan.solid->is_split();

@@ -10,13 +10,14 @@
 
 namespace scarp::cli {
 
-/// Refuses options that do not go together, as far as they tell that before a file is read.
+/// Refuses options that conflict, as far as that is known before a file is read.
 Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan& plan);
 
 /// The same of all that simplify() would refuse, once the files are read.
 Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options);
 
-/// The same of tiles. Without a grid or a format, which the raster then tells, what is known without.
+/// The same of tiles. Without a grid or a format, which then depend on the raster, it checks what is known without
+/// them.
 Result<void> check_conflicts(const TileArguments& given, std::optional<GridKind> grid,
                              std::optional<TileFormat> format);
 

@@ -34,7 +34,7 @@ std::string wrap(const std::string& text) {
   return wrapped + "\n";
 }
 
-/// `left`, and the text beside it, or below where `left` is wide.
+/// `left`, and the text to the right of it, or below where `left` is wide.
 std::string entry(const std::string& left, const std::string& text) {
   const bool is_wide = left.size() + 2 > kColumn;
   return left + (is_wide ? "\n" : "") + std::string(is_wide ? kColumn : kColumn - left.size(), ' ') + wrap(text);
@@ -74,7 +74,7 @@ std::string list_options(const std::vector<const OptionRow*>& rows) {
   return text;
 }
 
-/// What the command is for, by the words of -h.
+/// True for a goal that -h lists.
 bool is_brief_goal(const OptionRow* row) {
   return row->brief[0] != 0 && (row->group == OptionGroup::kGoals || row->group == OptionGroup::kVerdict);
 }

@@ -1,4 +1,4 @@
-// What `--help` and `scarp help` print, made from the table of options.
+// The text of `--help` and `scarp help`, made from the table of options.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ std::string command_help(const CommandRow& command, bool all);
 std::string help_json(const CommandRow* command);
 /// "choose simplify, measure or info", of all commands.
 std::string choose_command();
-/// Throws std::logic_error if the table has an option that the program does not take.
+/// Throws std::logic_error if the table has an option that the program does not accept.
 void check_table(const CLI::App& program);
 
 }  // namespace scarp::cli

@@ -14,7 +14,7 @@ class App;
 
 namespace scarp::cli {
 
-/// What the options say.
+/// The image that the options ask for.
 struct ImagePlan {
   std::optional<std::string> drape;  ///< a file
   int drape_size = 0;                ///< pixels on the longer side; 0: as many as the file has there

@@ -46,7 +46,7 @@ Result<void> check_frame_of_lines(const char* lines, const Frame& frame, const s
 
 /// The "breaklines" object of a report; null without lines.
 Json describe_lines(const LineArguments& given, const Simplified& simplified);
-/// Of the summary; empty without lines.
+/// Line of the summary; empty without lines.
 std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits);
 /// Sentences for breaklines and rivers that lie farther from the raster than any error explains: ten times `error`.
 void warn_of_far_lines(const Simplified& simplified, double error, std::vector<std::string>& warnings);

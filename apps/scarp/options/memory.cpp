@@ -17,8 +17,8 @@ namespace scarp::cli {
 namespace {
 
 constexpr std::uint64_t kProgramBytes = 72'000'000;  // the code, GDAL's included, and what it always needs
-constexpr std::uint64_t kCodeBytes = 60'000'000;     // of it the code alone
-constexpr std::uint64_t kCacheBytes = 8'400'000;     // what the cache of a file has beside its share of the samples
+constexpr std::uint64_t kCodeBytes = 60'000'000;     // share of the code alone
+constexpr std::uint64_t kCacheBytes = 8'400'000;     // bytes of a file's cache in addition to its samples
 constexpr std::uint64_t kBytesPerSample = 4;
 constexpr double kMostBytes = 1e18;
 
@@ -41,7 +41,7 @@ void give_back_early() {
 #endif
 }
 
-/// What the samples may take of the limit beside others.
+/// The share of the limit that the samples may use, in addition to others.
 std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
   return limit > kProgramBytes + others ? (limit - kProgramBytes - others) / 2 : 0;
 }
@@ -49,7 +49,7 @@ std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
 /// Rounded up.
 std::uint64_t megabytes(std::uint64_t bytes) { return (bytes + 999'999) / 1'000'000; }
 
-/// What a run with all samples in memory needs at least.
+/// The least memory that a run with all samples in memory needs.
 double megabytes_in_memory(const OwnedHeightField& field, const MemoryNeeds& needs = {}) {
   const double bytes = static_cast<double>(needs.per_sample) * field.cols * field.rows;
   return std::ceil((2 * bytes + static_cast<double>(kProgramBytes + needs.others)) / 1e6) + 1;
@@ -131,7 +131,7 @@ std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField
 Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const char* options) {
   const std::uint64_t taken = bytes_taken(field, limit);
   if (taken + bytes <= limit) return {};
-  const bool has_cache = field.source && !field.source->is_in_memory();  // of half of what the program leaves
+  const bool has_cache = field.source && !field.source->is_in_memory();  // a share of half of what the program allows
   const std::uint64_t needed = has_cache ? kProgramBytes + 2 * bytes : taken + bytes;
   return fail(ErrorKind::kUsage, fmt::format("--memory is too little: {} takes {}M; allow {}M and what the mesh needs",
                                              options, megabytes(bytes), megabytes(needed)));

@@ -1,4 +1,4 @@
-// What a mesh must reach, and how much work Scarp does for it.
+// Options for the goals of a mesh, and for the effort.
 #include "options/option_rows.h"
 
 namespace scarp::cli {
@@ -50,8 +50,8 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "max rms",
      .by_default = "max",
-     .help = "What to minimise under -t or -p: the max error or the RMSE. With rms no sample is off by more than -e, "
-             "or than what --effort fast reaches. Needs --effort normal or more."},
+     .help = "Quantity to minimise under -t or -p: the max error or the RMSE. With rms no sample is off by more than "
+             "-e, or than what --effort fast reaches. Needs --effort normal or more."},
 
     {.id = kFailAbove,
      .name = "--fail-above",
@@ -85,7 +85,7 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "free samples",
      .by_default = "free where possible",
-     .help = "Where high and max may place vertices. free: between samples too. samples: only on them; with high "
+     .help = "Positions of vertices for high and max. free: between samples too. samples: only on them; with high "
              "0.41 of the triangles of fast."},
     {.id = kMinShape,
      .name = "--min-shape",
@@ -115,8 +115,9 @@ constexpr OptionRow kGoalRows[] = {
      .type = kText,
      .value = "N[:RATIO]",
      .unit = "levels",
-     .help = "Write N levels of detail: files OUT_lod0.glb, OUT_lod1.glb ... of max errors E, RATIO times E ... (E: "
-             "-e). RATIO is 2 unless given. All have one outline, that of --lock-border."},
+     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error of the first is "
+             "that of -e, of each further one RATIO (2 unless given) times the previous one's. All have one outline, "
+             "that of --lock-border."},
     {.id = kLodsInOne,
      .name = "--lods-in-one",
      .commands = kSimplify,
@@ -128,8 +129,8 @@ constexpr OptionRow kGoalRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kLevels,
      .type = kFlag,
-     .help = "Let the samples of the raster's edge alone decide the mesh there. Rasters that share a row or column of "
-             "samples then meet exactly, simplified apart with the same -e."},
+     .help = "Make the mesh at the raster's edge from the samples of the edge alone. Rasters that share a row or "
+             "column of samples then meet exactly, simplified apart with the same -e."},
 };
 
 }  // namespace

@@ -40,8 +40,8 @@ constexpr OptionRow kLineRows[] = {
      .value = "RULE",
      .choices = "error first mean highest",
      .by_default = "error",
-     .help = "What to do where lines of different heights meet. error: refuse. Else take the height of the first line, "
-             "the mean, or the highest."},
+     .help = "Rule where lines of different heights meet. error: refuse. Else use the height of the first line, the "
+             "mean, or the highest."},
     {.id = kCutline,
      .name = "--cutline",
      .commands = kSimplify,
@@ -102,7 +102,7 @@ constexpr OptionRow kLineRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kLines,
      .type = kFlag,
-     .help = "Keep all lines of --ridges as edges of the mesh. This takes more triangles."},
+     .help = "Keep all lines of --ridges as edges of the mesh. This needs more triangles."},
 
     {.id = kMaterials,
      .name = "--materials",
@@ -110,9 +110,8 @@ constexpr OptionRow kLineRows[] = {
      .group = OptionGroup::kLines,
      .type = kInputFile,
      .value = "FILE[:LAYER]",
-     .help =
-         "Polygons of materials, for .2dm: their borders become edges of the mesh, and each triangle has the number "
-         "of its polygon, 1 beside them."},
+     .help = "Polygons of materials, for .2dm: their borders become edges of the mesh, and each triangle has the "
+             "number of its polygon, 1 outside them."},
     {.id = kMaterialField,
      .name = "--material-field",
      .commands = kSimplify,
@@ -147,8 +146,8 @@ constexpr OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Lakes: nodes in the polygons of a vector file become flat, at a low height of the shore. All tiles and "
-             "levels agree about it.",
+     .help = "Lakes: flatten the nodes in the polygons of a vector file to a low percentile of their shore, alike in "
+             "all tiles and levels.",
      .brief = "Lakes become flat"},
     {.id = kWaterMask,
      .name = "--watermask",

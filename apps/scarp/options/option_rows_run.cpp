@@ -45,9 +45,8 @@ constexpr OptionRow kRunRows[] = {
     {.id = kQuiet,
      .name = "--quiet",
      .short_name = "-q",
-     .commands =
-         kSimplify | kMeasure | kView | kInfo | kGenerate | kPaper | kTile | kTilePlan | kTileRun | kTileFinish | kTileCheck |
-         kServe,
+     .commands = kSimplify | kMeasure | kView | kInfo | kGenerate | kPaper | kTile | kTilePlan | kTileRun |
+                 kTileFinish | kTileCheck | kServe,
      .group = OptionGroup::kRun,
      .type = kFlag,
      .help = "Print no summary, no progress and no warnings."},
@@ -56,7 +55,7 @@ constexpr OptionRow kRunRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kRun,
      .type = kFlag,
-     .help = "After the summary, print what each pass took and did."},
+     .help = "After the summary, print the time and work of each pass."},
     {.id = kJsonProgress,
      .name = "--json-progress",
      .commands = kSimplify | kMeasure | kInfo | kTile | kTilePlan | kTileRun | kTileFinish | kTileCheck | kServe,

@@ -16,7 +16,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "V",
      .by_default = "what the file declares",
      .range = "a number or nan",
-     .help = "Value that marks missing samples, or points without a height, which are left out.",
+     .help = "Value that marks missing samples, or points without a height, which are omitted.",
      .brief = "Value that marks missing samples"},
     {.id = kNodataPolicy,
      .name = "--nodata-policy",
@@ -26,7 +26,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "POLICY",
      .choices = "hole fill background",
      .by_default = "hole",
-     .help = "What missing samples become. hole: the mesh has none there. fill: they are interpolated. background: "
+     .help = "Treatment of missing samples. hole: the mesh has none there. fill: they are interpolated. background: "
              "they get the height of --background."},
     {.id = kNodataPolicy,
      .name = "--nodata-policy",
@@ -37,10 +37,10 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "voids fill background",
      .by_default = "voids",
      .help =
-         "What missing samples become. voids: those of enclosed voids of at most 100 samples a side are interpolated, "
+         "Treatment of missing samples. voids: those of enclosed voids of at most 100 samples a side are interpolated, "
          "others get the height of --background. fill: all within --fill-distance of a height are interpolated. "
          "background: none is.",
-     .brief = "What missing samples become: voids, fill or background"},
+     .brief = "Treatment of missing samples: voids, fill or background"},
     {.id = kFillDistance,
      .name = "--fill-distance",
      .commands = kSimplify | kTile | kTilePlan | kTileCheck | kServe,
@@ -201,7 +201,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "POLICY",
      .choices = "first last highest lowest mean",
      .by_default = "first",
-     .help = "Which of several points at one place counts: the first, last, highest or lowest, or their mean."},
+     .help = "Point that counts among several at one place: the first, last, highest or lowest, or their mean."},
     {.id = kDuplicates,
      .name = "--duplicates",
      .commands = kMeasure,
@@ -209,8 +209,8 @@ constexpr OptionRow kSampleRows[] = {
      .type = kChoice,
      .value = "POLICY",
      .choices = "first last highest lowest mean",
-     .by_default = "what the mesh file says, else first",
-     .help = "Which of several points at one place counts: the first, last, highest or lowest, or their mean."},
+     .by_default = "from the mesh file, else first",
+     .help = "Point that counts among several at one place: the first, last, highest or lowest, or their mean."},
     {.id = kLayer,
      .name = "--layer",
      .commands = kSimplify | kMeasure | kInfo,
@@ -233,10 +233,9 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kPoints,
      .type = kText,
      .value = "NAMES",
-     .by_default = "what the header says, else what they hold",
-     .help =
-         "What the columns of a text hold, such as number,northing,easting,height,code, or pnezd. - is for one that "
-         "is not read."},
+     .by_default = "from the header, else guessed from the values",
+     .help = "Contents of a text's columns, such as number,northing,easting,height,code, or pnezd. - is for one that "
+             "is not read."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kSimplify,
@@ -244,16 +243,16 @@ constexpr OptionRow kSampleRows[] = {
      .type = kText,
      .value = "hull|concave:LENGTH",
      .by_default = "hull",
-     .help = "Where the mesh ends: at the convex hull of the points, or at a concave one. Triangles whose edge on the "
-             "boundary is longer than LENGTH, in the unit of x and y, are left out while the mesh stays in one piece."},
+     .help = "Boundary of the mesh: the convex hull of the points, or a concave one. Triangles whose edge on the "
+             "boundary is longer than LENGTH, in the unit of x and y, are removed while the mesh stays in one piece."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kMeasure,
      .group = OptionGroup::kPoints,
      .type = kText,
      .value = "hull|concave:LENGTH",
-     .by_default = "what the mesh file says, else hull",
-     .help = "Where the mesh may end: at the convex hull of the points, or, in one loop, within it."},
+     .by_default = "from the mesh file, else hull",
+     .help = "Allowed boundary of the mesh: the convex hull of the points, or, in one loop, within it."},
 };
 
 }  // namespace

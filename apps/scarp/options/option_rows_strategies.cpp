@@ -15,7 +15,7 @@ constexpr OptionRow kStrategyRows[] = {
      .type = kChoice,
      .choices = "dominant greedy",
      .by_default = "dominant with -e alone, else greedy",
-     .help = "Which sample is inserted next. dominant: the worst of its neighbourhood, on all threads. greedy: the "
+     .help = "Sample that is inserted next. dominant: the worst of its neighbourhood, on all threads. greedy: the "
              "worst of the whole raster, as in the paper, on one thread."},
     {.id = kImportance,
      .name = "--importance",
@@ -25,7 +25,7 @@ constexpr OptionRow kStrategyRows[] = {
      .value = "FORMULA",
      .choices = "global local local8 curvature distance global*local global*local8 global*curvature global*distance",
      .by_default = "global",
-     .help = "What the worst sample is: the one with the largest global (error of the mesh), local or local8 "
+     .help = "Measure of the worst sample: the largest global (error of the mesh), local or local8 "
              "(difference from the mean of its 4 or 8 neighbours) or curvature. Or a product: global*local, "
              "'global*(local+1)', 'global*sqrt(curvature+1)'. Distance, from the nearest corner of its triangle, "
              "attenuates errors near vertices: 'global*sqrt(distance+1)'."},
@@ -62,7 +62,7 @@ constexpr OptionRow kStrategyRows[] = {
      .type = kChoice,
      .choices = "delaunay data",
      .by_default = "delaunay",
-     .help = "Which diagonals are kept: those of well-shaped triangles, or those that fit the heights."},
+     .help = "Diagonals to keep: those of well-shaped triangles, or those that fit the heights."},
     {.id = kEdgeScore,
      .name = "--edge-score",
      .commands = kSimplify,
@@ -81,7 +81,7 @@ constexpr OptionRow kStrategyRows[] = {
      .value = "Q",
      .by_default = "0.5, with tight 0.1",
      .range = "0 to 1",
-     .help = "With --edges data: 0 looks at the data alone, 1 at the shape alone."},
+     .help = "With --edges data: 0 counts the data alone, 1 the shape alone."},
     {.id = kSupersample,
      .name = "--supersample",
      .commands = kSimplify,

@@ -25,9 +25,9 @@ constexpr OptionRow kTileRows[] = {
      .group = OptionGroup::kOutput,
      .type = kInputFile,
      .value = "IMAGE",
-     .help = "Lay an image over the terrain, a texture in each GLB of --of 3dtiles: any 8-bit raster, warped from its "
-             "own CRS. Where it has no colour the ground has one.",
-     .brief = "Image to lay over 3D Tiles"},
+     .help = "Drape an image over the terrain, a texture in each GLB of --of 3dtiles: any 8-bit raster, warped from "
+             "its own CRS. Where it has no colour the ground has one.",
+     .brief = "Image to drape over 3D Tiles"},
     {.id = kDrapeFormat,
      .name = "--drape-format",
      .commands = kTile | kTilePlan,
@@ -103,7 +103,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kChoice,
      .value = "GRID",
      .choices = "geographic mercator",
-     .by_default = "what the set says",
+     .by_default = "from the set",
      .help = "Grid of the tiles, of a set whose layer.json does not name its projection."},
     {.id = kBound,
      .name = "--bound",
@@ -113,9 +113,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "WHERE",
      .choices = "nodes samples",
      .by_default = "nodes",
-     .help = "Where the max error holds. nodes: at the tiles' nodes. samples: at the samples of the raster, too, each at "
+     .help = "Scope of the max error. nodes: at the tiles' nodes. samples: at the samples of the raster, too, each at "
              "its own place; nodes are then twice as dense, --cells 256 unless given.",
-     .brief = "Where the max error holds: at nodes, or at the raster's samples, too"},
+     .brief = "Scope of the max error: at nodes, or at the raster's samples, too"},
     {.id = kMaxTileBytes,
      .name = "--max-tile-bytes",
      .commands = kTile | kTilePlan | kServe,
@@ -135,8 +135,9 @@ constexpr OptionRow kTileRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. Each "
-             "level has them to within its own nodes.",
+     .help =
+         "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. Each "
+         "level has them to within its own nodes.",
      .brief = "Lines that become edges of the tiles' meshes"},
     {.id = kCells,
      .name = "--cells",
@@ -174,11 +175,11 @@ constexpr OptionRow kTileRows[] = {
      .value = "DATUM",
      .choices = "auto egm96 egm2008 ellipsoid none",
      .by_default = "auto",
-     .help = "What the heights are above. auto: what the raster's CRS says, which must name a vertical datum. egm96: "
-             "the sea, by a grid that is built in. egm2008, or EPSG:N of a vertical CRS: by PROJ, where its grid is "
-             "installed. ellipsoid: the ellipsoid, as GPS gives heights. none: nobody knows; heights are taken as they "
-             "are, and may be 100 m off.",
-     .brief = "What heights are above: egm96 (the sea) or ellipsoid"},
+     .help = "Zero of the heights. auto: from the raster's CRS, which must name a vertical datum. egm96: the sea, by a "
+             "grid that is built in. egm2008, or EPSG:N of a vertical CRS: by PROJ, where its grid is installed. "
+             "ellipsoid: the ellipsoid, as GPS gives heights. none: unknown; heights are used as they are, and may be "
+             "100 m off.",
+     .brief = "Zero of the heights: egm96 (the sea) or ellipsoid"},
     {.id = kGeoid,
      .name = "--geoid",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
@@ -196,7 +197,7 @@ constexpr OptionRow kTileRows[] = {
      .unit = "metres",
      .by_default = "that of WGS 84; on other planets the one of the raster's CRS",
      .help = "Ellipsoid of the globe: radius at the equator and radius to the poles. The raster's longitudes and "
-             "latitudes are then taken as they are."},
+             "latitudes are then used as they are."},
     {.id = kBackground,
      .name = "--background",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
@@ -205,8 +206,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "V",
      .unit = "metres above the ellipsoid",
      .by_default = "0",
-     .help = "Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says. With a "
-             "local grid that of nodata alone, by default the raster's lowest.",
+     .help = "Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical is. With "
+             "a local grid that of nodata alone, by default the raster's lowest.",
      .brief = "Height of nodata and of the globe around, above the ellipsoid"},
     {.id = kPlan,
      .name = "PLAN",
@@ -247,9 +248,8 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "I/N",
      .by_default = "1/1, all blocks",
-     .help =
-         "Which of N shares of the blocks to make, 1 to N. What the parts hold already, made in whatever shares, is "
-         "not made again."},
+     .help = "Share I of N of the blocks to make. Blocks that the parts hold already, made in whatever shares, are not "
+             "made again."},
     {.id = kOnly,
      .name = "--only",
      .commands = kTile | kTilePlan,
@@ -257,9 +257,8 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "W,S,E,N",
      .unit = "degrees",
-     .help =
-         "Make only blocks that touch the box: blocks elsewhere count as places without heights. Tiles of the blocks "
-         "are those of the whole set."},
+     .help = "Make only blocks that touch the box: blocks outside are treated as nodata. Tiles of the blocks are those "
+             "of the whole set."},
     {.id = kOnly,
      .name = "--only",
      .commands = kTileRun,
@@ -275,8 +274,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kInputFile,
      .value = "PLAN",
      .choices = ".json",
-     .help = "An earlier plan, whose settings and parts are taken: blocks whose nodes have not changed are not made "
-             "again."},
+     .help = "Reuse the settings and parts of an earlier plan: only blocks whose nodes have changed are made again."},
     {.id = kHash,
      .name = "--hash",
      .commands = kTilePlan,
@@ -285,8 +283,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "WHAT",
      .choices = "stamp content",
      .by_default = "stamp",
-     .help = "How a changed raster is known. stamp: by its size and time. content: all its bytes are read, so that an "
-             "edit that keeps both is found, and a copy with another time is the same."},
+     .help = "How to detect a changed raster. stamp: by its size and modification time. content: by a hash of all its "
+             "bytes, so that an edit that keeps both is found, and a copy with another time is the same."},
     {.id = kSurvey,
      .name = "--survey",
      .commands = kTilePlan,
@@ -310,7 +308,7 @@ constexpr OptionRow kTileRows[] = {
      .group = OptionGroup::kOutput,
      .type = kFolder,
      .value = "DIR",
-     .by_default = "beside the plan: world.parts for world.json",
+     .by_default = "next to the plan: world.parts for world.json",
      .help = "Folder of the finished blocks, which all processes share."},
     {.id = kSlurm,
      .name = "--slurm",
@@ -328,7 +326,7 @@ constexpr OptionRow kTileRows[] = {
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "256M",
      .help = "Memory of the raster: one whose samples need more stays in its file, and the blocks' parts of it are "
-             "read. A block needs 300 MB beside it."},
+             "read. A block needs another 300 MB."},
     {.id = OptionId::kMemory,
      .name = "--memory",
      .commands = kServe,
@@ -337,9 +335,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "SIZE",
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "1G",
-     .help = "Memory of what is kept, where tiles are made. One half is for the raster, which stays in its file if it "
-             "is larger, with its blocks read last; the other for the tiles asked for last. Making a tile takes up to "
-             "300 MB a thread beside it."},
+     .help = "Memory of the caches, where tiles are made. One half is for the raster, which stays in its file if it is "
+             "larger, with its blocks read last; the other for the tiles asked for last. Making a tile needs up to "
+             "another 300 MB a thread."},
     {.id = kPort,
      .name = "--port",
      .commands = kServe,

@@ -60,7 +60,7 @@ const OptionRow& row_of(const CLI::App& command, OptionId id) {
   throw std::logic_error(fmt::format("option {} of {} is not in the table", static_cast<int>(id), command.get_name()));
 }
 
-/// As CLI11 wants them: "-e,--max-error".
+/// The names as CLI11 expects them: "-e,--max-error".
 std::string names_of(const OptionRow& row) {
   return std::string(row.short_name) + (row.short_name[0] != 0 ? "," : "") + row.name;
 }
@@ -129,10 +129,10 @@ void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& val
 void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values, OptionId last_id,
                    std::string& last) {
   add(command, id, values);
-  // CLI11 gives all arguments to the first that takes several.
+  // CLI11 gives all arguments to the first that accepts several.
   add(command, last_id, last)->required(false);
   command.parse_complete_callback([&values, &last, name = row_of(command, last_id).name] {
-    if (values.empty()) return;  // CLI11 says that
+    if (values.empty()) return;  // CLI11 reports that
     if (values.size() == 1) throw CLI::RequiredError(name);
     last = std::move(values.back());
     values.pop_back();
@@ -159,7 +159,7 @@ std::vector<std::string> files_read(const CLI::App& command) {
     const CLI::Option* const option = command.get_option_no_throw(row->name);
     if (option == nullptr) continue;
     std::vector<std::string> values = option->results();
-    // CLI11 gives all arguments to the first that takes several: see add_arguments().
+    // CLI11 gives all arguments to the first that accepts several: see add_arguments().
     if (row->is_argument() && row->is_repeatable && ends_in_output && !values.empty()) values.pop_back();
     for (std::string& value : values) {
       if (std::string_view(row->value).ends_with("=M")) value.resize(std::min(value.rfind('='), value.size()));

@@ -182,7 +182,7 @@ enum class OptionGroup {
 };
 
 enum class OptionType {
-  kFlag,        ///< takes no value
+  kFlag,        ///< has no value
   kNumber,      ///< a number, perhaps with a unit behind it
   kCount,       ///< a whole number
   kText,        ///< any text; `choices` are proposals
@@ -206,14 +206,14 @@ struct OptionRow {
   Commands commands;
   OptionGroup group;
   OptionType type;
-  const char* value = "";    ///< what help calls the value; empty: the choices
+  const char* value = "";    ///< name of the value in help; empty: the choices
   const char* choices = "";  ///< words, separated by blanks
   const char* unit = "";
   const char* by_default = "";  ///< empty: the option does nothing unless it is given
   const char* range = "";
   bool is_repeatable = false;
   bool is_required = false;
-  const char* help;        ///< one or two sentences; completions take the first
+  const char* help;        ///< one or two sentences; completions use the first
   const char* brief = "";  ///< one line for -h, where all options do not fit a screen; empty: not among them
 
   bool is_argument() const { return name[0] != '-'; }
@@ -245,7 +245,7 @@ const OptionRow* find_option(Commands commands, std::string_view name);
 /// Null if there is no such command.
 const CommandRow* find_command(std::string_view name);
 
-/// Registers the option as its row says. Throws std::logic_error if the command has no such row.
+/// Registers the option as its row describes it. Throws std::logic_error if the command has no such row.
 void add_option(CLI::App& command, OptionId id, std::string& value);
 void add_option(CLI::App& command, OptionId id, std::optional<std::string>& value);
 void add_option(CLI::App& command, OptionId id, std::vector<std::string>& values);
@@ -257,7 +257,7 @@ void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& val
 void add_numbers(CLI::App& command, OptionId id, std::vector<std::string>& values, int count);
 void add_flag(CLI::App& command, OptionId id, bool& value);
 /// Every file that the command line names to be read, in the order of the table: the values of all rows of
-/// OptionType::kInputFile, a layer behind a name included ("FILE:LAYER"), the number of a region ("=M") left out.
+/// OptionType::kInputFile, a layer behind a name included ("FILE:LAYER"), the number of a region ("=M") omitted.
 std::vector<std::string> files_read(const CLI::App& command);
 /// The command of the program, with its --version.
 CLI::App* add_command(CLI::App& program, Commands command);

@@ -190,7 +190,7 @@ Result<void> settle_goal(std::string_view option, const RasterInfo& heights, Err
                             "known here: give a number without a unit, or name their unit (--z-unit)",
                             option, goal.unit, heights.unit));
   constexpr double kFoot = 0.3048;
-  const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // of any kind: theirs is meant
+  const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // any kind: the heights' own feet are meant
   const double of_goal = goal.unit == "m" ? 1 : are_feet ? metres : kFoot;
   const double given = goal.value;
   if (of_goal != metres) goal.value *= of_goal / metres;

@@ -1,4 +1,4 @@
-// What the commands' options have in common: reading numbers, rasters' options, checks of output files.
+// Common parts of the commands' options: reading numbers, rasters' options, checks of output files.
 #pragma once
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ Result<std::uint64_t> parse_count(std::string_view option, const std::string& te
 /// Threads: 0 (all cores, also if not given) to 1024.
 Result<int> parse_threads(const Given& text);
 
-/// A word that an option takes, and what it stands for.
+/// A word that an option accepts, and its value.
 template <class T>
 struct Choice {
   const char* name;
@@ -73,7 +73,7 @@ struct ErrorGoal {
   double value = 0;
   bool percent_of_relief = false;
   bool is_on_print = false;  ///< in millimetres of a print
-  std::string unit;          ///< of the value, "m" or "ft"; empty: that of the heights
+  std::string unit;          ///< unit of the value, "m" or "ft"; empty: that of the heights
   /// In z units, for a raster of the given relief.
   double absolute(double relief) const { return percent_of_relief ? value / 100 * relief : value; }
 };
@@ -81,11 +81,11 @@ struct ErrorGoal {
 Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text);
 /// Fails for a goal in millimetres of a print, where there is none.
 Result<void> refuse_print(std::string_view option, const ErrorGoal& goal);
-/// Puts a goal that names its unit into that of the heights. A warning says where theirs is taken for granted; kUsage
-/// where it is no length.
+/// Puts a goal that names its unit into that of the heights. A warning reports if theirs is assumed; kUsage if it is no
+/// length.
 Result<void> settle_goal(std::string_view option, const RasterInfo& heights, ErrorGoal& goal,
                          std::vector<std::string>& warnings);
-/// What the library says of a max error, with the share of the relief that was asked for.
+/// Adds the share of the relief that was asked for to the library's error about a max error.
 Error name_goal(const ErrorGoal& goal, double relief, Error error);
 
 /// The options of every command that reads a raster.
@@ -100,7 +100,7 @@ struct RasterArguments {
   Result<ReadOptions> parse() const;
   /// " --band 2 --crs local": those that were given.
   std::string canonical() const;
-  /// What the library says of a raster that cannot be read, and what else standard input and vector data can be.
+  /// Completes the library's error about a raster that cannot be read: what else standard input and vector data can be.
   Error explain(Error error) const;
 };
 
@@ -116,7 +116,7 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
                            bool overwrite);
 /// The path's extension in lower case, with its point (".png"); empty if there is none.
 std::string lower_extension(const std::string& path);
-/// Whether the path can be a set of tiles: a folder, or a file with the ending of an archive of tiles.
+/// True if the path can be a set of tiles: a folder, or a file with the ending of an archive of tiles.
 bool names_tile_set(const std::string& path);
 /// Fails unless the path ends in .png or is a device.
 Result<void> check_png_name(const PlannedOutput& output);

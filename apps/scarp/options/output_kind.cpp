@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, 3mf, svg, eps or dem";
 
-/// What the commands must know of a mesh format before they write it.
+/// The facts about a mesh format that the commands need before they write it.
 struct MeshRow {
   MeshFormat format;
   const char* name;
@@ -70,7 +70,7 @@ std::optional<OutputFormat> find_format(const std::string& word) {
   return format;
 }
 
-/// What an extension stands for: the formats' names, and those of rasters.
+/// The format of an extension: the formats' names, and those of rasters.
 std::optional<OutputFormat> find_format_of_extension(const std::string& extension) {
   if (extension.size() < 2 || extension == ".dem") return std::nullopt;
   if (extension == ".xml") return find_format("landxml");

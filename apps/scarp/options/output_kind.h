@@ -1,4 +1,4 @@
-// What OUTPUT is: a mesh file, a drawing of the mesh's edges, or the approximation resampled on the grid.
+// The kind of OUTPUT: a mesh file, a drawing of the mesh's edges, or the approximation resampled on the grid.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ enum class OutputKind { kMesh, kSvg, kEps, kDem };
 
 struct OutputFormat {
   OutputKind kind = OutputKind::kMesh;
-  MeshFormat mesh = MeshFormat::kGlb;            ///< of a kMesh
-  RasterFormat raster = RasterFormat::kGeoTiff;  ///< of a kDem
+  MeshFormat mesh = MeshFormat::kGlb;            ///< format of a kMesh
+  RasterFormat raster = RasterFormat::kGeoTiff;  ///< format of a kDem
 
   /// "glb", "svg", "dem", …
   const char* name() const;
   /// "GLB", "SVG", …: for sentences.
   std::string title() const;
-  /// About what encode_as() takes for a vertex and its two triangles, the file's bytes included.
+  /// About the bytes that encode_as() needs for a vertex and its two triangles, the file's bytes included.
   std::uint64_t bytes_per_vertex() const;
   bool is_mesh() const { return kind == OutputKind::kMesh; }
   /// Positions are rounded to float32.
@@ -38,22 +38,22 @@ struct OutputFormat {
   bool holds_prints() const;
   /// Has a place for normals, uvs and colours.
   bool holds_attributes() const;
-  /// Where x and y are unless a CRS was asked for.
+  /// The frame of x and y unless a CRS was asked for.
   DefaultFrame default_frame() const;
   /// In which unit its heights are.
   HeightsIn heights_in() const;
-  /// What it shows does not rely on z being the height.
+  /// True if its content does not rely on z being the height.
   bool holds_space() const;
   bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
-  /// Has a CRS, and no place for it that all who read the format look at: a .prj file tells it.
+  /// True if it has a CRS, and no place for it that all readers of the format use: a .prj file holds it.
   bool has_projection_beside() const;
 };
 
-/// Whether --up says y.
+/// True if --up is y.
 Result<bool> parse_up(const Given& up);
 
-/// Whether the mesh is turned y up before it is written, by --up or as those who read the format expect it. Not for
-/// GLB, whose writer does that itself. kUsage if the format knows one axis only, and it is the other.
+/// True if the mesh is turned y up before it is written, by --up or as readers of the format expect it. Not for GLB,
+/// whose writer does that itself. kUsage if the format knows one axis only, and it is the other.
 Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print);
 
 /// By --of if it was given, else by the output's extension.
@@ -65,7 +65,7 @@ Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, co
 
 /// In which unit heights are in a mesh file, by its name.
 HeightsIn heights_in(const std::string& mesh_path);
-/// The frame of a mesh file whose frame nobody chose, by its name.
+/// The default frame of a mesh file, by its name.
 DefaultFrame default_frame(const std::string& mesh_path);
 /// kUsage if the format is in metres by its specification, and x and y are in units of another length (0: not known).
 Result<void> check_unit_of_frame(const OutputFormat& format, double metres);

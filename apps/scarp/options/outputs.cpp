@@ -1,4 +1,4 @@
-// Checks of output files before any work is done: nobody should wait an hour to learn that a folder does not exist.
+// Checks of output files before any work is done: a missing folder must not show up after an hour of work.
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -36,12 +36,12 @@ fs::path follow_links(fs::path path) {
   for (int k = 0; k < kMostLinks && fs::is_symlink(path, error); ++k) {
     const fs::path target = fs::read_symlink(path, error);
     if (error) break;
-    path = path.parent_path() / target;  // an absolute target takes the place of all
+    path = path.parent_path() / target;  // an absolute target replaces all
   }
   return path;
 }
 
-/// Equal for two names of one file, whether it is there or not; empty where that cannot be told.
+/// Equal for two names of one file, whether it is there or not; empty where that cannot be found out.
 std::string identity_of(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return fmt::format("{} {}", status.st_dev, status.st_ino);
@@ -50,7 +50,8 @@ std::string identity_of(const std::string& path) {
   return error ? std::string() : full.string();
 }
 
-/// Of what an output replaces: a file, also one that standard output was opened on; empty for devices and pipes.
+/// The identity of what an output replaces: a file, also one that standard output was opened on; empty for devices and
+/// pipes.
 std::string identity_of_output(const std::string& path) {
   if (!is_stdout(path)) return names_device(path) ? "" : identity_of(path);
   struct stat status {};
@@ -58,7 +59,7 @@ std::string identity_of_output(const std::string& path) {
   return is_file ? fmt::format("{} {}", status.st_dev, status.st_ino) : "";
 }
 
-/// Why no file can be made in the folder, which exists; empty if one can. Permissions do not tell, to root and in
+/// Why no file can be made in the folder, which exists; empty if one can. Permissions do not show it, for root and in
 /// /proc.
 std::string find_obstacle(const fs::path& folder) {
   std::string name = (folder / ".scarp-XXXXXX").string();
@@ -113,7 +114,7 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
     if (!may_replace) continue;
     for (const std::string& part : list_files(input)) read.emplace(identity_of(part), input);
   }
-  std::map<std::string, std::string> written;  // and the option that says so
+  std::map<std::string, std::string> written;  // and the option that names it
   const PlannedOutput* to_stdout = nullptr;
   for (const PlannedOutput& output : outputs) {
     if (is_stdout(output.path)) {

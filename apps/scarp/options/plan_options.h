@@ -1,4 +1,4 @@
-// What the processes of a plan of tiles agree on.
+// The settings that the processes of a plan of tiles share.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,10 @@
 
 namespace scarp::cli {
 
-/// What the raster may have of a process's memory, unless --memory says otherwise: a share of the blocks needs a part
-/// of it.
+/// The raster's share of a process's memory, unless --memory sets it: a share of the blocks needs a part of the raster.
 inline constexpr std::uint64_t kShareRasterBytes = 256'000'000;
 
-/// --parts, or else a folder beside the plan: "world.parts" for "world.json".
+/// --parts, or else a folder next to the plan: "world.parts" for "world.json".
 inline std::string parts_folder(const std::string& plan, const Given& parts) {
   return parts ? *parts : std::filesystem::path(plan).replace_extension(".parts").string();
 }

@@ -28,7 +28,7 @@ struct RidgeArguments {
 
 /// The "ridges" object of a report; null without --ridges.
 Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges);
-/// Of the summary; empty without --ridges.
+/// Line of the summary; empty without --ridges.
 std::string ridges_line(const std::optional<Ridges>& ridges);
 /// Warns where ridges were asked for and none was found.
 void warn_of_missing_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges,

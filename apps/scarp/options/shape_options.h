@@ -28,9 +28,9 @@ struct ShapeArguments {
 
 /// The "shape" object of a report; null where nothing was asked.
 Json describe_shape(const ShapeGoals& goals, const Simplified& simplified);
-/// Of the summary; empty where nothing was asked.
+/// Line of the summary; empty where nothing was asked.
 std::string shape_line(const ShapeGoals& goals, const Simplified& simplified);
-/// Of the goals that yielded to others, in numbers.
+/// Warns of the goals that yielded to others, in numbers.
 void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

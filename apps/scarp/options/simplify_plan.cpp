@@ -203,7 +203,7 @@ Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// What solids need of the format, and it of them.
+/// Checks the needs of solids and of the format.
 Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
@@ -227,7 +227,7 @@ Result<void> plan_zones(const SimplifyArguments& given, SimplifyPlan& plan) {
   return given.zones.check(plan.format);
 }
 
-/// What does not go together with images inside the file.
+/// Refuses settings that conflict with images inside the file.
 Result<void> plan_images(const SimplifyArguments& given, SimplifyPlan& plan) {
   Result<ImagePlan> images = given.images.parse(plan.format);
   if (!images) return tl::unexpected(std::move(images.error()));
@@ -251,7 +251,7 @@ Result<void> plan_images(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// What the format has no place for: refused where nothing would be left, else a warning.
+/// Checks attributes that the format has no place for: refuses if nothing would remain, else warns.
 Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   const std::string title = format.title();
@@ -375,7 +375,7 @@ Result<void> plan_page(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// What a mesh does not go with in a frame in space, where z is not the height.
+/// Refuses settings of a mesh that conflict with a frame in space, where z is not the height.
 Result<void> plan_space(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!is_in_space(plan.read.crs)) return {};
   const std::string output = plan.format.title() + " as OUTPUT";
@@ -422,7 +422,7 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
   }
   plan.simplify.run.memory.limit = *plan.memory;
   plan.simplify.run.memory.per_vertex = plan.format.bytes_per_vertex();
-  // A solid's bottom and walls are as many vertices again; a print is judged beside its mesh.
+  // A solid's bottom and walls are as many vertices again; a print is judged while its mesh is in memory.
   constexpr std::uint64_t kMeshBytes = 48;
   if (plan.base) plan.simplify.run.memory.per_vertex = 2 * plan.simplify.run.memory.per_vertex + kMeshBytes;
   if (plan.solid) plan.simplify.run.memory.per_vertex += 4 * kMeshBytes;

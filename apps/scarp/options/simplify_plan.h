@@ -1,4 +1,4 @@
-// What `scarp simplify` was asked to do: its options, parsed and checked before any file is read.
+// The request of `scarp simplify`: its options, parsed and checked before any file is read.
 #pragma once
 
 #include <cstdint>
@@ -67,7 +67,7 @@ struct SimplifyPlan {
   SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
   Strategy strategy;
   bool by_paper = false;        ///< by simplify_by_paper(), with the strategy
-  std::string strategy_option;  ///< that asks for it
+  std::string strategy_option;  ///< option that asks for it
   CompanionArguments companions;
   LineArguments lines;
   CliffArguments cliff;
@@ -84,19 +84,19 @@ struct SimplifyPlan {
   std::optional<Levels> levels;
   bool levels_in_one = false;
   std::optional<std::string> preview, render, error_raster, html, report;
-  std::string page_template;  ///< of the page, where `html` asks for one
+  std::string page_template;  ///< template of the page, where `html` asks for one
   bool compress = false;
   bool overwrite = false;
   bool is_y_up = false;                      ///< see choose_y_up()
-  bool doubles = false;                      ///< as positions of a PLY
-  std::optional<std::uint64_t> memory;       ///< what the process may take
+  bool doubles = false;                      ///< doubles as positions of a PLY
+  std::optional<std::uint64_t> memory;       ///< bytes that the process may use
   std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
   std::vector<std::string> warnings;
-  /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
+  /// The command for the mesh's metadata: options in a fixed order and with their long names, folders omitted, and
   /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).
   std::string canonical_command;
 
-  /// Of a print in print tiles; else OUTPUT holds them all.
+  /// True if each level has a file of its own; else OUTPUT holds them all.
   bool has_file_per_level() const { return levels && !levels_in_one; }
   /// The option that puts lines of a file into the mesh; null if there is none.
   const char* find_lines() const { return lines.find_lines() != nullptr ? lines.find_lines() : zones.find_lines(); }

@@ -1,4 +1,4 @@
-// Options that say how insertion goes about its work.
+// Options for the strategy of insertion.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ struct StrategyArguments {
   Result<void> parse_into(SimplifyOptions& options, Strategy& strategy) const;
   /// The first option that asks for a strategy of the 1995 paper; null if there is none.
   const char* find_strategy() const;
-  /// Whether the greedy order was asked for, by name or by naming one of its algorithms.
+  /// True if the greedy order was asked for, by name or by naming one of its algorithms.
   bool asks_for_greedy() const { return algorithm || order == "greedy"; }
   /// The options that can change the mesh, for the canonical command, but for the order.
   std::string canonical() const;
@@ -33,10 +33,10 @@ struct StrategyArguments {
 
 /// [global*]F with F one of local, local8, curvature, (f+1), sqrt(f+1); or global alone. Blanks do not count.
 Result<Importance> parse_importance(const std::string& text);
-/// What parse_importance() reads as the same importance.
+/// The text that parse_importance() reads as the same importance.
 std::string importance_name(const Importance& importance);
 
-/// As the options name them.
+/// The effort's name in the options.
 const char* effort_name(Effort effort);
 const char* order_name(Order order);
 

@@ -312,7 +312,7 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
     if (!given) return tl::unexpected(given.error());
     kind = *given;
   }
-  // What the options alone can tell; without --grid the raster tells the rest.
+  // checks what the options alone show; without --grid the rest depends on the raster
   if (auto fits = choose_format(kind); !fits) return tl::unexpected(fits.error());
   auto image = parse_drape();
   if (!image) return tl::unexpected(image.error());

@@ -1,4 +1,4 @@
-// What tiles are made of, and how: the options of tile and tile-plan.
+// The sources and the settings of tiles: the options of tile and tile-plan.
 #pragma once
 
 #include <memory>
@@ -28,10 +28,10 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 /// "WEST,SOUTH,EAST,NORTH" in degrees. East of a box across the antimeridian is beyond 180. Fails with kUsage.
 Result<std::optional<DegreeBox>> parse_box(const Given& text);
 
-/// "geographic", "mercator", and "local" where that is taken. Fails with kUsage.
+/// "geographic", "mercator", and "local" where that is accepted. Fails with kUsage.
 Result<GridKind> parse_grid(const std::string& text, bool takes_local);
 
-/// Enclosed voids of at most so many samples a side are filled, unless --nodata-policy says otherwise.
+/// Enclosed voids of at most so many samples a side are filled, unless --nodata-policy asks otherwise.
 inline constexpr int kVoidSide = 100;
 
 struct TileArguments {
@@ -44,7 +44,7 @@ struct TileArguments {
   std::vector<std::string> water, rivers, breaklines;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 
-  /// What the nodes are: how the raster is read, what its heights are above, and the lattice.
+  /// Adds the options for nodes: how the raster is read, the zero of its heights, and the lattice.
   void add_nodes_to(CLI::App& command);
   /// All that the command's rows name.
   void add_to(CLI::App& command);

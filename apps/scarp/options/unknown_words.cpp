@@ -19,7 +19,7 @@ namespace scarp::cli {
 namespace {
 
 struct Foreign {
-  const char* words;   ///< of other programs, without dashes, separated by blanks
+  const char* words;   ///< words of other programs, without dashes, separated by blanks
   const char* meant;   ///< Scarp's option; empty if there is none
   const char* advice;  ///< in place of "did you mean"; may be empty
 };
@@ -75,9 +75,9 @@ std::string bare(const std::string& word) {
   return name;
 }
 
-/// Whether one of the words is this one, or, of four letters or more, `most` letters beside it.
+/// True if one of the words is this one, or, of four letters or more, at most `most` letters away.
 bool holds_word(std::string_view words, std::string_view word, std::size_t most = 0) {
-  constexpr std::size_t kLongest = 64;  // of any of them
+  constexpr std::size_t kLongest = 64;  // length of the longest of them
   if (word.size() > kLongest) return false;
   for (std::size_t begin = 0; begin < words.size();) {
     const std::size_t end = std::min(words.find(' ', begin), words.size());
@@ -98,7 +98,7 @@ std::vector<std::string> names_of(const CLI::App* command) {
   return names;
 }
 
-/// What ask_for() says, or better advice; empty if nothing is like the word.
+/// The text of ask_for(), or better advice; empty if nothing is like the word.
 std::string advise(const CLI::App* command, const std::string& word) {
   const std::string name = bare(word);
   const std::vector<std::string> names = names_of(command);

@@ -16,9 +16,9 @@ namespace scarp::cli {
 /// probably meant.
 std::string describe_unknown_option(const CLI::App* command, const std::string& word);
 /// The complaint about the first word that is an option of another program, such as -te of GDAL, or a long option
-/// behind a single dash. CLI11 would take it for a short option with its value. Looks at the command that argv names.
+/// behind a single dash. CLI11 would read it as a short option with its value. Examines the command that argv names.
 std::optional<std::string> find_foreign_option(const CLI::App& program, int argc, const char* const* argv);
-/// Of a word that is no command's name, with the command that was probably meant.
+/// The error for a word that is no command's name, with the command that was probably meant.
 Error unknown_command(const std::string& word);
 
 }  // namespace scarp::cli

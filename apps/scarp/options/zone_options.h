@@ -39,12 +39,12 @@ struct ZoneArguments {
                         LineConstraints& breaklines, std::vector<std::string>& warnings) const;
 };
 
-/// Of a mesh in the frame.
+/// Finds the zones of a mesh in the frame.
 MeshZones find_zones(const ZonePlan& plan, const Frame& frame, const Mesh& mesh);
 
 /// For a report: "materials" and "node_strings", null where they were not asked for.
 void add_zones(Json& report, const ZoneArguments& given, const MeshZones& zones);
-/// Of the summary.
+/// Lines of the summary.
 std::string zones_lines(const ZoneArguments& given, const MeshZones& zones);
 
 }  // namespace scarp::cli

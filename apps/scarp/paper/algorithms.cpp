@@ -1,4 +1,4 @@
-// Section 4: Algorithms I, II and III make the same meshes and differ in what they look at.
+// Section 4: Algorithms I, II and III make the same meshes and differ in what they scan.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the experiments with colours share.
+// Common parts of the experiments with colours.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ Result<Painted> paint_by_squares(const Study& study, const HeightField& field, c
 OwnedChannels resize(const OwnedChannels& image, int cols, int rows);
 /// The middle of a picture, at most that large.
 Picture crop(const Picture& picture, int width, int height);
-/// Pictures beside each other as a PNG. Colours keep five bits, so that the file stays small.
+/// Pictures side by side as a PNG. Colours keep five bits, so that the file stays small.
 Result<std::vector<std::uint8_t>> encode_beside(std::vector<Picture> pictures);
 
 std::string format_psnr(double psnr);

@@ -16,7 +16,7 @@ struct Field {
   OwnedHeightField heights;
 
   std::uint64_t samples() const { return heights.samples.size(); }
-  /// That share of the samples, rounded: the paper's numbers of vertices.
+  /// The share in samples, rounded: the paper's numbers of vertices.
   std::uint64_t share(double percent) const;
   double relief() const { return heights.info.max - heights.info.min; }
 };
@@ -28,7 +28,7 @@ struct Fields {
 };
 
 /// Finds scape_crater.stm, crater.stm, crater.pgm, crater.tif, … for each of the paper's fields; a folder without any
-/// of them gives all its rasters. Rasters with nodata or of more than four million samples are left out. kInput where
+/// of them gives all its rasters. Rasters with nodata or of more than four million samples are omitted. kInput where
 /// none is left, or one cannot be read.
 Result<Fields> read_fields(const std::string& folder);
 

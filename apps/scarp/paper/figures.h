@@ -1,5 +1,5 @@
-// What the experiments are compared with: figures of Scape 1.2, the paper's own program, measured on its own five
-// fields, in the order of the paper's sections. The rows of its results (section 5) are in reference_rows.h.
+// Reference values of the experiments: figures of Scape 1.2, the paper's own program, measured on its own five fields,
+// in the order of the paper's sections. The rows of its results (section 5) are in reference_rows.h.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ struct ScanFigure {
 inline constexpr ScanFigure kScans[] = {{1049, 17.4}, {10486, 25.5}, {104858, 33.2}, {524288, 39.3}};
 /// Samples scanned = n (slope · ln m + offset).
 inline constexpr double kScanSlope = 3.3, kScanOffset = -6;
-inline constexpr double kSwapsLeast = 24, kSwapsMost = 35;  ///< of the queue for each vertex
+inline constexpr double kSwapsLeast = 24, kSwapsMost = 35;  ///< moves in the queue for each vertex
 
 /// Section 4, parallel insertion: vertices and passes that bring the max error below a bound.
 struct BatchFigures {

@@ -30,7 +30,8 @@ const std::array<Treatment, 4> kGreedy{{{"greedy, Delaunay", {}},
                                         {"greedy, data-dependent (sum, q 0.5)", scape_edges(EdgeScore::kSum, 0.5)},
                                         {"greedy, data-dependent, settled", {true, EdgeScore::kSum, 0.5, 0, true}},
                                         {"greedy, angles of normals (q 0.5)", scape_edges(EdgeScore::kNormals, 0.5)}}};
-/// Which are drawn, which is traced, and which is Scape's angle between normals.
+/// The effort for least squares; the treatments that are drawn, the one that is traced, and the one with Scape's angle
+/// between normals.
 constexpr Effort kSquaresEffort = Effort::kHigh;
 constexpr const char* kSquares = "high effort, least squared error";
 constexpr std::size_t kDrawnTreatments = 2, kTracedTreatment = 2, kNormalsTreatment = 3;

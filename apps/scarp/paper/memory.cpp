@@ -29,14 +29,14 @@ std::optional<double> read_status(const std::string& name) {
   return std::nullopt;
 }
 
-/// Gives free memory back and lets the peak begin anew.
+/// Gives free memory back and restarts the peak.
 bool restart_peak() {
   malloc_trim(0);
   const File file(std::fopen("/proc/self/clear_refs", "w"));
   return file && std::fputs("5", file.get()) >= 0 && std::fflush(file.get()) == 0;
 }
 
-/// With fewer what a run takes once, whatever its size, would seem to be the vertices'.
+/// With fewer the fixed cost of a run would seem to be the vertices'.
 constexpr std::uint64_t kLeastVertices = 50'000;
 
 }  // namespace

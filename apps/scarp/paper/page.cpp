@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t kLineWidth = 120;
 
-/// Characters of UTF-8: bytes that do not go on with one.
+/// Characters of UTF-8: bytes that do not continue one.
 std::size_t count_characters(std::string_view word) {
   const auto begins = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; };
   return static_cast<std::size_t>(std::count_if(word.begin(), word.end(), begins));
 }
 
 /// The words on lines of `kLineWidth` characters, `indent` before all but the first. No line begins with a single sign,
-/// which Markdown could take for the beginning of a list.
+/// which Markdown could read as the beginning of a list.
 std::string wrap_words(const std::string& text, std::size_t indent) {
   std::string lines;
   std::size_t column = 0;

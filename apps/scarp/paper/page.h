@@ -52,7 +52,7 @@ class Differences {
   std::size_t count_ = 0;
   double least_ = 0, most_ = 0;
   std::string farthest_;
-  std::vector<std::pair<std::string, double>> all_;  ///< what, change in percent
+  std::vector<std::pair<std::string, double>> all_;  ///< name, change in percent
 };
 
 }  // namespace scarp::paper

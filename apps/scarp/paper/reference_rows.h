@@ -12,7 +12,7 @@ struct ReferenceRow {
   std::uint64_t vertices;
   std::uint64_t triangles;
   double max_error, rmse;
-  double seconds;  ///< of one core of a cloud Xeon: the scan and the insertions
+  double seconds;  ///< seconds of one core of a cloud Xeon: the scan and the insertions
 };
 
 inline constexpr ReferenceRow kReferenceRows[] = {
@@ -28,7 +28,7 @@ inline constexpr ReferenceRow kReferenceRows[] = {
     {"westUS", 104858, 209144, 11.00, 3.5810, 0.75}, {"westUS", 524288, 1046717, 1.50, 0.5278, 3.4},
 };
 
-/// What is asked of every row: the max error is left out, since ties and the first diagonal set it.
+/// Requirements on every row: the max error is omitted, since ties and the first diagonal set it.
 inline constexpr double kRmseTolerance = 0.01, kTriangleTolerance = 0.005;
 
 }  // namespace scarp::paper

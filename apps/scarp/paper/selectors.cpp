@@ -122,7 +122,7 @@ std::string describe_attenuated(const std::vector<Row>& rows) {
                      with_sign(least[0], 1), with_sign(most[0], 1), with_sign(least[1], 0), with_sign(most[1], 0));
 }
 
-/// What the table says, put into words.
+/// The content of the table, put into words.
 std::vector<std::string> find_remarks(const std::vector<Row>& rows, const std::vector<const Field*>& fields) {
   std::size_t beaten = 0, one_pass_worse = 0, one_pass_trials = 0;
   for (const Row& row : rows) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kThinDegrees = 5;
 
-/// Of the triangle's corners in plan view.
+/// Tests the triangle's corners in plan view.
 bool is_thin(const Mesh& mesh, std::size_t triangle) {
   std::array<std::array<double, 2>, 3> p;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -44,7 +44,7 @@ Trial summarize(const Simplified& run) {
   return trial;
 }
 
-/// Of the whole process, so far.
+/// CPU time of the whole process so far.
 double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

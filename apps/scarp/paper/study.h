@@ -1,4 +1,4 @@
-// What the experiments share: the fields, the page that they write on, and one run of the engine.
+// Common parts of the experiments: the fields, the page that they write on, and one run of the engine.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace scarp::paper {
 
-/// What a table needs of a run.
+/// The results of a run that a table needs.
 struct Trial {
   std::uint64_t vertices = 0, triangles = 0;
   double max_error = 0, rmse = 0;
@@ -38,7 +38,7 @@ class Study {
   void note(const std::string& what) const;
   /// The field called `key`; null if it is not there.
   const Field* find(const std::string& key) const;
-  /// Of the paper's fields those that are named, else all.
+  /// Those of the paper's fields that are named, else all.
   template <std::size_t N>
   std::vector<const Field*> choose(const std::array<const char*, N>& keys) const {
     std::vector<const Field*> chosen;
@@ -101,7 +101,7 @@ std::optional<double> figure_of(const Study& study, const std::array<const char*
   return static_cast<double>(figures[static_cast<std::size_t>(at)]);
 }
 
-/// Where a figure is so many percent from Scape's, a sentence beside the table says why.
+/// Percent from Scape's figure at which a sentence next to the table explains why.
 inline constexpr double kFarPercent = 45;
 
 // The experiments, each a section of the page.

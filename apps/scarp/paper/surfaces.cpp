@@ -1,4 +1,4 @@
-// What the meshes look like: the paper's illustration, and TINs with both kinds of edges.
+// The appearance of the meshes: the paper's illustration, and TINs with both kinds of edges.
 #include <fmt/format.h>
 
 #include <utility>
@@ -15,7 +15,7 @@ constexpr int kFigureSide = 65;
 constexpr std::uint64_t kFigureVertices = 512, kFigureSeed = 9;
 constexpr double kShownShare = 0.5;  ///< percent of the samples
 
-/// The field's meshes beside each other. The field itself has thinner lines: it has many more of them.
+/// The field's meshes side by side. The field itself has thinner lines: it has many more of them.
 Result<void> add_views(Study& study, const std::string& name, const std::string& caption, const Field& field,
                        const std::vector<Mesh>& meshes, const View& view) {
   std::vector<Picture> pictures;

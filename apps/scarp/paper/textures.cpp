@@ -24,7 +24,7 @@ constexpr std::array<Emphasis, 5> kEmphases{{{"heights alone", 0},
 /// The other table: the emphasis, and what is added to all heights, in reliefs.
 constexpr double kMovedEmphasis = 0.1, kMovedReliefs = 10;
 
-/// What the two definitions of the colours' weight make of the same land, counted from elsewhere.
+/// The effect of the two definitions of the colours' weight on the same land with heights from another zero.
 Result<void> add_moved_heights(Study& study, const OwnedHeightField& heights, const OwnedChannels& photo,
                                std::uint64_t vertices) {
   const double relief = heights.info.max - heights.info.min;

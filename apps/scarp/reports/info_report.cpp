@@ -77,7 +77,7 @@ bool has_offsets(const MeshFile& file) {
   return file.axes.has_offsets && file.mesh.origin != std::array<double, 3>{0, 0, 0};
 }
 
-/// How the file's own numbers differ from the ranges told, which are z up and absolute.
+/// Differences between the file's own numbers and the printed ranges, which are z up and absolute.
 std::string describe_axes(const MeshFile& file) {
   std::string text = "z is up";
   if (file.axes.up == 'y') text = "y is up (above: z)";
@@ -92,14 +92,14 @@ Json axes_report(const MeshFile& file) {
               {"offsets_from", has_offsets(file) ? Json(file.mesh.origin) : Json(nullptr)}};
 }
 
-/// "up" is told for the file, and the mesh that was read is z up whatever it says.
+/// "up" is reported for the file, and the mesh that was read is z up in any case.
 std::map<std::string, std::string> metadata_of(const MeshFile& file) {
   std::map<std::string, std::string> metadata = file.mesh.metadata;
   metadata.erase("up");
   return metadata;
 }
 
-/// An error as -e takes it: outputs in metres take a number alone for metres.
+/// An error as -e accepts it: outputs in metres read a number alone as metres.
 std::string goal_words(double error, const RasterInfo& info) {
   const double metres = info.unit_in_metres;
   if (metres == 1 || metres == 0) return format_number(error);

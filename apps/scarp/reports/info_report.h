@@ -1,4 +1,4 @@
-// What `scarp info` tells of a raster, of points and of a mesh.
+// The report of `scarp info` on a raster, on points and on a mesh.
 #pragma once
 
 #include <cstdint>

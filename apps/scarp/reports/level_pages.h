@@ -10,7 +10,7 @@
 
 namespace scarp::cli {
 
-/// Of tiles as they are kept: above this a page takes longer to open than one waits for it.
+/// Limit of tiles as they are kept: above this a page opens too slowly.
 inline constexpr std::uint64_t kMostTileBytes = 8'000'000;
 
 /// A mesh for each level, of which `path` is the set. Fails as encode_glb() does.

@@ -1,4 +1,4 @@
-// What `scarp measure` finds out and tells.
+// The results of `scarp measure`, and their report.
 #pragma once
 
 #include <optional>
@@ -24,11 +24,11 @@ struct Judged {
   Cut cut;
   Mesh mesh;
   Judgement judgement;
-  std::optional<ErrorGoal> goal;      ///< of --fail-above
+  std::optional<ErrorGoal> goal;      ///< goal of --fail-above
   std::optional<double> fail_above;   ///< in z units
   std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
   int band = 1;
-  bool is_y_up = false;  ///< as --up says
+  bool is_y_up = false;  ///< true if --up asks for it
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 
@@ -38,7 +38,7 @@ struct Judged {
     channels.attach_to(view);
     return view;
   }
-  /// Of the samples with a bound: the heights' error; of an image, the norm.
+  /// The largest error of samples with a bound: the heights' error; of an image, the norm.
   LargestError bounded() const { return plan.image ? judgement.combined->bounded : judgement.bounded; }
   bool has_verdict() const { return fail_above || companions.has_tolerance(); }
 };

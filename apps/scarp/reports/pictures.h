@@ -1,4 +1,4 @@
-// What the program's pictures tell besides heights and errors: scale, units, titles, lines.
+// The parts of the program's pictures besides heights and errors: scale, units, titles, lines.
 #pragma once
 
 #include <string>

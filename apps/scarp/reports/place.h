@@ -1,4 +1,4 @@
-// Where in the world a sample lies.
+// The position of a sample in the world.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ namespace scarp::cli {
 /// In the source's own CRS.
 struct Place {
   double x = 0, y = 0;
-  std::string crs;                               ///< as RasterInfo::crs
+  std::string crs;                               ///< like RasterInfo::crs
   bool is_geographic = false;                    ///< x and y are longitude and latitude
   std::optional<std::array<double, 2>> degrees;  ///< longitude and latitude, where the CRS is known
 };
 
-/// Of the sample at (column, row). Nothing for (-1, -1), and without georeference.
+/// The place of the sample at (column, row). Nothing for (-1, -1), and without georeference.
 std::optional<Place> find_place(const RasterInfo& info, const std::array<std::int32_t, 2>& at);
 
 /// "x 376328.4, y 3807902.1 in EPSG:32611, longitude -118.2913, latitude 34.36072".

@@ -1,4 +1,4 @@
-// What simplify and measure find out about scattered points and tell.
+// The results of simplify and measure for scattered points, and their report.
 #pragma once
 
 #include <cstdint>
@@ -22,20 +22,21 @@ Result<std::optional<double>> parse_boundary(const Given& text);
 std::string without_height(const PointSet& points);
 HeightRange height_range(const PointSet& points);
 
-/// As find_broken_promise(), with a point's place.
+/// Like find_broken_promise(), with a point's place.
 std::optional<std::string> find_broken(const PointSet& points, const Measurement& measured, double bound);
 
-/// What simplify made of points.
+/// The result of simplify for points.
 struct PointsOutcome : SimplifyRun {
   PointSet points;
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
   std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
   double lattice_step = 0;
-  std::string boundary = "hull";                ///< as --boundary
+  std::string boundary = "hull";                ///< value of --boundary
   std::string suggested_boundary;               ///< empty: none
-  std::optional<std::array<double, 2>> centre;  ///< of the local frame, where the mesh has one and the points have not
+  std::optional<std::array<double, 2>> centre;  ///< centre of the local frame, where the mesh has one and the points
+                                                ///< have not
 
-  /// What x and y of the mesh are.
+  /// The frame of the mesh's x and y.
   std::string frame() const;
 };
 
@@ -44,7 +45,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
 /// The lines on standard output.
 std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files);
 
-/// What measure found.
+/// The result of measure.
 struct JudgedPoints {
   PointSet points;
   DuplicatePolicy policy = DuplicatePolicy::kFirst;

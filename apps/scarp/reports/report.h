@@ -48,7 +48,7 @@ Json describe_channels(const std::vector<std::string>& names, const std::vector<
 Json finite_or_word(double value);
 /// The report as text, two spaces a level, with a newline at the end. Bytes that are not UTF-8 become U+FFFD.
 std::string to_text(const Json& report);
-/// Writes the report of a mesh that has its name already; where that fails the sentence says so.
+/// Writes the report of a mesh that has its name already; where that fails the error mentions it.
 Result<void> write_report(const Json& report, const std::string& path, bool overwrite, const std::string& mesh);
 
 }  // namespace scarp::cli

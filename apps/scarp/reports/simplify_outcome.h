@@ -1,4 +1,4 @@
-// What a run of `scarp simplify` on a raster came to.
+// The result of a run of `scarp simplify` on a raster.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@
 
 namespace scarp::cli {
 
-/// A level of detail beside the finest.
+/// A level of detail other than the finest.
 struct Level {
   std::optional<double> asked;
   Simplified simplified;
 };
 
-/// Everything that the files, the report and the summary tell.
+/// Everything that the files, the report and the summary contain.
 struct Outcome : SimplifyRun {
   OwnedHeightField field;
   RasterInfo as_read;  ///< before nodata was filled
@@ -36,9 +36,9 @@ struct Outcome : SimplifyRun {
   Picture drape;    ///< empty where no image is draped
   std::uint64_t filled = 0;
   std::vector<Level> coarser;
-  std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
-  std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds
-  std::optional<double> psnr;           ///< of the rendering, in dB; +infinity if it is the image
+  std::optional<LargestError> bounded;  ///< largest error of samples that are not ignored; images: norms
+  std::optional<double> bounded_goal;   ///< with ignored samples: largest error that the goal bounds
+  std::optional<double> psnr;           ///< PSNR of the rendering, in dB; +infinity if it is the image
 
   /// The field with its channels.
   HeightField view() const {
@@ -48,7 +48,7 @@ struct Outcome : SimplifyRun {
   }
 };
 
-/// What the goal bounds, and how large it came out; where a script ignores samples, of the others.
+/// The error that the goal bounds, as reached; where a script ignores samples, that of the others.
 struct GoalError {
   double value = 0;         ///< compared with the bound, without the rounding of samples
   const char* name = "";    ///< "max error", "weighted max error", …
@@ -56,7 +56,7 @@ struct GoalError {
 };
 GoalError find_goal_error(const Outcome& outcome);
 
-/// What the process may take, and has taken beside the mesh; of no limit: zeros.
+/// The limit of the process, and the bytes that it uses in addition to the mesh; of no limit: zeros.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);
 
 /// Compression, and the images that a GLB file holds.

@@ -43,7 +43,7 @@ void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outco
   if (outcome.psnr) report["psnr"] = finite_or_word(*outcome.psnr);
 }
 
-/// ", ignored samples left out": what a bound does not hold for, though the errors count it.
+/// ", ignored samples left out": samples for which a bound does not hold, though the errors count them.
 const char* describe_exceptions(const Outcome& outcome) {
   return outcome.companions.ignores_samples() ? ", ignored samples left out" : "";
 }
@@ -111,7 +111,7 @@ std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
   return describe_end(plan, outcome, is_exact ? "Reproduced every sample" : nullptr);
 }
 
-/// Why fast was taken, where nobody asked for it; empty: it was not.
+/// The reason for fast effort, if it was not asked for; empty: another effort was used.
 std::string explain_effort(const SimplifyPlan& plan, const Simplified& simplified) {
   switch (simplified.why_fast) {
     case WhyFast::kNone:
@@ -133,7 +133,7 @@ std::string describe_effort(const SimplifyPlan& plan, const Simplified& simplifi
   return fmt::format("{}{}", effort_name(simplified.effort), why.empty() ? "" : " (" + why + ")");
 }
 
-/// Nothing unless outlines take most of the mesh.
+/// Empty unless outlines need most of the mesh.
 std::string outline_line(const SimplifyPlan& plan, const Outcome& outcome) {
   constexpr std::uint64_t kFew = 100;
   const std::uint64_t least = outcome.simplified.outline_triangles;

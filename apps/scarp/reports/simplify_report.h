@@ -1,4 +1,4 @@
-// What `scarp simplify` tells about a run.
+// The report of `scarp simplify` on a run.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What scarp tile check found, in words and as JSON.
+// The findings of scarp tile check, in words and as JSON.
 #pragma once
 
 #include <string>

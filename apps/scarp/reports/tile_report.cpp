@@ -208,7 +208,8 @@ constexpr std::string_view kCliffs =
     "next to a cliff, the raster's own edge above the background included, positions in 32767ths of a tile are too "
     "coarse";
 
-/// Of a plan that binds samples: what the finest level with such tiles keeps at nodes and at samples, and the way out.
+/// For a plan that binds samples: the errors that the finest level with such tiles keeps at nodes and at samples, and
+/// the remedy.
 std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
   std::size_t z = report.levels.size() - 1;
   while (report.levels[z].over == 0) --z;

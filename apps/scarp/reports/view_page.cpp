@@ -19,7 +19,7 @@
 namespace scarp::cli {
 namespace {
 
-/// Above this a page takes longer to open than one waits for it.
+/// Above this a page opens too slowly.
 constexpr std::uint64_t kMostSamples = 1 << 24;
 constexpr std::int16_t kVoid = std::numeric_limits<std::int16_t>::min();
 constexpr std::string_view kPlaceOfData = "<!--SCARP-DATA-->";

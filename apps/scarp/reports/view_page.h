@@ -23,8 +23,8 @@ struct ViewPage {
   std::optional<std::string> left_out;
 };
 
-/// What the page is made from, which `make viewer` builds: share/scarp/viewer.html beside the program's folder. Fails
-/// with kInput where it is not there.
+/// The template of the page, built by `make viewer`: share/scarp/viewer.html next to the program's folder. Fails with
+/// kInput where it is not there.
 Result<std::string> read_page_template();
 
 /// `path` is what the meshes are of, which the page is named after. `field` may be null. Fails with kInput for samples

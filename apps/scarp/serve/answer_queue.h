@@ -1,4 +1,4 @@
-// Answers made by a few threads, so that one that takes long holds up no other client.
+// Answers made by a few threads, so that a slow one holds up no other client.
 #pragma once
 
 #include <condition_variable>
@@ -25,18 +25,18 @@ class AnswerQueue {
   };
 
   /// `threads`: 0 for all cores. `answer` is called on several threads at once, but for one path on one at a time: who
-  /// asks for what is being made finds it made. What it throws becomes an answer of status 500.
+  /// asks for what is being made finds it made. An exception becomes an answer of status 500.
   AnswerQueue(int threads, Answer answer);
   AnswerQueue(const AnswerQueue&) = delete;
   AnswerQueue& operator=(const AnswerQueue&) = delete;
-  /// Waits for the answers that are being made, and leaves the others.
+  /// Waits for the answers that are being made, and drops the others.
   ~AnswerQueue();
 
-  /// Becomes readable when there is an answer to take.
+  /// Becomes readable when an answer is ready.
   int wake_fd() const { return wake_[0]; }
   /// REQUIRES: one request of a client at a time.
   void ask(std::uint64_t client, Request request);
-  /// Its request is not answered if nobody has begun to.
+  /// Its request is not answered unless that has begun.
   void forget(std::uint64_t client);
   std::vector<Done> take();
 
@@ -46,7 +46,7 @@ class AnswerQueue {
     Request request;
   };
   void work();
-  /// The first request whose path nobody works at.
+  /// The first request whose path no thread works at.
   std::list<Asked>::iterator find_next();
 
   Answer answer_;

@@ -22,7 +22,7 @@ struct Request {
   std::string header(const std::string& name) const;
 };
 
-/// Closed when nobody sends from it any more.
+/// Closed after the last answer that uses it.
 class OpenFile {
  public:
   explicit OpenFile(int fd) : fd_(fd) {}
@@ -53,7 +53,7 @@ struct Response {
 std::string lowered(std::string_view text);
 /// Without the spaces and tabs around it.
 std::string_view trimmed(std::string_view text);
-/// What stands before the separator, or all; both are removed from the text.
+/// The text before the separator, or all; both are removed from the text.
 std::string_view take_until(std::string_view& text, char separator);
 
 /// Status and headers, Date, Content-Length and Connection included.
@@ -62,9 +62,9 @@ std::string write_head(const Response& response, bool keeps_alive);
 /// A sentence for people.
 Response text_response(int status, const std::string& sentence);
 
-/// Whether Accept-Encoding takes gzip.
+/// True if Accept-Encoding accepts gzip.
 bool accepts_gzip(const std::string& accept_encoding);
-/// Whether If-None-Match names the tag.
+/// True if If-None-Match names the tag.
 bool matches_tag(const std::string& if_none_match, const std::string& tag);
 
 /// The bytes that a Range header asks for.

@@ -33,7 +33,7 @@ constexpr std::size_t kLeastConnections = 16, kChunk = 1 << 16;
 constexpr std::size_t kShareOfAddress = 2;
 /// Chunks that one client gets before the others have their turn, and clients that are accepted in one.
 constexpr int kMostChunksAtOnce = 16, kMostAcceptedAtOnce = 64;
-/// Bytes of an answer that the system queues: progress is seen as often as the client takes so many.
+/// Bytes of an answer that the system queues: progress is seen each time the client receives so many.
 constexpr int kMostUnsent = 1 << 16;
 /// More than the buffers of a client that never reads hold.
 constexpr std::uint64_t kSurelyTaken = 1 << 18;
@@ -68,7 +68,7 @@ std::string client_of(const sockaddr_storage& address) {
   return std::string(reinterpret_cast<const char*>(one.s6_addr) + (holds_ipv4 ? 12 : 0), holds_ipv4 ? 4 : 8);
 }
 
-/// One client: it asks, waits, takes the answer, and asks again.
+/// One client: it asks, waits, receives the answer, and asks again.
 class Connection {
  public:
   Connection(int fd, std::uint64_t number, std::string client, AnswerQueue& queue)
@@ -92,9 +92,9 @@ class Connection {
   bool is_late(Clock::time_point now) const { return !waits_ && now > deadline_; }
   /// The server works for it: that it makes no progress is not its fault.
   bool waits() const { return waits_; }
-  /// When a byte last moved in either direction. A client that has taken more of an answer than buffers hold gets some
-  /// seconds besides, for its system may take the next bytes only when half of its buffer is free: else those who come
-  /// again and again would end a slow download.
+  /// When a byte last moved in either direction. A client that has received more of an answer than buffers hold gets
+  /// some extra seconds, since its system may accept the next bytes only when half of its buffer is free: else those
+  /// who come again and again would end a slow download.
   Clock::time_point last_progress() const {
     return is_answering() && taken_ > kSurelyTaken ? moved_ + kCredit : moved_;
   }
@@ -192,7 +192,7 @@ class Connection {
   std::string asked_;
   std::vector<std::uint8_t> waiting_;
   std::size_t sent_ = 0;
-  std::uint64_t taken_ = 0;  ///< bytes of the answer that the system has taken
+  std::uint64_t taken_ = 0;  ///< bytes of the answer that the system has accepted
   FilePart file_;
   bool waits_ = false, closes_ = false, lingers_ = false;
 };
@@ -212,7 +212,8 @@ bool close_stuck(Connections& connections, const IsOfKind& is_of_kind) {
   return true;
 }
 
-/// Makes a place for one more of a client; false where the server works for all who could go, or they just took bytes.
+/// Makes a place for one more of a client; false where the server works for all who could go, or they just received
+/// bytes.
 bool make_place(Connections& connections, std::size_t places, const std::string& client) {
   const Clock::time_point now = Clock::now();
   const auto is_of_client = [&](const Connection& one) { return one.client() == client; };
@@ -223,7 +224,7 @@ bool make_place(Connections& connections, std::size_t places, const std::string&
   return connections.size() < places || close_stuck(connections, is_stuck);
 }
 
-/// Those who do not take their answers may not fill the memory.
+/// Clients that do not receive their answers must not fill the memory.
 void limit_waiting_bytes(Connections& connections) {
   const auto waits = [](const Connection& one) { return one.waiting_bytes() > 0; };
   while (true) {

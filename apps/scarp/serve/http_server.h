@@ -24,10 +24,10 @@ class HttpServer {
   static constexpr std::size_t kMostConnections = 4096;
   /// Serves until is_over(), which is asked at least twice a second. `answer` is called on `threads` threads, for one
   /// path on one of them at a time. At most kMostConnections are open, or half as many as the process may have files,
-  /// each with one request; half of them for one address. Where all are taken, the one goes that has moved no byte for
-  /// the longest; requests that the server works at do not count. A request has kLongestHead and kLongestBody bytes,
-  /// and 10 seconds to come; an answer 30 seconds, and one more for each 10 kB, to be taken. Where answers of more than
-  /// 64 MB wait to be taken, those go first that make no progress. Fails with kOutput.
+  /// each with one request; half of them for one address. Where all are in use, the one that has moved no byte for the
+  /// longest is closed; requests that the server works at do not count. A request has kLongestHead and kLongestBody
+  /// bytes, and 10 seconds to come; an answer 30 seconds, and one more for each 10 kB, to be received. Where answers of
+  /// more than 64 MB wait to be received, those without progress are closed first. Fails with kOutput.
   Result<void> run(const std::function<Response(const Request&)>& answer, int threads,
                    const std::function<bool()>& is_over);
 

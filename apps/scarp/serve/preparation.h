@@ -1,4 +1,4 @@
-// Coarse tiles of a set that is made on demand, made beside the server while it has time.
+// Coarse tiles of a set that is made on demand, made in the background while the server has time.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@ namespace scarp::cli {
 
 class Preparation {
  public:
-  /// Begins at once, on a thread that leaves the processor to others. Where it fails, or `set` has no room for all, it
+  /// Begins at once, on a thread that yields the processor to others. Where it fails, or `set` has no room for all, it
   /// warns. The set must stay alive.
   Preparation(LiveTileSet& set, int threads);
   Preparation(const Preparation&) = delete;

@@ -48,7 +48,7 @@ constexpr std::array<std::uint8_t, 256> make_character_sets() {
   const auto add = [&](std::string_view characters, int set) {
     for (const char c : characters) sets[static_cast<std::uint8_t>(c)] |= static_cast<std::uint8_t>(set);
   };
-  // Targets may have what browsers leave as it is, such as "|"; no file has such a name by chance.
+  // Targets may have what browsers do not escape, such as "|"; no file has such a name by chance.
   for (std::size_t c = '!'; c <= '~'; ++c) sets[c] |= c == '#' ? kText : kText | kTarget;
   for (std::size_t c = 0x80; c <= 0xff; ++c) sets[c] |= kText;
   add(" \t", kText);

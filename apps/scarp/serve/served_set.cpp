@@ -38,7 +38,7 @@ Result<std::shared_ptr<const OpenedSet>> open_once(const std::string& path, cons
   return opened;
 }
 
-/// The reader and the file are of one set only if no other took its place meanwhile.
+/// The reader and the file are of one set only if no other replaced it meanwhile.
 Result<std::shared_ptr<const OpenedSet>> open_whole(const std::string& path) {
   constexpr int kMostTries = 5;
   for (int k = 1;; ++k) {
@@ -48,7 +48,7 @@ Result<std::shared_ptr<const OpenedSet>> open_whole(const std::string& path) {
   }
 }
 
-/// While a set takes the place of another there is none for a moment.
+/// While a set replaces another there is none for a moment.
 int open_folder(const std::string& path) {
   constexpr int kMostTries = 50;
   constexpr useconds_t kNap = 1000;

@@ -16,8 +16,8 @@ namespace scarp::cli {
 /// The set as it was opened once.
 struct OpenedSet {
   std::shared_ptr<const TileSetReader> reader;
-  std::shared_ptr<const OpenFile> file;  ///< of a set in one file
-  std::string stamp;                     ///< of the file, or of the folder and the file that names its tiles
+  std::shared_ptr<const OpenFile> file;  ///< file of a set in one file
+  std::string stamp;                     ///< stamp of the file, or of the folder and the file that names its tiles
 
   /// Made once.
   const std::vector<std::uint8_t>& page(const std::function<std::vector<std::uint8_t>()>& make) const;
@@ -31,7 +31,7 @@ class ServedSet {
  public:
   /// Fails as open_tile_set() does.
   static Result<std::unique_ptr<ServedSet>> open(const std::string& path);
-  /// One that nobody replaces.
+  /// A set that is never replaced.
   explicit ServedSet(std::shared_ptr<const TileSetReader> reader);
 
   /// Opened anew where a file was put in its place since, if that is a set. Several threads may call it at once.
@@ -40,7 +40,7 @@ class ServedSet {
  private:
   ServedSet() = default;
 
-  std::string path_;  ///< empty where nobody replaces it
+  std::string path_;  ///< empty if it is never replaced
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const OpenedSet> opened_;
   mutable std::string stamp_tried_;

@@ -24,7 +24,7 @@ std::size_t find_level(const TileSetReader& set, std::size_t most_tiles) {
   return found;
 }
 
-/// A level alone: to make the tiles of each takes as long.
+/// A level alone: each needs as long to make its tiles.
 class OneLevel final : public TileSetReader {
  public:
   OneLevel(const TileSetReader& set, std::size_t z) : set_(set), tiles_(z + 1) { tiles_[z] = set.tiles()[z]; }

@@ -24,7 +24,7 @@ std::size_t hash_of(std::span<const std::uint8_t> bytes) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-/// Larger files beside the tiles are sent from where they lie.
+/// Larger files other than tiles are sent from where they lie.
 constexpr std::uint64_t kMostKept = 1 << 22;
 constexpr const char* kList = "index.txt";
 
@@ -171,7 +171,7 @@ Response TileAnswers::answer_missing(const std::string& name) const {
 Response TileAnswers::answer_in_folder(const Request& request, std::string name) const {
   if (name.empty() || name.back() == '/') name += "index.html";
   auto file = open_in_folder(folder_, name);
-  // A set that another takes the place of just now is deleted file by file.
+  // A set that is being replaced just now is deleted file by file.
   if (!file) file = open_in_folder(folder_, name);
   if (!file) return answer_missing(name);
   const bool is_any_tile = find_tile_id(TileFormat::kQuantizedMesh, name) || find_tile_id(TileFormat::kGlb, name);
@@ -183,7 +183,7 @@ Response TileAnswers::answer_in_folder(const Request& request, std::string name)
 }
 
 Response TileAnswers::answer_in_set(const Request& request, const std::string& name, const OpenedSet& opened) const {
-  // Names are looked up among those of the set, so that no path leads out of it.
+  // Names are searched among those of the set, so that no path leads out of it.
   if (opened.file && name == name_) return answer_file(request, name, opened.file);
   const TileSetReader& set = *opened.reader;
   const auto id = find_tile_id(set.format(), name);

@@ -1,4 +1,4 @@
-// What a server answers from a set of tiles, finished or not.
+// The answers of a server from a set of tiles, finished or not.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@ namespace scarp::cli {
 
 class TileAnswers {
  public:
-  /// Fails as open_tile_set() does. A set that takes its place is served from then on, and so are files that are put
-  /// into a folder.
+  /// Fails as open_tile_set() does. A set that replaces it is served from then on, and so are files that are put into a
+  /// folder.
   static Result<std::unique_ptr<TileAnswers>> open(const std::string& path);
-  /// Of tiles that are made when they are asked for. `name` is what the set is called.
+  /// Answers from tiles that are made when they are asked for. `name` is the name of the set.
   TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name);
 
-  /// As it is now.
+  /// The set as it is now.
   std::shared_ptr<const TileSetReader> set() const { return set_->now()->reader; }
   /// Several threads may call it at once.
   Response answer(const Request& request) const;

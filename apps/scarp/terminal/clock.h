@@ -1,4 +1,4 @@
-// How long things take.
+// Durations of the program's work.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What a running command says about itself.
+// Progress messages of a running command.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace scarp::cli {
 /// kLine: one line that is rewritten, from one second into the run on: pass, percent, vertices, current error, time
 /// left in this pass. kJson: one object a line, at most five a second plus one at the end of each pass; keys pass,
 /// fraction, vertices, max_error, seconds (since the display was made). In the pass "tiles": tiles, bytes and
-/// seconds_left (null before it can be told) in place of vertices and max_error.
+/// seconds_left (null before it can be estimated) in place of vertices and max_error.
 class ProgressDisplay {
  public:
   enum class Style { kSilent, kLine, kJson };
@@ -45,7 +45,7 @@ class ProgressDisplay {
   bool show(const Progress& progress);
   void end_pass();
   bool counts_tiles() const { return tiles_ != nullptr && pass_ == "tiles"; }
-  /// Of this pass.
+  /// Seconds left of this pass.
   std::optional<double> seconds_left() const;
   void print_line();
   void print_json(double fraction) const;

@@ -75,8 +75,8 @@ void install_signal_handlers() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-// Libraries that are loaded take a while to make themselves ready, all before main(): where the system has a place for
-// what comes first of all, that is where this goes. Sanitizers are not ready there themselves.
+// Libraries that are loaded need a while to become ready, all before main(): where the system has a place for what
+// comes first of all, that is where this goes. Sanitizers are not ready there themselves.
 #if defined(__has_feature)
 #define SCARP_HAS_FEATURE(name) __has_feature(name)
 #else

@@ -28,7 +28,7 @@ std::string base_name(const std::string& path);
 /// The word as a POSIX shell would need it: quoted where it holds more than letters, digits and plain punctuation.
 std::string shell_word(const std::string& word);
 
-/// Writes `text` to stderr. Where that fails there is nobody to tell: it is ignored.
+/// Writes `text` to stderr. A failure is ignored, since it cannot be reported.
 void print_to_stderr(std::string_view text);
 /// `scarp: SENTENCE` on stderr, in one line whatever the message holds.
 void print_error(const Error& error);
@@ -36,7 +36,7 @@ void print_error(const Error& error);
 void print_warnings(const std::vector<std::string>& warnings);
 /// Writes `text` to stdout. kOutput if it cannot be written; a reader that has closed its pipe is no error.
 Result<void> print_to_stdout(const std::string& text);
-/// The same for what only tells of files that are written: a caller that has closed stdout does not want it.
+/// The same for text that only reports files that are written: a caller that has closed stdout does not want it.
 Result<void> print_summary(const std::string& text);
 
 /// The exit code of an error: 1 usage, 2 input, 3 promise, 4 output, 5 cancelled, 70 internal.

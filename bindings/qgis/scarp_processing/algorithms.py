@@ -44,7 +44,7 @@ class ScarpAlgorithm(QgsProcessingAlgorithm):
     title = ""
     summary = ""
     keywords = []
-    without = ()  # groups of options that say nothing here
+    without = ()  # groups of options without use here
 
     def createInstance(self):
         return type(self)()
@@ -140,7 +140,7 @@ class MeshMaker(ScarpAlgorithm):
 
 
 def crs_of(report):
-    """Where the mesh lies; invalid for coordinates that are no CRS."""
+    """CRS of the mesh; invalid for coordinates that are no CRS."""
     frame = report["frame"]
     if frame.get("kind", "source") not in ("source", "projected") or not frame["crs"]:
         return QgsCoordinateReferenceSystem()

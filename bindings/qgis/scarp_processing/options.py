@@ -1,7 +1,7 @@
 """The program's options as parameters of Processing.
 
 `options.json` is what `scarp help --json` prints. A row becomes a parameter of the kind that its type asks for, so that
-QGIS offers what the program takes; nothing here names an option, but for those that QGIS itself answers.
+QGIS offers what the program accepts; nothing here names an option, but for those that QGIS itself answers.
 """
 
 import html
@@ -25,7 +25,7 @@ from qgis.core import (
     QgsProcessingParameterVectorLayer,
 )
 
-# What QGIS does itself, or what only a terminal needs.
+# Options that QGIS itself sets, or that only a terminal needs.
 NOT_OFFERED = {
     "--help", "--help-all", "--version", "--quiet", "--timing", "--json-progress", "--json", "--report", "--overwrite",
     "--points",
@@ -84,13 +84,13 @@ def label_of(row):
 
 
 def help_of(rows, command_help):
-    """The text beside the parameters: what the algorithm does, then the most used options."""
+    """The text next to the parameters: what the algorithm does, then the most used options."""
     lines = "".join(f"<p><b>{title_of(row)}</b>: {html.escape(row['brief'])}.</p>" for row in rows if is_basic(row))
     return f"<p>{html.escape(command_help)}</p>{lines}"
 
 
 def is_basic(row):
-    """Whether the program's first page of help has it."""
+    """True if the program's first page of help has it."""
     return row["brief"] is not None
 
 

@@ -1,4 +1,4 @@
-"""The plugin: adds the provider to Processing, and takes it away."""
+"""The plugin: adds the provider to Processing, and removes it."""
 
 from qgis.core import QgsApplication
 

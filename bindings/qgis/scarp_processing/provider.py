@@ -1,4 +1,4 @@
-"""The provider: Scarp's algorithms, and the setting that tells where the program is."""
+"""The provider: Scarp's algorithms, and the setting for the program's path."""
 
 import os
 

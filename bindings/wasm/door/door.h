@@ -1,8 +1,8 @@
-// What every function of the WebAssembly door shares: numbers, sentences, and no exception that leaves.
+// Common parts of all functions of the WebAssembly door: numbers, sentences, and no exception that goes out.
 //
-// JavaScript sees memory and doubles. What it hands over, and what it gets back, are structs of doubles alone, which it
-// writes and reads as one Float64Array each; a pointer among them is its address. The functions are those of
-// bindings/c/scarp_c.h on the core alone, without the program's options by name.
+// JavaScript sees memory and doubles. Arguments and results are structs of doubles alone, which it writes and reads as
+// one Float64Array each; a pointer among them is its address. The functions are those of bindings/c/scarp_c.h on the
+// core alone, without the program's options by name.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ inline std::optional<std::uint64_t> budget(double number) {
 /// `geotransform`: GDAL's, of pixel corners.
 struct Field {
   double samples, cols, rows, nodata, sample_rounding;
-  double place;  ///< 0: on the grid; 1: as the geotransform says; 2: it is in degrees, and the mesh in metres
+  double place;  ///< 0: on the grid; 1: by the geotransform; 2: it is in degrees, and the mesh in metres
   double geotransform[6];
 };
 /// From samples, whose centres have whole numbers, to x and y.

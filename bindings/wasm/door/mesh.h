@@ -1,4 +1,4 @@
-// What a handle of a mesh holds, and how JavaScript sees it.
+// The contents of a mesh's handle, and its layout for JavaScript.
 #pragma once
 
 #include "door.h"
@@ -7,7 +7,7 @@
 
 namespace scarp::wasm {
 
-/// What a mesh is measured to be. Errors are vertical, mesh minus sample, in z units.
+/// The measured error of a mesh. Errors are vertical, mesh minus sample, in z units.
 struct Report {
   double stop = -1;    ///< why the run ended: 0 max_error, 1 max_triangles, 2 max_vertices, 3 every sample is exact
   double effort = -1;  ///< 0 fast, 1 normal, 2 high, 3 max; -1 where a mesh was only measured
@@ -15,7 +15,7 @@ struct Report {
   double samples = 0, uncovered = 0, stray = 0;
   double max_error = 0, max_error_col = -1, max_error_row = -1;
   double rmse = 0, mean_error = 0, mean_abs_error = 0, p50 = 0, p95 = 0, p99 = 0;
-  double is_sound = -1;  ///< -1: nobody looked
+  double is_sound = -1;  ///< -1: not checked
 };
 Report describe(const Measurement& measured);
 

@@ -47,7 +47,7 @@ struct Tiler {
   PyramidPlan plan;
 };
 
-/// As PyramidSettings; Field::geotransform is in degrees, or in metres of web Mercator.
+/// Like PyramidSettings; Field::geotransform is in degrees, or in metres of web Mercator.
 struct TilerSettings {
   double is_mercator;
   double cells, max_zoom, max_error, quality, effort, background;

@@ -1,8 +1,8 @@
-// A browser that lacks memory ends a worker without an event. Its locks are free then, which whoever waits for one hears.
-// Node tells of each end, and needs none.
+// A browser that lacks memory ends a worker without an event. Its locks are free then, and a waiter for one gets it.
+// Node reports each end, and needs none.
 const locks = globalThis.process?.versions?.node ? undefined : globalThis.navigator?.locks;
 
-/// In the worker: takes a lock until it ends. The lock's name; null where there are none, as in a page without HTTPS.
+/// In the worker: holds a lock until it ends. The lock's name; null where there are none, as in a page without HTTPS.
 export function holdLock() {
   if (!locks) return Promise.resolve(null);
   const name = `scarp ${Math.random()} ${performance.now()}`;

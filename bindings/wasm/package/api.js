@@ -1,4 +1,4 @@
-// What the entries for rasters export.
+// The exports of the entries for rasters.
 import { pool } from './pool.js';
 import { defaults } from './ready.js';
 import { simplifyHills } from './warm.js';
@@ -15,5 +15,5 @@ export { decodeTile } from './decode.js';
 export { createPool } from './pool.js';
 export { ready } from './ready.js';
 
-/// As simplifySync(), in a worker of a pool that all calls share.
+/// Like simplifySync(), in a worker of a pool that all calls share.
 export const simplify = async (z, width, height, options) => pool().simplify(z, width, height, options);

@@ -14,7 +14,7 @@ export interface TilerOptions {
   /** Nodes' cells a side of the finest tiles: a power of two, 16 to 256. */
   cells?: number;
   maxZoom?: number;
-  /** Of the finest level, in metres. */
+  /** Max error of the finest level, in metres. */
   maxError?: number;
   /** A level's max error is the error that clients assume over this. */
   quality?: number;
@@ -32,7 +32,7 @@ export interface Tile {
   bound: number;
   sourceError: number;
 }
-/** The file layer.json, as JSON.stringify() takes it. */
+/** The file layer.json, as JSON.stringify() accepts it. */
 export interface LayerJson {
   tilejson: string;
   name: string;
@@ -59,7 +59,7 @@ export class Tiler {
   tile(z: number, x: number, y: number): Tile;
   /** Columns and rows of a level's tiles. */
   list(z: number): [number, number][];
-  /** What clients read first. `tiles`: templates of the tiles' addresses, '{z}/{x}/{y}.terrain' by default. */
+  /** The file that clients read first. `tiles`: templates of the tiles' addresses, '{z}/{x}/{y}.terrain' by default. */
   layerJson(options?: { name?: string, attribution?: string, tiles?: string[] }): LayerJson;
   free(): void;
 }

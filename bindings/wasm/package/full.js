@@ -9,5 +9,5 @@ export * from './api.js';
 export { simplifyPointsSync } from './simplify.js';
 export { Tiler } from './tiles.js';
 
-/// As simplifyPointsSync(), in a worker of a pool that all calls share.
+/// Like simplifyPointsSync(), in a worker of a pool that all calls share.
 export const simplifyPoints = async (points, options) => pool().simplifyPoints(points, options);

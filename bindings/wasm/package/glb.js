@@ -172,8 +172,8 @@ function addPlain(glb, { positions, indices, normals, uvs }) {
   return { attributes, indices: glb.add(corners, 1, INDEX_BUFFER), shift: [0, 0, 0], scale: [1, 1, 1] };
 }
 
-/// The bytes of a GLB file, whose node's translation is the mesh's origin. `compress`: meshoptimizer's codec, which loaders of
-/// three.js, Babylon.js and CesiumJS know; positions on a lattice (simplify's option) take 16 bits each.
+/// The bytes of a GLB file, whose node's translation is the mesh's origin. `compress`: meshoptimizer's codec, which
+/// loaders of three.js, Babylon.js and CesiumJS know; positions on a lattice (simplify's option) have 16 bits each.
 export function encodeGlb(mesh, options = {}) {
   const { compress = false } = takeOptions(options, 'glb');
   const checked = checkMesh(mesh), [x, y, z] = checked.origin;

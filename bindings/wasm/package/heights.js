@@ -1,4 +1,4 @@
-// What callers give as heights: checked, in float32, and in the module's memory.
+// Checks callers' heights and copies them, in float32, into the module's memory.
 import { ScarpError } from './error.js';
 import { article, kindOf, show } from './options.js';
 

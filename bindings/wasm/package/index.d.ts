@@ -3,7 +3,7 @@ declare global {
   interface Disposable {}
 }
 
-/** Numbers as the package takes them, of any realm. */
+/** Numbers as the package accepts them, of any realm. */
 export type Numbers = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array | Int32Array | Uint32Array
   | readonly number[];
 /**
@@ -12,9 +12,10 @@ export type Numbers = Float32Array | Float64Array | Int8Array | Uint8Array | Uin
  */
 export type Heights = Numbers | readonly (number | null)[];
 
-/** A compiled WebAssembly.Module, which has nothing to tell it by. */
+/** A compiled WebAssembly.Module, which has no distinguishing member. */
 export type Compiled = object;
-/** What the package uses of a Response, a URL, an AbortSignal and a Worker, which not every program has types for. */
+/** The parts that the package uses of a Response, a URL, an AbortSignal and a Worker, which not every program has types
+ * for. */
 export interface ResponseLike {
   readonly ok: boolean;
   readonly status: number;
@@ -34,7 +35,7 @@ export interface WorkerLike {
   terminate(): unknown;
 }
 
-/** Arrays that the package makes: never in shared memory, which TypeScript tells apart from 5.7 on. */
+/** Arrays that the package makes: never in shared memory, which TypeScript distinguishes from 5.7 on. */
 export type Bytes = ReturnType<typeof Uint8Array.of>;
 export type Floats = ReturnType<typeof Float32Array.of>;
 export type Doubles = ReturnType<typeof Float64Array.of>;
@@ -48,17 +49,19 @@ export class ScarpError extends Error {
 }
 
 /**
- * Loads the library, once. The asynchronous functions call it themselves. The first source that succeeds stays: later calls change nothing,
- * whatever theirs is.
- * @param source The bytes of scarp.wasm, their URL or Response, or a compiled module. Default: the file beside the script.
- * @param options warm: runs small rasters, too, in a quarter of a second, so that engines have optimised the library before the
- * first call, which takes up to seven times as long as later ones else. Workers of a pool do so by themselves.
- */
+ * Loads the library, once. The asynchronous functions call it themselves. The first source that succeeds stays: later
+ * calls change nothing, whatever theirs is.
+ * @param source The bytes of scarp.wasm, their URL or Response, or a compiled module. Default: the file next to the
+ * script.
+ * @param options warm: runs small rasters, too, in a quarter of a second, so that engines have optimised the library
+ * before the first call, which otherwise needs up to seven times as long as later ones. Workers of a pool do so by
+ * themselves.
+ * */
 export function ready(source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled, options?: { warm?: boolean }): Promise<void>;
 export function isReady(): boolean;
 export function version(): string;
 
-/** Where samples lie. Without a transform x is the column, and y counts rows from the last one up. */
+/** The position of samples. Without a transform x is the column, and y counts rows from the last one up. */
 export interface Place {
   /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN and infinities never are. */
   nodata?: number | null;
@@ -89,7 +92,7 @@ export interface Options extends Goals, Place {
   effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
   vertices?: 'auto' | 'samples' | 'free';
   order?: 'auto' | 'greedy' | 'dominant';
-  /** What a budget makes small: the largest error, or the root of the mean square. */
+  /** The quantity that a budget minimises: the largest error, or the root of the mean square. */
   objective?: 'max' | 'rms';
   /** Floor of triangles' height over longest edge, 0 to 0.5. */
   minShape?: number;
@@ -102,7 +105,8 @@ export interface Options extends Goals, Place {
    * float64, as with doubles: WebGL wants Float32Array.from(mesh.positions), which rounds them.
    */
   lattice?: boolean;
-  /** Positions are float64. A GLB without compress rounds them to float32: judge that file, or leave doubles and lattice out. */
+  /** Positions are float64. A GLB without compress rounds them to float32: judge that file, or omit doubles and
+   * lattice. */
   doubles?: boolean;
   /** Edges of the raster depend on their own samples alone: neighbours that share them fit. */
   lockBorder?: boolean;
@@ -114,7 +118,7 @@ export interface Options extends Goals, Place {
   onProgress?: (progress: Progress) => boolean | void;
 }
 
-/** What is given is copied at the call: the caller may go on to change it. */
+/** Inputs are copied at the call: the caller may then change them. */
 export interface AsyncOptions {
   signal?: SignalLike | null;
   /** The buffer of Float32Array heights (of points: Float64Array) is moved at the call, not copied. */
@@ -127,13 +131,13 @@ export interface Report {
   triangleCount: number;
   /** Samples that were judged. */
   samples: number;
-  /** Valid samples of the surface that no triangle covers: their errors are not counted, so look here before maxError. */
+  /** Valid samples of the surface that no triangle covers: their errors are not counted, check this before maxError. */
   uncovered: number;
   /** Valid samples beyond the surface, whose cells all lack three valid corners: no mesh covers them. */
   stray: number;
-  /** Of the heights as they were given: the largest error at the float32 heights, plus sampleRounding. */
+  /** Error of the heights as they were given: the largest error at the float32 heights, plus sampleRounding. */
   maxError: number;
-  /** What the heights lost in float32 at most; 0 where they fit. All other errors are of the float32 heights. */
+  /** The most that the heights lost in float32; 0 where they fit. All other errors are of the float32 heights. */
   sampleRounding: number;
   /** Column and row. */
   maxErrorAt: [number, number] | null;
@@ -146,7 +150,8 @@ export interface Report {
   /** Why the run ended. */
   stop?: 'maxError' | 'maxTriangles' | 'maxVertices' | 'exact';
   effort?: 'fast' | 'normal' | 'high' | 'max';
-  /** Of measure(): no flipped, overlapping or degenerate triangles, no cracks. A mesh that lies elsewhere can be sound: see uncovered. */
+  /** From measure(): no flipped, overlapping or degenerate triangles, no cracks. A mesh that lies elsewhere can be
+   * sound: see uncovered. */
   isSound?: boolean;
 }
 
@@ -168,7 +173,7 @@ export class Mesh {
   report?: Report;
   readonly vertexCount: number;
   readonly triangleCount: number;
-  /** What postMessage() may move instead of copying. */
+  /** Buffers that postMessage() may move instead of copying. */
   transferables(): ArrayBuffer[];
 }
 
@@ -182,7 +187,7 @@ export function measure(z: Heights, width: number, height: number,
   mesh: { positions: Numbers, indices: Numbers, origin?: Numbers }, place?: Place): Report;
 
 export interface PointOptions extends Goals {
-  /** Of several points at one place. */
+  /** Rule for several points at one place. */
   duplicates?: 'first' | 'last' | 'highest' | 'lowest' | 'mean';
   doubles?: boolean;
   onProgress?: (progress: Progress) => boolean | void;
@@ -219,9 +224,9 @@ export class Refiner {
 }
 
 /**
- * A GLB file (glTF 2.0, y up), whose positions are float32: float64 ones are rounded. compress: by meshoptimizer's codec
- * (EXT_meshopt_compression); positions of simplify() with lattice keep their values, and take 16 bits each.
- */
+ * A GLB file (glTF 2.0, y up), whose positions are float32: float64 ones are rounded. compress: by meshoptimizer's
+ * codec (EXT_meshopt_compression); positions of simplify() with lattice keep their values, and have 16 bits each.
+ * */
 export function encodeGlb(mesh: { positions: Numbers, indices: Numbers, normals?: Numbers, uvs?: Numbers, origin?: Numbers, cell?: Numbers },
   options?: { compress?: boolean }): Bytes;
 

@@ -83,7 +83,7 @@ export const TerrainLoader = {
   options: { terrain: DEFAULTS },
   async parse(bytes, options = {}) {
     const [image] = await Promise.all([decodeImage(bytes), ready()]);
-    const { tesselator, workerUrl, ...ours } = options.terrain ?? {};  // what loaders.gl tells its own loader
+    const { tesselator, workerUrl, ...ours } = options.terrain ?? {};  // options of loaders.gl for its own loader
     return makeTerrainMesh(image, ours);
   },
 };

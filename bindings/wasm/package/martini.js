@@ -38,7 +38,7 @@ class Tile {
 }
 
 export default class Martini {
-  /// `gridSize`: samples a side, any; `effort`: as simplifySync() takes it.
+  /// `gridSize`: samples a side, any; `effort`: as simplifySync() accepts it.
   constructor(gridSize = 257, options = {}) {
     checkSide('gridSize', gridSize);
     const { height = gridSize, effort = 'normal' } = takeOptions(options, 'martini');

@@ -8,7 +8,7 @@ const EFFORTS = ['fast', 'normal', 'high', 'max'];
 const REPORT = 17;
 const VIEW = 11;
 
-/// Of the door's doubles. `rounding`: what heights lost in float32, which an error may hide.
+/// The report from the door's doubles. `rounding`: the loss of heights in float32, which an error may hide.
 export function readReport(numbers, rounding = 0) {
   const [stop, effort, vertices, triangles, samples, uncovered, stray, maxError, col, row, rmse, meanError, meanAbsError,
     p50, p95, p99, isSound] = numbers;
@@ -31,7 +31,7 @@ export class Mesh {
   get triangleCount() {
     return this.indices.length / 3;
   }
-  /// What postMessage() may move instead of copying.
+  /// Buffers that postMessage() may move instead of copying.
   transferables() {
     return [this.positions, this.indices, this.normals, this.uvs].filter(Boolean).map(array => array.buffer);
   }

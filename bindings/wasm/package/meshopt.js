@@ -159,7 +159,8 @@ export function encodeTriangles(corners) {
   return bytes;
 }
 
-/// Triangles from neighbour to neighbour, the nearest edges first, and vertices by first use: the order that takes few bytes.
+/// Triangles from neighbour to neighbour, the nearest edges first, and vertices by first use: the order that needs few
+/// bytes.
 export function orderForCodec(corners, vertexCount) {
   const count = corners.length / 3, across = new Int32Array(corners.length).fill(-1), edges = new Map();
   for (let k = 0; k < corners.length; ++k) {

@@ -15,7 +15,7 @@ let thrown = null;  // by it
 export const isStarted = () => functions !== null;
 export const compiledModule = () => compiled;
 
-/// An array over the module's memory: valid until the next call, which may let it grow.
+/// An array over the module's memory: valid until the next call, which may make it grow.
 export const view = (Kind, address, count) => new Kind(functions.memory.buffer, address, count);
 
 function text(address) {
@@ -53,7 +53,7 @@ const IMPORTS = {
 
 const ADVICE = "serve the package's .wasm file there, or import 'scarp/inline', which holds it";
 
-/// `where` they come from. A server that answers with a page where it has no file says that all is well.
+/// `where` they come from. A server that answers with a page instead of a missing file reports success.
 function checkBytes(bytes, where) {
   const first = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
   if ([0, 0x61, 0x73, 0x6d].every((byte, k) => first[k] === byte)) return bytes;
@@ -159,7 +159,7 @@ export function call(name, args, progress) {
   }
 }
 
-/// The same of a function that tells failure by 0; throws its sentence.
+/// The same of a function that reports failure by 0; throws its sentence.
 export function callOrThrow(name, args, progress) {
   const result = call(name, args, progress);
   if (result) return result;

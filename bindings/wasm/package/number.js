@@ -1,4 +1,4 @@
-// How {fmt} prints numbers, which the module leaves to JavaScript.
+// Prints numbers as {fmt} does, for the module, which contains no such code.
 
 /// toFixed() or toExponential(), but of two that are as close the even one, as C has it.
 function rounded(size, method, places) {

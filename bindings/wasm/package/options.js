@@ -3,7 +3,7 @@ import { ScarpError } from './error.js';
 
 const EFFORTS = ['auto', 'fast', 'normal', 'high', 'max'];
 
-/// Of an object what it is, such as DataView, whichever realm it is of.
+/// The kind of an object, such as DataView, whichever realm it is of.
 export const kindOf = value => Object.prototype.toString.call(value).slice(8, -1).replace(/^Object$/, 'object');
 
 const isArray = value => ArrayBuffer.isView(value) ? kindOf(value) !== 'DataView' : Array.isArray(value);
@@ -50,7 +50,7 @@ const TABLE = {
 const PLACE = ['nodata', 'transform', 'degrees'];
 const GOALS = ['maxError', 'maxTriangles', 'maxVertices'];
 const RUN = ['onProgress', 'signal'];
-/// What each entry takes.
+/// The options that each entry accepts.
 const SIMPLIFY = [...GOALS, 'effort', 'vertices', 'order', 'objective', 'minShape', 'outlineTolerance', 'normals', 'uvs', 'lattice', 'doubles',
   'lockBorder', 'mask', 'tolerance', ...PLACE, ...RUN];
 const POINTS = [...GOALS, 'duplicates', 'doubles', ...RUN];
@@ -67,9 +67,9 @@ export const ENTRIES = {
   martini: ['height', 'effort'],
   terrain: ['bounds', 'meshMaxError', 'elevationDecoder', 'skirtHeight', 'effort'],
 };
-/// Where an entry takes less.
+/// The narrower choices of some entries.
 const NARROWER = { tiler: { effort: choice('fast', 'normal', 'high') } };
-/// What an entry cannot do without.
+/// The goals that an entry requires.
 const GOAL = 'give a goal, such as { maxError: 1 }';
 const NEEDS = { simplify: GOAL, simplifySync: GOAL, simplifyPoints: GOAL, simplifyPointsSync: GOAL, tiler: 'give { bounds: [west, south, east, north] }' };
 

@@ -121,7 +121,7 @@ class Hand {
     }
   }
 
-  /// A worker that is busy hears no message: it looks at shared memory, or is replaced.
+  /// A busy worker receives no message: it checks shared memory, or is replaced.
   stop(job) {
     if (job !== this.#running) return;
     if (job.flag) Atomics.store(new Int32Array(job.flag), 0, 1); else this.end(cancelled());
@@ -216,7 +216,7 @@ class Pool {
     if (this.#isOver) throw new ScarpError('usage', 'the pool was terminated');
   }
 
-  /// As simplifySync(), in a worker. What is given is copied now, so that the caller may go on to change it; `transfer`: the
+  /// Like simplifySync(), in a worker. Inputs are copied now, so that the caller may then change them; `transfer`: the
   /// heights' buffer is moved, and not copied.
   async simplify(z, width, height, options = {}) {
     const taken = takeOptions(options, 'simplify');

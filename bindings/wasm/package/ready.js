@@ -1,11 +1,11 @@
-// Where the module and the worker come from: each entry of the package says so.
+// The addresses of the module and the worker: each entry of the package sets them.
 import { ScarpError } from './error.js';
 import { start } from './module.js';
 import { takeOptions } from './options.js';
 
 export const defaults = { source: null, worker: null, warm: null, workerAdvice: null };
 
-/// Bundles of formats other than esm leave import.meta.url undefined.
+/// Bundles of formats other than esm have no import.meta.url.
 export function explainAddress(cause) {
   if (!(cause instanceof TypeError && /URL/.test(cause.message))) return cause;
   return new ScarpError('unsupported', 'the bundle does not know its own address, where its files lie: import.meta.url is undefined in formats ' +
@@ -24,7 +24,7 @@ function locate() {
 export async function ready(source, options = {}) {
   const { warm } = takeOptions(options, 'ready');
   await start(source ?? locate());
-  // The pauses are for compilers, which work beside this thread.
+  // The pauses are for compilers, which work in parallel to this thread.
   for (let round = 0; warm && round < 3; ++round) {
     defaults.warm();
     await new Promise(done => setTimeout(done, 30));

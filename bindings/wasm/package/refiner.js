@@ -12,7 +12,7 @@ const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
 
 export class Refiner {
   #held;
-  #rounding;  // of the heights, which each error counts
+  #rounding;  // rounding of the heights, which each error counts
 
   constructor(z, width, height, options = {}) {
     const place = takeOptions(options, 'place');
@@ -63,7 +63,7 @@ export class Refiner {
   get triangleCount() {
     return call('scarp_refiner_triangles', [this.#handle]);
   }
-  /// Without a report: nobody has measured it but the refiner, which knows its largest error.
+  /// Has no report: only the refiner has measured it, which knows its largest error.
   mesh() {
     const mesh = withBlocks(blocks => takeMesh(blocks, callOrThrow('scarp_refiner_mesh', [this.#handle]), { rounding: this.#rounding }));
     delete mesh.report;

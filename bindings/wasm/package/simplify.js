@@ -8,7 +8,7 @@ import { choose, takeOptions } from './options.js';
 /// Goals as the door has them.
 const listGoals = ({ maxError = NaN, maxTriangles = 0, maxVertices = 0 }) => [maxError, maxTriangles, maxVertices];
 
-/// What is asked during a call: the caller's function, and a flag that another thread sets.
+/// The checks during a call: the caller's function, and a flag that another thread sets.
 export function watch(onProgress, flag) {
   if (!onProgress && !flag) return undefined;
   return snapshot => (flag && Atomics.load(flag, 0) ? false : onProgress?.(snapshot));

@@ -58,7 +58,7 @@ export class Tiler {
   #held;
   #bounds;
 
-  /// Of heights in metres above the ellipsoid.
+  /// The tiler of heights in metres above the ellipsoid.
   constructor(z, width, height, options = {}) {
     const { bounds, crs = 'degrees', nodata, cells = 128, maxZoom = -1, maxError = 0, quality = 2, effort = 'normal', background = 0 } =
       takeOptions(options, 'tiler');
@@ -97,7 +97,7 @@ export class Tiler {
     });
   }
 
-  /// The bytes of tile z/x/y, y from the south, and its proven errors in metres; NaN where nobody has looked.
+  /// The bytes of tile z/x/y, y from the south, and its proven errors in metres; NaN where not examined.
   tile(z, x, y) {
     if (![z, x, y].every(Number.isSafeInteger) || x < 0 || y < 0 || x >= 2 ** (z + 1) || y >= 2 ** z)
       throw new ScarpError('usage', `there is no tile ${z}/${x}/${y}: x goes to 2^(z + 1) - 1, and y to 2^z - 1, from the south`);
@@ -109,7 +109,7 @@ export class Tiler {
     const numbers = new Uint32Array(this.#take('scarp_tiler_list', [z]).bytes.buffer);
     return Array.from({ length: numbers.length / 2 }, (_, k) => [numbers[2 * k], numbers[2 * k + 1]]);
   }
-  /// What clients read first, beside the tiles: layer.json. `tiles`: templates of the tiles' addresses.
+  /// The file that clients read first, before the tiles: layer.json. `tiles`: templates of the tiles' addresses.
   layerJson(options = {}) {
     const { name = 'terrain', attribution = '', tiles = ['{z}/{x}/{y}.terrain'] } = takeOptions(options, 'layerJson'), { maxZoom } = this;
     return {

@@ -32,7 +32,7 @@ using Group = Owned<GDALGroupH, GDALGroupRelease>;
 using Array = Owned<GDALMDArrayH, GDALMDArrayRelease>;
 using Type = Owned<GDALExtendedDataTypeH, GDALExtendedDataTypeRelease>;
 
-constexpr double kMostUneven = 0.05;  // of a cell; coordinates in float32 are that exact
+constexpr double kMostUneven = 0.05;  // share of a cell; coordinates in float32 are that exact
 
 bool is_netcdf(GDALDatasetH dataset) {
   GDALDriverH driver = GDALGetDatasetDriver(dataset);
@@ -89,7 +89,7 @@ std::vector<double> to_mercator(std::vector<double> latitudes) {
   return latitudes;
 }
 
-/// GDAL shows the northern row first where it takes the rows for even ones, else the last one of the file.
+/// GDAL shows the northern row first where it assumes even rows, else the last one of the file.
 std::string place_in_mercator(const Axes1D& axes, bool is_placed, const std::string& path) {
   constexpr double kRadius = 6378137;
   std::vector<double> x = axes.x, y = to_mercator(axes.y);

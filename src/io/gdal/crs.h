@@ -23,15 +23,15 @@ struct DestroyCrs {
 /// Always two-dimensional, x (east, longitude) before y (north, latitude).
 using Crs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyCrs>;
 
-/// As the raster says it, with a vertical datum and in its own order of axes; null if it has none. Coordinates of CF
-/// files in degrees without more are those of WGS 84.
+/// The CRS that the raster declares, with a vertical datum and in its own order of axes; null if it has none.
+/// Coordinates of CF files in degrees without more are those of WGS 84.
 Crs declared_crs(GDALDatasetH dataset);
 /// The raster's CRS; null if it has none.
 Crs crs_of(GDALDatasetH dataset);
 /// Null for null and for a CRS without a name.
 Crs copy_crs(OGRSpatialReferenceH borrowed);
 
-/// As find_crs(), with a vertical datum and the order of axes as they are.
+/// Like find_crs(), with a vertical datum and the order of axes as they are.
 Crs find_declared_crs(const std::string& definition);
 /// The CRS of what is in memory, as find_declared_crs(); null for none. kUsage if GDAL does not know it.
 Result<Crs> find_crs_of(const std::string& name, const std::string& definition);

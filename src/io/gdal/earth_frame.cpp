@@ -1,7 +1,7 @@
 // Frames in space.
 //
 // Heights are those above the ellipsoid. PROJ applies a geoid where the raster's CRS names one and its grid is on this
-// machine; else heights are taken as they are, and a warning says so.
+// machine; else heights are used as they are, and a warning reports it.
 //
 // The tangent frame is a rotation of the earth-centred one about the raster's centre on the ellipsoid: what is proven
 // in one holds in the other.
@@ -34,7 +34,7 @@ Vector unit(const Vector& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// Along a vertical, in metres; long beside the rounding of coordinates.
+/// Length along a vertical, in metres; long compared with the rounding of coordinates.
 constexpr double kRise = 1000;
 
 struct Points {
@@ -60,7 +60,7 @@ class EarthTransform final : public SpaceTransform {
       : forth_(from, earth, is_strict), back_(earth, from, is_strict), centre_x_(centre_x), turn_(turn), up_(up) {}
 
   bool usable() const { return forth_.usable() && back_.usable(); }
-  /// Puts positions into the tangent frame of the axes, or leaves them earth-centred.
+  /// Puts positions into the tangent frame of the axes, or keeps them earth-centred.
   void settle(const Axes& axes, bool is_tangent) {
     axes_ = axes;
     is_tangent_ = is_tangent;
@@ -119,7 +119,7 @@ Crs find_geocentric(const std::string& definition) {
   return OSRIsGeocentric(crs.get()) != 0 ? std::move(crs) : nullptr;
 }
 
-/// Of the raster's own ellipsoid: another planet, or a datum that nobody knows the place of.
+/// The geocentric CRS of the raster's own ellipsoid: another planet, or a datum whose position is unknown.
 Crs own_geocentric(const Georeference& geo) {
   OGRErr error = OGRERR_NONE;
   const double a = OSRGetSemiMajor(geo.crs.get(), &error), rf = OSRGetInvFlattening(geo.crs.get(), &error);

@@ -14,8 +14,8 @@ struct Georeference;
 /// A CRS of three dimensions, x (east, longitude) before y (north, latitude) before heights.
 struct SpaceCrs {
   Crs crs;                      ///< null if there is none
-  std::string vertical;         ///< what its heights are above, such as "EGM96 height"; empty: nobody says
-  HeightUnit unit;              ///< of its heights; empty name: nobody says
+  std::string vertical;         ///< zero of its heights, such as "EGM96 height"; empty: unknown
+  HeightUnit unit;              ///< unit of its heights; empty name: unknown
   bool is_ellipsoidal = false;  ///< they are above the ellipsoid
   bool is_down = false;         ///< they are depths: the vertical axis points down
 };

@@ -25,7 +25,7 @@ Geodetic geodetic_of(const Georeference& geo) {
   return {OSRGetSemiMajor(geo.crs.get(), &error), OSRGetInvFlattening(geo.crs.get(), &error), geo.unit_in_metres};
 }
 
-/// Metres for one unit of x and one of y at the centre sample; zeros where nothing sensible can be said.
+/// Metres for one unit of x and one of y at the centre sample; zeros where they are unknown.
 MetresPerUnit metres_per_unit(const Georeference& geo) {
   if (!geo.crs) return {};
   if (!geo.geographic) return {geo.unit_in_metres, geo.unit_in_metres};
@@ -44,7 +44,7 @@ Frame source_frame(const Georeference& geo) {
   return frame;
 }
 
-/// Coordinates that look like degrees, without a CRS or in one of lengths.
+/// Warns of coordinates that resemble degrees, without a CRS or in one of lengths.
 void doubt_lengths(const Georeference& geo, RasterInfo& info) {
   if (geo.geographic || info.format == "memory" || !looks_like_degrees(geo.pixels, geo.cols, geo.rows)) return;
   if (geo.crs && OSRIsProjected(geo.crs.get()) == 0) return;

@@ -12,7 +12,7 @@
 
 namespace scarp::gdal {
 
-/// Where a raster says that it lies.
+/// The position that a raster declares.
 struct Georeference {
   int cols = 0, rows = 0;
   bool located = false;                             ///< it has a geotransform
@@ -21,10 +21,10 @@ struct Georeference {
   Crs crs;                                          ///< null if unknown
   SpaceCrs in_space;                                ///< the same with heights; null if unknown
   bool geographic = false;
-  double unit_in_metres = 1;  ///< of x and y; in radians if geographic
+  double unit_in_metres = 1;  ///< unit of x and y; in radians if geographic
   std::string unit_name;      ///< "metre", "degree", …; empty if there is no CRS
 
-  /// Of the sample (cols / 2, rows / 2).
+  /// Position of the sample (cols / 2, rows / 2).
   std::array<double, 2> centre() const;
   /// Metres in one unit of x and y; 0 for degrees, and if there is no CRS.
   double length_in_metres() const;

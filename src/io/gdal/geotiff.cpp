@@ -30,7 +30,7 @@ tl::unexpected<Error> refuse_geotiff(const std::string& why) {
 }
 
 /// Blocks go to the file past GDAL's block cache: there they would drive out those of the rasters that are read, and
-/// blocks of two sizes leave holes in memory that neither fits.
+/// blocks of two sizes fragment memory.
 class GdalGeoTiff final : public GeoTiff {
  public:
   GdalGeoTiff(gdal::Dataset dataset, int cols) : dataset_(std::move(dataset)), cols_(cols) {
@@ -56,7 +56,7 @@ class GdalGeoTiff final : public GeoTiff {
   }
   Result<void> close() override {
     gdal::Session session;
-    session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml beside it
+    session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml next to it
     dataset_.reset();
     if (session.failed()) return refuse_geotiff(session.reason());
     return {};

@@ -27,7 +27,7 @@ std::pair<int, int> pixels_within(double start, double step, int side, double fr
           static_cast<int>(pixel(std::ceil((to - start) / step)))};
 }
 
-/// That needs `image` no longer.
+/// A copy that needs `image` no longer.
 Result<Dataset> arrange(Session& session, GDALDatasetH image, const std::string& path) {
   const auto arranged = arrange_bands(session, image, path, true);
   if (!arranged) return tl::unexpected(arranged.error());
@@ -38,7 +38,7 @@ class WarpedImage final : public GlobeImage {
  public:
   WarpedImage(std::string path, Crs degrees) : path_(std::move(path)), degrees_(std::move(degrees)) {}
 
-  /// Where it lies. Fails with kInput.
+  /// Finds its position. Fails with kInput.
   Result<void> find_place(const Georeference& geo) {
     auto to_degrees = build_transform(geo.crs, degrees_);
     if (!to_degrees)

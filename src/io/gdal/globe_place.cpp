@@ -1,4 +1,4 @@
-// Where a raster lies on the globe: the ways to longitude, latitude and heights above the ellipsoid.
+// The position of a raster on the globe: the ways to longitude, latitude and heights above the ellipsoid.
 #include "scarp/globe_place.h"
 
 #include <cpl_conv.h>
@@ -81,7 +81,7 @@ bool is_same_point(const PointTransform& transform, double x, double y) {
          std::abs(mapped_y - y) < kSameDegrees;
 }
 
-/// Whether places of the raster are found again from their degrees. Beyond 180° of a cylindrical projection they are
+/// True if places of the raster are found again from their degrees. Beyond 180° of a cylindrical projection they are
 /// not: the way back ends a turn away.
 bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
   const std::array<double, 6>& a = globe.place.affine;
@@ -99,7 +99,7 @@ bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
   return true;
 }
 
-/// As PROJ calls them.
+/// PROJ's name for them.
 constexpr const char* kEgm96Heights = "EGM96 height";
 constexpr int kEgm96Epsg = 5773;
 /// Metres between a geoid of the earth and the ellipsoid, at most.
@@ -113,7 +113,7 @@ constexpr const char* kWaysOutElsewhere =
     "give --vertical ellipsoid for heights above its ellipsoid, or --geoid FILE, a grid of the surface that they are "
     "above";
 
-/// Of heights above a surface that PROJ knows the way from.
+/// Finds the zero of heights above a surface that PROJ knows the way from.
 Result<void> find_zero_by_proj(const RasterInfo& info, const Datum& datum, const std::string& path,
                                RasterOnGlobe& globe) {
   std::shared_ptr<const PointTransform> to_xy;
@@ -147,7 +147,7 @@ Result<void> find_zero_by_proj(const RasterInfo& info, const Datum& datum, const
   return {};
 }
 
-/// What the heights are above.
+/// Finds the zero of the heights.
 Result<void> find_zero(const RasterInfo& info, const Datum& datum, const std::string& path, RasterOnGlobe& globe) {
   switch (datum.vertical) {
     case Vertical::kNone:

@@ -34,7 +34,7 @@ Result<std::vector<std::uint8_t>> encode_image(const Picture& picture, ImageForm
     return refuse(fmt::format("{} x {} pixels and {} bytes do not go together", width, height, picture.rgb.size()));
   }
   gdal::Session session;
-  session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml beside it
+  session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml next to it
   GDALDriverH memory = GDALGetDriverByName("MEM"), driver = GDALGetDriverByName(encoder.driver);
   if (memory == nullptr || driver == nullptr) return refuse(fmt::format("this GDAL has no {} driver", encoder.driver));
   const gdal::Dataset source(GDALCreate(memory, "", width, height, 3, GDT_Byte, nullptr));

@@ -48,7 +48,7 @@ bool to_polygons(std::span<const Line> rings, const std::array<double, 2>& unit,
   return true;
 }
 
-/// Coordinates can tell the distance from 0; GEOS makes polygons vanish where they cannot.
+/// Coordinates can distinguish the distance from 0; GEOS makes polygons vanish where they cannot.
 bool is_distance(double distance, const OGRGeometry& polygons) {
   OGREnvelope box;
   polygons.getEnvelope(&box);
@@ -90,7 +90,7 @@ bool sharpen(std::vector<Corner>& ring, double distance) {
 OGRLinearRing sharpened(const OGRLinearRing& ring, double distance) {
   const int count = ring.getNumPoints() - 1;
   const auto place = [&](int k) { return Place{ring.getX(k % count), ring.getY(k % count)}; };
-  int longest = 0;  // where it begins: no arc does there
+  int longest = 0;  // index where it begins: no arc does there
   for (int k = 1; k < count; ++k) {
     if (length(way(place(k), place(k + 1))) > length(way(place(longest), place(longest + 1)))) longest = k;
   }

@@ -1,7 +1,7 @@
 // GDALBuildVRT() knows one nodata value, no unit, no raster whose first row is the southern one, and shows a band of
 // signed bytes as unsigned ones. So the virtual raster is written here. A band of it has the tiles' type, nodata value,
 // scale and offset where these agree. Where they do not it is one of floats, whose nodata is NaN, which no tile holds
-// as a height. A mask tells what no nodata value can.
+// as a height. A mask holds what no nodata value can.
 #include "io/gdal/join.h"
 
 #include <cpl_conv.h>
@@ -66,7 +66,7 @@ JoinedBand plan_joined(std::span<const Tile> tiles, std::size_t k, std::optional
   const bool is_one = is_one_nodata && !joined.is_decoded && !with_nan;
   if (is_one && (!joined.nodata || holds(joined.type, *joined.nodata))) return joined;
   joined.type = floats_for(joined.type);
-  if (is_one) return joined;  // which no tile holds
+  if (is_one) return joined;  // NaN, which no tile holds
   joined.nodata = huge && !joined.is_decoded && !with_nan ? *huge : std::numeric_limits<double>::quiet_NaN();
   return joined;
 }

@@ -1,4 +1,4 @@
-// Which files a file is made of.
+// The files that a file is made of.
 #include <cpl_conv.h>
 #include <cpl_string.h>
 
@@ -16,7 +16,7 @@ bool is_there(const std::string& vsi) {
 }
 
 /// The file on the disk that a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif
-/// looks into: whatever the file system and its syntax, the name of that file ends where a part of the name does.
+/// refers to: whatever the file system and its syntax, the name of that file ends where a part of the name does.
 void add_container(const std::string& name, std::set<std::string>& seen) {
   if (name.rfind("/vsi", 0) != 0 || is_remote(name)) return;
   constexpr const char* kBeginnings = "/{,=";
@@ -35,7 +35,7 @@ void add_container(const std::string& name, std::set<std::string>& seen) {
 
 void add_files(const std::string& path, std::set<std::string>& seen);
 
-/// Of names like FILE:LAYER, DRIVER:FILE and DRIVER:FILE:LAYER.
+/// Adds the file in names like FILE:LAYER, DRIVER:FILE and DRIVER:FILE:LAYER.
 void add_between_colons(const std::string& name, std::set<std::string>& seen) {
   for (std::size_t begin = 0; begin != std::string::npos && begin < name.size();) {
     for (std::size_t end = begin; end != std::string::npos;) {

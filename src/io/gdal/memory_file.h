@@ -1,4 +1,4 @@
-// Files that GDAL writes for us to take.
+// Files that GDAL writes to memory.
 #pragma once
 
 #include <cpl_vsi.h>

@@ -23,9 +23,9 @@
 namespace scarp::gdal {
 namespace {
 
-constexpr double kMostOffGrid = 1e-3;  // of a cell
+constexpr double kMostOffGrid = 1e-3;  // share of a cell
 
-/// A command that makes a new file of the raster. Cells beside it hold no value rather than 0.
+/// A command that makes a new file of the raster. Cells outside it hold no value rather than 0.
 std::string gdalwarp(const std::string& options, const Tile& tile) {
   const BandFacts& band = tile.bands.front();
   const bool tells = band.nodata || tile.has_mask(false) || tile.has_alpha() || tile.bands.size() > 1;
@@ -35,7 +35,7 @@ std::string gdalwarp(const std::string& options, const Tile& tile) {
                      file_word(tile.path), new_file(".tif"));
 }
 
-/// A command that describes a copy of the raster: many formats take no words afterwards.
+/// A command that describes a copy of the raster: many formats accept no metadata afterwards.
 std::string edit_command(const std::string& options, const std::string& path) {
   return fmt::format("{} && gdal_edit.py {} {}", translate_command("", path), options, new_file(".tif"));
 }
@@ -95,14 +95,14 @@ std::string describe_unit_difference(const Tile& first, const Tile& tile, std::s
   return fmt::format("has heights in {}, and {} in {}: {}", b.unit, first.path, a.unit, way);
 }
 
-/// What heights are above, as the CRS says.
+/// The zero of heights, by the CRS.
 std::string heights_of(const Tile& tile) { return tile.space.is_ellipsoidal ? "the ellipsoid" : tile.space.vertical; }
 
-/// What brings the raster into the CRS of the first, with its heights.
+/// The advice for bringing the raster into the CRS of the first, with its heights.
 std::string bring_there(const Tile& first, const Tile& tile) {
   const std::string from = heights_of(tile), to = heights_of(first);
   const std::string with_heights = from.empty() || to.empty() ? "" : name_with_heights(first.space.crs);
-  // Where PROJ lacks a grid, gdalwarp leaves heights as they are, silently.
+  // Without a grid of PROJ, gdalwarp silently does not change heights.
   if (from != to && !from.empty() && !to.empty() &&
       (with_heights.empty() || !Passage(tile.space.crs, first.space.crs, true).usable()))
     return "PROJ knows no way between their heights on this machine: install its grids (projsync, or Debian's "
@@ -216,7 +216,7 @@ struct Gap {
 Gap find_gap(std::vector<std::pair<double, double>> arcs, double turn) {
   std::sort(arcs.begin(), arcs.end());
   Gap gap;
-  double before = -HUGE_VAL;  // what is behind all others reaches to there
+  double before = -HUGE_VAL;  // east end of the arcs before, a turn back
   for (const auto& [from, length] : arcs) before = std::max(before, from + length - turn);
   for (const auto& [from, length] : arcs) {
     if (from - before > gap.width) gap = {from, from - before};
@@ -300,10 +300,10 @@ void split_at_gaps(std::vector<Tile>& tiles) {
 }
 
 constexpr const char *kMadeKey = "SCARP_ROLE", *kMade = "derived";
-/// Of sets of tiles in MBTiles, which GDAL takes for rasters.
+/// Metadata of sets of tiles in MBTiles, which GDAL opens as rasters.
 constexpr const char *kGeneratorKey = "generator", *kScarp = "scarp ";
 
-/// Leaves out what Scarp made of the others, in the order of names; their names, without folders.
+/// Removes rasters that Scarp made of the others, in the order of names; their names, without folders.
 std::vector<std::string> take_derived(const std::vector<bool>& is_derived, std::vector<std::string>& rasters) {
   std::vector<std::string> kept, left;
   for (std::size_t k = 0; k < rasters.size(); ++k) (is_derived[k] ? left : kept).push_back(rasters[k]);
@@ -416,7 +416,7 @@ std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string
   if (!rasters) return {paths};
   if (rasters->size() < 2) return {*rasters};
   std::vector<std::vector<std::string>> mosaics;
-  std::optional<gdal::Tile> first;  // of the last mosaic
+  std::optional<gdal::Tile> first;  // first raster of the last mosaic
   for (const std::string& path : *rasters) {
     auto tile = gdal::look_at(session, path);
     if (first && tile && gdal::hold_alike(*first, *tile) && gdal::find_difference(*first, *tile).empty()) {

@@ -10,7 +10,7 @@
 
 namespace scarp::gdal {
 
-/// Says in the file that it is an approximation or an error raster of another; false on failure.
+/// Marks the file as an approximation or an error raster of another; false on failure.
 bool mark_derived(GDALDatasetH raster);
 
 /// The paths, and in place of each folder the rasters in it, by name, without those that are marked as derived, unless
@@ -19,11 +19,11 @@ Result<std::vector<std::string>> expand_folders(Session& session, const std::vec
                                                 std::vector<std::string>& left_out);
 
 /// The columns, first and end, between the two sides of a raster that goes around most of the earth and holds nothing
-/// there, as its file says: a virtual raster of some on both sides of the 180th meridian.
+/// there, according to its file: a virtual raster of some on both sides of the 180th meridian.
 std::optional<std::pair<int, int>> find_wide_gap(GDALDatasetH raster);
 
-/// A virtual raster of all of them; see RasterView::more. `nodata`: as of open_view(). `words` tells what was made.
-/// REQUIRES: at least one.
+/// A virtual raster of all of them; see RasterView::more. `nodata`: as of open_view(). `words` receives a description
+/// of the result. REQUIRES: at least one.
 Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& paths, std::optional<double> nodata,
                             std::string& words);
 

@@ -26,7 +26,7 @@ namespace {
 
 struct Scheme {
   std::string_view url, vsi;
-  bool keeps_url;  // /vsicurl/ takes the whole URL, the object stores what follows "s3://"
+  bool keeps_url;  // /vsicurl/ expects the whole URL, the object stores the part after "s3://"
 };
 constexpr std::array<Scheme, 6> kSchemes{{{"http://", "/vsicurl/", true},
                                           {"https://", "/vsicurl/", true},
@@ -115,7 +115,7 @@ bool is_misread_png(GDALDatasetH dataset) {
   return head.size() > kInterlace && head[kDepth] == 16 && head[kInterlace] == 1;
 }
 
-/// What to say of a name that no raster driver opens.
+/// The error for a name that no raster driver opens.
 tl::unexpected<Error> explain(Session& session, const std::string& given, const std::string& vsi) {
   const std::string path = given == "-" ? "standard input" : given;
   if (path.empty()) return fail(ErrorKind::kInput, "the name of the raster is empty");

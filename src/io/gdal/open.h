@@ -16,7 +16,7 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
-/// For GDALOpenEx(): GML's driver would write a file beside its input.
+/// For GDALOpenEx(): GML's driver would write a file next to its input.
 inline constexpr const char* kOpenOptions[] = {"@WRITE_GFS=NO", nullptr};
 
 /// True for URLs and the /vsi… names of files that lie on another machine.
@@ -34,11 +34,11 @@ Result<Dataset> open_raster(Session& session, const std::string& path);
 /// Opens a virtual raster that `xml` describes. `path` is for the sentence.
 Result<Dataset> open_xml(Session& session, const std::string& xml, const std::string& path);
 
-/// Has a virtual raster `to` say what `from`, of as many bands or more, says besides samples, nodata and place: the CRS
-/// with its vertical datum, whether a value is that of an area or a point, and for each band unit, scale and offset,
-/// description, meaning and colours.
+/// Copies the metadata of `from`, of as many bands or more, to a virtual raster `to`, except samples, nodata and place:
+/// the CRS with its vertical datum, whether a value is that of an area or a point, and for each band unit, scale and
+/// offset, description, meaning and colours.
 void repeat_said(GDALDatasetH from, GDALDatasetH to);
-/// What to say of a file on another machine that cannot be opened: the server's answer where there is one, else
+/// The error for a file on another machine that cannot be opened: the server's answer where there is one, else
 /// `reason`.
 tl::unexpected<Error> refuse_remote(const std::string& path, const std::string& vsi, const std::string& reason);
 

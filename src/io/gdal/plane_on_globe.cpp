@@ -1,4 +1,4 @@
-// Where the plane of a local grid lies on the globe: the plane that touches it at the raster's centre.
+// The position of the plane of a local grid on the globe: the plane that touches it at the raster's centre.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace scarp {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
-/// Cells to either side of the centre whose places tell the projection's turn and scale there.
+/// Cells to either side of the centre whose places give the projection's turn and scale there.
 constexpr double kReach = 16;
-/// Places of the raster that are looked at, each way.
+/// Places of the raster that are examined, each way.
 constexpr int kPlaces = 17;
 
 using Point = std::array<double, 3>;

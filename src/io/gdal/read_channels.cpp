@@ -104,7 +104,7 @@ Result<void> apply_palette(const Palette& palette, OwnedHeightField& field, std:
   return {};
 }
 
-/// As finish_raster().
+/// Like finish_raster().
 Result<void> finish_channels(OwnedChannels& channels, std::uint64_t infinities) {
   RasterInfo& info = channels.info;
   double least = HUGE_VAL, most = -HUGE_VAL;

@@ -33,7 +33,8 @@ bool exists(const std::string& path) {
   return VSIStatL(vsi_path(path).c_str(), &status) == 0;
 }
 
-/// "file:layer" is told from a name with a colon in it ("C:\lines.shp", "PG:dbname=…", a URL) by what can be opened.
+/// "file:layer" is distinguished from a name with a colon in it ("C:\lines.shp", "PG:dbname=…", a URL) by what can be
+/// opened.
 Result<OpenedLayer> open(Session& session, const std::string& path) {
   constexpr const char* kWhat = "lines";
   constexpr const char* kExpected = "no vector data that GDAL can read";
@@ -148,7 +149,7 @@ class LineCollector {
       const LineRole role = i == 0 ? LineRole::kOuter : LineRole::kHole;
       auto added = is_polygon ? add_line(part, role) : add_geometry(part);
       if (!added) return added;
-      // Where the outer ring has no extent its holes have none either.
+      // if the outer ring has no extent, its holes have none either
       if (is_polygon && (set_.lines.empty() || set_.lines.back().polygon != set_.polygons)) return {};
     }
     if (is_polygon && OGR_G_GetGeometryCount(geometry) > 0) ++set_.polygons;
@@ -203,7 +204,7 @@ class LineCollector {
   bool ignore_z_;
   LineSet& set_;
   std::string prefix_, name_;
-  std::optional<double> height_;  ///< of the feature at work, if an attribute holds it
+  std::optional<double> height_;  ///< height of the current feature, if an attribute holds it
   std::uint64_t filled_ = 0;      ///< vertices that were given heights
   std::string first_filled_;
   std::uint64_t points_ = 0, without_geometry_ = 0, without_extent_ = 0;

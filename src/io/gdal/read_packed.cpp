@@ -7,8 +7,8 @@
 // the one before it counts one more: colours that are interpolated, or changed a little by lossy compression, jump
 // there. Two tests find that:
 //
-//   - Lossy compression changes a colour by one, and leaves spikes of about one step of it. Spikes of land change the
-//     colour no more often than their size says.
+//   - Lossy compression changes a colour by one, and causes spikes of about one step of it. Spikes of land change the
+//     colour no more often than their size implies.
 //   - Interpolation sweeps through a colour where it begins anew. A sample between two that are close together, on
 //     either side of such a height, is then off both in 40 % of cases or more, some below and some above. Land does
 //     not know at which heights colours begin anew: it is as rough at heights a quarter, a half and three quarters of a
@@ -91,7 +91,7 @@ void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t 
 /// Steps of the middle colour are 1 m in terrarium, and heights in whole metres do nothing else.
 std::size_t first_colour(Decode decode) { return decode == Decode::kTerrarium ? 1 : 0; }
 
-/// Whether there are more samples off where a colour begins anew than land leaves there.
+/// True if there are more samples off where a colour begins anew than land has there.
 bool are_swept(const Findings::Colours& colours, std::size_t lag, std::size_t k) {
   constexpr std::uint64_t kLeast = 24;
   constexpr double kLeastShare = 0.35, kTimesOthers = 1.5, kLeastBoth = 0.16;
@@ -211,7 +211,7 @@ class PackedReader : public WindowReader {
   std::vector<std::uint8_t> pixels_, mask_;
   std::uint32_t before_ = kNoNumber, here_ = kNoNumber;  // the last two in the row
   std::vector<std::uint32_t> row_;
-  std::int64_t every_;  // of how many rows one is looked at as a whole
+  std::int64_t every_;  // one of so many rows is examined as a whole
 };
 
 }  // namespace

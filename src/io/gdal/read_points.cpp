@@ -59,7 +59,7 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
   return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, layer_names(dataset)));
 }
 
-/// What the third coordinates of a layer are. Its type may be silent on them; its features are not.
+/// The meaning of a layer's third coordinates. Its type may be silent on them; its features are not.
 struct ThirdCoordinates {
   std::optional<double> first;  ///< none: there are no third coordinates
   bool differ = false;          ///< NaN is like NaN
@@ -99,7 +99,7 @@ std::string list_of_fields(OGRLayerH layer, bool heights_only, int without = -1)
   return list;
 }
 
-/// The attribute whose name says most clearly that it holds heights.
+/// The attribute whose name shows most clearly that it holds heights.
 std::optional<int> find_named_height(OGRLayerH layer) {
   OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
   std::optional<int> best;
@@ -113,7 +113,7 @@ std::optional<int> find_named_height(OGRLayerH layer) {
   return best;
 }
 
-/// Where heights come from: an attribute, or the third coordinate. `points` is told.
+/// Finds the heights: an attribute, or the third coordinate. The result is noted in `points`.
 Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& wanted, PointSet& points) {
   const std::string& path = points.path;
   const auto name_of = [&](int index) {
@@ -194,7 +194,7 @@ class PointCollector {
     return OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, *height_field_));
   }
 
-  /// The attribute; NaN where it holds no number and --nodata leaves such points out.
+  /// The attribute; NaN where it holds no number and --nodata omits such points.
   Result<double> read_height(OGRFeatureH feature) const {
     const bool is_set = OGR_F_IsFieldSetAndNotNull(feature, *height_field_) != 0;
     const char* text = is_set ? OGR_F_GetFieldAsString(feature, *height_field_) : "";
@@ -246,7 +246,7 @@ class PointCollector {
     for (int i = 0; i < OGR_G_GetPointCount(geometry); ++i) {
       const auto here = static_cast<std::uint32_t>(points_.size());
       if (auto added = add_point(geometry, i, height); !added) return added;
-      if (points_.size() == here) continue;  // left out
+      if (points_.size() == here) continue;  // omitted
       const bool is_repeated = !line.points.empty() && is_same(here, line.points.back()),
                  is_closed = !is_repeated && here > first && is_same(here, first);
       if (is_repeated || is_closed) remove_last();

@@ -107,7 +107,7 @@ struct OpenedRaster {
     return options.decode == Decode::kNone ? make_band_reader(plan.band)
                                            : make_packed_reader(plan.dataset.get(), options);
   }
-  /// Of a file whose blocks are decoded each on its own; empty for others.
+  /// Opens a file again whose blocks are decoded each on its own; empty for others.
   OpenAgain again(const ReadOptions& options) const {
     const char* name = GDALGetDescription(plan.dataset.get());
     if (field.info.format != "GTiff" || std::string_view(name).starts_with("/vsi")) return {};
@@ -246,7 +246,7 @@ Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& 
   return refuse_beyond(reader.findings(), info.path, options);
 }
 
-/// Leaves the samples in their file.
+/// Keeps the samples in their file.
 Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, const ReadOptions& options) {
   // Bands of rows are read one after the other: a file in blocks is decoded once if a row of its blocks, and what the
   // next one begins with, is still there.

@@ -1,7 +1,7 @@
 // Samples of one band.
 //
 // Problem: bands come in a dozen types, scaled or not, with nodata declared in more than one way; memory for one copy
-// of the samples only; and a damaged file must never look like flat ground.
+// of the samples only; and a damaged file must never appear as flat ground.
 //
 // Idea: types whose every value is a float32 (8 and 16 bits, float32) are read by GDAL straight into the samples. All
 // others go through a window in double (64-bit integers: in their own type), where nodata is compared, scale and offset
@@ -83,12 +83,12 @@ double distance(Integer raw, float rounded) {
 }
 
 /// How far GDAL's mean may lie from the exact one: it adds float32 values and keeps a float32, whatever type is asked
-/// for. Of whole cells the sum is exact. There, if mean · cells is whole, then so is mean · cells · counted; that
+/// for. The sum of whole cells is exact. There, if mean · cells is whole, then so is mean · cells · counted; that
 /// differs from sum · cells by less than 1, so it is that, and the mean is exact.
 double rounding_of_mean(double mean, const Means& means) {
   if (means.cells == 1 || !std::isfinite(mean) || mean == 0) return 0;
   const double half_step = std::ldexp(1.0, std::ilogb(mean) - 24), cells = means.cells;
-  if (!means.are_whole) return 4 * half_step;  // of the cells, of their sum, of the mean
+  if (!means.are_whole) return 4 * half_step;  // rounding of the cells, of their sum, of the mean
   const bool is_exact = cells * cells * half_step < 1 && std::floor(mean * cells) == mean * cells;
   return is_exact ? 0 : half_step;
 }
@@ -220,7 +220,7 @@ class BandReader : public WindowReader {
   const BandPlan plan_;
   float* out_ = nullptr;
   std::ptrdiff_t stride_ = 0;
-  std::vector<unsigned char> buffer_;  // of whatever type the window is read in
+  std::vector<unsigned char> buffer_;  // buffer of whatever type the window is read in
   std::vector<std::uint8_t> mask_;
 };
 
@@ -262,7 +262,7 @@ Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowRead
   parallel_in_order(
       plan.count(), static_cast<int>(more.size() + 1),
       [&](std::size_t i, std::size_t worker) {
-        // GDAL keeps what it has to say by thread.
+        // GDAL keeps its messages by thread
         Session here(session);
         WindowReader& reads = worker == 0 ? reader : *more[worker - 1].reader;
         stacks[i].status = for_each_slice(plan.stack(i), plan.rows_at_once(), [&](const Window& window) {

@@ -34,7 +34,7 @@ struct BandPlan {
   std::optional<std::uint64_t> nodata_uint64;
   double scale = 1, offset = 0;  ///< height = scale·raw + offset
   Means means;
-  std::string depths;  ///< what says that the values count downwards; else empty
+  std::string depths;  ///< the sign that the values count downwards; else empty
 };
 
 /// kInput if the band does not exist, or is complex.
@@ -43,7 +43,7 @@ Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const 
 /// Adds what seems odd about a band of heights, or of values: that it is a colour or the number of one.
 void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, bool as_values, RasterInfo& info);
 
-/// What reading came upon.
+/// The findings of reading.
 struct Findings {
   std::uint64_t infinities = 0;  ///< infinities and values beyond float32, which became nodata
   double rounding = 0;           ///< largest |value − float32 sample|
@@ -52,7 +52,7 @@ struct Findings {
     int col = 0, row = 0;
   };
   std::optional<Beyond> beyond;  ///< the first value that is finite, and beyond float32
-  /// Of colours that are taken for heights.
+  /// Statistics of colours that are read as heights.
   struct Colours {
     std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< but for black; by the other encoding
     /// Samples off both neighbours: where the colour that counts 2^8 or 2^16 changes, and where it does not.
@@ -64,14 +64,14 @@ struct Findings {
       std::uint64_t crossed = 0, off = 0;
     };
     std::array<std::array<std::array<Line, 4>, 2>, 2> lines{};
-    std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< of those off at the height itself
-    /// Of those at the height itself: below both, and above both; by the height's last three bits.
+    std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< farthest of those off at the height itself
+    /// Number of those at the height itself: below both, and above both; by the height's last three bits.
     std::array<std::array<std::array<std::array<std::uint64_t, 2>, 8>, 2>, 2> sides{};
 
     void add(const Colours& further);
   } colours;
 
-  /// Of windows further on.
+  /// Adds the findings of windows further on.
   void add(const Findings& further) {
     infinities += further.infinities;
     colours.add(further.colours);
@@ -86,7 +86,7 @@ class WindowReader {
   virtual ~WindowReader() = default;
   /// Writes the window to `out`, `stride` floats from row to row. False if GDAL fails.
   virtual bool read(const Window& window, float* out, std::ptrdiff_t stride) = 0;
-  /// Of all windows since the last call of take_findings().
+  /// Findings of all windows since the last call of take_findings().
   const Findings& findings() const { return findings_; }
   Findings take_findings() { return std::exchange(findings_, {}); }
 
@@ -94,12 +94,12 @@ class WindowReader {
   Findings findings_;
 };
 
-/// Of one band.
+/// The reader of one band.
 std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan);
-/// Of heights packed into bands of colour.
+/// The reader of heights packed into bands of colour.
 std::unique_ptr<WindowReader> make_packed_reader(GDALDatasetH dataset, const ReadOptions& options);
 
-/// What a thread reads with.
+/// The open file and reader of one thread.
 struct ReadHandle {
   Dataset dataset;
   std::unique_ptr<WindowReader> reader;
@@ -109,7 +109,7 @@ using OpenAgain = std::function<std::optional<ReadHandle>()>;
 
 /// Reads the raster of `band` into field.samples (already allocated) by windows of a few MB that follow the file's own
 /// blocks; on several threads if `open_again` is not empty. Sets field.sample_rounding. kInput as soon as GDAL reports
-/// any failure, kCancelled if the callback says so.
+/// any failure, kCancelled if the callback asks for it.
 Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const OpenAgain& open_again,
                               const ReadOptions& options, OwnedHeightField& field);
 

@@ -88,7 +88,7 @@ void widen_block_cache(std::uint64_t bytes) {
 void Session::begin() {
   CPLPushErrorHandlerEx(collect, this);
   start_gdal_once();
-  set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");   // would lie beside the input
+  set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");   // it would lie next to the input
   set_option("GML_PARSER", "EXPAT");                    // limits what entities expand to
   set_default("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");  // else what a truncated JPEG lacks is grey
 }

@@ -9,7 +9,7 @@
 
 namespace scarp::gdal {
 
-/// Lets GDAL's block cache, which all files of the process share, grow by at least this beyond its 8 MB; not if
+/// Grows GDAL's block cache, which all files of the process share, by at least this beyond its 8 MB; not if
 /// GDAL_CACHEMAX is set.
 void widen_block_cache(std::uint64_t bytes);
 
@@ -28,21 +28,21 @@ class Hdf5Errors {
   bool is_silenced_ = false;
 };
 
-/// While a Session lives, what GDAL, PROJ and HDF5 have to say in this thread is collected instead of printed, and
-/// nothing is written beside inputs. For remote files, options that make range requests cheap and finite are set for
-/// this thread wherever the user has not set them. The first Session of a process registers GDAL's drivers, but for
-/// those that hostile files crash or hang (unless drivers are registered already), and limits GDAL's block cache to 8
-/// MB unless GDAL_CACHEMAX is set. Sessions may be nested; one must end in the thread that began it.
+/// While a Session lives, messages of GDAL, PROJ and HDF5 in this thread are collected instead of printed, and nothing
+/// is written next to inputs. For remote files, options that make range requests cheap and finite are set for this
+/// thread wherever the user has not set them. The first Session of a process registers GDAL's drivers, but for those
+/// that hostile files crash or hang (unless drivers are registered already), and limits GDAL's block cache to 8 MB
+/// unless GDAL_CACHEMAX is set. Sessions may be nested; one must end in the thread that began it.
 class Session {
  public:
   explicit Session(bool remote = false);
-  /// In another thread, or nested, for work on a local file beside the one that began; HDF5 is left alone.
+  /// In another thread, or nested, for work on a local file in parallel to the first one; HDF5 is not changed.
   explicit Session(const Session& first);
   ~Session();
   Session& operator=(const Session&) = delete;
 
   bool failed() const { return !failures_.empty(); }
-  /// GDAL's own words for what failed since clear(), for the end of a sentence; "no reason given" if it said nothing.
+  /// GDAL's own words for what failed since clear(), for the end of a sentence; "no reason given" if there are none.
   std::string reason() const;
   /// True if memory was what failed.
   bool out_of_memory() const { return out_of_memory_; }

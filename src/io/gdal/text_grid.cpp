@@ -22,7 +22,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// What gdal_edit.py wrote beside the text.
+/// The CRS that gdal_edit.py wrote next to the text.
 Crs find_crs_beside(const std::string& path) {
   VSIStatBufL status{};
   if (VSIStatL((path + ".aux.xml").c_str(), &status) != 0) return nullptr;

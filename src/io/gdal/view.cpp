@@ -79,7 +79,7 @@ const char* mean_type(GDALDataType type, bool keeps_type) {
   return is_wide ? "Float64" : "Float32";
 }
 
-/// The virtual raster `made` of `whole`, which then says what that says.
+/// Completes the virtual raster `made` of `whole` with the metadata of `whole`.
 Result<Dataset> finish_view(Session& session, GDALDatasetH whole, GDALDatasetH made, const std::string& path) {
   if (made == nullptr)
     return fail(ErrorKind::kInput, fmt::format("{}: no part of it can be read: {}", path, session.reason()));
@@ -108,14 +108,14 @@ Result<Dataset> open_window(Session& session, GDALDatasetH whole, const std::str
     GDALRasterBandH said = GDALGetRasterBand(whole, k), band = GDALGetRasterBand(made.get(), k);
     int has_nodata = 0;
     const double nodata = GDALGetRasterNoDataValue(said, &has_nodata);
-    // What the type cannot hold was replaced by what it can.
+    // a nodata value that the type cannot hold was replaced by one that it can
     if (has_nodata != 0 && can_join(GDALGetRasterDataType(said))) GDALSetRasterNoDataValue(band, nodata);
   }
   return finish_view(session, whole, failed == 0 ? made.get() : nullptr, path);
 }
 
 /// Means of the cells that hold a height: resampling of a virtual raster averages nodata too, warping does not. Where
-/// no cell holds one the mean is NaN, since any other value may be a mean. Warping takes columns and rows for
+/// no cell holds one the mean is NaN, since any other value may be a mean. Warping uses columns and rows as
 /// coordinates, which are exact and begin at the top.
 Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
                            std::optional<double> nodata, const std::string& type) {
@@ -165,7 +165,7 @@ Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::stri
   return finish_view(session, whole, made.get(), path);
 }
 
-/// What a cell must hold to have no part in a mean: the value that was asked for, or declared.
+/// The value of a cell that has no part in a mean: the value that was asked for, or declared.
 std::optional<double> find_nodata(GDALRasterBandH band, std::optional<double> asked) {
   int has_nodata = 0;
   const double declared = GDALGetRasterNoDataValue(band, &has_nodata);

@@ -9,18 +9,18 @@
 
 namespace scarp::gdal {
 
-/// What a sample is the mean of.
+/// The cells whose mean a sample is.
 struct Means {
   int cells = 1;                 ///< at most: nodata does not count
   bool are_whole = false;        ///< the cells hold whole numbers of 16 bits
   bool have_holes = false;       ///< cells may hold no height; a mean of none is NaN, whatever stood for it
-  std::optional<double> nodata;  ///< what stood for it
+  std::optional<double> nodata;  ///< value that stood for nodata
 };
 
 /// Opens what `view` makes of `path`, a virtual raster in memory where that is more than the one raster as it is. A
-/// folder is a mosaic of its rasters. `words` tells what was made, as RasterInfo::view does. `keeps_type`: bytes stay
+/// folder is a mosaic of its rasters. `words` describes the result, like RasterInfo::view. `keeps_type`: bytes stay
 /// bytes where samples are averaged, as colours are. `nodata`: holds instead of the value that is declared; neither has
-/// a part in means. Fails as open_raster() and as ReadOptions::view tells.
+/// a part in means. Fails as open_raster() and as ReadOptions::view describes.
 Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
                           std::string& words, Means* means = nullptr, std::optional<double> nodata = std::nullopt);
 

@@ -35,7 +35,7 @@ struct WarpedPixels {
   Picture picture;
   std::vector<std::uint8_t> alpha;  ///< 0: no colour
 };
-/// Of a target. Fails with kInput.
+/// Moves the pixels out of a target. Fails with kInput.
 Result<WarpedPixels> take_pixels(Session& session, GDALDatasetH target, const std::string& path);
 
 }  // namespace scarp::gdal

@@ -77,7 +77,7 @@ struct Extent {
 class ReadProgress {
  public:
   ReadProgress(const Extent& raster, const ProgressCallback& progress) : raster_(raster), progress_(progress) {}
-  /// The samples of another window are read. Fails with kCancelled if the callback says so.
+  /// The samples of another window are read. Fails with kCancelled if the callback asks for it.
   Result<void> add(const Window& window);
 
  private:
@@ -99,7 +99,7 @@ Result<void> for_each_slice(const Window& stack, int rows_at_once, Use use) {
 }
 
 /// Calls read(window) -> bool for all windows, stack by stack. Fails as read_or_explain(), with kCancelled if the
-/// callback says so.
+/// callback asks for it.
 template <class Read>
 Result<void> for_each_window(Session& session, GDALRasterBandH band, const Extent& raster,
                              const ProgressCallback& progress, Read read) {

@@ -1,8 +1,8 @@
-// DXF of AutoCAD's release 12, which every CAD program reads: pairs of lines, a number that says what the next line is.
-// A triangle is a 3DFACE, whose fourth corner is the third once more. Corners name places, which are welded on reading.
+// DXF of AutoCAD's release 12, which every CAD program reads: pairs of lines, a number that defines the next line. A
+// triangle is a 3DFACE, whose fourth corner is the third once more. Corners name places, which are welded on reading.
 //
-// Lines of group 999 are comments; what the mesh says of itself stands there, in parts where it is longer than the 255
-// bytes that a line of release 12 may have.
+// Lines of group 999 are comments; the mesh's metadata stand there, in parts where it is longer than the 255 bytes that
+// a line of release 12 may have.
 
 #include <fmt/format.h>
 
@@ -100,7 +100,7 @@ class DxfReader {
     constexpr unsigned kPlan = 0b011'011'011, kFourth = 0b011'000'000'000;
     if ((seen_ & kPlan) != kPlan) return "a 3DFACE ends without its three corners";
     for (std::size_t k = 0; k < 4; ++k) {
-      if ((seen_ >> (3 * k + 2) & 1) == 0) corners_[k][2] = 0;  // what lies flat leaves its heights out
+      if ((seen_ >> (3 * k + 2) & 1) == 0) corners_[k][2] = 0;  // a flat face omits its heights
     }
     add_triangle(0, 1, 2);
     if ((seen_ & kFourth) == kFourth && corners_[3] != corners_[2]) add_triangle(0, 2, 3);
@@ -139,7 +139,7 @@ class DxfReader {
 
   TextCursor cursor_;
   bool begins_section_ = false, in_entities_ = false, in_face_ = false, has_ended_ = false;
-  std::array<std::array<double, 3>, 4> corners_{};  // of the face at hand
+  std::array<std::array<double, 3>, 4> corners_{};  // corners of the current face
   unsigned seen_ = 0;                               // its coordinates, three bits a corner
   std::vector<double> places_;
   std::string comment_;  // the one at hand, as far as it was read

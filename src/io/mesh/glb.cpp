@@ -51,10 +51,10 @@ std::vector<MeshPart> list_parts(const Mesh& mesh, const GlbOptions& options) {
   return parts;
 }
 
-/// What JSON tells of a part, and its compressed arrays where they are.
+/// The JSON of a part, and its compressed arrays where they are.
 struct PreparedPart {
-  std::array<float, 3> low, high;                  ///< of its positions
-  std::vector<std::vector<std::uint8_t>> streams;  ///< of its attributes
+  std::array<float, 3> low, high;                  ///< range of its positions
+  std::vector<std::vector<std::uint8_t>> streams;  ///< streams of its attributes
   std::vector<std::uint8_t> triangles;
 };
 

@@ -39,7 +39,7 @@ class GlbArrays {
  protected:
   bool refuse(std::string why);
   static const Json* member(const Json& object, const char* key);
-  /// Whether a primitive says that it hangs from a tile's edges, and is no part of the surface.
+  /// True if a primitive is declared to hang from a tile's edges, and is no part of the surface.
   static bool is_skirt(const Json& primitive);
   /// The non-negative integer `key` of `object`, or `missing` where there is none.
   bool read_count(const Json& object, const char* key, std::uint64_t missing, std::uint64_t& value);

@@ -29,7 +29,7 @@ double as_float32(double value) { return static_cast<double>(static_cast<float>(
 /// The coarsest of cell, cell / 2 … cell / 256 whose multiples all coordinates are; 0 if none is.
 double find_step(const Mesh& mesh, std::size_t axis, double cell) {
   constexpr double kFinest = 256;
-  constexpr double kRounding = 0x1p-20;  // of a double, far from the origin
+  constexpr double kRounding = 0x1p-20;  // rounding of a double, far from the origin
   if (!(cell > 0)) return 0;
   const double unit = cell / kFinest;
   std::uint64_t bits = static_cast<std::uint64_t>(kFinest);
@@ -54,7 +54,7 @@ double find_height_step(const Mesh& mesh) {
   return exponent == std::numeric_limits<int>::max() ? 1 : std::ldexp(1.0, exponent);
 }
 
-/// Twelve significant bits: what is left out is 0, and costs nothing once compressed.
+/// Twelve significant bits: the others are 0, and costs nothing once compressed.
 float round_significand(double value) {
   int power = 0;
   const double digits = std::frexp(value, &power);

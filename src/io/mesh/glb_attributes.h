@@ -1,4 +1,4 @@
-// What a GLB file holds by vertex: arrays of float32, or of smaller numbers where it is compressed.
+// Arrays of a GLB file by vertex: float32, or smaller numbers where it is compressed.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ struct GlbGrid {
 
 /// The coarsest grid of the cell that holds every position. A plain one where there is none.
 GlbGrid find_grid(const Mesh& mesh, const std::array<double, 2>& cell);
-/// Whether numbers of the grid tell x and y exactly.
+/// True if numbers of the grid hold x and y exactly.
 bool holds_positions(const GlbGrid& grid, const Mesh& mesh);
 
 /// (x, y, z) → (x, z, −y); 0 − y rather than −y, so that 0 stays 0.
@@ -44,9 +44,9 @@ std::array<T, 3> to_y_up(T x, T y, T z) {
   return {x, z, T{0} - y};
 }
 
-/// Whether the channels are the colours once more: three as red, green and blue, or one as grey.
+/// True if the channels are the colours once more: three as red, green and blue, or one as grey.
 bool colors_say_channels(const Mesh& mesh);
-/// What stands for a channel without a value, as declared in the primitive's extras: JSON and glTF have no NaN.
+/// The value for a channel without a value, as declared in the primitive's extras: JSON and glTF have no NaN.
 inline constexpr float kNoChannelValue = std::numeric_limits<float>::lowest();
 
 /// POSITION first. The mesh, the grid and the options stay alive.

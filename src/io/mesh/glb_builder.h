@@ -24,12 +24,12 @@ class GlbBuilder {
   std::size_t accessor_count() const { return accessors_.size(); }
   Json& add_accessor(std::size_t view, int component, std::uint64_t count, const char* type);
   /// A view of `size` bytes that stand in the binary chunk as they are. Returns its number. A target or a stride of 0
-  /// is not told.
+  /// is not written.
   std::size_t add_view(std::uint64_t size, int target, std::size_t stride, Write write);
   /// A view of compressed items: readers that undo it put them into the second buffer, which no file holds.
   std::size_t add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count, std::size_t stride,
                          const char* mode, const char* filter = nullptr);
-  /// The file. Fails with kOutput for 4 GiB and more. What the pieces write from must be alive still.
+  /// The file. Fails with kOutput for 4 GiB and more. The sources of the pieces must still be alive.
   Result<std::vector<std::uint8_t>> assemble(int threads);
 
  private:
@@ -41,7 +41,7 @@ class GlbBuilder {
   std::uint64_t add_piece(std::uint64_t size, Write write);
 
   std::vector<Piece> pieces_;
-  std::uint64_t size_ = 0;      // of the binary chunk
+  std::uint64_t size_ = 0;      // size of the binary chunk
   std::uint64_t unpacked_ = 0;  // bytes of the second buffer
   Json accessors_ = Json::array(), views_ = Json::array();
 };

@@ -1,7 +1,7 @@
 // Reading GLB: the part of glTF 2.0 that can carry a terrain, from any writer.
 //
-// Nothing in the file is believed (glb_arrays.h): the node tree is checked against loops. What we cannot honour (Draco,
-// sparse accessors, lines, external buffers) is refused by name rather than read wrongly.
+// Nothing in the file is believed (glb_arrays.h): the node tree is checked against loops. Features that we cannot
+// honour (Draco, sparse accessors, lines, external buffers) are refused by name rather than read wrongly.
 
 #include <fmt/format.h>
 
@@ -199,7 +199,8 @@ class GlbReader : public GlbArrays {
     const Json* found = item("meshes", index);
     const Json* primitives = found ? member(*found, "primitives") : nullptr;
     if (!primitives || !primitives->is_array()) return refuse(fmt::format("its mesh {} is malformed", index));
-    std::map<std::uint64_t, std::uint32_t> first_vertices;  // of each position accessor that is already here
+    std::map<std::uint64_t, std::uint32_t> first_vertices;  // first vertex of each position accessor that is already
+                                                            // here
     for (const Json& primitive : *primitives) {
       if (is_skirt(primitive)) continue;
       std::uint64_t mode = 0;
@@ -235,7 +236,7 @@ class GlbReader : public GlbArrays {
   }
 
   bool append_positions(const GlbItems& items, const Transform& transform) {
-    // Instances may multiply what a file says; a terrain has none, a bomb has millions.
+    // Instances may multiply the contents of a file; a terrain has none, a bomb has millions.
     const std::uint64_t most = std::max<std::uint64_t>(std::uint64_t{1} << 24, 16 * bytes_.size() / 12);
     if (items.count > most || mesh.vertex_count() + items.count > most)
       return refuse("it repeats its meshes too often");
@@ -283,7 +284,7 @@ class GlbReader : public GlbArrays {
     return refuse(fmt::format("its accessor {} of {} is malformed", accessor, name));
   }
 
-  /// Integers stand for 0 … 1 in colours and texture coordinates, whether the file says so or not.
+  /// Integers stand for 0 … 1 in colours and texture coordinates, whether the file declares it or not.
   static double load_component(GlbItems items, std::uint64_t v, std::uint64_t k) {
     items.is_normalized = true;
     return items.number(v, k);

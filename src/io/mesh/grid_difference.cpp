@@ -1,4 +1,4 @@
-// Whether two rasters lie on one grid.
+// Compares the grids of two rasters.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Which vertex has which number. Numbers that rise by one, which is what programs write, cost 8 bytes each and are
-/// found at once; any others are sorted by finish().
+/// Maps the numbers of vertices to their indices. Numbers that rise by one, which is what programs write, cost 8 bytes
+/// each and are found at once; any others are sorted by finish().
 class IdTable {
  public:
   /// The next vertex, counting from `first`, has this number.

@@ -1,5 +1,5 @@
 // LandXML 1.2, the exchange format of civil engineering: one TIN surface. Points are northing, easting, elevation, and
-// have numbers; faces name three of them. What the mesh says of itself stands in a Feature, LandXML's own place for it.
+// have numbers; faces name three of them. The mesh's metadata stand in a Feature, LandXML's own place for it.
 //
 // A LandXML file has one unit for all lengths, heights included, and knows no degrees: what does not fit is refused
 // rather than written as something else. The date that the schema demands would make equal meshes differ, and is always
@@ -71,7 +71,8 @@ Result<Reference> find_reference(const Mesh& mesh) {
     }
   }
   const std::string unit = value_of(mesh, "unit");
-  const double metres = find_metres(unit).value_or(reference.unit->metres);  // words that say nothing for sure
+  const double metres = find_metres(unit).value_or(reference.unit->metres);  // the default is for words without a known
+                                                                             // length
   if (const double factor = metres / reference.unit->metres; std::fabs(factor - 1) > 1e-9) {
     const LengthUnit* const named = find_unit(metres);
     return refuse_to_write(fmt::format(
@@ -238,10 +239,10 @@ class LandXmlReader {
   }
 
   XmlReader xml_;
-  IdTable points_;                     // of the surface at hand
+  IdTable points_;                     // points of the current surface
   std::vector<std::int64_t> corners_;  // numbers of points, three a triangle
   std::size_t first_point_ = 0;
-  std::string number_, content_;  // of the point or face at hand
+  std::string number_, content_;  // number and content of the current point or face
   bool in_surface_ = false, in_points_ = false, in_faces_ = false, in_point_ = false, in_face_ = false;
   bool in_feature_ = false, is_invisible_ = false;
   std::optional<std::array<double, 3>> origin_;

@@ -71,7 +71,7 @@ std::string lower_extension(const std::string& name_or_path) {
   return name_or_path[start] == '.' ? lowered(name_or_path.substr(start + 1)) : "";
 }
 
-/// What is known of a format. Readers that serve two formats stand in both rows.
+/// The facts about a format. Readers that serve two formats stand in both rows.
 struct FormatRow {
   MeshFormat format;
   std::string_view extension;
@@ -97,7 +97,8 @@ bool has_up_axis(MeshFormat format) {
   return format == MeshFormat::kObj || format == MeshFormat::kPly || format == MeshFormat::kStl;
 }
 
-/// Of a mesh as its reader left it. Scarp's own files say what is y up, and nothing of what is z up.
+/// The up axis of a mesh as its reader returned it. Scarp's own files declare what is y up, and do not declare what is
+/// z up.
 char find_up(MeshFormat format, std::span<const std::uint8_t> bytes, const Mesh& mesh) {
   if (format == MeshFormat::kGlb) return 'y';
   if (!has_up_axis(format)) return 'z';

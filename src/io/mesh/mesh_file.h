@@ -1,4 +1,4 @@
-// What the mesh formats share: checks before writing, metadata as lines of text, the origin, polygons.
+// Common parts of the mesh formats: checks before writing, metadata as lines of text, the origin, polygons.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ std::string find_unwritable(const Mesh& mesh, bool as_float);
 std::string find_beyond_int32(const Mesh& mesh, const char* what);
 
 /// Metadata as one line of text: "KEY: VALUE". Bytes below 32, '%', '\' and, in keys, ':' become %XX, so that no reader
-/// takes them for line ends, continuations or separators.
+/// interprets them as line ends, continuations or separators.
 std::string metadata_line(const std::string& key, const std::string& value);
 /// The reverse of metadata_line(). Returns false if there is no separator.
 bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata);
@@ -42,8 +42,8 @@ std::optional<std::array<double, 3>> parse_origin(std::string_view text);
 /// "x east, y north, z up", or what they are in a mesh that is y up.
 const char* axes_text(const Mesh& mesh);
 
-/// Takes absolute positions and expresses them relative to `origin`, if then vertex(v) is exactly what it was for every
-/// v; else leaves them absolute.
+/// Expresses absolute positions relative to `origin`, if then vertex(v) is exactly what it was for every v; else does
+/// not change them.
 void set_origin(Mesh& mesh, const std::array<double, 3>& origin);
 
 /// Appends the polygon as a fan from its first corner; empty, or what is wrong with it: thousands of triangles around
@@ -79,19 +79,19 @@ Result<std::vector<std::uint8_t>> encode_dxf(const Mesh& mesh);
 /// In a build without GDAL it fails with kOutput.
 Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh& mesh);
 Result<Mesh> decode_2dm(std::span<const std::uint8_t> bytes);
-/// .vtu and .vtp: the file says which it is.
+/// .vtu and .vtp: the file declares which it is.
 Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_landxml(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_dxf(std::span<const std::uint8_t> bytes);
 
-/// Of one solid.
+/// Encodes one solid.
 Result<std::vector<std::uint8_t>> encode_one_3mf(const Mesh& mesh);
 /// All objects that the file builds, as one mesh.
 Result<Mesh> decode_3mf(std::span<const std::uint8_t> bytes);
 
-/// Whether the bytes have the length that a binary STL file's own count asks for.
+/// True if the bytes have the length that a binary STL file's own count asks for.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
-/// Whether the text begins as a DXF file does: with a comment or a section.
+/// True if the text begins as a DXF file does: with a comment or a section.
 bool is_dxf(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

@@ -35,7 +35,7 @@ class TextCursor {
   std::string_view word();
   /// The next word of this or a later line; empty at the end of the text.
   std::string_view word_anywhere();
-  /// What is left of this line, without its end; the cursor moves to the next line.
+  /// The rest of this line, without its end; the cursor moves to the next line.
   std::string_view rest_of_line();
   /// The next word of this line as a number.
   bool number(double& value) { return parse_number(word(), value); }

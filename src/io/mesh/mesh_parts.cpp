@@ -23,7 +23,7 @@ class Places {
  public:
   Places() { slots_.resize(kSlots, {kFree, 0}); }
 
-  /// That of the vertex, which is the next one if it is new; it is then added to `vertices`.
+  /// The index of the vertex, which is the next one if it is new; it is then added to `vertices`.
   std::uint32_t find(std::uint32_t vertex, std::vector<std::uint32_t>& vertices) {
     std::size_t i = vertex * 0x9e3779b1u >> kShift;
     while (slots_[i].vertex != vertex && slots_[i].vertex != kFree) i = (i + 1) & (kSlots - 1);
@@ -125,7 +125,7 @@ class Splitter {
     }
   };
 
-  /// Of the centres along both axes.
+  /// Extents of the centres along both axes.
   std::array<Extent, 2> extents_of(std::span<const std::uint32_t> triangles, int threads) const {
     std::vector<std::array<Extent, 2>> parts(triangles.size() / kTogether + 1);
     parallel_for_parts(triangles.size(), kTogether, threads, [&](std::size_t first, std::size_t end) {

@@ -17,7 +17,7 @@ inline constexpr bool kHasMeshoptCodec = false;
 enum class MeshoptMode { kAttributes, kTriangles, kIndices };
 enum class MeshoptFilter { kNone, kOctahedral, kQuaternion, kExponential };
 
-/// What a stream says that it holds: `count` items of `stride` bytes.
+/// The declared contents of a stream: `count` items of `stride` bytes.
 struct MeshoptStream {
   std::span<const std::uint8_t> bytes;
   MeshoptMode mode = MeshoptMode::kAttributes;
@@ -25,7 +25,7 @@ struct MeshoptStream {
   std::uint64_t count = 0, stride = 0;
 };
 
-/// Puts triangles, and vertices by first use, into the order that takes the fewest bytes when encoded; vertices without
+/// Puts triangles, and vertices by first use, into the order that needs the fewest bytes when encoded; vertices without
 /// triangles come last. Same triangles, same winding.
 void order_for_codec(std::vector<std::uint32_t>& vertices, std::vector<std::uint16_t>& corners);
 

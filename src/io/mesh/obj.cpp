@@ -25,8 +25,8 @@ struct ObjReader {
   std::vector<float> normals, uvs;     // in file order
   bool normals_match = true;           // every corner's normal has its vertex's number
   bool uvs_match = true;               // and so has its place in the image
-  std::vector<double> colors;          // of the vertices that have them
-  std::vector<std::uint32_t> corners;  // of the face at hand
+  std::vector<double> colors;          // colours of the vertices that have them
+  std::vector<std::uint32_t> corners;  // corners of the current face
   TextComments comments;
 
   /// Reads "7", "7/1", "7//3" or "7/1/3". Numbers are 1-based; negative ones count back from the newest.
@@ -57,7 +57,7 @@ struct ObjReader {
 
   static bool is_float(double value) { return std::fabs(value) <= std::numeric_limits<float>::max(); }
 
-  /// What stands behind a vertex: nothing, its weight, or red, green and blue.
+  /// Reads the values after a vertex: nothing, its weight, or red, green and blue.
   void read_color() {
     double rgb[3];
     for (double& part : rgb) {

@@ -1,5 +1,5 @@
 // PLY: a text header that describes the rest. We write binary little-endian numbers at absolute positions: floats where
-// they say it all, which more programs read, else doubles. We read text and both byte orders, any numeric types,
+// they are exact, which more programs read, else doubles. We read text and both byte orders, any numeric types,
 // properties in any order, elements we do not know, and polygons.
 //
 // The reader walks each element's items property by property. Values of interest have a slot in a small table; all
@@ -44,7 +44,7 @@ std::optional<Type> find_type(std::string_view name) {
   return {};
 }
 
-/// Where the values of a vertex are kept while it is read: x y z, nx ny nz, red green blue, s t, channels.
+/// Positions of a vertex's values while it is read: x y z, nx ny nz, red green blue, s t, channels.
 constexpr int kPosition = 0, kNormal = 3, kColor = 6, kUv = 9, kChannel = 11, kOther = -1;
 constexpr int kSlots = kChannel + kMaxChannels;
 
@@ -214,8 +214,8 @@ class PlyReader {
   }
 
   std::string read_element(const Element& element) {
-    if (element.properties.empty()) return {};  // its items take no bytes, whatever their count
-    std::size_t least = 0;                      // bytes that an item takes at least; a digit and a space in text
+    if (element.properties.empty()) return {};  // its items have no bytes, whatever their count
+    std::size_t least = 0;                      // least bytes of an item; a digit and a space in text
     std::bitset<kSlots> slots;
     for (const Property& property : element.properties) {
       least += is_text_ ? 2 : kTypeSizes[static_cast<int>(property.count_type.value_or(property.type))];
@@ -314,7 +314,7 @@ class PlyReader {
   std::optional<std::array<double, 3>> origin_;
 };
 
-/// Whether float32 loses nothing of any position.
+/// True if float32 loses nothing of any position.
 bool are_float32(const Mesh& mesh) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     for (const double coordinate : mesh.vertex(v)) {

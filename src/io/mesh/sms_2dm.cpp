@@ -1,6 +1,6 @@
 // 2DM, the mesh of SMS and of hydraulic models: text, a card a line. "E3T" is a triangle of numbered nodes and its
-// material, "ND" a node, "NS" a string of nodes. Triangles come first, as SMS writes them, so the reader looks their
-// corners up at the end.
+// material, "ND" a node, "NS" a string of nodes. Triangles come first, as SMS writes them, so the reader resolves their
+// corners at the end.
 //
 // The format has neither metadata nor an end mark. Both stand in lines that begin with '#', which its readers pass
 // over; where the file announces its counts, the reader insists on them and on the mark.

@@ -20,7 +20,7 @@ constexpr auto make_linear() {
   return linear;
 }
 
-/// Where one byte's colours end and the next one's begin.
+/// The limits between one byte's colours and the next one's.
 constexpr auto make_ends() {
   std::array<double, 255> ends{};
   for (int b = 0; b < 255; ++b) ends[static_cast<std::size_t>(b)] = linear_of((b + 0.5) / 255);

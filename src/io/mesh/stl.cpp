@@ -1,9 +1,9 @@
 // STL: triangles without vertices' names. Binary on writing; binary and text on reading.
 //
 // The format has three float32 per corner and no origin, so we write offsets and keep the origin in the 80 bytes of
-// the header, which begin with "scarp" (a header that begins with "solid" would be taken for text); or the placement of
-// a solid that has one, as text or, where that is too long, as its six doubles. On reading, corners
-// at exactly one place become one vertex, so that the topology is known again.
+// the header, which begin with "scarp" (a header that begins with "solid" would be read as text); or the placement of a
+// solid that has one, as text or, where that is too long, as its six doubles. On reading, corners at exactly one place
+// become one vertex, so that the topology is known again.
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ std::string placement_header(const std::string& placement) {
   return std::string(kPlacedBytes) + std::string(bytes.begin(), bytes.end());
 }
 
-/// What stands behind placement_header()'s words; nothing if there are none.
+/// The text after placement_header()'s words; nothing if there are none.
 std::optional<std::string> parse_placement(std::string_view header) {
   if (header.starts_with(kPlaced)) {
     header.remove_prefix(kPlaced.size());
@@ -65,7 +65,7 @@ std::string place_text(const Mesh& mesh) {
 
 std::string header_text(const Mesh& mesh) { return place_text(mesh) + (is_y_up(mesh) ? std::string(kYUp) : ""); }
 
-/// Takes the end off, and says whether it was there.
+/// Removes the end, and returns whether it was there.
 bool take_y_up(std::string_view& header) {
   header = header.substr(0, header.find_last_not_of('\0') + 1);
   if (!header.starts_with("scarp ") || !header.ends_with(kYUp)) return false;

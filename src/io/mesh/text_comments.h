@@ -1,5 +1,5 @@
-// What text meshes without a place for it say in comments: counts, origin, metadata, and an end mark, since text that
-// was cut off may still be text.
+// Metadata of text meshes that have no place for it, in comments: counts, origin, metadata, and an end mark, since text
+// that was cut off may still be text.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,13 +19,13 @@ namespace scarp {
 
 struct TextComments {
   std::optional<std::array<double, 3>> origin;
-  std::int64_t vertices = -1, triangles = -1;  ///< as announced; −1: not
+  std::int64_t vertices = -1, triangles = -1;  ///< announced numbers; −1: not announced
   bool has_ended = false;
 
   static constexpr std::string_view kCounts = "scarp.counts: ", kOrigin = "scarp.origin: ", kEnd = "scarp.end",
                                     kKey = "scarp ";
 
-  /// Takes in the text behind a "#".
+  /// Reads the text behind a "#".
   void read(std::string_view text, std::map<std::string, std::string>& metadata) {
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
     if (text.starts_with(kCounts)) {

@@ -3,8 +3,8 @@
 // the same: it numbers objects at random and rounds coordinates to six digits behind the point. The tests read our
 // files with it.
 //
-// Coordinates are float32 in shortest decimal, and taken for float32 on reading, as slicers do. What the mesh says of
-// itself is one metadata element in a namespace of our own, line by line, because its keys need not be XML names.
+// Coordinates are float32 in shortest decimal, and read as float32, as slicers do. The mesh's metadata are one metadata
+// element in a namespace of our own, line by line, because its keys need not be XML names.
 
 #include <fmt/format.h>
 
@@ -100,7 +100,7 @@ tl::unexpected<Error> refuse_to_read(std::string why) { return fail(ErrorKind::k
 using Transform = std::array<double, 12>;
 constexpr Transform kIdentity{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
-/// The objects of a model as it tells them, and those that it builds, moved to their places.
+/// The objects of a model in its order, and those that it builds, moved to their places.
 class ModelReader {
  public:
   explicit ModelReader(std::span<const std::uint8_t> bytes) : xml_(bytes) {}

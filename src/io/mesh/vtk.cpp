@@ -1,7 +1,7 @@
 // VTK's XML formats, written: an unstructured grid (.vtu) or polydata (.vtp) of triangles, with double positions.
 //
-// The arrays stand behind the XML as raw little-endian bytes, each behind its own length, and the XML says how far from
-// the mark '_' each begins. XML has no other place for what a mesh says of itself than comments: programs differ in
+// The arrays stand behind the XML as raw little-endian bytes, each behind its own length, and the XML holds the
+// distance of each from the mark '_'. XML has no other place for a mesh's metadata than comments: programs differ in
 // which arrays of text they accept among the data.
 
 #include <fmt/format.h>

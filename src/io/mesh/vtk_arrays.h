@@ -19,7 +19,7 @@ enum class VtkType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kU
 /// "Float64", "UInt8" …; nothing if VTK has no such type of numbers.
 std::optional<VtkType> find_vtk_type(std::string_view name);
 
-/// What the root element says of all arrays, and where those behind the XML begin.
+/// The attributes of the root element for all arrays, and where those behind the XML begin.
 struct VtkFile {
   std::endian order = std::endian::little;
   bool wide_lengths = false;               ///< 64 bits instead of 32 before each array
@@ -33,7 +33,7 @@ struct VtkArray {
   VtkType type = VtkType::kFloat64;
   Format format = Format::kText;
   std::uint64_t offset = 0;  ///< from the mark, of a kAppended
-  std::string content;       ///< of the others
+  std::string content;       ///< content of the others
 };
 
 /// Its numbers, wherever they stand.

@@ -134,7 +134,7 @@ class VtkReader {
     array.type = *found;
     if (format == "appended") {
       const std::string text = xml_.attribute("offset");
-      std::int64_t offset = 0;  // VTK keeps room for it and leaves blanks behind
+      std::int64_t offset = 0;  // VTK reserves room for it and writes blanks after it
       if (!parse_integer(std::string_view(text).substr(0, text.find(' ')), offset) || offset < 0) {
         return "an array does not say where it is";
       }
@@ -151,7 +151,7 @@ class VtkReader {
     return {};
   }
 
-  /// Steps from the mark to the end tag, which stands behind the bytes and is therefore looked for from the end.
+  /// Steps from the mark to the end tag, which stands behind the bytes and is therefore searched for from the end.
   std::string skip_appended() {
     file_.is_base64 = xml_.attribute("encoding") == "base64";
     const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());

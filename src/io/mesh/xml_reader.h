@@ -16,8 +16,8 @@ namespace scarp {
 class XmlReader {
  public:
   enum class Event {
-    kStart,    ///< of an element: name(), attribute()
-    kEnd,      ///< of an element: name(); also of <one/>
+    kStart,    ///< start of an element: name(), attribute()
+    kEnd,      ///< end of an element: name(); also of <one/>
     kText,     ///< text(), its entities as they are
     kComment,  ///< text()
     kDone,     ///< the root has ended
@@ -34,7 +34,7 @@ class XmlReader {
   std::string_view text() const { return content_; }
   const std::string& complaint() const { return complaint_; }
 
-  /// Where the next event begins, in bytes from the start, for content that is no XML; jump() steps over it.
+  /// The position of the next event, in bytes from the start, for content that is no XML; jump() steps over it.
   std::size_t position() const { return at_; }
   void jump(std::size_t position) { at_ = position; }
   /// The 1-based line of position(). Cost: O(position()).

@@ -31,7 +31,8 @@ bool may_be_pair(const ColumnFacts& north, const ColumnFacts& east) {
   return zone == 2 ? north.high < 6.15e6 : zone > 2 || (north.high < 6.6e6 && is_about_meridian(east));
 }
 
-/// Of Germany and Poland, where zones and northings meet: those of zones up to 5 are smaller than any northing there.
+/// Pairs of Germany and Poland, where zones and northings meet: those of zones up to 5 are smaller than any northing
+/// there.
 bool is_sure_pair(const ColumnFacts& north, const ColumnFacts& east) {
   const int zone = zone_of(east);
   return north.lies_in(5.2e6, 6.15e6) && zone > 0 && zone <= 8 && (zone >= 6 || east.high < north.low);

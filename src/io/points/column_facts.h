@@ -1,4 +1,4 @@
-// What the rows of a text show of its columns, and what that speaks for.
+// Facts that the rows of a text show about its columns, and conclusions from them.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct ColumnFacts {
 struct Rows {
   std::vector<ColumnFacts> columns;
   std::uint64_t count = 0;
-  bool are_labels_unique = true;  ///< of the first column
+  bool are_labels_unique = true;  ///< for the first column
 
   bool holds_numbers(std::size_t column) const {
     return columns[column].numbers > 0 && columns[column].numbers * 2 >= count;
@@ -37,7 +37,7 @@ struct Rows {
   std::vector<std::size_t> coordinates() const;
 };
 
-/// Which orders of a pair of columns are those of map coordinates, by their size.
+/// The orders of a pair of columns that suit map coordinates, by their size.
 struct PairFit {
   bool is_east_first = false, is_north_first = false;
 };
@@ -46,7 +46,7 @@ PairFit fit_pair(const ColumnFacts& one, const ColumnFacts& other);
 bool is_northing(const ColumnFacts& facts);
 bool is_easting(const ColumnFacts& facts);
 
-/// What speaks against a column of heights.
+/// A doubt about a column of heights.
 struct HeightDoubt {
   std::string why;          ///< "counts", "is 0 everywhere"
   std::size_t instead = 0;  ///< a later column that may hold them

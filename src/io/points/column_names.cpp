@@ -33,7 +33,7 @@ constexpr std::string_view kCodeWords[] = {"code", "description", "desc", "d", "
 
 constexpr std::array<Words, 5> kWords{kXWords, kYWords, kHeightWords, kNumberWords, kCodeWords};
 
-/// Words that say in which unit or frame, and not what.
+/// True for words that name a unit or frame, and not a quantity.
 bool says_nothing(std::string_view word) {
   constexpr std::string_view kIdle[] = {
       "utm", "wgs84", "etrs89",      "coord",         "coordinate", "coordinates", "point",  "ortho",

@@ -1,4 +1,4 @@
-// The words by which columns and attributes say what they hold.
+// The words by which columns and attributes name their contents.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ enum class ColumnRole { kX, kY, kHeight, kNumber, kCode, kSkipped };
 /// "x", "y", "height", "number", "code"; empty for kSkipped.
 const char* role_name(ColumnRole role);
 
-/// What a name stands for in English, German, French, Italian or Spanish: "Easting (m)", "Rechtswert", "UTM_N", "Höhe",
+/// The meaning of a name in English, German, French, Italian or Spanish: "Easting (m)", "Rechtswert", "UTM_N", "Höhe",
 /// "POINT_X". kSkipped where it is none of these words.
 ColumnRole role_of(std::string_view name);
 

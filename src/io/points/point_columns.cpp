@@ -1,6 +1,7 @@
-// A text of columns seldom says what they hold. A header line does. Without one the columns are x, y and height, unless
-// labels stand in front of them: then they may as well be northing, easting and height, as surveyors write them. The
-// two are told apart only where the values do it; else the user is asked, since a mirrored mesh looks like land, too.
+// A text of columns seldom declares what they hold. A header line does. Without one the columns are x, y and height,
+// unless labels stand in front of them: then they may as well be northing, easting and height, as surveyors write them.
+// The two are distinguished only where the values do it; else the user is asked, since a mirrored mesh resembles land,
+// too.
 #include "io/points/point_columns.h"
 
 #include <fmt/format.h>
@@ -74,7 +75,7 @@ bool read_names(const std::string& z_field, PointColumns& columns, std::size_t& 
     for (std::size_t k = 0; k < columns.names.size(); ++k) {
       const std::string& name = columns.names[k];
       if (is_named ? lowered(name) != lowered(z_field) : role_of(name) != kAxes[axis]) continue;
-      // Of two names alike the first column is the one that counts: "n, UTM_N, UTM_E".
+      // The first of two names alike counts: "n, UTM_N, UTM_E".
       const auto is_better = [&] {
         const std::size_t rank = rank_of(name), least = rank_of(columns.names[*best]);
         return rank < least || (rank == least && *best == 0 && axis < 2);
@@ -112,7 +113,7 @@ std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool ha
   return text;
 }
 
-/// Headers that say x and y where geodesists call the northing x: it is the larger one, or y stands before it.
+/// Warns of headers with x and y where geodesists call the northing x: it is the larger one, or y stands before it.
 void warn_of_turned_names(const Rows& rows, PointColumns& columns) {
   const auto [x, y, height] = columns.at;
   if (std::max(x, y) >= rows.columns.size()) return;
@@ -132,7 +133,7 @@ bool are_degrees(const ColumnFacts& a, const ColumnFacts& b, const ColumnFacts& 
          height.extent() > 10 * extent;
 }
 
-/// Which columns are x, y and the height, where others are more like them than the first three.
+/// Checks which columns are x, y and the height, where others are more like them than the first three.
 Result<void> check_places(const Rows& rows, const std::vector<std::size_t>& list, const std::string& name,
                           PointColumns& columns) {
   const auto option_at = [&](std::size_t one, std::size_t other, std::size_t height) {
@@ -164,7 +165,7 @@ Result<void> check_places(const Rows& rows, const std::vector<std::size_t>& list
                                              other, option_at(list[0], list[1], list[2])));
 }
 
-/// Which of the two columns before the height is the northing.
+/// Finds which of the two columns before the height is the northing.
 Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, const std::string& name,
                         PointColumns& columns) {
   const ColumnFacts &a = rows.columns[list[0]], &b = rows.columns[list[1]], &height = rows.columns[list[2]];

@@ -1,4 +1,4 @@
-// Which columns of a text hold x, y and the height.
+// The columns of a text that hold x, y and the height.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@ namespace scarp {
 
 struct PointColumns {
   char separator = ',';
-  std::array<std::size_t, 3> at{0, 1, 2};  ///< of x, y and height, from 0
+  std::array<std::size_t, 3> at{0, 1, 2};  ///< indices of x, y and height, from 0
   bool has_header = false;
   bool in_degrees = false;             ///< by the names in the header
-  std::vector<std::size_t> heights{};  ///< other columns whose names say that they hold heights
-  std::vector<std::string> names{};    ///< of the header; may be empty
-  std::array<std::string, 3> units{};  ///< that the header names, of x, y and height; empty: none
+  std::vector<std::size_t> heights{};  ///< other columns whose names show that they hold heights
+  std::vector<std::string> names{};    ///< names in the header; may be empty
+  std::array<std::string, 3> units{};  ///< units that the header names, for x, y and height; empty: none
   std::string words{};                 ///< "1 number, 2 y, 3 x, 4 height"
   std::vector<std::string> warnings{};
 
@@ -32,7 +32,7 @@ bool is_header(std::string_view line, char separator);
 
 /// By ReadPointsOptions::columns, else by a header line (or by a comment in its place), else by what the columns hold:
 /// a first column that counts is a number. Fails with kInput, in a sentence with --columns in it, where northing and
-/// easting cannot be told apart. REQUIRES: a line that is no comment.
+/// easting cannot be distinguished. REQUIRES: a line that is no comment.
 Result<PointColumns> find_columns(std::string_view text, const std::string& name, const ReadPointsOptions& options);
 
 }  // namespace scarp

@@ -7,7 +7,7 @@
 namespace scarp {
 namespace {
 
-constexpr double kMostOffNode = 0.02;  // of a step
+constexpr double kMostOffNode = 0.02;  // share of a step
 constexpr double kMostNodes = 20;      // for a point
 constexpr int kLeastLines = 3;
 

@@ -10,7 +10,7 @@ namespace scarp {
 
 struct PointGrid {
   int cols = 0, rows = 0;
-  double west = 0, north = 0;  ///< of the first node
+  double west = 0, north = 0;  ///< position of the first node
   double dx = 0, dy = 0;       ///< steps, above 0
   std::size_t missing = 0;
   std::vector<double> heights;  ///< by rows from the north; NaN where a node is missing

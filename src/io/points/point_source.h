@@ -25,11 +25,11 @@ bool begins_as_grid(const std::string& path);
 Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::string& name,
                                 const ReadPointsOptions& options);
 
-/// The command of GDAL that makes a GeoPackage of such a text, whose columns are what decode_columns() takes them for.
+/// The command of GDAL that makes a GeoPackage of such a text, with the columns that decode_columns() finds.
 std::string geopackage_command(const std::string& path, const std::string& crs = "");
 
 /// read_points() for everything that has no reader of our own; may throw std::bad_alloc. In a build without GDAL it
-/// fails with kInput and says so.
+/// fails with kInput and the reason.
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options);
 
 /// True if the path is a raster: GDAL's drivers open it, or its points are the nodes of one. False in a build without

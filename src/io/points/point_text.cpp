@@ -31,7 +31,7 @@ std::string_view find_decimal_comma(std::string_view line) {
   return {};
 }
 
-/// What is wrong with a line that holds no point.
+/// The complaint about a line that holds no point.
 tl::unexpected<Error> explain(std::string_view line, const PointColumns& columns, const std::string& name,
                               std::uint64_t number) {
   const std::string_view decimal_comma = columns.separator == ',' ? find_decimal_comma(line) : std::string_view();
@@ -80,7 +80,7 @@ bool read_line(std::string_view line, const PointColumns& columns, std::array<do
   return true;
 }
 
-/// Small coordinates on the globe under heights that are large beside them.
+/// Small coordinates on the globe under heights that are large compared with them.
 bool looks_like_degrees(const PointSet& points) {
   double extent = 0, relief = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -134,7 +134,7 @@ std::string find_wide_encoding(std::span<const std::uint8_t> bytes) {
   return is_letter(bytes[1], bytes[0]) && is_letter(bytes[3], bytes[2]) ? "UTF-16BE" : "";
 }
 
-/// GDAL's reader of CSV has to be told which columns are coordinates: without it makes a table without points.
+/// GDAL's reader of CSV needs the names of the columns of coordinates: without them it makes a table without points.
 std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::string& name,
                                 const ReadPointsOptions& options, const std::string& crs) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -147,14 +147,14 @@ std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::
   if (columns.separator == ' ') command += " -oo MERGE_SEPARATOR=YES";
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t at = columns.at[k];
-    if (k == 2 && !columns.units[k].empty()) continue;  // an attribute keeps the name that says it
+    if (k == 2 && !columns.units[k].empty()) continue;  // an attribute keeps the name that shows it
     const bool is_named = columns.has_header && at < columns.names.size();
     const std::string column = is_named ? columns.names[at] : fmt::format("field_{}", at + 1);
     command += " -oo " + file_word(fmt::format("{}_POSSIBLE_NAMES={}", "XYZ"[k], column));
   }
   while (lines.next(line)) {
   }
-  if (lines.has_passed()) {  // GDAL takes comments for names and points
+  if (lines.has_passed()) {  // GDAL reads comments as names and points
     const std::string made = new_file(".csv");
     return fmt::format("{} && {} {} {}", uncomment_command(name, made), command, new_file(".gpkg"), made);
   }

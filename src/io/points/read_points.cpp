@@ -1,4 +1,4 @@
-// One door for all points: the name's end, else the first bytes, say whose reader a file goes to.
+// One door for all points: the name's end, else the first bytes, decide which reader a file goes to.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,11 +60,11 @@ bool is_text_of_columns(const std::string& path) {
   const auto name = readable_name(path);
   const fs::file_status status = fs::status(name ? *name : path, ignored);
   if (!fs::exists(status) || fs::is_directory(status)) return false;
-  if (!fs::is_regular_file(status)) return true;  // a device cannot be looked into and then read by another
+  if (!fs::is_regular_file(status)) return true;  // a device cannot be examined and then read by another
   constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
   const std::vector<std::uint8_t> head = read_head(path);
   if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && looks_like_columns(head))) return true;
-  const bool is_copy = name && *name != path;  // of a pipe, whose name says nothing
+  const bool is_copy = name && *name != path;  // copy of a pipe, whose name shows nothing
   return is_copy && is_plain_text(head);
 }
 
@@ -103,8 +103,8 @@ Result<PointSet> read_by_content(const std::string& path, const ReadPointsOption
   return decode_columns(*bytes, path, options);
 }
 
-/// Heights that most likely say that there is none. GDAL reads a vertex without a third coordinate as 0, where others
-/// of its geometry have one.
+/// Warns of heights that most likely stand for a missing height. GDAL reads a vertex without a third coordinate as 0,
+/// where others of its geometry have one.
 void warn_of_missing_heights(PointSet& points) {
   std::vector<float> heights;
   heights.reserve(points.size());
@@ -121,8 +121,8 @@ void warn_of_missing_heights(PointSet& points) {
   }
 }
 
-/// The points at the place that is the farthest from all others, where those are a speck beside the way to it; points
-/// without coordinates mostly lie at 0, 0.
+/// The points at the place that is the farthest from all others, where those are a speck compared with the way to it;
+/// points without coordinates mostly lie at 0, 0.
 void warn_of_far_points(PointSet& points) {
   if (points.size() < 4) return;
   const auto middle = [](std::vector<double> values) {

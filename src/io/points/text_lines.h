@@ -29,12 +29,12 @@ class TextLines {
   bool has_passed_ = false;
 };
 
-/// Takes the first field off the line; nothing if there is none left. ' ' stands for runs of blanks and tabs. Quotes
-/// around a field may hold separators, and are left out.
+/// Removes the first field from the line and returns it; nothing if there is none. ' ' stands for runs of blanks and
+/// tabs. Quotes around a field may hold separators, and are removed.
 std::optional<std::string_view> take_field(std::string_view& line, char separator);
 
-/// Nothing if the text is no number; infinities and NaN are numbers here, as is what overflows. What underflows is 0.
-/// `has_decimal_comma`: a comma stands for the point.
+/// Nothing if the text is no number; infinities and NaN are numbers here, as is what overflows. A number that
+/// underflows is 0. `has_decimal_comma`: a comma stands for the point.
 std::optional<double> parse_field(std::string_view text, bool has_decimal_comma);
 
 }  // namespace scarp

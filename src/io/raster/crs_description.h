@@ -1,4 +1,4 @@
-// What a file says of its coordinate reference system, without GDAL's headers.
+// The coordinate reference system of a file, without GDAL's headers.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ struct CrsDescription {
   std::string epsg;            ///< "32611"; empty if EPSG has no number for it
   std::string wkt;             ///< OGC's WKT 1, one line
   bool is_geographic = false;  ///< degrees
-  double unit_in_metres = 1;   ///< of x and y, unless it is geographic
+  double unit_in_metres = 1;   ///< unit of x and y, unless it is geographic
 };
 
-/// Of a name as in RasterInfo::crs; nothing if it is unknown, and in a build without GDAL.
+/// The description of a name as in RasterInfo::crs; nothing if it is unknown, and in a build without GDAL.
 std::optional<CrsDescription> describe_crs(const std::string& crs);
 
 }  // namespace scarp

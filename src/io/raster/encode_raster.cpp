@@ -19,7 +19,7 @@ Result<std::vector<std::uint8_t>> encode_pgm(const RasterImage& raster) {
   bytes.reserve(header.size() + 2 * raster.samples.size());
   const auto cols = static_cast<std::size_t>(raster.cols);
   bool has_nodata = false;
-  std::size_t brightest = raster.samples.size();  // the first sample that looks like nodata
+  std::size_t brightest = raster.samples.size();  // the first sample that readers could mistake for nodata
   for (std::size_t i = 0; i < raster.samples.size(); ++i) {
     const float sample = raster.samples[i];
     double value = kPgmMost;

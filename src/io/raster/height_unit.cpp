@@ -65,12 +65,12 @@ constexpr NamedLength kLengths[] = {{"m", 1},
 /// Conversions are given by six digits, or more.
 bool is_about(double one, double other) { return std::abs(one / other - 1) < 1e-5; }
 
-/// What nobody names.
+/// The unit that is assumed if none is declared.
 HeightUnit assume_unit(const RasterInfo& info) {
   return info.crs_unit_in_metres > 0 ? HeightUnit{info.crs_unit, info.crs_unit_in_metres} : HeightUnit{"metre", 1};
 }
 
-/// Of scaled heights: the unit that the factor makes of the file's, where it makes one.
+/// The unit of scaled heights that the factor makes of the file's, where it makes one.
 HeightUnit scaled_unit(double factor, const HeightUnit& of_file, const RasterInfo& info) {
   if (!(of_file.metres > 0)) return {};
   if (is_about(factor, of_file.metres)) return {"m", 1};

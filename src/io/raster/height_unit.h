@@ -9,7 +9,7 @@
 namespace scarp {
 
 struct HeightUnit {
-  std::string name;   ///< empty: nobody names it
+  std::string name;   ///< empty: unknown
   double metres = 0;  ///< 0: no length that is known
 };
 
@@ -19,8 +19,8 @@ std::optional<double> find_metres(const std::string& name);
 bool is_foot(double metres);
 
 /// The options with which the heights of a raster are read in `frame`: z_scale makes metres of them where they become
-/// metres. info.unit is what the file says of its values, and becomes the unit of the heights; all else in `info` that
-/// is about them is filled in, and warnings. `vertical`: the unit of its vertical CRS. kUsage as HeightsIn says.
+/// metres. info.unit is the file's unit of its values, and becomes the unit of the heights; all else in `info` that is
+/// about them is filled in, and warnings. `vertical`: the unit of its vertical CRS. kUsage as described at HeightsIn.
 Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& frame, RasterInfo& info,
                                    const HeightUnit& vertical = {});
 

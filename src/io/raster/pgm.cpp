@@ -18,7 +18,7 @@ constexpr int kEndOfText = -1;
 bool is_space(int c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 bool is_digit(int c) { return c >= '0' && c <= '9'; }
 
-/// Bytes with comments taken out.
+/// Bytes without their comments.
 class Text {
  public:
   explicit Text(std::span<const std::uint8_t> bytes, std::size_t at) : bytes_(bytes), at_(at) {}
@@ -169,7 +169,7 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
   auto frame = bare_grid_frame(name, "a PGM", static_cast<int>(header->cols), static_cast<int>(header->rows), options);
   if (!frame) return tl::unexpected(frame.error());
 
-  // The file itself must be long enough before its header's size is believed. A plain sample takes a digit and a space.
+  // The file itself must be long enough before its header's size is believed. A plain sample needs a digit and a space.
   const std::uint64_t there = bytes.size() - header->samples_at;
   const std::uint64_t needed = header->plain ? header->count() * 2 - (header->count() > 0 ? 1 : 0)
                                              : header->count() * (header->maxval > 255 ? 2 : 1);

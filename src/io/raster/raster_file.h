@@ -17,7 +17,7 @@ struct RasterFile::Impl {
   int cols = 0, rows = 0;
   std::vector<float> held = {};  // whole rows that wait
   int written = 0;
-  std::uint64_t size = 0;  // of what is finished
+  std::uint64_t size = 0;  // size of the finished part
 };
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// What every raster reader does before and after it reads samples.
+// Common parts of all raster readers, before and after they read samples.
 #pragma once
 
 #include <array>
@@ -27,10 +27,10 @@ Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, co
 /// Warns of `infinities` samples that became nodata; kInput if no sample is a height, unless they are read as values.
 Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
 
-/// Whether heights are other than the file's values.
+/// True if heights are other than the file's values.
 bool scales_heights(const ReadOptions& options);
-/// Of whole values of a file without a scale of its own, already read: z_scale and z_offset of settle_heights(), and
-/// their rounding.
+/// Scales whole values of a file without a scale of its own, already read: z_scale and z_offset of settle_heights(),
+/// and their rounding.
 void scale_values(const ReadOptions& options, OwnedHeightField& field);
 
 /// The grid frame; with a cell size one around the raster's centre.

@@ -11,7 +11,7 @@
 namespace scarp {
 
 /// read_height_field() for everything that has no reader of our own; may throw std::bad_alloc. In a build without GDAL
-/// it fails with kInput and says so.
+/// it fails with kInput and the reason.
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options);
 
 /// open_height_field(), likewise.
@@ -38,7 +38,7 @@ class GeoTiff {
 /// Over what the file holds; likewise.
 Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int cols, int rows, const RasterInfo* like);
 
-/// Whether two names of CRSs, as in RasterInfo::crs, mean the same. In a build without GDAL: whether they are equal.
+/// True if two names of CRSs, as in RasterInfo::crs, mean the same. In a build without GDAL: if they are equal.
 bool is_same_crs(const std::string& a, const std::string& b);
 
 }  // namespace scarp

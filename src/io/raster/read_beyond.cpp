@@ -1,4 +1,4 @@
-// What a raster goes on with beside a part of it: strips of three rows or columns, one of which lies beyond.
+// The continuation of a raster next to a part of it: strips of three rows or columns, one of which lies beyond.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// One door for all rasters: the file's first bytes say whose reader it goes to.
+// One door for all rasters: the file's first bytes decide which reader it goes to.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a process has computed so far.
+// CPU time that a process has used so far.
 #pragma once
 
 #include <ctime>

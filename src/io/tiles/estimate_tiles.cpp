@@ -1,4 +1,4 @@
-// What a set of tiles will take.
+// The estimated cost of a set of tiles.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -9,15 +9,16 @@
 namespace scarp {
 namespace {
 
-/// Core time that a look may take; levels of larger tiles are then extrapolated.
+/// Core time that a trial may use; levels of larger tiles are then extrapolated.
 constexpr double kMostSeconds = 5;
-/// What a tile takes beside one of the next finer level, which has a quarter of its nodes and most of its triangles.
+/// Cost of a tile relative to one of the next finer level, which has a quarter of its nodes and most of its triangles.
 constexpr double kTimeOfLarger = 2.2, kBytesOfLarger = 1.3;
-/// Of a block beside its tiles, a node of its lattice: copies for its tiles, the hash, the reduction.
+/// Seconds of a block in addition to its tiles, for each node of its lattice: copies for its tiles, the hash, the
+/// reduction.
 constexpr double kSecondsOfNode = 25e-9;
-/// Of a tile above the blocks.
+/// Cost of a tile above the blocks.
 constexpr double kSecondsAbove = 0.01, kBytesAbove = 2000;
-/// What finish_pyramid() needs of a block.
+/// Memory that finish_pyramid() needs for a block.
 constexpr std::uint64_t kReducedBytes = 330'000;
 /// The program, without nodes.
 constexpr std::uint64_t kProgramBytes = 90'000'000;
@@ -28,7 +29,7 @@ bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& cov
       plan.grid.turns(), [&](double turn) { return box.west + turn < covered.east && box.east + turn > covered.west; });
 }
 
-/// Whether a tile may be made.
+/// True if a tile may be made.
 bool is_expected(const PyramidPlan& plan, TileId id) {
   const DegreeBox box = plan.grid.bounds_of(id);
   if (plan.sources.empty()) return overlap(plan, box, plan.covered);
@@ -58,11 +59,11 @@ Result<bool> has_heights(const PyramidPlan& plan, TileId id, const NodeSource& n
   return std::any_of(heights.begin(), heights.end(), [](float height) { return !std::isnan(height); });
 }
 
-/// What the tiles of a level are like, of some of them.
+/// Cost of some tiles of a level.
 struct LevelLook {
   double looked_at = 0, made = 0;
-  double reading = 0, making = 0;  ///< seconds: of those looked at, of those made without reading
-  double bytes = 0;                ///< of those made
+  double reading = 0, making = 0;  ///< seconds: of all tiles examined, of the tiles made without reading
+  double bytes = 0;                ///< bytes of the tiles made
 
   double share() const { return looked_at > 0 ? made / looked_at : 0; }
   double seconds_of_reading() const { return reading / std::max(looked_at, 1.0); }
@@ -117,7 +118,7 @@ Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes,
   const double nodes_of_block = static_cast<double>(side) * static_cast<double>(side);
   const double began = core_seconds();
   double tiles = 0, seconds = 0, bytes = 0;
-  // Of one of the level at hand, and the tiles' share that has heights.
+  // Cost of one tile of the current level, and the share of tiles that have heights.
   double making = 0, size = 0, share = 0, reading = 0;
   for (int z = plan.max_zoom(); z >= plan.block_level && !blocks.empty(); --z) {
     const double left = kMostSeconds - (core_seconds() - began), next = kTimeOfLarger * making;

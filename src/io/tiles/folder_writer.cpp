@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a folder holds that no set of tiles of Scarp's does; empty if there is no such thing.
+/// A file or folder in the folder that no set of Scarp's tiles has; empty if there is no such thing.
 std::string find_foreign(const fs::path& folder) {
   std::error_code error;
   for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::recursive_directory_iterator();
@@ -100,7 +100,7 @@ class FolderWriter final : public TileSetWriter {
   StagedFolder folder_;
   TileFormat format_;
   bool replaces_;                  ///< a set of Scarp's
-  std::set<std::string> folders_;  ///< that were made
+  std::set<std::string> folders_;  ///< folders that were made
 };
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace scarp {
 namespace {
 
-/// What max_samples() counts a sample for.
+/// Bytes that max_samples() counts for a sample.
 constexpr std::uint64_t kBytesPerSample = 5;
 constexpr std::uint64_t kLeastMemory = 4'000'000;
 
@@ -26,13 +26,13 @@ struct GlobeSource {
   std::optional<RasterOnPlane> plane;
   DegreeBox covered;
   std::unique_ptr<NodeSource> samples, raised;
-  /// Of a stack: the same with small voids filled, which show where no source of the stack has a height.
+  /// In a stack: the same with small voids filled, which show where no source of the stack has a height.
   std::shared_ptr<const SampleSource> filled;
   std::unique_ptr<NodeSource> filled_samples, filled_raised;
 
   const NodeSource& nodes() const { return raised ? *raised : *samples; }
   const NodeSource& filled_nodes() const { return filled_raised ? *filled_raised : *filled_samples; }
-  /// Of its samples in memory.
+  /// Bytes of its samples in memory.
   std::uint64_t bytes() const {
     const std::uint64_t codes = field.source && field.source->is_in_memory() ? sizeof(std::uint16_t) : 0;
     return field.samples.size() * sizeof(float) +
@@ -102,7 +102,7 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   return source;
 }
 
-/// Of FILE, or of FILE:LAYER, which becomes absolute where it names a file.
+/// The stamp of FILE, or of FILE:LAYER, which becomes absolute where it names a file.
 FileStamp stamp_lines(std::string& file) {
   FileStamp stamp = stamp_of(file);
   const std::size_t colon = file.rfind(':');
@@ -112,10 +112,10 @@ FileStamp stamp_lines(std::string& file) {
   return stamp;
 }
 
-/// Of its CRS, as far as the EPSG numbers it.
+/// The EPSG code of its CRS, or a placeholder if it has none.
 std::string code_of(const RasterInfo& info) { return info.crs.starts_with("EPSG:") ? info.crs : "EPSG:CODE"; }
 
-/// Sources of one stack lie on one globe, and what is said of all must not be what one of them denies.
+/// Sources of one stack lie on one globe, and a setting for all must not contradict one of them.
 Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, const Datum& datum) {
   const RasterInfo& info = source.field.info;
   const Geodetic &one = first.globe.ellipsoid, &other = source.globe.ellipsoid;
@@ -141,9 +141,9 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
 struct GlobeRaster::Impl {
   GridKind grid = GridKind::kGeographic;
   std::vector<std::unique_ptr<GlobeSource>> sources;
-  std::unique_ptr<NodeSource> stack;    ///< of more than one
+  std::unique_ptr<NodeSource> stack;    ///< stack of more than one
   std::unique_ptr<NodeSource> watered;  ///< with water
-  std::vector<std::string> warnings;    ///< of water
+  std::vector<std::string> warnings;    ///< warnings about water
 
   const NodeSource& land() const { return stack ? *stack : sources.front()->nodes(); }
 };
@@ -177,7 +177,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
                               "together first ({}), or take --grid geographic",
                               mosaics[1].front(), mosaics[0].front(),
                               warp_command(file_word(mosaics[0].front()), mosaics[1].front())));
-    // What is in memory is not there for those behind it, down to a little for windows of files.
+    // Memory that is in use is not available to the sources behind it, down to a little for windows of files.
     if (mosaics.size() > 1) memory -= std::min((*source)->bytes(), memory - std::min(memory, kLeastMemory));
     if (mosaics.size() > 1) {
       const GlobeSource& first = impl->sources.empty() ? **source : *impl->sources.front();

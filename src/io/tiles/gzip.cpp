@@ -7,12 +7,13 @@
 namespace scarp {
 namespace {
 
-/// Of zlib's windowBits: the largest window, in a gzip file.
+/// zlib's windowBits: the largest window, in a gzip file.
 constexpr int kGzipWindow = 15 + 16;
 
-/// Of a mesh: a table of codes for so many symbols that positions, heights, triangles and normals have their own.
+/// zlib's memLevel for a mesh: a table of codes for so many symbols that positions, heights, triangles and normals have
+/// their own.
 constexpr int kMeshMemory = 5;
-/// Files this small, in bytes, and those of which codes leave less than this share, may well repeat themselves.
+/// Files this small, in bytes, and those that codes reduce below this share, may well repeat themselves.
 constexpr std::size_t kSmallMesh = 6000;
 constexpr double kRepeats = 0.46;
 

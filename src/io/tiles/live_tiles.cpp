@@ -13,18 +13,18 @@
 namespace scarp {
 namespace {
 
-/// What a tile takes beside its bytes while it is kept.
+/// Memory of a kept tile in addition to its bytes.
 constexpr std::uint64_t kEntryBytes = 200;
 /// The finest levels, whose tiles are made fast enough when somebody asks for them.
 constexpr int kFastLevels = 3;
-/// Four tiles at once of the level below the blocks' take as much memory as one of the blocks'.
+/// Four tiles at once of the level below the blocks' use as much memory as one of the blocks'.
 constexpr int kPreparingThreads = 4;
 
 using Key = std::tuple<int, std::uint32_t, std::uint32_t>;
 Key key_of(TileId id) { return {id.z, id.x, id.y}; }
 std::uint64_t size_of(const LiveTile& tile) { return tile.bytes.size() + kEntryBytes; }
 
-/// Tiles, of which those that nobody asked for the longest go first.
+/// Tiles; those not asked for the longest are dropped first.
 class TileCache {
  public:
   using Tile = std::shared_ptr<const LiveTile>;
@@ -67,7 +67,7 @@ class PreparedTiles final : public TileSink {
   explicit PreparedTiles(const TileEncoder& encode) : encode_(encode) {}
 
   void set_limit(std::uint64_t bytes) { room_ = bytes; }
-  /// Room that others take, too.
+  /// Room that others share.
   Result<void> take_room(std::uint64_t bytes) {
     is_full_ = is_full_ || bytes > room_;
     if (is_full_) return fail(ErrorKind::kCancelled, "no room for more tiles");

@@ -11,7 +11,7 @@
 namespace scarp {
 namespace {
 
-/// A database is a program: views in it may make a question endless. So each has an end: it may take many more steps
+/// A database is a program: views in it may make a question endless. So each has an end: it may run many more steps
 /// than an honest file of `size` bytes has work for. One thread at a time asks.
 class Question {
  public:
@@ -43,7 +43,7 @@ class Question {
 class MbtilesReader final : public TileSetReader {
  public:
   static Result<std::unique_ptr<TileSetReader>> open(const std::string& path) {
-    // Says why in Scarp's words, and tells the size.
+    // reports failures in Scarp's words, and gives the size
     const auto source = ByteSource::open(path);
     if (!source) return tl::unexpected(source.error());
     std::unique_ptr<MbtilesReader> reader(new MbtilesReader(path, (*source)->size()));

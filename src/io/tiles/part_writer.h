@@ -19,7 +19,7 @@ struct PackedTile {
 
 class PartWriter {
  public:
-  /// What the names of a share's parts begin with.
+  /// The beginning of the names of a share's parts.
   static std::string name_of(Shard shard);
   /// A new file in the folder, which is made if needed. Fails with kOutput.
   static Result<std::unique_ptr<PartWriter>> create(const std::string& folder, Shard shard, const TileJob& job);

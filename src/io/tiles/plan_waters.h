@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// Coordinates are base64 of doubles, so that they are read back exactly and take little room.
+/// Coordinates are base64 of doubles, so that they are read back exactly and need little room.
 nlohmann::ordered_json describe_waters(const TileWaters& waters);
 /// Throws for what describe_waters() did not write; of waters.grid and waters.per_turn nothing is known.
 TileWaters parse_waters(const nlohmann::ordered_json& json);

@@ -33,7 +33,7 @@ std::vector<std::uint8_t> encode_pmtiles_directory(std::span<const PmtilesEntry>
 std::optional<std::vector<PmtilesEntry>> decode_pmtiles_directory(std::span<const std::uint8_t> bytes,
                                                                   std::uint64_t most);
 
-/// Of a part of the file.
+/// Offset and length of a part of the file.
 struct PmtilesPart {
   std::uint64_t offset = 0, length = 0;
 };
@@ -47,12 +47,12 @@ struct PmtilesHeader {
   bool is_clustered = true;
   DegreeBox bounds;
 };
-/// Of a clustered archive whose tiles have a type that PMTiles does not know.
+/// The header of a clustered archive whose tiles have a type that PMTiles does not know.
 std::array<std::uint8_t, kPmtilesHeaderSize> encode_pmtiles_header(const PmtilesHeader& header);
-/// Fails with kInput, with the end of a sentence, for other files and other versions. The bounds are left out.
+/// Fails with kInput, with the end of a sentence, for other files and other versions. The bounds are omitted.
 Result<PmtilesHeader> decode_pmtiles_header(std::span<const std::uint8_t> bytes);
 
-/// Bytes of metadata that a reader takes out of `packed` bytes: less than gzip can hold, more than text of tiles needs.
+/// Bytes of metadata that a reader unpacks from `packed` bytes: less than gzip can hold, more than text of tiles needs.
 constexpr std::uint64_t most_pmtiles_metadata(std::uint64_t packed) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 30, kRatio = 256;
   return packed > kMost / kRatio ? kMost : (std::uint64_t{1} << 20) + kRatio * packed;

@@ -90,7 +90,7 @@ class PmtilesReader final : public TileSetReader {
     return fail(ErrorKind::kInput, fmt::format("{} {}", source_->path(), why));
   }
 
-  /// A part, taken out of its compression.
+  /// A part, decompressed.
   Result<Bytes> read_inner(std::uint64_t offset, std::uint64_t length, std::size_t most) const {
     auto bytes = source_->read(offset, length);
     if (!bytes || header_.inner == PmtilesCompression::kNone) return bytes;
@@ -192,7 +192,7 @@ class PmtilesReader final : public TileSetReader {
   PmtilesHeader header_;
   TileFormat format_ = TileFormat::kQuantizedMesh;
   TileGrid grid_;
-  std::vector<PmtilesEntry> entries_;  ///< of tiles
+  std::vector<PmtilesEntry> entries_;  ///< entries of tiles
   std::uint64_t next_ = 0;             ///< the least number that may follow
   TileLevels levels_;
   std::map<std::string, Bytes> files_;

@@ -19,14 +19,15 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Readers get the header and the root with one request of 16,384 bytes.
 constexpr std::size_t kMostRoot = 16384 - kPmtilesHeaderSize;
-/// Of all other files.
+/// Limit of all other files.
 constexpr std::size_t kMostFiles = std::size_t{1} << 29;
 
 struct Directories {
   Bytes root, leaves;
 };
 
-/// All in the root where it has room for that, else in leaves of equal numbers of tiles, as many as it has room for.
+/// All in the root where it has room for that, else in leaf directories of equal numbers of tiles, with as many as it
+/// has room for.
 Result<Directories> make_directories(std::span<const PmtilesEntry> entries) {
   constexpr std::size_t kMostTried = 16384, kLeastLeaf = 4096;
   if (entries.size() <= kMostTried) {

@@ -46,7 +46,7 @@ bool touches(const TileGrid& grid, TileId id, const DegreeBox& box) {
 
 /// The blocks of a share: consecutive ones, of about the same cost in all shares.
 std::span<const TileId> share_of(const TileJob& job, const std::vector<TileId>& blocks, Shard shard) {
-  std::vector<std::uint64_t> before{0};  // of each block, and of all
+  std::vector<std::uint64_t> before{0};  // cost before each block, and of all
   const bool is_surveyed = job.costs.size() == blocks.size();
   for (std::size_t k = 0; k < blocks.size(); ++k)
     before.push_back(before.back() + (is_surveyed ? job.costs[k] : block_cost(job.plan, blocks[k])));
@@ -92,7 +92,7 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
     part.progress = part_of(run.progress, static_cast<double>(done) / static_cast<double>(cost),
                             static_cast<double>(one) / static_cast<double>(cost));
     done += one;
-    // What another process has made of this share meanwhile.
+    // reads the blocks that another process has made of this share meanwhile
     if (auto looked = (*parts)->look_again(shard); !looked) return tl::unexpected(looked.error());
     if ((*parts)->has(block)) {
       ++report.there;
@@ -140,7 +140,7 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
   const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(*encoder));
   std::vector<BlockReport> made;
   PartsCost taken;
-  // Putting the blocks' tiles takes most of the time.
+  // Putting the blocks' tiles needs most of the time.
   constexpr double kPutting = 0.9;
   Reporter reporter(run.progress);
   for (const TileId block : blocks) {

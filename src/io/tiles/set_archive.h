@@ -30,7 +30,7 @@ class ChunkedOutput {
  public:
   explicit ChunkedOutput(StagedFile& file) : file_(&file) {}
   Result<void> add(std::span<const std::uint8_t> bytes);
-  /// What is left.
+  /// Writes the remaining bytes.
   Result<void> flush();
   std::uint64_t position() const { return position_; }
 
@@ -40,7 +40,7 @@ class ChunkedOutput {
   std::uint64_t position_ = 0;
 };
 
-/// What a container says of the set besides its tiles, taken from layer.json where there is one.
+/// The metadata of the set in its container, copied from layer.json where there is one.
 struct SetFacts {
   std::string name = "terrain", description, attribution;
   DegreeBox bounds{-180, -90, 180, 90};
@@ -48,7 +48,7 @@ struct SetFacts {
 };
 SetFacts facts_of(const TileSpool& spool);
 
-/// What containers call the formats.
+/// The name of a format in containers.
 std::string_view media_type(TileFormat format);
 
 Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file);

@@ -31,7 +31,7 @@ std::optional<Json> read_json(const TileSetReader& set, const std::string& name,
   return {};
 }
 
-/// What Scarp wrote of its levels and nodes.
+/// Reads Scarp's own metadata about levels and nodes.
 void read_own(const Json* scarp, SetClaims& claims) {
   if (const auto cells = find_number(scarp, "cells"); cells && *cells >= 1 && *cells <= 65536)
     claims.cells = static_cast<int>(*cells);
@@ -101,7 +101,7 @@ void read_projection(const Json& layer, SetClaims& claims) {
   claims.grid = grid.value_or(TileGrid{});
 }
 
-/// Where clients find a tile's file: they stop where nothing says so.
+/// Reads where clients find a tile's file: they stop if it is not declared.
 void read_addresses(const Json& layer, SetClaims& claims) {
   const Json* const tiles = find_member(&layer, "tiles");
   const bool has_some = tiles != nullptr && tiles->is_array() && !tiles->empty();
@@ -206,7 +206,7 @@ void read_tileset(const TileSetReader& set, SetClaims& claims) {
 
 namespace {
 
-/// Of the set as a whole.
+/// Reads the claims about the set as a whole.
 SetClaims read_head(const TileSetReader& set) {
   SetClaims claims;
   const bool is_glb = set.format() == TileFormat::kGlb;

@@ -1,4 +1,4 @@
-// What a set says of itself: layer.json of quantized-mesh; tileset.json and subtrees of 3D Tiles.
+// The claims of a set about itself: layer.json of quantized-mesh; tileset.json and subtrees of 3D Tiles.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct ClaimedTiles {
 /// A tile that tileset.json itself holds: implicit tiles follow from it, or it has none.
 struct ClaimedRoot {
   std::string volume;           ///< "region" or "box"; empty without one that makes sense
-  std::vector<double> numbers;  ///< of the volume: 6 or 12
+  std::vector<double> numbers;  ///< numbers of the volume: 6 or 12
   std::string refine;           ///< its own; empty where it is its parent's
   std::optional<double> geometric_error;
   bool has_transform = false;
@@ -38,13 +38,13 @@ struct SetClaims {
   std::optional<int> cells;
   std::optional<double> background;
   std::optional<Geodetic> ellipsoid;
-  std::string vertical;                   ///< as LayerFacts::vertical, where Scarp wrote it
-  std::string units;                      ///< as LayerFacts::units, where Scarp wrote them
-  TileGrid grid = {};                     ///< of the projection that layer.json names, or the one in tileset.json
-  FactsByTile facts;                      ///< of 3D Tiles
-  std::optional<double> geometric_error;  ///< of tileset.json as a whole
-  std::vector<ClaimedRoot> roots;         ///< of tileset.json, parents first
-  std::optional<std::array<double, 2>> off_globe;  ///< of a local grid: metres along the ground, and in height
+  std::string vertical;                   ///< like LayerFacts::vertical, where Scarp wrote it
+  std::string units;                      ///< like LayerFacts::units, where Scarp wrote them
+  TileGrid grid = {};                     ///< grid of the projection that layer.json names, or the one in tileset.json
+  FactsByTile facts;                      ///< facts of 3D Tiles
+  std::optional<double> geometric_error;  ///< geometric error of tileset.json as a whole
+  std::vector<ClaimedRoot> roots;         ///< roots of tileset.json, parents first
+  std::optional<std::array<double, 2>> off_globe;  ///< offset of a local grid: metres along the ground, and in height
 };
 
 /// Believes nothing: claims that make no sense are among the faults.

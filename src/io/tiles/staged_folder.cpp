@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kRandomEnd = "XXXXXX", kOldEnd = ".old";
 
-/// Of all folders that runs on this machine make for a set of that name.
+/// The common beginning of the names of all folders that runs on this machine make for a set of that name.
 std::string beginning_for(const fs::path& target) {
   std::array<char, 256> machine{};
   ::gethostname(machine.data(), machine.size() - 1);

@@ -1,4 +1,4 @@
-// A folder on its way: under a temporary name beside the one that it will get.
+// A folder on its way: under a temporary name next to the one that it will get.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ class StagedFolder {
   ~StagedFolder();
 
   const std::filesystem::path& path() const { return path_; }
-  /// Where finish() of a set keeps the one that it replaces.
+  /// The path where finish() of a set keeps the one that it replaces.
   std::filesystem::path path_of_old() const;
   /// It has its final name: it stays.
   void release() { path_.clear(); }

@@ -26,7 +26,7 @@ std::string fill_in(std::string name, std::uint64_t level, std::uint64_t x, std:
   return name;
 }
 
-/// Of every second bit from the first on.
+/// Gathers every second bit from the first on.
 std::uint32_t gather_bits(std::uint64_t code) {
   std::uint32_t value = 0;
   for (unsigned bit = 0; bit < 32; ++bit) value |= static_cast<std::uint32_t>((code >> (2 * bit)) & 1) << bit;
@@ -51,7 +51,7 @@ class Subtree {
 
   const Json* find(const char* key) const { return find_member(&json_, key); }
 
-  /// `count` bits as an availability says; false where it cannot be read, or counts them wrongly.
+  /// `count` bits of an availability; false where it cannot be read, or counts them wrongly.
   bool read_bits(const Json* availability, std::size_t count, std::vector<bool>& bits) const {
     bits.assign(count, false);
     if (const auto constant = find_count(availability, "constant")) {

@@ -6,8 +6,8 @@
 
 namespace scarp {
 
-/// Adds the tiles of all subtrees that the tileset leads to, with what is known of each. What cannot be read is among
-/// the faults.
+/// Adds the tiles of all subtrees that the tileset leads to, with what is known of each. A part that cannot be read is
+/// among the faults.
 void read_subtrees(const TileSetReader& set, const Json& tileset, SetClaims& claims);
 
 }  // namespace scarp

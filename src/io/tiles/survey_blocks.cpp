@@ -41,7 +41,7 @@ Result<void> survey_blocks(TileJob& job, const NodeSource& nodes, const Run& run
   parallel_in_order(
       blocks.size(), run.threads,
       [&](std::size_t k, std::size_t) {
-        // What the source cannot reach is not read.
+        // Blocks that the source cannot reach are not read.
         if (block_cost(job.plan, blocks[k]) > 1) found[k] = survey_block(job.plan, blocks[k], nodes);
       },
       [&](std::size_t k) {

@@ -84,7 +84,7 @@ class TileGlbWriter {
   }
 
  private:
-  /// The order that takes the fewest bytes.
+  /// The order that needs the fewest bytes.
   void order_vertices() {
     std::vector<std::uint32_t>& vertices = surface_.of;
     for (std::uint32_t v = 0; v < tile_.offsets.size(); ++v) vertices.push_back(v);
@@ -99,7 +99,7 @@ class TileGlbWriter {
     for (const std::uint32_t v : vertices) surface_.offsets.push_back(tile_.offsets[v]);
   }
 
-  /// Seen from beside the tile.
+  /// Adds the skirt, as seen from outside the tile.
   void add_skirt() {
     const std::array edges{&tile_.west, &tile_.north, &tile_.east, &tile_.south};
     for (std::size_t side = 0; side < edges.size(); ++side) {
@@ -222,7 +222,7 @@ class TileGlbWriter {
   std::size_t add_normals(const GlbVertices& vertices) {
     const std::uint64_t count = vertices.of.size();
     std::size_t view = 0;
-    // Of a plane whose steps are very unlike each way, bytes do not hold them.
+    // Bytes do not hold the positions of a plane whose steps are very unlike each way.
     const auto [least, most] = std::minmax_element(tile_.steps.begin(), tile_.steps.end());
     const bool is_packed = is_packed_ && *most <= kMostUnlike * *least;
     if (is_packed) {
@@ -247,7 +247,7 @@ class TileGlbWriter {
     return glb_.accessor_count() - 1;
   }
 
-  /// Where the vertices lie in the texture, whose outermost pixels lie beyond the tile. From the top.
+  /// Adds positions of the vertices in the texture, whose outermost pixels lie beyond the tile. From the top.
   std::size_t add_places(const GlbVertices& vertices) {
     constexpr std::size_t kStride = 4;
     const std::uint64_t count = vertices.of.size();
@@ -349,8 +349,8 @@ class TileGlbWriter {
   bool is_packed_, is_short_ = false, has_short_indices_ = false;
   Steps size_{};                        ///< the largest offsets
   GlbVertices surface_, skirt_;         ///< in the file's order
-  std::vector<std::uint32_t> places_;   ///< of the tile's vertices in the file
-  std::vector<std::uint32_t> corners_;  ///< of triangles, in the file's order
+  std::vector<std::uint32_t> places_;   ///< places of the tile's vertices in the file
+  std::vector<std::uint32_t> corners_;  ///< corners of triangles, in the file's order
   std::vector<std::uint32_t> skirt_corners_;
   GlbBuilder glb_;
 };

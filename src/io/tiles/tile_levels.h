@@ -1,4 +1,4 @@
-// Which tiles a set holds.
+// The tiles that a set holds.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class TileLevels {
   std::uint64_t count_ = 0;
 };
 
-/// Whether the grid has such a tile.
+/// True if the grid has such a tile.
 inline bool is_of_grid(TileId id) {
   return id.z >= 0 && id.z <= kMaxTileLevel && id.y >> id.z == 0 && id.x >> id.z < 2;
 }

@@ -7,14 +7,14 @@
 
 namespace scarp {
 
-/// Whether a set may hold it beside its tiles: a relative path whose parts are neither empty nor hidden, and so never
+/// True if a set may hold it next to its tiles: a relative path whose parts are neither empty nor hidden, and so never
 /// lead out of a folder.
 bool is_plain_name(std::string_view name);
 
-/// Whether it is one of the names that Scarp gives to other files than tiles.
+/// True if it is one of the names that Scarp gives to other files than tiles.
 bool is_known_name(std::string_view name);
 
-/// Whether these are the bytes of a layer.json or a tileset.json that says that the set is Scarp's.
+/// True if these are the bytes of a layer.json or a tileset.json that marks the set as Scarp's.
 bool bears_mark(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

@@ -2,7 +2,7 @@
 //
 // A file: "SCARPTIL", version, key of the settings; then records: their payload's length and CRC-32, and the payload,
 // which begins with the block's name, the key of the sources, and the hash of its nodes. A payload with nothing behind
-// these says that a block of the same nodes in another record is right for these sources, too. All numbers are
+// these shows that a block of the same nodes in another record is right for these sources, too. All numbers are
 // little-endian.
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -130,7 +130,7 @@ std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, 
   return packer.take();
 }
 
-/// Whether a process writes to it.
+/// True if a process writes to it.
 bool is_locked(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return false;
@@ -187,7 +187,7 @@ struct TileParts::Impl {
     return add(known->second);
   }
 
-  /// Of a record that was cut off nothing is known, nor of what may follow it.
+  /// A record that was cut off is ignored, and so is all that follows it.
   Result<void> add(std::size_t number) {
     File& file = files[number];
     const ByteSource& source = *file.source;
@@ -333,7 +333,7 @@ Result<std::unique_ptr<PartWriter>> PartWriter::create(const std::string& folder
       continue;
     }
     if (fd < 0) return tl::unexpected(cannot_write(path, errno));
-    // A lock that the system gives up with the process; where there are none, nobody knows of company.
+    // A lock that the system gives up with the process; where there are none, other processes are not noticed.
     ::flock(fd, LOCK_EX | LOCK_NB);
     auto writer = std::unique_ptr<PartWriter>(new PartWriter(path, fd));
     writer->has_company_ = has_company;

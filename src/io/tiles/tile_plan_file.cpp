@@ -170,7 +170,7 @@ Json describe_drape(const TileDrape& drape) {
   return {{"files", std::move(files)}, {"format", word_of(drape.format, kImageFormats)}};
 }
 
-/// Whether it is one that plan_pyramid() could have made.
+/// True if it is one that plan_pyramid() could have made.
 bool is_sound(const PyramidPlan& plan) {
   if (plan.levels.empty() || plan.max_zoom() > kMaxTileLevel || plan.block_level < 0 ||
       plan.block_level > plan.max_zoom() || plan.max_zoom() - plan.block_level > 8 || plan.cells < 16 ||
@@ -282,7 +282,7 @@ TileJob parse_job(const Json& json) {
   return job;
 }
 
-/// Whether each raster is in one mosaic.
+/// True if each raster is in one mosaic.
 bool has_sound_mosaics(const TileJob& job) {
   std::uint64_t rasters = 0;
   for (const std::uint32_t count : job.mosaics) {
@@ -405,7 +405,7 @@ Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::
       if (is_sound(job.plan) && has_sound_mosaics(job) && has_sound_drape) return job;
     }
   } catch (const std::exception&) {
-    // Said below.
+    // Reported below.
   }
   return fail(ErrorKind::kInput,
               fmt::format("{} is no plan of tiles of this version: make one first (scarp tile plan RASTER {})",

@@ -44,7 +44,7 @@ class TileSpool {
   const std::vector<File>& files() const { return files_; }
   /// By name.
   void sort_files();
-  /// Whether all tiles, and whether none, begin as gzip files do.
+  /// True if all tiles, and if none, begin as gzip files do.
   bool all_gzip() const { return gzip_tiles_ == tiles_.size(); }
   bool no_gzip() const { return gzip_tiles_ == 0; }
 
@@ -56,7 +56,7 @@ class TileSpool {
   Result<void> append(std::span<const std::uint8_t> bytes);
   Result<std::vector<std::uint8_t>> read(std::uint64_t offset, std::uint64_t length) const;
 
-  std::string path_;  ///< of the set
+  std::string path_;  ///< path of the set
   int fd_;
   std::uint64_t size_ = 0, gzip_tiles_ = 0;
   std::vector<Tile> tiles_;

@@ -8,7 +8,7 @@ namespace scarp {
 namespace {
 
 constexpr int kLeastSide = 256;
-/// Pixels of a tile on the screen, at most, before clients take its children; and of one without children.
+/// Pixels of a tile on the screen, at most, before clients load its children; and of one without children.
 constexpr int kMostSide = 512, kMostLeafSide = 2048;
 
 int choose_side(const GlobeImage& image, const PyramidPlan& plan, TileId id) {

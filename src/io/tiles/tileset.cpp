@@ -23,7 +23,7 @@ constexpr int kSubtreeLevels = 5;
 constexpr const char* kClass = "tile";
 constexpr const char* kSphere = "TILE_BOUNDING_SPHERE";
 
-/// Of x and y, x first: where a tile of a level stands in a subtree.
+/// Interleaves the bits of x and y, x first: the index of a tile of a level in a subtree.
 std::uint32_t interleave(std::uint32_t x, std::uint32_t y) {
   std::uint32_t code = 0;
   for (int bit = 0; bit < kSubtreeLevels; ++bit)
@@ -178,7 +178,7 @@ Json describe_square(const PyramidPlan& plan, double low, double high) {
   return {{"box", {x, y, (low + high) / 2, east, 0, 0, 0, north, 0, 0, 0, (high - low) / 2}}};
 }
 
-/// What is told of a local grid besides.
+/// Adds the metadata of a local grid.
 void describe_plane(const PyramidPlan& plan, const LayerFacts& facts, Json& scarp) {
   if (!facts.plane) scarp.erase("ellipsoid");
   scarp["grid"] = describe_grid(plan.grid);

@@ -1,4 +1,4 @@
-// What the package promises, in Node.
+// The promises of the package, in Node.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -370,7 +370,7 @@ test('a signal cancels what runs, what waits and what has not begun', async () =
   await pool.simplify(z, width, height, { maxError: 4 });
   const large = hills(600, 400), work = (signal, onProgress) => pool.simplify(large, 600, 400, { maxError: 0.01, effort: 'max', signal, onProgress });
   const [runs, waits] = [new AbortController(), new AbortController()];
-  // What runs has told of progress before it has answered, so that it is cancelled at work.
+  // The running call has reported progress before it has answered, so that it is cancelled at work.
   const running = work(runs.signal, () => { waits.abort(); runs.abort('enough'); }), waiting = work(waits.signal);
   await rejects(waiting, 'cancelled', /cancelled/);
   await rejects(running, 'cancelled', /cancelled/);
@@ -524,7 +524,7 @@ test('what ran before leaves no memory behind', { skip: !globalThis.gc && 'needs
     }
     for (let k = 0; k < 20; ++k) assert.throws(() => simplifySync(z, width, height, {}));
   };
-  // A collection may leave what it found for another thread to free.
+  // A collection may hand its findings to another thread to free.
   const kept = async most => {
     for (let k = 0; k < 100; ++k) {
       globalThis.gc();

@@ -1,4 +1,5 @@
-// An application of twenty lines, which every bundler packs: it simplifies here and in a worker, and tells what came out.
+// An application of twenty lines, which every bundler packs: it simplifies here and in a worker, and reports the
+// result.
 import { Refiner, createPool, encodeGlb, ready, simplifySync } from 'scarp';
 import { hashOf } from './canonical.mjs';
 import { hills } from './rasters.mjs';

@@ -1,5 +1,6 @@
-// The package in Chromium: browser.mjs CHROMIUM TOLD [BUNDLE...]. A plain module makes the meshes of Node; each BUNDLE, a page
-// in this folder or beside it (file:), or from the dev server of vite without a configuration (dev:), tells TOLD.
+// The package in Chromium: browser.mjs CHROMIUM TOLD [BUNDLE...]. A plain module makes the meshes of Node; each BUNDLE,
+// a page in this folder or next to it (file:), or from the dev server of vite without a configuration (dev:), reports
+// TOLD.
 import { pathToFileURL } from 'node:url';
 import { open_page } from './open_page.mjs';
 import { serve } from './serve.mjs';

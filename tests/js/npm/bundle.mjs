@@ -1,4 +1,4 @@
-// Packs app.mjs as the guides of the bundlers say: bundle.mjs NAME, into the folder NAME.
+// Packs app.mjs as described by the guides of the bundlers: bundle.mjs NAME, into the folder NAME.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 
@@ -6,7 +6,7 @@ const [name] = process.argv.slice(2);
 const page = script => `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>${name}</title><script type="module" src="${script}"></script>\n`;
 fs.mkdirSync(name, { recursive: true });
 switch (name) {
-  case 'esbuild': {  // leaves new URL() as it is: the module and the worker go beside the script
+  case 'esbuild': {  // does not change new URL(): the module and the worker go next to the script
     const { build } = await import('esbuild');
     await build({ entryPoints: ['app.mjs', 'node_modules/scarp/worker.js'], entryNames: '[name]', bundle: true, format: 'esm', minify: true, outdir: name });
     fs.copyFileSync('node_modules/scarp/scarp.wasm', `${name}/scarp.wasm`);

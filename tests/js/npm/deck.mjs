@@ -19,7 +19,7 @@ async function drawHeights() {
   return URL.createObjectURL(await canvas.convertToBlob());
 }
 
-/// Draws one layer until it has its data; tells its meshes, and how much of the canvas it covers.
+/// Draws one layer until it has its data; reports its meshes, and how much of the canvas it covers.
 function draw(layer, viewState) {
   const canvas = document.querySelector('canvas');
   return new Promise((resolve, reject) => {

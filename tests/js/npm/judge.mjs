@@ -1,6 +1,6 @@
 // A judge that shares nothing with Scarp: the error of each triangle's plane at each sample that it covers, one by one.
 
-/// What the judge's own arithmetic rounds of a height, as a share.
+/// Share of a height that the judge's own arithmetic may round.
 export const ROUNDING = 2 ** -48;
 
 /// `columns`, `rows`: where vertices are, in samples, the first row at the top; `z`: their heights.
@@ -30,7 +30,7 @@ export function judge(samples, width, height, { columns, rows, z, triangles }) {
   return { max, uncovered };
 }
 
-/// Of a mesh on the grid: x the column, y the row from the bottom.
+/// Judges a mesh on the grid: x the column, y the row from the bottom.
 export function judgeMesh(samples, width, height, { positions, indices, origin: [x, y, up] }) {
   const vertices = Array.from({ length: positions.length / 3 }, (_, v) => v);
   return judge(samples, width, height, {

@@ -9,5 +9,5 @@ export function hills(width, height, seed = 1) {
   });
 }
 
-/// The samples of a file of float32; what says that there is none is NaN.
+/// The samples of a file of float32; the value that stands for none is NaN.
 export const heightsOf = buffer => new Float32Array(buffer).map(z => (z === -9999 ? NaN : z));

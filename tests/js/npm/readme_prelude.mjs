@@ -1,4 +1,4 @@
-// What the lines of the package's README take for given.
+// The objects that the lines of the package's README assume.
 import * as THREE from 'three';
 import { fromUrl } from 'geotiff';
 import { decodeTile, simplify } from 'scarp';

@@ -1,6 +1,6 @@
 // The program's tiles, but for the order of their triangles, and its layer.json: tiles.mjs CRS NAME WIDTH HEIGHT WEST SOUTH EAST NORTH FOLDER
 //
-// Prints how many were compared, and how many of them tell their error.
+// Prints how many were compared, and how many of them have their error.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import zlib from 'node:zlib';

@@ -1,5 +1,5 @@
-// Smooth edges in the picture: drawn with four samples a pixel beside the canvas, then copied. A machine without a graphics
-// processor takes three times as long for many small triangles then, and draws these as they are.
+// Smooth edges in the picture: drawn with four samples a pixel off the canvas, then copied. A machine without a
+// graphics processor needs three times as long for many small triangles then, and draws these as they are.
 import * as THREE from 'three';
 
 const MANY = 200_000;
@@ -28,7 +28,7 @@ export class Antialias {
     this.target.setSize(Math.max(1, Math.floor(width)), Math.max(1, Math.floor(height)));
   }
 
-  /** What to set viewports of, in CSS pixels. */
+  /** Returns the target of viewports, in CSS pixels. */
   begin(triangles) {
     const { renderer, target } = this, ratio = renderer.getPixelRatio();
     this.is_on = !(this.is_slow && triangles > MANY);
@@ -36,7 +36,7 @@ export class Antialias {
     renderer.setRenderTarget(target);
     const place = area => (...sides) => {
       area.set(...sides.map(side => Math.round(side * ratio)));
-      renderer.setRenderTarget(target);  // takes over what was set
+      renderer.setRenderTarget(target);  // also applies the settings made before
     };
     return { setViewport: place(target.viewport), setScissor: place(target.scissor) };
   }

@@ -1,6 +1,6 @@
 // The command line that makes the mesh that is shown.
 
-/** One word for a POSIX shell, and no option. What no line shows becomes a question mark. */
+/** One word for a POSIX shell, and no option. A character that no line shows becomes a question mark. */
 function quote(name) {
   const word = (name.startsWith('-') ? `./${name}` : name).replace(/\p{Cc}/gu, '?');
   return /^[A-Za-z0-9._/-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
@@ -21,7 +21,7 @@ export function command_of({ field, goal, name, extras }, format) {
   return `scarp simplify ${quote(field.name)} mesh.${format === 'obj' ? 'glb' : format} ${asked} ${EFFORTS[name]}${decode}${options_of(extras)}`;
 }
 
-/** What the command does not say. */
+/** Notes on what the command does not express. */
 export function command_notes({ field }, format) {
   if (!field) return '';
   return [field.step > 1 && 'It is of the full raster: more samples, another mesh.', format === 'obj' && 'It writes the mesh as GLB: the program fits an OBJ in doubles, and may find another.',

@@ -1,4 +1,4 @@
-// What the page shows: levels of a mesh and, where it is known, their raster.
+// The contents of the page: levels of a mesh and, where it is known, their raster.
 import { Field, place_mesh } from './field.js';
 import { read_glb } from './glb.js';
 import { Sentence } from './sentence.js';
@@ -23,7 +23,7 @@ export async function read_inline(data) {
   return { ...await make_document(files, data.field ? read_field(data.field) : null, data.metres, data.unit), name: data.name };
 }
 
-/** `metres` a unit of x, y, z; null: as the first file says of itself. */
+/** `metres` a unit of x, y, z; null: from the first file's metadata. */
 export async function make_document(files, field, metres = null, unit = null) {
   const parts = [], notes = [];
   for (const { name, bytes, buffer } of files) {
@@ -52,7 +52,7 @@ export function terrain_of_engine(name, { positions, indices, origin }, known, f
   return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), ...known, uvs, ...(uvs && { sheets: [{ ...shown.sheets[0], start: 0, count: indices.length }] }) }, place, field);
 }
 
-/** Whether a mesh lies where the raster does, so that one can judge the other. */
+/** True if a mesh lies where the raster does, so that one can judge the other. */
 export function fits(field, document) {
   const corners = [field.to_place(0, 0), field.to_place(field.cols - 1, field.rows - 1)], { low, high } = document.place;
   return [0, 1].every(k => Math.min(corners[0][k], corners[1][k]) <= high[k] && Math.max(corners[0][k], corners[1][k]) >= low[k]);

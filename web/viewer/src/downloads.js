@@ -10,7 +10,7 @@ function offsets(terrain, [ox, oy]) {
   return Float32Array.from(terrain.positions, (value, k) => value - from[k % 3]);
 }
 
-/** What the program's files say of themselves. */
+/** The metadata of the program's files. */
 function extras_of({ extras, goal, judged, told }) {
   const error = judged && !told ? { ...(goal?.maxError === undefined ? {} : { asked: goal.maxError }), max_error: judged.max_error, rmse: judged.rmse, samples: judged.covered } : told;
   const { command, error: _, ...rest } = extras;
@@ -46,7 +46,7 @@ function encode_stl(terrain) {
   return [bytes.buffer];
 }
 
-/** As the program writes text into a comment: what could end the line is its number. */
+/** Escapes text as the program does in a comment: characters that could end the line become their numbers. */
 const comment = value => (typeof value === 'string' ? value : JSON.stringify(value)).replace(/[%\p{Cc}]/gu, letter => `%${letter.charCodeAt(0).toString(16).padStart(2, '0').toUpperCase()}`);
 
 function encode_obj(terrain) {

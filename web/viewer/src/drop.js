@@ -1,5 +1,5 @@
-// Files dropped on the page or chosen: a GLB takes the place of the mesh, and is judged if it lies where the raster does;
-// a raster is simplified here. Nothing leaves the page.
+// Files dropped on the page or chosen: a GLB replaces the mesh, and is judged if it lies where the raster does; a
+// raster is simplified here. Nothing is sent from the page.
 import { document_of_raster, fits, make_document } from './document.js';
 import { read_fragment } from './fragment.js';
 import { Sentence } from './sentence.js';
@@ -8,7 +8,8 @@ const MOST_BYTES = 2 ** 30;
 const RASTERS = /\.(tiff?|hgt|png)$/i;
 const FIRST_SHARE = 0.02;  // max error of the first mesh, of the relief
 
-/** Of a raster: {document, decode}, the latter to read it again; null if another opening has begun meanwhile. */
+/** The document of a raster: {document, decode}, the latter to read it again; null if another opening has begun
+ * meanwhile. */
 async function read_document(page, file, is_last, decoding) {
   if (!HAS_ENGINE) throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
   const { read_raster } = await import('./rasters.js');
@@ -18,7 +19,7 @@ async function read_document(page, file, is_last, decoding) {
   return { document, decode: other => begin(page, last => read_document(page, file, last, other)) };
 }
 
-/** The last opening wins: what one of before finds, or says, comes to nothing. */
+/** The last opening wins: results and messages of earlier ones are dropped. */
 export async function begin(page, read) {
   const turn = page.turn = (page.turn ?? 0) + 1, is_last = () => turn === page.turn;
   page.live.cancel_first();
@@ -33,13 +34,13 @@ export async function begin(page, read) {
   }
 }
 
-/** A page that began empty shows its first file as its address says, unless that tells of a raster of other dimensions. */
+/** A page that began empty shows its first file by its address, unless that names a raster of other dimensions. */
 function state_of_first(page, { field }) {
   const state = page.document ? {} : read_fragment(), [cols, rows] = state.samples ?? [];
   return cols === undefined || (field?.cols === cols && field.rows === rows) ? state : {};
 }
 
-/** What a drop does. */
+/** Handles a drop. */
 async function read_files(page, files, is_last) {
   const large = files.find(file => file.size > MOST_BYTES), wrong = files.find(file => !/\.glb$/i.test(file.name) && !RASTERS.test(file.name));
   if (wrong) throw new Sentence(`${wrong.name} is no file that this page reads: .glb${HAS_ENGINE ? ', .tif, .hgt or .png' : ''}.`);

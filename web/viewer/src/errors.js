@@ -1,5 +1,5 @@
 // The error of every sample, mesh minus sample, by brute force over the triangles.
-const EDGE = 1e-9;  // of a triangle: what rounding moves a sample that lies on an edge
+const EDGE = 1e-9;  // share of a triangle: rounding moves a sample on an edge by less
 
 const known_stray = new WeakMap();
 

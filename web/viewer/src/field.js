@@ -35,14 +35,14 @@ export class Field {
     return [snap((a[5] * dx - a[2] * dy) / this.determinant), snap((a[1] * dy - a[4] * dx) / this.determinant)];
   }
 
-  /** Of all vertices: column, row, column, … */
+  /** Grid positions of all vertices: column, row, column, … */
   to_grids(positions) {
     const grid = new Float64Array(positions.length / 3 * 2);
     for (let v = 0, k = 0; k < grid.length; v += 3, k += 2) [grid[k], grid[k + 1]] = this.to_grid(positions[v], positions[v + 1]);
     return grid;
   }
 
-  /** Bilinear between samples; NaN outside and beside voids. */
+  /** Bilinear between samples; NaN outside and next to voids. */
   height_at(x, y) {
     const [col, row] = this.to_grid(x, y);
     if (!(col >= 0 && row >= 0 && col <= this.cols - 1 && row <= this.rows - 1)) return NaN;

@@ -5,7 +5,7 @@ const KEYS = {
   level: [{ low: 0, high: 1000 }], error: [LENGTH], samples: [COUNT, COUNT], view: [ANY, { low: -90, high: 90 }, LENGTH, ANY, ANY, ANY],
 };
 
-/** As many numbers as the key has, each within its range; else null. */
+/** Parses as many numbers as the key has, each within its range; else null. */
 function parse(text, ranges) {
   const words = text.split(','), numbers = words.map(Number);
   const are_right = words.length === ranges.length && ranges.every(({ low, high }, k) => words[k].trim() !== '' && numbers[k] >= low && numbers[k] <= high);

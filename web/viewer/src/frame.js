@@ -1,6 +1,6 @@
-// Where samples lie: the frame that the program gives a raster unless it is asked for another (src/grid/local_frame.cpp says why
-// cells are rounded). {affine, metres, extras, knows_metres}: from columns and rows to x and y, metres of a unit of x, y and z,
-// what a mesh file says of the frame.
+// The position of samples: the frame that the program gives a raster unless it is asked for another
+// (src/grid/local_frame.cpp explains why cells are rounded). {affine, metres, extras, knows_metres}: from columns and
+// rows to x and y, metres of a unit of x, y and z, a mesh file's metadata about the frame.
 export const WGS84 = { semi_major: 6378137, inverse_flattening: 298.257223563 };
 
 function metres_per_radian({ semi_major, inverse_flattening }, latitude) {
@@ -42,9 +42,9 @@ export function grid_frame(rows) {
 }
 
 /**
- * `samples`: from columns and rows to the coordinates of the CRS, in GDAL's order. `radians`: one unit of these, if they are
- * longitude and latitude; else `metres`, null where nobody knows. `height`: metres of a unit of the heights.
- */
+ * `samples`: from columns and rows to the coordinates of the CRS, in GDAL's order. `radians`: one unit of these, if
+ * they are longitude and latitude; else `metres`, null where unknown. `height`: metres of a unit of the heights.
+ * */
 export function local_frame(samples, cols, rows, { radians = null, ellipsoid = WGS84, metres = null, height = 1, crs = null }) {
   const centre = [Math.floor(cols / 2), Math.floor(rows / 2)], latitude = radians && at(samples, ...centre)[1] * radians;
   const [east, north] = radians ? metres_per_radian(ellipsoid, latitude).map(length => length * radians) : Array(2).fill(metres ?? 1);

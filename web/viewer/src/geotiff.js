@@ -49,14 +49,14 @@ function bare_frame_of(image, unit) {
 
 const LARGEST = 3.4028234663852886e38, NEAR_LARGEST = 3.4e38;  // the latter: "-3.40282e+38" and its like, however few digits survived
 
-/** As C reads a number. */
+/** Parses a number as C does. */
 function number_of(text) {
   const infinity = /^\s*([+-]?)inf/i.exec(text);
   return infinity ? Number(`${infinity[1]}Infinity`) : Number.parseFloat(text);
 }
 
 const ENTITIES = { lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' };
-/** What GDAL's own tag says of a band, counted from 0, by role; of the file, by name. */
+/** The content of GDAL's own tag about a band, counted from 0, by role; of the file, by name. */
 function metadata_of({ GDAL_METADATA = '' }, band) {
   const text = String(GDAL_METADATA), of_file = band === undefined, found = {};
   for (const [, words, value] of text.matchAll(/<Item\s+([^>]*)>([^<]*)<\/Item>/g)) {
@@ -66,7 +66,7 @@ function metadata_of({ GDAL_METADATA = '' }, band) {
   return found;
 }
 
-/** Whether a value stands for no sample; the program's rule (src/io/gdal/read_samples.cpp). */
+/** A test for values that stand for no sample; the program's rule (src/io/gdal/read_samples.cpp). */
 function missing_test({ format, bits }, nodata) {
   if (nodata === null || Number.isNaN(nodata)) return () => false;
   if (format !== 3) return z => z === nodata;
@@ -75,7 +75,8 @@ function missing_test({ format, bits }, nodata) {
   return z => z === value || z >= least || z <= most;
 }
 
-/** The alpha band that tells where there is nothing; null: none. A declared value hides it from GDAL but in one place: a program reads both. */
+/** The alpha band that marks where there is nothing; null: none. A declared value hides it from GDAL but in one place:
+ * a program reads both. */
 function find_alpha({ fileDirectory: d }, { bands, format, bits }, has_nodata) {
   const { ExtraSamples: extra = [] } = d, is_alpha = k => {
     const told = metadata_of(d, k).colorinterp;

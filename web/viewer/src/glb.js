@@ -118,7 +118,7 @@ class Reader {
     if (!node || depth > 64) throw this.damaged('its nodes form no tree');
     const matrix = multiply(above, matrix_of(node));
     for (const primitive of this.json.meshes?.[node.mesh]?.primitives ?? []) {
-      if (primitive.extras?.scarp?.skirt) continue;  // what hangs from a tile's edges is no part of its surface
+      if (primitive.extras?.scarp?.skirt) continue;  // a skirt that hangs from a tile's edges is no part of its surface
       if ((primitive.mode ?? 4) !== 4) {
         this.notes.add(`Of ${this.name} only triangles are shown: it has primitives of mode ${primitive.mode}, too.`);
         continue;
@@ -194,7 +194,9 @@ class Reader {
   }
 }
 
-/** {levels: [{positions, indices, normals, uvs, sheets}], extras, notes}: normals and uvs may be null, sheets are runs of indices with their image, or the colour of the ground beside images; what the file says of itself is in `extras`. Throws a Sentence. */
+/** {levels: [{positions, indices, normals, uvs, sheets}], extras, notes}: normals and uvs may be null, sheets are runs
+ * of indices with their image, or the colour of the ground without images; the file's metadata are in `extras`. Throws
+ * a Sentence. */
 export async function read_glb(bytes, name) {
   const { json, binary } = split(bytes, name), reader = new Reader(json, binary, name);
   await reader.open();

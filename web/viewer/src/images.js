@@ -1,6 +1,6 @@
-// Images that lie over a mesh: what a material of a GLB says of them, and their pixels.
+// Images that lie over a mesh: their settings in a material of a GLB, and their pixels.
 
-const SLACK = 1e-3;  // of the image's side
+const SLACK = 1e-3;  // share of the image's side
 
 const to_srgb = linear => linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055;
 
@@ -25,10 +25,11 @@ export async function read_image(json, index, bytes_of) {
   }
 }
 
-/** Where x and y of a mesh lie in its image, if that is an affine map: (x, y) => [u, v]; null if it is none. */
+/** The map from x and y of a mesh to its image, if it is affine: (x, y) => [u, v]; null if it is none. */
 export function find_placing({ positions, uvs }) {
   const count = uvs.length / 2, row = v => [positions[3 * v], positions[3 * v + 1], uvs[2 * v], uvs[2 * v + 1]];
-  const mean = [0, 0, 0, 0], products = Array.from({ length: 2 }, () => [0, 0, 0, 0]);  // of x and of y, with each of the four
+  const mean = [0, 0, 0, 0], products = Array.from({ length: 2 }, () => [0, 0, 0, 0]);  // sums for x and for y, with
+                                                                                        // each of the four
   for (let v = 0; v < count; ++v) row(v).forEach((value, k) => { mean[k] += value / count; });
   for (let v = 0; v < count; ++v) {
     const from_mean = row(v).map((value, k) => value - mean[k]);

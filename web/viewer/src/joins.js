@@ -5,7 +5,7 @@ function slots_for(count) {
   return 2 ** Math.ceil(Math.log2(2 * count + 1));
 }
 
-/** Of each vertex the first one at its place. `places`: x, y, z in single precision. */
+/** For each vertex the first one at its place. `places`: x, y, z in single precision. */
 export function join_places(places) {
   const count = places.length / 3, bits = new Int32Array(places.buffer, places.byteOffset, places.length);
   const mask = slots_for(count) - 1, slots = new Int32Array(mask + 1).fill(-1), firsts = new Uint32Array(count);
@@ -65,7 +65,7 @@ export function rank_edges(pairs, places) {
   return { pairs: ranked, count_from: length => ends[ranks - (new Int32Array(Float32Array.of(length * length).buffer)[0] >> SHIFT)] };
 }
 
-/** Of each vertex the sum of the normals of all triangles at its place, by their areas. */
+/** For each vertex the sum of the normals of all triangles at its place, by their areas. */
 export function sum_normals(places, indices, firsts) {
   const sums = new Float64Array(places.length), normals = new Float32Array(places.length);
   for (let k = 0; k < indices.length; k += 3) {

@@ -1,4 +1,4 @@
-// Beside the page: the errors of one mesh.
+// In the background: the errors of one mesh.
 import { judge } from './errors.js';
 import { Field } from './field.js';
 

@@ -2,7 +2,7 @@
 import SOURCE from 'judge-source';
 import { judge } from './errors.js';
 
-/** What judge() finds. Where the browser starts no worker the page waits for it. */
+/** The result of judge(). If the browser starts no worker the page waits for it. */
 export function judge_beside(field, { positions, indices }) {
   return new Promise(done => {
     let worker = null;

@@ -1,6 +1,6 @@
-// What keys do.
+// The effects of keys.
 const TURNED = 5;  // degrees
-const MOVED = 0.1;  // of the picture's height
+const MOVED = 0.1;  // share of the picture's height
 
 export function listen_to_keys(page) {
   addEventListener('keydown', event => {

@@ -1,4 +1,4 @@
-// The engine beside the page: meshes for the slider's max error, and side by side. Without it the controls stay away.
+// The engine in the background: meshes for the slider's max error, and side by side. Without it there are no controls.
 import SOURCE from 'worker-source';
 import { watchLock } from './alive.js';
 import { terrain_of_engine } from './document.js';
@@ -8,7 +8,7 @@ import { with_unit } from './words.js';
 const $ = id => document.getElementById(id);
 const STEPS_AN_OCTAVE = 8;
 
-/** Four digits: what is asked can be said, and asked again. */
+/** Four digits, so that an error can be printed, and asked for again. */
 const tidy = error => Number(error.toPrecision(4));
 
 /** A worker that holds the raster and answers one question at a time; of those that wait, the latest. */
@@ -98,7 +98,8 @@ export class Live {
     $('error').max = String(this.most);
   }
 
-  /** As the address says. Where it names no error the slider stands at that of the mesh, once it is known. */
+  /** Begins with the settings of the address. If it names no error the slider stands at that of the mesh, once it is
+   * known. */
   begin({ error, both, count }) {
     if (!this.is_usable) return;
     const first = error ?? this.page.document.levels[0].goal?.maxError;
@@ -119,7 +120,7 @@ export class Live {
     else this.follow(terrain.judged.max_error);
   }
 
-  /** Of a raster that has no mesh yet, for a max error of that share of the relief: {mesh, judged, goal}. */
+  /** The first mesh of a raster, for a max error of that share of the relief: {mesh, judged, goal}. */
   make_first(field, share) {
     const helper = this.first = new Helper(field), goal = { maxError: tidy((field.high - field.low) * share) };
     return new Promise((done, failed) => helper.ask({ kind: 'finish', goal, effort: 'fast', order: 'greedy' }, answer => {

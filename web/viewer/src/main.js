@@ -15,10 +15,10 @@ import { number } from './words.js';
 
 const $ = id => document.getElementById(id);
 
-/** What needs a mesh. */
+/** Controls that need a mesh. */
 const CONTROLS = '#controls :is(input, select, button):not(#file, #full, #help)';
 
-/** A card in the middle, red if it tells of an error; none for no words. */
+/** A card in the middle, red if it reports an error; none for no words. */
 function say(text, is_error = false) {
   $('notice').textContent = text;
   $('notice').classList.toggle('error', is_error);
@@ -73,7 +73,7 @@ class Page {
     this.live.begin(state);
   }
 
-  /** One mesh, or two beside each other. */
+  /** One mesh, or two side by side. */
   show(terrains) {
     this.shown = terrains;
     this.scene.show(terrains);
@@ -82,7 +82,7 @@ class Page {
     for (const terrain of terrains) if (!terrain.is_judged) this.judge(terrain);
   }
 
-  /** Once the picture is there: the worker takes a processor that a picture drawn by software needs. */
+  /** Once the picture is there: the worker occupies a processor that a picture drawn by software needs. */
   async judge(terrain) {
     await this.scene.next_picture();
     await terrain.judge();
@@ -227,6 +227,6 @@ async function start() {
 
 addEventListener('error', event => complain(event.error ?? new Error(event.message)));
 addEventListener('unhandledrejection', event => complain(event.reason));
-/** A frame later than the terrain: what lies over it takes a browser as long to paint. */
+/** A frame later than the terrain: the layers over it need as long to paint. */
 const show_panel = () => document.body.classList.remove('empty');
 start().then(() => requestAnimationFrame(() => setTimeout(show_panel)), error => complain(error) ?? show_panel());

@@ -1,4 +1,4 @@
-// What lies over the picture: north, scale bar, the legend of the colours, errors from above.
+// The layers over the picture: north, scale bar, the legend of the colours, errors from above.
 import { distance, number, with_unit } from './words.js';
 
 const $ = id => document.getElementById(id);

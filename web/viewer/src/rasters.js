@@ -27,10 +27,11 @@ const DECODINGS = {
   mapbox: (r, g, b) => -10000 + (r * 65536 + g * 256 + b) * 0.1,
   grey: r => r,
 };
-const LOWEST = -12000, HIGHEST = 9000;  // of the earth
-const MOST_ODD = 0.1;  // of a tile's pixels: what stands for nodata
+const LOWEST = -12000, HIGHEST = 9000;  // limits of heights of the earth
+const MOST_ODD = 0.1;  // share of a tile's pixels that stand for nodata
 
-/** That whose heights are of the earth. Both never are: terrarium's have a red of 81 to 163, mapbox's of 0 to 2. */
+/** The decoding whose heights are of the earth. Both never are: terrarium's have a red of 81 to 163, mapbox's of 0 to
+ * 2. */
 function guess_decoding(pixels, decode) {
   return ['terrarium', 'mapbox'].find(key => {
     const heights = decode(key);

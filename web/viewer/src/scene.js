@@ -1,4 +1,4 @@
-// The terrain on the canvas: one view or two beside each other, drawn when something has changed.
+// The terrain on the canvas: one view or two side by side, drawn when something has changed.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Antialias } from './antialias.js';
@@ -49,7 +49,7 @@ class View {
     this.group.add(this.surface, this.edges);
   }
 
-  /** Of the k-th image. */
+  /** The material of the k-th image. */
   material(k) {
     return this.materials[k] ??= new THREE.ShaderMaterial({
       uniforms: { ...this.uniforms, image: { value: null }, shows_image: { value: false }, ground: { value: [1, 1, 1] }, shows_ground: { value: false } }, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT,
@@ -57,7 +57,7 @@ class View {
     });
   }
 
-  /** The browser compiles beside what this page does next, which reads the mesh. */
+  /** The browser compiles while this page reads the mesh. */
   compile(renderer, camera) {
     this.surface.material = this.material(0);
     renderer.compile(this.surface, camera, this.scene);
@@ -84,7 +84,7 @@ class View {
     this.surface.geometry = geometry;
   }
 
-  /** Made when they are first looked at. */
+  /** Made when they are first shown. */
   prepare(look) {
     const { terrain, uniforms } = this, { geometry } = this.surface;
     if (look.errors && terrain.judged && !uniforms.errors.value) {
@@ -102,7 +102,7 @@ class View {
     this.edges.visible = look.edges;
   }
 
-  /** Of the edges only those that may be long enough to be seen: `shortest`, in the scene's units. */
+  /** Prepares only edges that may be long enough to be seen: `shortest`, in the scene's units. */
   prepare_edges(shortest) {
     const { terrain, edges } = this, { pairs, count_from } = this.ranked ??= terrain.edges(), count = count_from(shortest);
     if (count > this.edges_there) {
@@ -187,7 +187,8 @@ export class Scene {
     this.invalidate();
   }
 
-  /** As much of the terrain stays in sight when one view becomes two, which what is free has room for equally. `is_for_two`: the orbit is already one of two. */
+  /** The same part of the terrain stays in sight when one view becomes two, for which the free space has equal room.
+   * `is_for_two`: the orbit is already one of two. */
   divide(count) {
     const before = this.count && Math.tan(this.fov() / 2), { right, top } = this.look.covered(), { clientWidth: width, clientHeight: height } = this.canvas;
     this.count = count;
@@ -202,7 +203,7 @@ export class Scene {
     requestAnimationFrame(() => this.draw());
   }
 
-  /** As it is at first: from the south-south-west, all of it in sight. */
+  /** Resets the view to its start: from the south-south-west, all of it in sight. */
   reset() {
     const first = { azimuth: -20, altitude: 38, target: [0, 0, 0] };
     this.controls.target.set(0, 0, 0);
@@ -211,7 +212,7 @@ export class Scene {
     this.set_orbit({ ...first, distance: this.distance_to_see() });
   }
 
-  /** From where each corner of the terrain's box is in sight, looking as the camera does. */
+  /** The distance from which each corner of the terrain's box is in sight, in the camera's direction. */
   distance_to_see() {
     const { place } = this.views[0].terrain, half = Math.tan(this.camera.fov * Math.PI / 360) / Math.max(1, this.canvas.clientHeight);
     const [right, up, back] = [0, 1, 2].map(k => new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, k));
@@ -232,7 +233,7 @@ export class Scene {
     return 2 * Math.atan(half * Math.min(...sides));
   }
 
-  /** Degrees clockwise from north to where the camera looks, degrees above the horizon, metres. */
+  /** Degrees clockwise from north to the camera's direction, degrees above the horizon, metres. */
   orbit() {
     const { target } = this.controls, away = this.camera.position.clone().sub(target), distance = away.length();
     return { azimuth: Math.atan2(-away.x, -away.y) * 180 / Math.PI, altitude: Math.asin(away.z / distance) * 180 / Math.PI, distance, target: target.toArray() };
@@ -269,7 +270,7 @@ export class Scene {
     return this.count < 2 ? [0, width] : k === 0 ? [0, middle] : [middle, width - middle];
   }
 
-  /** What the panel leaves of a view: left, top, width and height. */
+  /** The part of a view that the panel does not cover: left, top, width and height. */
   free(k) {
     const [left, width] = this.part(k), height = this.canvas.clientHeight, panel = this.look.covered();
     if (panel.top > 0.3 * height) return [0, 0, width, Math.max(1, panel.top)];
@@ -320,14 +321,14 @@ export class Scene {
     for (const listener of this.listeners) listener();
   }
 
-  /** Of a place in the scene, exaggerated as drawn: CSS pixels in view `k`; null behind the camera. */
+  /** The projection of a place in the scene, exaggerated as drawn: CSS pixels in view `k`; null behind the camera. */
   project(point, k = 0) {
     this.aim(k);
     const [left, width] = this.part(k), at = new THREE.Vector3(point[0], point[1], point[2] * this.look.exaggeration).project(this.camera);
     return Math.abs(at.z) > 1 ? null : [left + (at.x + 1) / 2 * width, (1 - at.y) / 2 * this.canvas.clientHeight];
   }
 
-  /** What lies below a pixel: the scene's coordinates without exaggeration; null for the sky. */
+  /** The point below a pixel: the scene's coordinates without exaggeration; null for the sky. */
   pick(x, y) {
     const k = this.count > 1 && x >= this.part(1)[0] ? 1 : 0, [left, width] = this.part(k);
     this.aim(k);

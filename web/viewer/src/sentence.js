@@ -1,2 +1,2 @@
-// What goes wrong is told in one sentence, on the page.
+// A failure, reported in one sentence on the page.
 export class Sentence extends Error {}

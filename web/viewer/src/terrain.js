@@ -3,7 +3,7 @@ import { judge_beside } from './judging.js';
 import { find_placing } from './images.js';
 import { join_places, list_edges, rank_edges, sum_normals } from './joins.js';
 
-/** Where the page's scene lies: `metres` a unit of x, y and z. */
+/** The position of the page's scene: `metres` a unit of x, y and z. */
 export class Place {
   constructor(positions, metres) {
     this.metres = metres;
@@ -40,9 +40,10 @@ export class Place {
 
 export class Terrain {
   /**
-   * `positions`: x, y, z of the mesh's own frame, as are `normals`; these, `uvs` and `field` may be null. `sheets`: runs of indices under one image, or of one ground.
-   * `extras`: what a file of it says of itself; `goal`: what the engine was asked for; `judged`: what judge() found, if it is known: of every sample; null without a raster.
-   */
+   * `positions`: x, y, z of the mesh's own frame, as are `normals`; these, `uvs` and `field` may be null. `sheets`:
+   * runs of indices under one image, or of one ground. `extras`: metadata of its file; `goal`: the request to the
+   * engine; `judged`: the result of judge(), if it is known: of every sample; null without a raster.
+   * */
   constructor({ name, positions, indices, bytes = null, told = null, extras = {}, goal = null, judged = null, normals = null, uvs = null, sheets = [{ image: null, ground: null, start: 0, count: indices.length }] }, place, field) {
     Object.assign(this, { name, positions, indices, bytes, told, extras, goal, place, field, judged, uvs, sheets });
     this.scene = new Float32Array(positions.length);
@@ -66,12 +67,12 @@ export class Terrain {
     return !this.field || this.judged !== null;
   }
 
-  /** Once, beside what the page does. */
+  /** Judges it once, in the background. */
   judge() {
     return this.judging ??= judge_beside(this.field, this).then(judged => { this.judged = judged; });
   }
 
-  /** Where vertices lie in the raster, as shares of its columns and rows. */
+  /** Positions of vertices in the raster, as shares of its columns and rows. */
   get sampled() {
     const { cols, rows } = this.field;
     return Float32Array.from(this.field.to_grids(this.positions), (value, k) => (value + 0.5) / (k % 2 ? rows : cols));
@@ -81,7 +82,7 @@ export class Terrain {
     return this.sheets.some(({ image }) => image);
   }
 
-  /** Where x and y lie in the image; null where that is no affine map, or not of one image. */
+  /** The map from x and y to the image; null where that is no affine map, or not of one image. */
   get placing() {
     if (this.known_placing === undefined) this.known_placing = this.sheets.length === 1 && this.has_image ? find_placing(this) : null;
     return this.known_placing;

@@ -1,4 +1,5 @@
-// The samples of a TIFF, block by block, as GDAL reads them: any byte order, blocks that were never written, what LERC leaves out.
+// The samples of a TIFF, block by block, as GDAL reads them: any byte order, blocks that were never written, values
+// that LERC omits.
 import { decompress } from 'fzstd';
 import { getDecoder } from 'geotiff';
 import Lerc from 'lerc';
@@ -81,7 +82,7 @@ export class TiffSamples {
     return this.format === SIGNED ? [-(2 ** (this.bits - 1)), 2 ** (this.bits - 1) - 1] : [0, 2 ** this.bits - 1];
   }
 
-  /** Of a block of `rows` rows: its numbers, and how many a pixel has. */
+  /** Unpacks a block of `rows` rows: its numbers, and how many a pixel has. */
   async unpack(bytes, rows) {
     if (this.compression === LERC) return this.unpack_lerc(bytes, rows);
     const { bits } = this, bands = this.is_planar ? 1 : this.bands, in_row = this.block_cols * bands, row_bytes = Math.ceil(in_row * bits / 8);

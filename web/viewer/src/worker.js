@@ -1,4 +1,4 @@
-// The engine, beside the page: greedy meshes from one kept refinement, others by an effort. Answers are judged here.
+// The engine, in the background: greedy meshes from one kept refinement, others by an effort. Answers are judged here.
 import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
@@ -7,15 +7,16 @@ import { Field, place_mesh } from './field.js';
 let field = null, place = null, refiner = null, failed = null;
 const loaded = ready().then(warm_up).catch(error => { failed = `this browser refuses WebAssembly, which the slider needs (${error.message})`; });
 
-/** The first mesh of a fresh module takes ten times as long as the next. */
+/** The first mesh of a fresh module needs ten times as long as the next. */
 function warm_up() {
   const side = 65, z = Float32Array.from({ length: side * side }, (_, k) => Math.sin(k) * (k % side));
   simplifySync(z, side, side, { maxError: 1, effort: 'fast' });
 }
 
-const AT_THE_BOUND = 1 + 1e-12;  // of an error: there the refiner's doubles would go on where an exact decision ends
+const AT_THE_BOUND = 1 + 1e-12;  // factor of an error: the refiner's doubles would continue where an exact decision
+                                 // ends
 
-/** Finer meshes go on from the last; for a coarser one it begins again. */
+/** Finer meshes continue from the last; for a coarser one it begins again. */
 function refine(error) {
   if (!refiner || refiner.maxError < error) {
     refiner?.free();

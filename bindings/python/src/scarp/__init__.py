@@ -7,7 +7,7 @@
 >>> mesh.vertices.shape, mesh.triangles.dtype, mesh.max_error <= 0.5
 >>> mesh.write("hills.glb")
 
-What the functions take as `source`:
+The functions accept these as `source`:
   - an array (rows, columns), the first row in the north. float32 is not copied. float64 and integers are rounded to
     float32, and the promise is about the values that were given. NaN, infinities and masked samples are voids.
   - an xarray.DataArray, or a Dataset of one variable: its evenly spaced coordinates, its CRS and nodata as CF and
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ._call import ProgressArgument
 
 __version__: str = _abi.lib.scarp_version().decode()
-#: Whether the library reads what GDAL reads and knows CRSs. Without it paths are read by rasterio or GDAL's own Python.
+#: True if the library reads GDAL's formats and knows CRSs. Without it paths are read by rasterio or GDAL's own Python.
 has_gdal: bool = bool(_abi.lib.scarp_has_gdal())
 
 __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Report", "Refiner", "Tiles", "tile", "Progress",
@@ -42,7 +42,7 @@ __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Repor
            "ScarpWarning", "has_gdal", "__version__"]
 
 
-_MOST = 2**63  # as good as no limit
+_MOST = 2**63  # so large that it is no limit
 
 
 def _finish(handle: Any, place: Any = None, shape: Optional[tuple[int, ...]] = None) -> Mesh:
@@ -65,7 +65,7 @@ def _goals(settings: _call.Settings, max_error: float | str | None, max_triangle
 
 def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance: Any,
           named: dict[str, Any]) -> None:
-    """Arrays beside the heights; paths are options by name."""
+    """Arrays in addition to the heights; paths are options by name."""
     if mask is None and tolerance is None:
         return
     for name, values in (("mask", mask), ("tolerance", tolerance)):
@@ -103,15 +103,15 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
 
     source         see the module's help
     max_error      every sample is within this of the mesh, vertically, in the units of the heights; "0.5%" of the
-                   relief; "1m", "3ft" where the file tells its unit
+                   relief; "1m", "3ft" where the file has a unit
     max_triangles, max_points   upper bounds; the first goal that is reached ends the run. At least one goal is needed.
     effort         "fast", "normal" (DEFAULT), "high" or "max": fewer triangles for more time
     band           of a file or dataset, from 1
-    transform      where pixels lie: rasterio's Affine, or GDAL's six numbers; of pixel corners, as both say
-    crs            of the transform: "EPSG:32611", a number of EPSG, WKT, a CRS of rasterio or pyproj
+    transform      position of pixels: rasterio's Affine, or GDAL's six numbers; of pixel corners, as in both
+    crs            CRS of the transform: "EPSG:32611", a number of EPSG, WKT, a CRS of rasterio or pyproj
     nodata         a value that is no height (NaN and infinities never are)
-    frame          x and y of the mesh. "auto": as the transform says, degrees become metres around the centre; "source":
-                   as it says, degrees too; "local": around the centre; "grid": columns and rows; or a CRS (with GDAL)
+    frame          x and y of the mesh. "auto": by the transform, degrees become metres around the centre; "source":
+                   by it, degrees stay; "local": around the centre; "grid": columns and rows; or a CRS (with GDAL)
     mask           (rows, columns) weights: weight * |error| is bounded; 0 and NaN: no bound. Or a file.
     tolerance      (rows, columns) bounds of their own for the samples; NaN: none. Or a file.
     normals        Mesh.normals from all samples
@@ -148,13 +148,13 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
                     max_points: Optional[int] = None, crs: Any = None, threads: int = 0,
                     progress: ProgressArgument = None, **options: Any) -> Mesh:
     """The same for scattered points: (N, 3) float64 of x, y, z, not copied by Python where they are that; or a path.
-    Rows with a masked number are left out.
+    Rows with a masked number are omitted.
 
     The mesh covers their convex hull, its vertices are points, and every point is within max_error of it. `duplicates`:
-    which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean". `nodata`: points
-    of that height, and those without a finite one, are left out. `crs` and `frame`: as in simplify(); degrees become
-    metres around the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, whose edges are 50
-    long at most where the points allow it.
+    which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean". `nodata`:
+    points of that height, and those without a finite one, are omitted. `crs` and `frame`: as in simplify(); degrees
+    become metres around the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, whose edges
+    are 50 long at most where the points allow it.
     """
     out = C.c_void_p()
     lib = _abi.lib
@@ -202,7 +202,7 @@ def _points_of(points: Any, crs: Any) -> tuple[Any, Any]:
     return struct, array
 
 
-_MANY_ROWS = 16  # of three columns: more likely points than a raster
+_MANY_ROWS = 16  # rows of three columns: more likely points than a raster
 
 
 def _warn_of_points(source: Any) -> None:
@@ -217,7 +217,7 @@ def _are_points(source: Any, mesh: Mesh) -> bool:
     shape = _inputs.shape_of(source)
     if shape is None:
         return False
-    if mesh.metadata("duplicates") is not None:  # what a mesh of points says
+    if mesh.metadata("duplicates") is not None:  # metadata of a mesh of points
         return True
     return _inputs.looks_like_points(source) and shape != mesh._shape
 
@@ -227,10 +227,10 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
             points: Optional[bool] = None, threads: int = 0, progress: ProgressArgument = None, **options: Any) -> Report:
     """Judges a mesh against every sample, by brute force, without knowing how it was made.
 
-    `source` and what places it: as in simplify(), or points as in simplify_points(). Beside a mesh of points an array
-    is points, and beside another mesh one of (N, 3) is, unless the mesh was made of an array of that shape; transform,
-    nodata, mask and tolerance say that it is a raster. `points`, True or False, decides otherwise. `mesh`: a Mesh, or
-    (N, 3) vertices beside (M, 3) triangles. `fail_above=1.5` raises PromiseError where a sample is farther off. Other
+    `source` and what places it: as in simplify(), or points as in simplify_points(). With a mesh of points an array is
+    points, and with another mesh one of (N, 3) is, unless the mesh was made of an array of that shape; transform,
+    nodata, mask and tolerance show that it is a raster. `points`, True or False, decides otherwise. `mesh`: a Mesh, or
+    (N, 3) vertices with (M, 3) triangles. `fail_above=1.5` raises PromiseError where a sample is farther off. Other
     options as those of `scarp measure`: `cutline`, `script` ... Returns a Report.
     """
     if triangles is not None:

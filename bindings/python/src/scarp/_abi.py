@@ -12,7 +12,7 @@ ABI_VERSION = 1
 
 
 def _open() -> C.CDLL:
-    """The library beside this file; else the one that SCARP_LIBRARY names; else the system's."""
+    """The library next to this file; else the one that SCARP_LIBRARY names; else the system's."""
     name = {"win32": "scarp_c.dll", "darwin": "libscarp_c.dylib"}.get(sys.platform, "libscarp_c.so")
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), name)
     named = os.environ.get("SCARP_LIBRARY")
@@ -37,7 +37,7 @@ class Progress(C.Structure):
                 ("tiles", C.c_uint64), ("bytes", C.c_uint64)]
 
 
-ProgressFn = C.CFUNCTYPE(C.c_int32, C.c_void_p)  # the address of a Progress; `user`, which is NULL, is not looked at
+ProgressFn = C.CFUNCTYPE(C.c_int32, C.c_void_p)  # the address of a Progress; `user`, which is NULL, is ignored
 
 
 class Field(C.Structure):
@@ -191,7 +191,7 @@ def take_bytes(handle: int | None) -> bytes:
 
 
 def is_layout_equal() -> bool:
-    """Whether the structs above lie in memory as the library's do."""
+    """True if the structs above lie in memory as the library's do."""
     text: bytes = lib.scarp_abi_layout()
     lines = text.decode().splitlines()
     ours = []

@@ -21,9 +21,9 @@ class Progress(NamedTuple):
     fraction: float  #: 0 to 1 of this pass
     vertices: int  #: so far; 0 where the pass does not know it
     max_error: float  #: so far, in z units; 0 where the pass does not know it
-    seconds_left: Optional[float]  #: of this pass; None before it can be told
+    seconds_left: Optional[float]  #: left of this pass; None before it can be estimated
     tiles: int  #: written so far, in the pass "tiles" of tile()
-    bytes: int  #: of them
+    bytes: int  #: size of these tiles
 
 
 ProgressArgument = Union[bool, None, Callable[[Progress], Any]]
@@ -67,7 +67,7 @@ class _Bar:
 
 
 def text_of(name: str, value: object) -> str:
-    """An option's value as the program takes it."""
+    """An option's value as the program accepts it."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (str, bytes, os.PathLike)):
@@ -137,16 +137,17 @@ def _is_on_main_thread() -> bool:
 
 
 def _is_false(told: object) -> bool:
-    """Of Python or of numpy; 0 and None are not."""
+    """True for False of Python or of numpy; 0 and None are not."""
     return told is False or (type(told).__name__ in ("bool_", "bool") and not told)
 
 
 def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseException],
             is_beside: bool) -> Generator[int, int, None]:
-    """Its send() is called with the address of what the library tells, and says whether to cancel.
+    """Its send() is called with the address of the library's progress, and returns whether to cancel.
 
-    What is raised within it is kept: in ctypes it would be printed and swallowed. Ctrl-C, and what other handlers of
-    signals raise, comes wherever Python code goes on: in a function before its first `try`, but here at the `yield`."""
+    An exception raised within it is kept: in ctypes it would be printed and swallowed. Ctrl-C, and what other handlers
+    of signals raise, comes wherever Python code continues: in a function before its first `try`, but here at the
+    `yield`."""
     answer = 0
     while True:
         try:
@@ -199,7 +200,7 @@ def run(settings: Settings, progress: ProgressArgument, function: Callable[..., 
 
 
 def warn(handle: int, stacklevel: int) -> None:
-    """Says what the library says of a mesh."""
+    """Issues the library's warnings about a mesh."""
     text: bytes = _abi.lib.scarp_mesh_warnings(handle)
     for sentence in _abi.in_words(text).splitlines() if text else ():
         warnings.warn(sentence, ScarpWarning, stacklevel=stacklevel + 1)

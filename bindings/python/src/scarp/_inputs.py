@@ -26,7 +26,7 @@ class Turn(NamedTuple):
         return rows[::-1 if self.flips_rows else 1, ::-1 if self.flips_cols else 1]
 
     def apply(self, values: Any) -> Any:
-        """The same with an array beside it."""
+        """The same with an array in parallel."""
         return self.flip(values.T if self.is_transposed else values)
 
     def place(self, rows: int, cols: int, at: Optional[tuple[int, int]]) -> Optional[tuple[int, int]]:
@@ -41,7 +41,7 @@ AS_GIVEN = Turn()
 
 
 class Input(NamedTuple):
-    """What a call reads: a path, or a struct with what it points to."""
+    """The input of a call: a path, or a struct with what it points to."""
 
     path: Optional[bytes]
     field: Any
@@ -49,13 +49,13 @@ class Input(NamedTuple):
     turn: Turn = AS_GIVEN
 
     def place(self) -> Any:
-        """What takes a sample's row and column to those in the source; None where they are the same."""
+        """The map from a sample's row and column to those in the source; None where they are the same."""
         if self.turn[1:] == AS_GIVEN[1:]:
             return None
         return functools.partial(self.turn._replace(source=None).place, self.field.rows, self.field.cols)
 
     def is_small(self) -> bool:
-        """Takes less than some 0.1 s unless the options say otherwise."""
+        """True if it needs less than some 0.1 s unless the options ask otherwise."""
         return self.path is None and bool(self.field.rows * self.field.cols <= _SMALL)
 
 
@@ -67,7 +67,7 @@ class Raster(NamedTuple):
     name: Optional[str] = None
     unit: Optional[str] = None
     turn: Turn = AS_GIVEN
-    is_in_degrees: bool = False  #: as the coordinates say themselves
+    is_in_degrees: bool = False  #: by the coordinates' own attributes
 
 
 _NO_PLACE = Raster()
@@ -88,7 +88,7 @@ def _numpy() -> Any:
 
 
 def shape_of(source: Any) -> Optional[tuple[int, ...]]:
-    """Of an array, or of rows; None for what knows its own place."""
+    """Shape of an array, or of rows; None for sources that know their own position."""
     if _is_path(source) or hasattr(source, "coords") or hasattr(source, "read"):
         return None
     shape = getattr(source, "shape", None)
@@ -108,13 +108,13 @@ def _is_path(source: object) -> bool:
 
 
 def _has_file_reader(path: str) -> bool:
-    """Whether the library itself reads the file: PGM, STM and text of points always, all else with GDAL."""
+    """True if the library itself reads the file: PGM, STM and text of points always, all else with GDAL."""
     own = (".pgm", ".stm", ".csv", ".tsv", ".xyz", ".txt")
     return bool(_abi.lib.scarp_has_gdal()) or path.lower().endswith(own)
 
 
 def unpack(values: Any, voids: Any, scale: Any, offset: Any) -> tuple[Any, Optional[float]]:
-    """Heights of packed values, and the value that is still to be taken for none."""
+    """Heights of packed values, and the value that still stands for no height."""
     np = _numpy()
     scale, offset = float(1 if scale is None else scale), float(0 if offset is None else offset)
     voids = {float(void) for one in voids if one is not None for void in np.ravel(one) if void == void}
@@ -220,7 +220,7 @@ def _is_geographic(crs: Any) -> Optional[bool]:
 
 
 def frame_of_points(crs: Any) -> int:
-    """What a library that knows no CRS is told of one."""
+    """The frame for a library that knows no CRS."""
     return _DEGREES if not _abi.lib.scarp_has_gdal() and _is_geographic(crs) else 0
 
 
@@ -255,7 +255,7 @@ def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
                          % z.dtype)
     _check_shape(z.shape)
     if mask is not np.ma.nomask and mask.any():
-        z = np.where(mask, np.float32(np.nan), z)  # what lies below a mask may be anything
+        z = np.where(mask, np.float32(np.nan), z)  # values below a mask may be anything
     if z.dtype.type is np.float64 and z.flags.c_contiguous and z.flags.aligned and z.dtype.isnative:
         samples = np.empty(z.shape, np.float32)
         rounding = _abi.lib.scarp_round_samples(z.ctypes.data, z.size, samples.ctypes.data)
@@ -268,7 +268,7 @@ def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
 
 
 def _largest_rounding(np: Any, given: Any, samples: Any) -> float:
-    """A few rows at once, so that it takes little memory."""
+    """A few rows at once, so that it needs little memory."""
     largest = 0.0
     wide = given.dtype if given.dtype.kind == "f" and given.dtype.itemsize > 8 else np.float64
     rows = max(1, _SMALL // max(samples.shape[1], 1))
@@ -276,7 +276,7 @@ def _largest_rounding(np: Any, given: Any, samples: Any) -> float:
         for first in range(0, len(samples), rows):
             difference = np.abs(given[first:first + rows].astype(wide) - samples[first:first + rows])
             most = difference.max(initial=0.0)
-            if not most < np.inf:  # of voids: no roundings
+            if not most < np.inf:  # largest of voids: no roundings
                 most = difference.max(initial=0.0, where=np.isfinite(difference))
             largest = max(largest, float(most))
     return largest + (_rounding_of_integers(np, given) if given.dtype.kind in "iu" else 0.0)
@@ -333,7 +333,7 @@ def _is_of_xarray(source: Any) -> bool:
 
 def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
          wants_array: bool = False) -> Input:
-    """The source as the library takes it. Arguments go before what the source says of itself."""
+    """The source as the library accepts it. Arguments override the source's own attributes."""
     np = _numpy()
     nodata = None if nodata is None else _values.number_of("nodata", nodata)
     if np is not None and type(source) is np.ndarray:  # the most frequent first
@@ -404,7 +404,7 @@ def _as_array(np: Any, samples: Any) -> Any:
 
 
 def _place(field: Any, transform: Any, crs: Any, is_in_degrees: bool) -> None:
-    """Where the samples lie."""
+    """Sets the position of the samples."""
     field.geotransform[:] = _geotransform(transform)
     field.frame = _SOURCE
     if crs is not None:

@@ -1,4 +1,4 @@
-"""What callers give, as the library takes it: else UsageError, with a sentence."""
+"""Checks and converts callers' values for the library: else UsageError, with a sentence."""
 from __future__ import annotations
 
 import os
@@ -15,7 +15,7 @@ def number_of(name: str, value: Any) -> float:
 
 
 def bound_of(name: str, value: Any) -> float:
-    """A number that is no NaN, which the library takes for none."""
+    """A number that is no NaN, which the library treats as none."""
     number = number_of(name, value)
     if number != number:
         raise UsageError("%s is NaN: give a number" % name)

@@ -19,7 +19,7 @@ _PLACE = "<!--SCARP-DATA-->"
 
 
 def _read_template() -> str:
-    """Of the package, else of the program."""
+    """The template of the package, else of the program."""
     paths = [os.path.join(os.path.dirname(__file__), "viewer.html")]
     program = shutil.which("scarp")
     if program is not None:

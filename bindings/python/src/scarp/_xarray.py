@@ -1,4 +1,4 @@
-"""What xarray knows of heights: one variable, its coordinates, its CRS. By CF's names, whatever else is imported."""
+"""Heights of xarray: one variable, its coordinates, its CRS. By CF's names, whatever else is imported."""
 from __future__ import annotations
 
 import re
@@ -13,7 +13,7 @@ _EAST = ("degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "deg
 _NORTH = ("degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "degreesn")
 _METRES = {"": 1.0, "m": 1.0, "metre": 1.0, "metres": 1.0, "meter": 1.0, "meters": 1.0, "km": 1000.0,
            "kilometre": 1000.0, "kilometres": 1000.0, "kilometer": 1000.0, "kilometers": 1000.0}
-_UNEVEN = 1e-3  # of a cell
+_UNEVEN = 1e-3  # share of a cell
 #: EPSG's number of a whole CRS, at the end of its WKT or as PROJ once had it.
 _CODE = re.compile(r'AUTHORITY\["EPSG",\s*"(\d+)"\]\s*\]\s*$|ID\["EPSG",\s*(\d+)\]\s*\]\s*$|^\+init=epsg:(\d+)$', re.I)
 
@@ -32,7 +32,7 @@ def is_dataset(source: Any) -> bool:
 
 
 def _pick_variable(dataset: Any) -> tuple[Any, Any]:
-    """The one variable with heights, and the variables beside it."""
+    """The one variable with heights, and the variables next to it."""
     bounds = {one.attrs.get("bounds") for one in dataset.variables.values()}
     names = [name for name, one in dataset.data_vars.items() if one.ndim >= 2 and name not in bounds]
     if len(names) == 1:
@@ -75,7 +75,7 @@ def _kind_of_dim(array: Any, dim: Any) -> Optional[str]:
 
 
 def _as_rows(array: Any, name: str) -> Any:
-    """(y, x): dimensions of one step are left out, and x before y is turned."""
+    """(y, x): dimensions of one step are dropped, and x before y is turned."""
     kinds = {dim: _kind_of_dim(array, dim) for dim in array.dims}
     needless = [dim for dim, size in zip(array.dims, array.shape) if size == 1 and kinds[dim] is None]
     if array.ndim > 2 and needless:
@@ -134,7 +134,7 @@ def _line_of(np: Any, array: Any, dim: Any, name: str) -> Optional[_Axis]:
 
 
 def _mapping_of(array: Any, beside: Any) -> Optional[Any]:
-    """The attributes of the variable that says which CRS it is."""
+    """The attributes of the variable that holds its CRS."""
     named = array.encoding.get("grid_mapping") or array.attrs.get("grid_mapping")
     for name in ([str(named).split(":")[0].strip()] if named else []) + ["spatial_ref", "crs"]:
         for where in (array.coords, beside):
@@ -186,11 +186,11 @@ def _refuse_curved(array: Any, name: str) -> None:
 
 
 def _values_of(array: Any, nodata: Optional[float]) -> tuple[Any, Optional[float]]:
-    """Heights, and the value that is none. What the file packs, and nobody has unpacked, is unpacked."""
+    """Heights, and the value that is none. Values that are packed in the file, and not unpacked yet, are unpacked."""
     attributes = array.attrs
     voids = [attributes[key] for key in ("_FillValue", "missing_value", "nodata") if attributes.get(key) is not None]
     if not voids:
-        voids = list(attributes.get("nodatavals", ()))[:1]  # as xarray's own reader of rasters had it
+        voids = list(attributes.get("nodatavals", ()))[:1]  # set by xarray's own reader of rasters
     if not voids:
         void = getattr(getattr(array, "rio", None), "nodata", None)
         voids = [] if void is None else [void]

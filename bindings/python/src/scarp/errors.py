@@ -1,4 +1,4 @@
-"""What goes wrong, as exceptions: one class for each exit code of the program, the library's sentence as the message."""
+"""Failures as exceptions: one class for each exit code of the program, the library's sentence as the message."""
 from __future__ import annotations
 
 
@@ -23,7 +23,7 @@ class OutputError(ScarpError, OSError):
 
 
 class Cancelled(ScarpError):
-    """The progress function said so."""
+    """The progress function asked for it."""
 
 
 class InternalError(ScarpError, RuntimeError):
@@ -31,7 +31,7 @@ class InternalError(ScarpError, RuntimeError):
 
 
 class ScarpWarning(UserWarning):
-    """What the library says of its input, where it can go on."""
+    """A warning of the library about its input, where it can continue."""
 
 
 OF_STATUS: dict[int, type[ScarpError]] = {

@@ -17,7 +17,7 @@ _EFFORTS = {0: "fast", 1: "normal", 2: "high", 3: "max"}
 
 
 class Report(NamedTuple):
-    """What a mesh is measured to be, by brute force, against every sample. Errors are vertical, mesh minus sample, in
+    """The measured error of a mesh, by brute force, against every sample. Errors are vertical, mesh minus sample, in
     the units of the heights."""
 
     max_error: float  #: the largest |error|
@@ -41,7 +41,7 @@ class Report(NamedTuple):
 
 
 def report_of(struct: Any, place: Any = None) -> Report:
-    """`place` says which sample of the source is one of the library's."""
+    """`place` maps a sample of the library to the source's."""
     made = struct.effort in _EFFORTS
     at = (struct.max_error_row, struct.max_error_col) if struct.max_error_row >= 0 else None
     at = place(at) if place else at
@@ -68,13 +68,13 @@ class Mesh:
     __slots__ = ("_handle", "_vertices", "_place", "_shape", "__weakref__")
 
     def __init__(self, handle: int, place: Any = None, shape: Optional[tuple[int, ...]] = None) -> None:
-        """Takes a handle of the library; for this package alone."""
+        """Becomes the owner of a handle of the library; for this package alone."""
         if not isinstance(handle, int):
             raise TypeError("meshes are made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()")
         self._handle = handle
         self._vertices: Any = None
         self._place = place  # report_of()'s
-        self._shape = shape  # of the array that it was made of; None: it is not known
+        self._shape = shape  # shape of the array that it was made of; None: it is not known
 
     def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
         if hasattr(self, "_handle"):
@@ -133,7 +133,7 @@ class Mesh:
 
     @property
     def origin(self) -> tuple[float, float, float]:
-        """What `offsets` are relative to: x, y, z in the mesh's frame."""
+        """The origin of `offsets`: x, y, z in the mesh's frame."""
         x, y, z = _Point.from_address(_abi.lib.scarp_mesh_origin(self._handle))
         return x, y, z
 
@@ -177,7 +177,7 @@ class Mesh:
 
     @property
     def report(self) -> Report:
-        """The proof that the mesh was made with. UsageError for a mesh that nobody has measured: see measure()."""
+        """The proof that the mesh was made with. UsageError for a mesh that was not measured: see measure()."""
         return report_of(self._measured(), self._place)
 
     @property
@@ -194,16 +194,16 @@ class Mesh:
 
     @property
     def crs(self) -> Optional[str]:
-        """Of x and y: "EPSG:32611", WKT; None where there is none."""
+        """CRS of x and y: "EPSG:32611", WKT; None where there is none."""
         return self.metadata("crs")
 
     @property
     def frame(self) -> Optional[str]:
-        """What x and y are, in words."""
+        """The frame of x and y, in words."""
         return self.metadata("frame")
 
     def metadata(self, key: str) -> Optional[str]:
-        """What the mesh says of itself: "command", "frame", "crs", "origin", "error" ..., as in every file of it."""
+        """The mesh's metadata: "command", "frame", "crs", "origin", "error" ..., as in every file of it."""
         text: Optional[bytes] = _abi.lib.scarp_mesh_metadata(self._handle, _values.text_of("the key", key))
         return None if text is None else text.decode()
 
@@ -274,10 +274,10 @@ class Mesh:
     def view(self, source: Any = None, path: Optional[str | os.PathLike[str]] = None, *, open: bool = True,
              **options: Any) -> str:
         """Writes a page that shows the mesh in a browser, and opens it: one HTML file, to a temporary folder unless
-        `path` says where. With the `source` that the mesh was made of (and its options `transform`, `nodata` ...) the
+        `path` is given. With the `source` that the mesh was made of (and its options `transform`, `nodata` ...) the
         page shows the error of every sample. Returns the path, which a notebook shows as the page itself; `open=False`
-        opens no browser besides. InputError where the page's template is not there, PromiseError where the mesh covers no
-        sample of the source."""
+        opens no browser besides. InputError where the page's template is not there, PromiseError where the mesh covers
+        no sample of the source."""
         import tempfile
         import webbrowser
         from pathlib import Path
@@ -303,7 +303,7 @@ class Mesh:
             return "<scarp.Mesh: %s>" % counts
 
     def error_facts(self) -> dict[str, Any]:
-        """What the file says of the mesh's error: "asked", "max_error", "rmse", "samples"."""
+        """The facts in the file about the mesh's error: "asked", "max_error", "rmse", "samples"."""
         import json
         text = self.metadata("error")
         facts: dict[str, Any] = json.loads(text) if text else {}
@@ -318,7 +318,7 @@ def _unpack(packed: bytes, place: Any, shape: Optional[tuple[int, ...]] = None) 
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Reads a mesh file: GLB, OBJ, PLY, STL, 2DM, VTU ..., told by its content. InputError if it is none."""
+    """Reads a mesh file: GLB, OBJ, PLY, STL, 2DM, VTU ..., recognised by its content. InputError if it is none."""
     out = C.c_void_p()
     _abi.check(_abi.lib.scarp_mesh_read(_values.path_of(path), C.byref(out)))
     assert out.value is not None

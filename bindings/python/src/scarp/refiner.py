@@ -12,8 +12,8 @@ from .mesh import Mesh
 class Refiner:
     """A mesh that grows by the sample with the largest error, one at a time, towards ever smaller errors.
 
-    `source` as in simplify(), but no path. It borrows the samples of a float32 array: do not change them meanwhile.
-    Of several threads that use it one waits for the other.
+    `source` as in simplify(), but no path. It borrows the samples of a float32 array: do not change them meanwhile. If
+    several threads use it one waits for the other.
 
     >>> refiner = Refiner(z)
     >>> refiner.run(max_error=10)       # inserted vertices
@@ -49,8 +49,8 @@ class Refiner:
             progress: _call.ProgressArgument = None) -> int:
         """Inserts until the error is at most max_error, or there are max_vertices; returns how many were inserted.
 
-        `progress` as in simplify(). What was inserted before it was cancelled, or Ctrl-C was pressed, stays: run() goes on
-        from there."""
+        `progress` as in simplify(). Vertices inserted before it was cancelled, or Ctrl-C was pressed, stay: run()
+        continues from there."""
         inserted = C.c_uint64()
         with self._lock, _call.Settings({}) as settings:
             settings.struct.max_error = _values.bound_of("max_error", max_error)
@@ -85,7 +85,7 @@ class Refiner:
         return count
 
     def mesh(self) -> Mesh:
-        """The mesh as it is now. It has no report: measure() tells of it."""
+        """The mesh as it is now. It has no report: measure() makes one."""
         out = C.c_void_p()
         with self._lock:
             _abi.check(_abi.lib.scarp_refiner_mesh(self._handle, C.byref(out)))

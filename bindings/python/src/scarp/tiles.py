@@ -25,7 +25,7 @@ def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: 
 
     source     as in simplify(); or a list of paths: at each place the first that has a height there counts
     out        a folder, or one file by its ending: .pmtiles, .mbtiles, .3tz. It gets its name once all tiles are made;
-               a call that fails, or is cancelled, leaves nothing.
+               a call that fails, or is cancelled, writes nothing.
     overwrite  replaces a set that Scarp has made
     options    those of `scarp tile`, with _ for -: `zoom=14`, `max_error=2`, `vertical="egm96"`, `of="3dtiles"`,
                `effort="high"`, `only="7,46,8,47"` ...
@@ -114,14 +114,15 @@ class Tiles:
         return self.read_with_bound(level, x, y)[0]
 
     def read_with_bound(self, level: int, x: int, y: int) -> tuple[bytes, Optional[float]]:
-        """The same, and its proven error in metres; None for the coarsest tiles, of which nobody looked at all."""
+        """The same, and its proven error in metres; None for the coarsest tiles, for which not all nodes were
+        examined."""
         out, bound = C.c_void_p(), C.c_double()
         place = [_values.whole_of(name, value, 0, _NO_TILE) for name, value in (("level", level), ("x", x), ("y", y))]
         _abi.check(_abi.lib.scarp_tiles_read(self._handle, *place, C.byref(out), C.byref(bound)))
         return _abi.take_bytes(out.value), None if math.isnan(bound.value) else bound.value
 
     def layer_json(self) -> bytes:
-        """layer.json, which tells clients what tiles there are."""
+        """layer.json, which lists the tiles for clients."""
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_tiles_read_file(self._handle, b"layer.json", C.byref(out)))
         return _abi.take_bytes(out.value)

@@ -1,5 +1,5 @@
-// What the core uses of {fmt}, which is a quarter of a small module by its tables and its printing of floats. Here
-// JavaScript prints the numbers. A format that this does not know is an error of the compiler.
+// The part of {fmt} that the core uses; {fmt} would be a quarter of a small module by its tables and its printing of
+// floats. Here JavaScript prints the numbers. A format that this does not know is an error of the compiler.
 #pragma once
 
 #include <cstddef>

@@ -20,10 +20,10 @@ __all__ = ["Delatin"]
 
 
 class Delatin:
-    """A mesh of `arr`, heights of (rows, columns), or flat beside `height` and `width`.
+    """A mesh of `arr`, heights of (rows, columns), or flat with `height` and `width`.
 
-    max_error is in the units of `arr`, before z_scale and z_exag. `vertices`: (N, 3) float32, x to the right, y up, both
-    in samples, z times z_scale and z_exag. `triangles`: (M, 3) uint32. `error`: the largest error of a sample.
+    max_error is in the units of `arr`, before z_scale and z_exag. `vertices`: (N, 3) float32, x to the right, y up,
+    both in samples, z times z_scale and z_exag. `triangles`: (M, 3) uint32. `error`: the largest error of a sample.
     """
 
     #: "fast": delatin's algorithm; "normal", "high", "max": fewer triangles.
@@ -50,7 +50,7 @@ class Delatin:
         if invert:
             heights = np.float32(1) - heights
         greedy: dict[str, Any] = {"order": "greedy"} if self.effort == "fast" else {}
-        # A place in samples: these are not taken for metres, whose relief Scarp would warn of.
+        # A place in samples: these do not count as metres, of whose relief Scarp would warn.
         corners = (-0.5, 1, 0, heights.shape[0] - 0.5, 0, -1)
         mesh = simplify(heights, max_error, transform=corners, max_triangles=max_triangles or None, max_points=max_points or None,
                         effort=self.effort, **greedy)

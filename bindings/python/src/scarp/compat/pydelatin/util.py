@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 __all__ = ["decode_ele", "rescale_positions", "latitude_adjustment"]
 
-#: What a number of three bytes is divided by, and what is added.
+#: The divisor of a number of three bytes, and the offset that is added.
 _ENCODINGS = {"mapbox": (10, -10000), "terrarium": (256, -32768)}
 
 
