@@ -75,8 +75,8 @@ Result<SourceFacts> find_facts(const HeightField& field, const RasterPlace& plac
     return SourceFacts{covered, std::sqrt(cell_x * metres[0] * cell_y * metres[1]), range.min, range.max,
                        std::sqrt(cell_x * cell_y)};
   }
-  return SourceFacts{covered, std::sqrt(cell_x * cell_y), range.min, range.max,
-                     0};  // metres of the map, as in the program
+  // Metres of the map, as in the program.
+  return SourceFacts{covered, std::sqrt(cell_x * cell_y), range.min, range.max, 0};
 }
 
 }  // namespace
