@@ -51,9 +51,8 @@ int stop_code(StopReason stop) {
 Result<std::vector<std::uint8_t>> encode(const scarp_mesh& mesh, const cli::OutputFormat& format) {
   if (format.kind == cli::OutputKind::kDem)
     return fail(ErrorKind::kUsage, "a raster is no format of a mesh: choose glb, obj, ply, stl or another mesh format");
-  const Result<bool> is_y_up = cli::choose_y_up(mesh.up, format, mesh.is_print);
-  if (!is_y_up) return tl::unexpected(is_y_up.error());
-  const bool turns = *is_y_up && (mesh.up || mesh.crs == "enu" || !is_in_space(mesh.crs));
+  SCARP_TRY(const bool is_y_up, cli::choose_y_up(mesh.up, format, mesh.is_print));
+  const bool turns = is_y_up && (mesh.up || mesh.crs == "enu" || !is_in_space(mesh.crs));
   const bool doubles = mesh.doubles && format.is_ply();
   if (!turns) return cli::encode_as(format, mesh.mesh, mesh.glb, doubles);
   Mesh turned = mesh.mesh;

@@ -133,11 +133,11 @@ Result<std::vector<std::string>> words_of(Commands command, const std::vector<st
   };
   for (const auto& [name, value] : common_settings(asked)) {
     if (has_setting(asked, name.c_str())) continue;
-    if (auto added = add(name, value); !added) return tl::unexpected(added.error());
+    SCARP_RETURN_IF_ERROR(add(name, value));
   }
   if (asked.named != nullptr) {
     for (const auto& [name, value] : asked.named->values) {
-      if (auto added = add(name, value); !added) return tl::unexpected(added.error());
+      SCARP_RETURN_IF_ERROR(add(name, value));
     }
   }
   words.emplace_back("--");  // the words after it are names, which may begin with a dash
@@ -157,9 +157,8 @@ Result<void> parse_words(CLI::App& program, std::vector<std::string> words) {
 
 Result<void> parse_options(CLI::App& program, Commands command, const std::vector<std::string>& arguments,
                            const scarp_options& asked, const std::vector<std::string>& beside) {
-  auto words = words_of(command, arguments, asked, beside);
-  if (!words) return tl::unexpected(words.error());
-  return parse_words(program, std::move(*words));
+  SCARP_TRY(auto&& words, words_of(command, arguments, asked, beside));
+  return parse_words(program, std::move(words));
 }
 
 }  // namespace scarp::door

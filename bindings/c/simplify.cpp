@@ -54,24 +54,21 @@ class SimplifyWords {
     std::vector<std::string> beside;
     if (kind == InputKind::kPoints) beside.emplace_back("--points");
     if (!has_setting(asked, "--of")) beside.emplace_back("--of=glb");
-    auto words = words_of(cli::kSimplify, {"simplify", input, "-"}, asked, beside);
-    if (!words) return tl::unexpected(words.error());
+    SCARP_TRY(auto&& words, words_of(cli::kSimplify, {"simplify", input, "-"}, asked, beside));
     for (const auto& request : last_) {
-      if (kind == InputKind::kField && request && request->words == *words) return request;
+      if (kind == InputKind::kField && request && request->words == words) return request;
     }
     auto request = std::make_shared<Request>();
     given_ = {};
     points_ = {};
-    if (auto parsed = parse_words(program_, *words); !parsed) return tl::unexpected(parsed.error());
-    request->words = std::move(*words);
+    SCARP_RETURN_IF_ERROR(parse_words(program_, words));
+    request->words = std::move(words);
     request->given = given_;
     request->points = points_;
-    if (auto goal = check_goal(given_); !goal) return tl::unexpected(goal.error());
+    SCARP_RETURN_IF_ERROR(check_goal(given_));
     if (kind != InputKind::kField && points_.are_meant(input)) return request;
-    if (auto unused = points_.check_unused(input); !unused) return tl::unexpected(unused.error());
-    auto plan = cli::plan_simplify(given_, {});
-    if (!plan) return tl::unexpected(plan.error());
-    request->plan = std::move(*plan);
+    SCARP_RETURN_IF_ERROR(points_.check_unused(input));
+    SCARP_TRY(request->plan, cli::plan_simplify(given_, {}));
     if (kind == InputKind::kField) last_[next_++ % last_.size()] = request;
     return request;
   }
@@ -133,34 +130,29 @@ Result<std::unique_ptr<scarp_mesh>> simplify_points_of(const CLI::App& command, 
   runner.on_plan = [&](ReadOptions& read) { choose_frame(asked, read); };
   cli::SimplifyPlan plan;
   cli::PointsOutcome outcome;
-  if (auto made = cli::make_points_mesh(command, request.given, request.points, runner, plan, outcome); !made)
-    return tl::unexpected(made.error());
-  if (auto completed = cli::complete_mesh(plan, request.points, outcome); !completed)
-    return tl::unexpected(completed.error());
+  SCARP_RETURN_IF_ERROR(cli::make_points_mesh(command, request.given, request.points, runner, plan, outcome));
+  SCARP_RETURN_IF_ERROR(cli::complete_mesh(plan, request.points, outcome));
   return hand_over(plan, request.given, outcome);
 }
 
 Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, InputKind kind,
                                                    const scarp_options& asked) {
   SimplifyWords& words = words_of_thread();
-  const auto parsed = words.parse(input, kind, asked);
-  if (!parsed) return tl::unexpected(parsed.error());
-  const Request& request = **parsed;
+  SCARP_TRY(const auto& parsed, words.parse(input, kind, asked));
+  const Request& request = *parsed;
   if (!request.plan) return simplify_points_of(words.command(), request, asked);
   cli::SimplifyPlan plan = *request.plan;
   if (plan.format.kind == cli::OutputKind::kDem)
     return fail(ErrorKind::kUsage, "of dem is a raster, and a mesh is asked for: choose glb, obj, ply, stl ...");
   choose_frame(asked, plan.read);
   cli::Outcome outcome;
-  if (auto made = cli::make_mesh(request.given, plan, {progress_of(asked)}, outcome); !made)
-    return tl::unexpected(made.error());
+  SCARP_RETURN_IF_ERROR(cli::make_mesh(request.given, plan, {progress_of(asked)}, outcome));
   if (!outcome.channels.empty()) color_by_channels(outcome.simplified.mesh, outcome.channels.bands);
-  auto glb = cli::glb_options(plan, outcome);
-  if (!glb) return tl::unexpected(glb.error());
-  if (auto completed = cli::complete_mesh(plan, outcome); !completed) return tl::unexpected(completed.error());
+  SCARP_TRY(auto&& glb, cli::glb_options(plan, outcome));
+  SCARP_RETURN_IF_ERROR(cli::complete_mesh(plan, outcome));
   auto mesh = hand_over(plan, request.given, outcome);
-  mesh->glb = std::move(*glb);
-  if (auto taken = take_print(outcome, *mesh); !taken) return tl::unexpected(taken.error());
+  mesh->glb = std::move(glb);
+  SCARP_RETURN_IF_ERROR(take_print(outcome, *mesh));
   return mesh;
 }
 

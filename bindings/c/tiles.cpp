@@ -58,10 +58,8 @@ struct TileWords {
     std::vector<std::string> words{"tile"};
     words.insert(words.end(), inputs.begin(), inputs.end());
     words.push_back(to);
-    if (auto parsed = parse_options(program, cli::kTile, words, asked); !parsed) return parsed;
-    const Result<int> count = cli::parse_threads(threads);
-    if (!count) return tl::unexpected(count.error());
-    run.threads = *count;
+    SCARP_RETURN_IF_ERROR(parse_options(program, cli::kTile, words, asked));
+    SCARP_TRY(run.threads, cli::parse_threads(threads));
     run.progress = progress_of(asked, counts);
     return {};
   }

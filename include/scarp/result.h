@@ -3,6 +3,7 @@
 
 #include <string>
 #include <tl/expected.hpp>
+#include <utility>
 
 #pragma GCC visibility push(default)
 
@@ -36,6 +37,35 @@ inline tl::unexpected<Error> fail(ErrorKind kind, std::string message) {
   return tl::unexpected<Error>(Error{kind, std::move(message)});
 }
 
+/// The return value of the macros below. Out of line, since they stand in a thousand places.
+[[gnu::noinline]] inline tl::unexpected<Error> forward_error(Error&& error) {
+  return tl::unexpected<Error>(std::move(error));
+}
+[[gnu::noinline]] inline tl::unexpected<Error> forward_error(const Error& error) {
+  return tl::unexpected<Error>(error);
+}
+
 }  // namespace scarp
+
+/// `SCARP_TRY(const auto& mesh, read_mesh(path));` names the value of a Result, or returns its Error from the function
+/// or lambda around it, which returns a Result of any type. The Result lives until the end of the block; `auto&& mesh`
+/// is to be changed or moved. A target without `&`, as in `SCARP_TRY(job.mesh, read_mesh(path));`, gets the value
+/// moved, or copied where the expression names a Result. The macro is two statements: a branch needs braces around it.
+#define SCARP_TRY(target, ...) SCARP_TRY_AS(SCARP_TRY_NAME(__COUNTER__), target, __VA_ARGS__)
+
+/// `SCARP_RETURN_IF_ERROR(write_mesh(path, mesh));` returns the Error of a Result whose value is not needed.
+#define SCARP_RETURN_IF_ERROR(...)                                 \
+  do {                                                             \
+    SCARP_FORWARD_ERROR(SCARP_TRY_NAME(__COUNTER__), __VA_ARGS__); \
+  } while (false)
+
+#define SCARP_TRY_NAME(number) SCARP_TRY_JOIN(scarp_result_, number)
+#define SCARP_TRY_JOIN(name, number) name##number
+#define SCARP_TRY_AS(result, target, ...)   \
+  SCARP_FORWARD_ERROR(result, __VA_ARGS__); \
+  target = *std::forward<decltype(result)>(result)
+#define SCARP_FORWARD_ERROR(result, ...) \
+  auto&& result = (__VA_ARGS__);         \
+  if (!result) return scarp::forward_error(std::forward<decltype(result)>(result).error())
 
 #pragma GCC visibility pop

@@ -60,7 +60,7 @@ class TilesCheck {
     check_availability(set_, claims_, grid_, faults);
     add(faults);
     for (std::size_t z = 0; z < check_.levels.size(); ++z) {
-      if (auto checked = check_level(z); !checked) return tl::unexpected(checked.error());
+      SCARP_RETURN_IF_ERROR(check_level(z));
     }
     if (set_.format() == TileFormat::kGlb) {
       faults.clear();
@@ -69,8 +69,7 @@ class TilesCheck {
     }
     if (options_.nodes.source != nullptr) {
       faults.clear();
-      if (auto checked = check_nodes(set_, claims_, options_, grid_, world_, check_, faults); !checked)
-        return tl::unexpected(checked.error());
+      SCARP_RETURN_IF_ERROR(check_nodes(set_, claims_, options_, grid_, world_, check_, faults));
       add(faults);
     }
     std::stable_sort(check_.described.begin(), check_.described.end(),
@@ -103,7 +102,7 @@ class TilesCheck {
     BorderWatch borders(set_.format(), grid_, static_cast<int>(z), level, border_faults);
     for (std::size_t first = 0; first < tiles.size(); first += kTilesTogether) {
       const auto some = std::span(tiles).subspan(first, std::min(kTilesTogether, tiles.size() - first));
-      if (auto checked = check_some(z, some, borders, border_faults); !checked) return checked;
+      SCARP_RETURN_IF_ERROR(check_some(z, some, borders, border_faults));
     }
     borders.finish();
     add(border_faults);

@@ -108,13 +108,11 @@ Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::ui
   Result<ClientTile> tile;
   const DegreeBox box = grid.bounds_of(id);
   if (format == TileFormat::kGlb) {
-    auto glb = decode_tile_glb(bytes, name);
-    if (!glb) return tl::unexpected(glb.error());
-    tile = take_glb(std::move(*glb), box, world, facts);
+    SCARP_TRY(auto&& glb, decode_tile_glb(bytes, name));
+    tile = take_glb(std::move(glb), box, world, facts);
   } else {
-    auto mesh = decode_quantized_mesh(bytes, name);
-    if (!mesh) return tl::unexpected(mesh.error());
-    tile = take_quantized(std::move(*mesh), box, world);
+    SCARP_TRY(auto&& mesh, decode_quantized_mesh(bytes, name));
+    tile = take_quantized(std::move(mesh), box, world);
   }
   tile->id = id;
   tile->format = format;

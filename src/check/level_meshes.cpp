@@ -139,11 +139,10 @@ Result<std::optional<std::vector<std::vector<std::uint8_t>>>> read_tiles(const T
                                                                          std::uint64_t most_bytes) {
   std::vector<std::vector<std::uint8_t>> tiles;
   for (const TileId id : ids) {
-    auto tile = set.read_tile(id);
-    if (!tile) return tl::unexpected(tile.error());
-    if (tile->size() > most_bytes) return std::nullopt;
-    most_bytes -= tile->size();
-    tiles.push_back(std::move(*tile));
+    SCARP_TRY(auto&& tile, set.read_tile(id));
+    if (tile.size() > most_bytes) return std::nullopt;
+    most_bytes -= tile.size();
+    tiles.push_back(std::move(tile));
   }
   return tiles;
 }
@@ -163,17 +162,15 @@ Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::
   for (std::size_t z = finest; z-- > 0;) {
     const LevelTiles tiles = find_tiles(set, claims.grid, z, &all.box);
     if (tiles.ids.empty() || tiles.width() > kWidest * all.width() || tiles.height() > kWidest * all.height()) break;
-    const auto kept = read_tiles(set, tiles.ids, most_bytes - bytes);
-    if (!kept) return tl::unexpected(kept.error());
-    if (!*kept && levels.empty()) continue;
-    if (!*kept) break;
+    SCARP_TRY(const auto& kept, read_tiles(set, tiles.ids, most_bytes - bytes));
+    if (!kept && levels.empty()) continue;
+    if (!kept) break;
     Laying laying(map, static_cast<int>(z));
     std::uint64_t level_bytes = 0;
     for (std::size_t k = 0; k < tiles.ids.size(); ++k) {
-      level_bytes += (**kept)[k].size();
-      auto tile = decode_client_tile(set.format(), (**kept)[k], tiles.ids[k], claims.grid, world, nullptr);
-      if (!tile) return tl::unexpected(tile.error());
-      laying.add(std::move(*tile));
+      level_bytes += (*kept)[k].size();
+      SCARP_TRY(auto&& tile, decode_client_tile(set.format(), (*kept)[k], tiles.ids[k], claims.grid, world, nullptr));
+      laying.add(std::move(tile));
     }
     bytes += level_bytes;
     levels.push_back(laying.take());

@@ -55,7 +55,7 @@ class NodesCheck {
     for (std::uint32_t y = first_row_; y <= last_row_; ++y) {
       for (std::int64_t k = 0; k < columns_; ++k) {
         const TileId block{finest_ - depth_, column(k), y};
-        if (auto judged = judge_block(block); !judged) return judged;
+        SCARP_RETURN_IF_ERROR(judge_block(block));
         ++blocks_;
         const double share =
             static_cast<double>(blocks_) / (static_cast<double>(columns_) * (last_row_ - first_row_ + 1));
@@ -129,9 +129,8 @@ class NodesCheck {
   }
 
   Result<ClientTile> read(TileId id) const {
-    const auto bytes = set_.read_tile(id);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return decode_client_tile(set_.format(), *bytes, id, grid_, world_, nullptr);
+    SCARP_TRY(const auto& bytes, set_.read_tile(id));
+    return decode_client_tile(set_.format(), bytes, id, grid_, world_, nullptr);
   }
 
   NodeJudge judge_of(const ClientTile& tile) const {
@@ -155,7 +154,7 @@ class NodesCheck {
                     .subspan(cols * static_cast<std::size_t>(first), cols * static_cast<std::size_t>(band.rows)));
     });
     for (const Result<void>& one : read_bands) {
-      if (!one) return one;
+      SCARP_RETURN_IF_ERROR(one);
     }
     const std::vector<TileId> tiles = tiles_of(block);
     std::vector<NodeVerdict> verdicts(tiles.size());
@@ -169,7 +168,7 @@ class NodesCheck {
       if (has_heights) visits[k] = judge_samples(*tile, block, nodes, verdicts[k]);
     });
     for (std::size_t k = 0; k < tiles.size(); ++k) {
-      if (!visits[k]) return visits[k];
+      SCARP_RETURN_IF_ERROR(visits[k]);
       take(tiles[k], verdicts[k]);
     }
     return {};

@@ -41,7 +41,7 @@ Result<Relief> reduce(const HeightField& field, int width, int height) {
     for (int r = rows.begin; r < rows.end; ++r) add_row(r, rows.row(r));
     return {};
   });
-  if (!swept) return tl::unexpected(swept.error());
+  SCARP_RETURN_IF_ERROR(swept);
   for (std::size_t i = 0; i < size; ++i) {
     relief.z[i] =
         2 * valid[i] < all[i] || valid[i] == 0 ? std::numeric_limits<double>::quiet_NaN() : relief.z[i] / valid[i];
@@ -182,7 +182,7 @@ std::vector<draw::Name> draw_marks(const std::vector<Mark>& marks, const MapPlac
 }  // namespace
 
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options) {
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_size(field));
   if (field.frame.space) return fail(ErrorKind::kUsage, "a preview shows a map: the field's frame is in space");
   const int side = std::max(options.max_side, 1);
   draw::Ground ground = draw::ground_of(field.frame, field.cols, field.rows);
@@ -197,11 +197,10 @@ Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const P
   const int below = draw::legend_height(side);
   const auto [width, height] = draw::map_size(field.cols, field.rows, aspect, {side, side - below}, kWantedPreview);
 
-  const Result<Relief> relief = reduce(field, std::min(width, field.cols), std::min(height, field.rows));
-  if (!relief) return tl::unexpected(relief.error());
-  const draw::Shaded shaded = draw::shade(*relief, ground, field.cols, field.rows);
+  SCARP_TRY(const Relief& relief, reduce(field, std::min(width, field.cols), std::min(height, field.rows)));
+  const draw::Shaded shaded = draw::shade(relief, ground, field.cols, field.rows);
   Picture picture = draw::blank(width, height + draw::legend_height(width));
-  enlarge(*relief, shaded.colours, width, height, picture);
+  enlarge(relief, shaded.colours, width, height, picture);
   const MapPlace place{static_cast<double>(width) / field.cols, static_cast<double>(height) / field.rows};
   draw_mesh(field, mesh, place, height, picture);
   draw::Legend legend{has_metres ? ground.step_x * field.cols / width : 0, shaded.tints, options.unit,

@@ -58,15 +58,15 @@ Result<CrackChains> find_cracks(const HeightField& field, double height, const S
     return memory.check_part(bytes + CrackChains::kBytesPerCrack * cracks.count(),
                              static_cast<double>(strip.end) / field.rows, kWhat, kAdvice);
   });
-  if (!swept) return tl::unexpected(swept.error());
+  SCARP_RETURN_IF_ERROR(swept);
   return cracks;
 }
 
 }  // namespace
 
 Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& options) {
-  if (auto sound = check_cliffs(options); !sound) return tl::unexpected(sound.error());
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_cliffs(options));
+  SCARP_RETURN_IF_ERROR(check_size(field));
   Cliffs cliffs;
   // Lines on a finer lattice need room.
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return cliffs;
@@ -75,15 +75,14 @@ Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& optio
   const SampleSet marks(runs.runs(), field.rows);
   MemoryBudget memory;
   if (field.samples == nullptr) memory = {options.run.memory.limit, options.run.memory.taken, 0};
-  auto cracks = find_cracks(field, options.height, marks, memory);
-  if (!cracks) return tl::unexpected(cracks.error());
-  cracks->link();
+  SCARP_TRY(auto&& cracks, find_cracks(field, options.height, marks, memory));
+  cracks.link();
   std::uint64_t line_bytes = 0;
   Result<void> fits;
-  cracks->visit([&](const CrackChain& chain) {
+  cracks.visit([&](const CrackChain& chain) {
     if (!fits) return;
     fits = memory.check_part(
-        CrackChains::kBytesPerCrack * cracks->count() + line_bytes + kWallBytesPerCrack * chain.cracks.size(), 1, kWhat,
+        CrackChains::kBytesPerCrack * cracks.count() + line_bytes + kWallBytesPerCrack * chain.cracks.size(), 1, kWhat,
         kAdvice);
     if (!fits) return;
     for (const Wall& wall : find_walls(chain, kCliffShare * options.max_error)) {
@@ -96,7 +95,7 @@ Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& optio
       }
     }
   });
-  if (!fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(fits);
   return cliffs;
 }
 

@@ -14,9 +14,7 @@ void add_lines(const std::vector<Line>& more, LineConstraints& lines) {
 
 Result<void> fit_rivers(const HeightField& field, const Features& features, double max_error, FittedFeatures& fitted) {
   if (features.rivers.empty()) return {};
-  auto rivers = carve_rivers(field, features.rivers, features.lakes, {fitted.lines.affine, max_error / 2});
-  if (!rivers) return tl::unexpected(std::move(rivers.error()));
-  fitted.rivers = std::move(*rivers);
+  SCARP_TRY(fitted.rivers, carve_rivers(field, features.rivers, features.lakes, {fitted.lines.affine, max_error / 2}));
   for (const River& river : fitted.rivers) fitted.lines.lines.push_back(river.course);
   return {};
 }
@@ -30,10 +28,9 @@ Result<void> fit_walls(const HeightField& field, const WallGoals& goals, const F
   cliffs.avoid = fitted.lines.lines;
   cliffs.run.memory.limit = options.run.memory.limit;
   cliffs.run.memory.taken = options.run.memory.taken;
-  auto walls = detect_cliffs(field, cliffs);
-  if (!walls) return tl::unexpected(std::move(walls.error()));
-  add_lines(walls->lines, fitted.lines);
-  fitted.walls = std::move(*walls);
+  SCARP_TRY(auto&& walls, detect_cliffs(field, cliffs));
+  add_lines(walls.lines, fitted.lines);
+  fitted.walls = std::move(walls);
   return {};
 }
 
@@ -49,11 +46,10 @@ Result<void> fit_ridges(const HeightField& field, const RidgeGoals& goals, const
   asked.run.progress = options.run.progress;
   asked.run.memory.limit = options.run.memory.limit;
   asked.run.memory.taken = options.run.memory.taken;
-  auto ridges = detect_ridges(field, asked);
-  if (!ridges) return tl::unexpected(std::move(ridges.error()));
-  add_lines(ridges->ridges, fitted.lines);
-  add_lines(ridges->valleys, fitted.lines);
-  fitted.ridges = std::move(*ridges);
+  SCARP_TRY(auto&& ridges, detect_ridges(field, asked));
+  add_lines(ridges.ridges, fitted.lines);
+  add_lines(ridges.valleys, fitted.lines);
+  fitted.ridges = std::move(ridges);
   return {};
 }
 
@@ -78,7 +74,7 @@ Result<FittedFeatures> fit_features(const HeightField& field, const Features& fe
   auto fits = fit_rivers(field, features, options.max_error, fitted);
   if (fits && features.walls) fits = fit_walls(field, *features.walls, options, fitted);
   if (fits && features.ridges) fits = fit_ridges(field, *features.ridges, options, fitted);
-  if (!fits) return tl::unexpected(std::move(fits.error()));
+  SCARP_RETURN_IF_ERROR(fits);
   return fitted;
 }
 

@@ -169,16 +169,15 @@ class Flats {
     const auto add = [this](Area& area) { add_flat(area); };
     RowReader reader(field_);
     for (std::int32_t y = 0; y < field_.rows; ++y) {
-      const auto row = reader.read(y);
-      if (!row) return tl::unexpected(row.error());
-      sweep.add_row(*row, field_.cols, add);
+      SCARP_TRY(const auto& row, reader.read(y));
+      sweep.add_row(row, field_.cols, add);
       const double share = (y + 1.0) / field_.rows;
-      if (auto fits = check_memory(sweep.bytes(), share); !fits) return tl::unexpected(fits.error());
+      SCARP_RETURN_IF_ERROR(check_memory(sweep.bytes(), share));
       if (reporter_.due() && !reporter_.report("flats", share, 0, 0))
         return fail(ErrorKind::kCancelled, "cancelled while looking for flat areas");
     }
     sweep.finish(add);
-    if (auto fits = check_memory(0, 1); !fits) return tl::unexpected(fits.error());
+    SCARP_RETURN_IF_ERROR(check_memory(0, 1));
     std::sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return before(a.first, b.first); });
     std::vector<Lake> lakes;
     for (auto& [first, lake] : found_) {

@@ -64,7 +64,7 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
     }
     return question.check(found.size(), static_cast<double>(strip.end) / field.rows);
   };
-  if (auto swept = sweep_rows(field, kReach, visit); !swept) return tl::unexpected(swept.error());
+  SCARP_RETURN_IF_ERROR(sweep_rows(field, kReach, visit));
   return found;
 }
 

@@ -80,12 +80,8 @@ class Detection {
 
   Result<Ridges> run() {
     Ridges found;
-    auto valleys = find(false, "valley");
-    if (!valleys) return tl::unexpected(valleys.error());
-    found.valleys = std::move(*valleys);
-    auto ridges = find(true, "ridge");
-    if (!ridges) return tl::unexpected(ridges.error());
-    found.ridges = std::move(*ridges);
+    SCARP_TRY(found.valleys, find(false, "valley"));
+    SCARP_TRY(found.ridges, find(true, "ridge"));
     for (const auto* lines : {&found.valleys, &found.ridges}) {
       for (const Line& line : *lines) found.vertices += line.points.size();
     }
@@ -98,10 +94,9 @@ class Detection {
   }
 
   Result<std::vector<Line>> find_in_memory(bool is_upside_down, const char* name) {
-    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
-    const auto samples = Samples::of(field_);
-    if (!samples) return tl::unexpected(samples.error());
-    Raster raster = samples->raster();
+    SCARP_RETURN_IF_ERROR(take_step());
+    SCARP_TRY(const auto& samples, Samples::of(field_));
+    Raster raster = samples.raster();
     std::vector<float> turned;
     if (is_upside_down) {
       turned.assign(raster.samples, raster.row(raster.rows));
@@ -109,14 +104,14 @@ class Detection {
       raster.samples = turned.data();
     }
     const std::vector<Hollow> hollows = find_hollows(raster, options_.height, options_.run.threads);
-    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    SCARP_RETURN_IF_ERROR(take_step());
     const std::vector<ValleyPath> paths = follow_valleys(raster, hollows, [&](Point p) { return marks_.has(p); });
-    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    SCARP_RETURN_IF_ERROR(take_step());
     return draw(paths, LineSamples(raster), name);
   }
 
   Result<std::vector<Line>> find_in_source(bool is_upside_down, const char* name) {
-    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    SCARP_RETURN_IF_ERROR(take_step());
     HollowSamples::Question question;
     question.height = options_.height;
     question.is_upside_down = is_upside_down;
@@ -127,16 +122,14 @@ class Detection {
       return memory_.check_part(lines_ + rows + kBytesPerSample * count, share, "ridges and valleys",
                                 "a larger height of ridges");
     };
-    auto hollows = HollowSamples::find(field_, question);
-    if (!hollows) return tl::unexpected(hollows.error());
-    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
-    const std::vector<ValleyPath> paths = follow_valleys(*hollows);
-    *hollows = {};
-    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
-    const auto samples = LineSamples::read(field_, courses_of(paths));
-    if (!samples) return tl::unexpected(samples.error());
+    SCARP_TRY(auto&& hollows, HollowSamples::find(field_, question));
+    SCARP_RETURN_IF_ERROR(take_step());
+    const std::vector<ValleyPath> paths = follow_valleys(hollows);
+    hollows = {};
+    SCARP_RETURN_IF_ERROR(take_step());
+    SCARP_TRY(const auto& samples, LineSamples::read(field_, courses_of(paths)));
     // Chords along the raster and along the same upside down are alike.
-    return draw(paths, *samples, name);
+    return draw(paths, samples, name);
   }
 
   std::vector<Line> draw(const std::vector<ValleyPath>& paths, const LineSamples& samples, const char* name) {
@@ -169,8 +162,8 @@ class Detection {
 }  // namespace
 
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options) try {
-  if (auto sound = check_ridges(options); !sound) return tl::unexpected(sound.error());
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_ridges(options));
+  SCARP_RETURN_IF_ERROR(check_size(field));
   // Lines on a finer lattice need room.
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return Ridges{};
   return Detection(field, options).run();

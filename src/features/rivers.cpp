@@ -189,15 +189,12 @@ class Course {
 Result<LineSamples> samples_along(const HeightField& field, std::span<const Line> lines,
                                   const std::array<double, 6>& affine, std::optional<Samples>& held) {
   if (field.samples != nullptr) {
-    auto samples = Samples::of(field);
-    if (!samples) return tl::unexpected(std::move(samples.error()));
-    held = std::move(*samples);
+    SCARP_TRY(held, Samples::of(field));
     return LineSamples(held->raster());
   }
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
-  const auto courses = find_courses(lines, affine, field.cols, field.rows);
-  if (!courses) return tl::unexpected(courses.error());
-  return LineSamples::read(field, *courses);
+  SCARP_RETURN_IF_ERROR(check_size(field));
+  SCARP_TRY(const auto& courses, find_courses(lines, affine, field.cols, field.rows));
+  return LineSamples::read(field, courses);
 }
 
 }  // namespace
@@ -208,9 +205,8 @@ Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<cons
     return fail(ErrorKind::kUsage,
                 fmt::format("the tolerance of rivers must be at least 0, not {}", options.tolerance));
   std::optional<Samples> held;
-  auto samples = samples_along(field, lines, options.affine, held);
-  if (!samples) return tl::unexpected(samples.error());
-  const Ground ground(std::move(*samples), lakes, options.affine);
+  SCARP_TRY(auto&& samples, samples_along(field, lines, options.affine, held));
+  const Ground ground(std::move(samples), lakes, options.affine);
   std::vector<Course> courses;
   for (const Line& line : lines) {
     if (is_closed(line)) continue;

@@ -53,9 +53,8 @@ class Shores {
     if (field_.samples != nullptr) return LineSamples(Raster{field_.samples, field_.cols, field_.rows});
     std::vector<Segment> courses;
     for (const Rings& rings : polygons) {
-      const auto found = find_courses(rings, options_.affine, field_.cols, field_.rows);
-      if (!found) return tl::unexpected(found.error());
-      courses.insert(courses.end(), found->begin(), found->end());
+      SCARP_TRY(const auto& found, find_courses(rings, options_.affine, field_.cols, field_.rows));
+      courses.insert(courses.end(), found.begin(), found.end());
     }
     return LineSamples::read(field_, courses);
   }
@@ -286,9 +285,8 @@ Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& op
     if (!reader) {
       flattening.flatten(*row, field.samples.data() + std::ptrdiff_t{*row} * field.cols);
     } else {
-      const auto samples = reader->read(*row);
-      if (!samples) return tl::unexpected(samples.error());
-      flattening.flatten(*row, *samples);
+      SCARP_TRY(const auto& samples, reader->read(*row));
+      flattening.flatten(*row, samples);
       flattening.take_runs(*row, levels);
     }
     flattening.clear();
@@ -306,11 +304,10 @@ struct LakesFound {
 /// Those with a level, at it. All levels are found before any change: a lake's shore is the raster's, not what its
 /// neighbour has made of it.
 Result<LakesFound> find_levels(const Shores& shores, const std::vector<Rings>& polygons) {
-  const auto samples = shores.read_samples(polygons);
-  if (!samples) return tl::unexpected(samples.error());
+  SCARP_TRY(const auto& samples, shores.read_samples(polygons));
   LakesFound found;
   for (const Rings& rings : polygons) {
-    const auto level = shores.level_of(rings, *samples);
+    const auto level = shores.level_of(rings, samples);
     if (!level) continue;
     Lake lake;
     lake.name = rings.front().name;
@@ -329,27 +326,24 @@ Result<LakesFound> find_levels(const Shores& shores, const std::vector<Rings>& p
 
 Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const Line> lines,
                                      const WaterOptions& options) {
-  if (auto sound = check_options(options); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_options(options));
   const Shores shores(field, options);
-  auto found = find_levels(shores, shores.find_polygons(lines));
-  if (!found) return tl::unexpected(found.error());
-  return std::move(found->lakes);
+  SCARP_TRY(auto&& found, find_levels(shores, shores.find_polygons(lines)));
+  return std::move(found.lakes);
 }
 
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options) {
-  if (auto sound = check_options(options); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_options(options));
   const Shores shores(field, options);
   const std::vector<Rings> polygons = shores.find_polygons(lines);
   std::uint64_t bytes = 0;
   for (const Rings& rings : polygons) bytes += line_bytes(field, rings, options.affine);
   const MemoryBudget memory{options.run.memory.limit, options.run.memory.taken, 0};
-  if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
-  auto found = find_levels(shores, polygons);
-  if (!found) return tl::unexpected(found.error());
-  if (auto done = flatten_field(find_runs(shores, found->rings), options, found->lakes, field); !done)
-    return tl::unexpected(done.error());
-  return std::move(found->lakes);
+  SCARP_RETURN_IF_ERROR(memory.check_start(bytes));
+  SCARP_TRY(auto&& found, find_levels(shores, polygons));
+  SCARP_RETURN_IF_ERROR(flatten_field(find_runs(shores, found.rings), options, found.lakes, field));
+  return std::move(found.lakes);
 }
 
 }  // namespace scarp

@@ -54,7 +54,7 @@ Result<void> Band::load(std::int32_t first, std::int32_t count) {
     done = read(first, from - first);
     if (done) done = read(to, first + count - to);
   }
-  if (!done) return done;
+  SCARP_RETURN_IF_ERROR(done);
   first_ = first;
   count_ = count;
   return {};
@@ -74,16 +74,15 @@ const float* Band::samples(std::int32_t x, std::int32_t y, std::int32_t count) c
 Result<void> sweep_rows(const HeightField& field, std::int32_t reach,
                         FunctionRef<Result<void>(const RowRange& range)> visit) {
   if (field.samples != nullptr) {
-    const auto samples = Samples::of(field);
-    if (!samples) return tl::unexpected(samples.error());
-    return visit({samples->raster(), 0, 0, field.rows});
+    SCARP_TRY(const auto& samples, Samples::of(field));
+    return visit({samples.raster(), 0, 0, field.rows});
   }
   Band band(field, kRowsOfSweep + 2 * reach);
   for (std::int32_t begin = 0; begin < field.rows; begin += kRowsOfSweep) {
     const std::int32_t end = std::min(begin + kRowsOfSweep, field.rows);
     const std::int32_t first = std::max(begin - reach, 0);
-    if (auto loaded = band.load(first, std::min(end + reach, field.rows) - first); !loaded) return loaded;
-    if (auto seen = visit({band.raster(), first, begin, end}); !seen) return seen;
+    SCARP_RETURN_IF_ERROR(band.load(first, std::min(end + reach, field.rows) - first));
+    SCARP_RETURN_IF_ERROR(visit({band.raster(), first, begin, end}));
   }
   return {};
 }
@@ -99,8 +98,7 @@ RowReader::RowReader(const HeightField& field)
 Result<float*> RowReader::read(std::int32_t row) {
   if (!band_.holds(row)) {
     band_.clear();  // who changed rows gets them as they are
-    if (auto loaded = band_.load(row, std::min(most_, field_.rows - row)); !loaded)
-      return tl::unexpected(loaded.error());
+    SCARP_RETURN_IF_ERROR(band_.load(row, std::min(most_, field_.rows - row)));
   }
   return band_.row(row);
 }

@@ -21,7 +21,7 @@ Result<void> check_size(const HeightField& field) {
 }
 
 Result<Samples> Samples::of(const HeightField& field) {
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_size(field));
   Samples samples;
   samples.raster_ = {field.samples, field.cols, field.rows};
   const std::size_t count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);

@@ -180,7 +180,7 @@ class FilledSource final : public SampleSource {
       : field_(field), owner_(std::move(owner)), cols_(field.cols), rows_(field.rows), side_(side) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto read = read_window(field_, col, row, cols, rows, out, stride); !read) return read;
+    SCARP_RETURN_IF_ERROR(read_window(field_, col, row, cols, rows, out, stride));
     const Samples2d window{out, cols, rows, stride};
     VoidFinder finder = find_voids(out, cols, rows, stride);
     if (finder.runs().empty()) return {};
@@ -194,7 +194,7 @@ class FilledSource final : public SampleSource {
     };
     const int width = end(col, cols, cols_) - left, height = end(row, rows, rows_) - top;
     std::vector<float> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    if (auto read = read_window(field_, left, top, width, height, samples.data(), width); !read) return read;
+    SCARP_RETURN_IF_ERROR(read_window(field_, left, top, width, height, samples.data(), width));
     const Samples2d wide{samples.data(), width, height, width};
     VoidFinder all = find_voids(samples.data(), width, height, width);
     fill_all(wide, all, side_);
@@ -245,8 +245,7 @@ Result<VoidCount> count_voids(const HeightField& field, int side) {
   VoidFinder finder(cols, false);
   for (int row = 0; row < rows; row += together) {
     const int count = std::min(together, rows - row);
-    if (auto read = read_window(field, 0, row, cols, count, samples.data(), cols); !read)
-      return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(read_window(field, 0, row, cols, count, samples.data(), cols));
     for (int k = 0; k < count; ++k)
       finder.add({samples.data() + std::ptrdiff_t{k} * cols, static_cast<std::size_t>(cols)});
   }

@@ -174,7 +174,7 @@ Result<void> check(const PointSet& points) {
 }  // namespace
 
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy, PointSteps steps) {
-  if (auto checked = check(points); !checked) return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(check(points));
   AxisExtent x, y, z;
   for (std::size_t i = 0; i < points.size(); ++i) {
     x.include(points.x[i]);

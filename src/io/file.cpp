@@ -28,8 +28,8 @@ namespace {
 Result<StagedFile> stage(const FileBytes& file, bool overwrite) {
   auto staged = StagedFile::begin(file.path, overwrite, false);
   if (!staged || staged->is_direct()) return staged;
-  if (auto written = staged->write(file.bytes); !written) return tl::unexpected(written.error());
-  if (auto ended = staged->end(); !ended) return tl::unexpected(ended.error());
+  SCARP_RETURN_IF_ERROR(staged->write(file.bytes));
+  SCARP_RETURN_IF_ERROR(staged->end());
   return staged;
 }
 
@@ -38,7 +38,7 @@ Result<void> take_names(std::span<StagedFile* const> staged, bool overwrite) {
   const NamingOutputs now;
   for (StagedFile* file : staged) {
     if (file->is_direct()) continue;
-    if (auto taken = file->take_name(overwrite); !taken) return taken;
+    SCARP_RETURN_IF_ERROR(file->take_name(overwrite));
   }
   return {};
 }
@@ -79,20 +79,18 @@ Result<void> write_files(std::span<const FileBytes> files, bool overwrite) {
       continue;
     }
     try {
-      auto next = stage(file, overwrite);
-      if (!next) return tl::unexpected(std::move(next.error()));
-      own.push_back(std::move(*next));
+      SCARP_TRY(auto&& next, stage(file, overwrite));
+      own.push_back(std::move(next));
       staged.push_back(&own.back());
     } catch (...) {
       return caught(ErrorKind::kOutput, "write " + file.path);
     }
   }
-  if (auto taken = take_names(staged, overwrite); !taken) return taken;
+  SCARP_RETURN_IF_ERROR(take_names(staged, overwrite));
   for (std::size_t k = 0; k < files.size(); ++k) {
     if (!staged[k]->is_direct()) continue;
-    const auto written =
-        files[k].raster != nullptr ? staged[k]->copy_to_target() : write_directly(files[k].path, files[k].bytes);
-    if (!written) return written;
+    SCARP_RETURN_IF_ERROR(files[k].raster != nullptr ? staged[k]->copy_to_target()
+                                                     : write_directly(files[k].path, files[k].bytes));
   }
   return {};
 }
@@ -106,9 +104,8 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
   const auto cannot = [&](const std::string& why) {
     return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", path, why));
   };
-  const auto name = readable_name(path);
-  if (!name) return tl::unexpected(name.error());
-  const int fd = ::open(name->c_str(), O_RDONLY | O_CLOEXEC);
+  SCARP_TRY(const auto& name, readable_name(path));
+  const int fd = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return cannot(errno == ENOENT ? "there is " + describe_missing(path) : reason_of(errno));
   struct Closer {
     int fd;

@@ -107,12 +107,10 @@ Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name,
   PointSet points = lent;
   points.path = name;
   if (options.nodata) {
-    if (auto left_out = leave_out_nodata(*options.nodata, points); !left_out) return tl::unexpected(left_out.error());
+    SCARP_RETURN_IF_ERROR(leave_out_nodata(*options.nodata, points));
   }
-  const auto vertical = place_lent_points(options, points);
-  if (!vertical) return tl::unexpected(vertical.error());
-  if (auto settled = settle_point_heights(options, *vertical, points); !settled)
-    return tl::unexpected(settled.error());
+  SCARP_TRY(const auto& vertical, place_lent_points(options, points));
+  SCARP_RETURN_IF_ERROR(settle_point_heights(options, vertical, points));
   return points;
 }
 
@@ -125,8 +123,7 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
     return fail(ErrorKind::kInput,
                 fmt::format("{}: {} x {} samples: neither number can be negative", name, raster.cols, raster.rows));
   const auto size = [](int side) { return static_cast<std::uint64_t>(side); };
-  if (auto sides = check_raster_sides(name, size(raster.cols), size(raster.rows)); !sides)
-    return tl::unexpected(sides.error());
+  SCARP_RETURN_IF_ERROR(check_raster_sides(name, size(raster.cols), size(raster.rows)));
   if (raster.samples == nullptr) return fail(ErrorKind::kUsage, name + " has no samples: its pointer is null");
   OwnedHeightField field;
   field.cols = raster.cols;
@@ -166,15 +163,12 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
                 fmt::format("{} has no georeference, so its coordinates cannot be given in '{}': ask for 'grid' or "
                             "'local', or give transform and crs with the samples",
                             name, options.crs));
-  auto frame = is_placed ? place_lent_raster(raster, options, field.info)
-                         : ungeoreferenced_frame(name, raster.cols, raster.rows, options);
-  if (!frame) return tl::unexpected(frame.error());
-  field.frame = std::move(*frame);
-  const auto settled = settle_heights(options, field.frame, field.info);
-  if (!settled) return tl::unexpected(settled.error());
-  const std::uint64_t infinities = clean_samples(read, *settled, field);
-  scale_values(*settled, field);
-  if (auto done = finish_raster(field, infinities, options); !done) return tl::unexpected(done.error());
+  SCARP_TRY(field.frame, is_placed ? place_lent_raster(raster, options, field.info)
+                                   : ungeoreferenced_frame(name, raster.cols, raster.rows, options));
+  SCARP_TRY(const auto& settled, settle_heights(options, field.frame, field.info));
+  const std::uint64_t infinities = clean_samples(read, settled, field);
+  scale_values(settled, field);
+  SCARP_RETURN_IF_ERROR(finish_raster(field, infinities, options));
   return field;
 }
 

@@ -16,14 +16,13 @@ namespace {
 Result<LineSet> read_all(std::span<const std::string> paths, const ReadLinesOptions& options, double unit_in_metres) {
   LineSet all;
   for (const std::string& path : paths) {
-    auto set = read_lines_in(path, options, unit_in_metres);
-    if (!set) return tl::unexpected(std::move(set.error()));
-    for (Line& line : set->lines) {
+    SCARP_TRY(auto&& set, read_lines_in(path, options, unit_in_metres));
+    for (Line& line : set.lines) {
       if (line.polygon != kNoPolygon) line.polygon += all.polygons;
     }
-    std::move(set->lines.begin(), set->lines.end(), std::back_inserter(all.lines));
-    std::move(set->warnings.begin(), set->warnings.end(), std::back_inserter(all.warnings));
-    all.polygons += set->polygons;
+    std::move(set.lines.begin(), set.lines.end(), std::back_inserter(all.lines));
+    std::move(set.warnings.begin(), set.warnings.end(), std::back_inserter(all.warnings));
+    all.polygons += set.polygons;
   }
   return all;
 }

@@ -277,11 +277,9 @@ Result<std::vector<std::uint8_t>> unpack_zip_entry(const ZipRecord& record, std:
 
 Result<ZipReader> ZipReader::open(std::span<const std::uint8_t> bytes) {
   const auto tail = bytes.last(std::min<std::size_t>(bytes.size(), kLongestZipEnd));
-  const auto directory = find_zip_directory(tail, bytes.size());
-  if (!directory) return tl::unexpected(directory.error());
-  auto records = read_zip_directory(bytes.subspan(directory->start), directory->count);
-  if (!records) return tl::unexpected(std::move(records.error()));
-  return ZipReader(bytes, std::move(*records));
+  SCARP_TRY(const auto& directory, find_zip_directory(tail, bytes.size()));
+  SCARP_TRY(auto&& records, read_zip_directory(bytes.subspan(directory.start), directory.count));
+  return ZipReader(bytes, std::move(records));
 }
 
 std::string ZipReader::find(std::string_view name) const {

@@ -251,8 +251,7 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   std::vector<PathVertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
-    if (auto placed = check_line_positions(lines[k].name, lines[k].points, affine); !placed)
-      return tl::unexpected(placed.error());
+    SCARP_RETURN_IF_ERROR(check_line_positions(lines[k].name, lines[k].points, affine));
     for (const auto& point : lines[k].points) {
       const SamplePosition at = to_samples.position(point[0], point[1]);
       vertices.push_back({at.col, at.row, point[2]});
@@ -363,11 +362,10 @@ double surface_at(const Raster& raster, SamplePosition position) { return surfac
 
 Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
                                           std::int32_t cols, std::int32_t rows) {
-  const auto lattice = to_lattice(lines, affine, cols, rows);
-  if (!lattice) return tl::unexpected(lattice.error());
+  SCARP_TRY(const auto& lattice, to_lattice(lines, affine, cols, rows));
   std::vector<Segment> courses;
-  for (std::uint32_t part = 0; part < lattice->parts().size(); ++part) {
-    const auto points = lattice->parts()[part];
+  for (std::uint32_t part = 0; part < lattice.parts().size(); ++part) {
+    const auto points = lattice.parts()[part];
     for (std::size_t k = 0; k + 1 < points.size(); ++k) courses.push_back({points[k], points[k + 1]});
   }
   return courses;
@@ -386,25 +384,24 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
   if (std::max(cols, rows) > kMaxCoordinate / kLatticeSteps)
     return fail(ErrorKind::kUsage, fmt::format("a raster of {} x {} samples is too large for lines: at most {} a side",
                                                cols, rows, kMaxCoordinate / kLatticeSteps));
-  const auto lattice = to_lattice(lines, affine, cols, rows);
-  if (!lattice) return tl::unexpected(lattice.error());
+  SCARP_TRY(const auto& lattice, to_lattice(lines, affine, cols, rows));
   const std::int32_t width = (cols - 1) * kLatticeSteps, height = (rows - 1) * kLatticeSteps;
   std::vector<Segment> fixed{
       {{0, 0}, {width, 0}}, {{width, 0}, {width, height}}, {{width, height}, {0, height}}, {{0, height}, {0, 0}}};
   fixed.insert(fixed.end(), rigid.begin(), rigid.end());
-  Arrangement arranged = arrange(lattice->parts(), fixed, width, height);
+  Arrangement arranged = arrange(lattice.parts(), fixed, width, height);
 
-  const std::vector<Claims> claims = collect_claims(arranged, *lattice, lines, samples);
+  const std::vector<Claims> claims = collect_claims(arranged, lattice, lines, samples);
   Breaklines placed;
-  placed.outside = count_outside(arranged, *lattice, lines.size());
-  placed.is_held = held_edges(arranged, *lattice, lines);
-  if (with_chains) take_chains(arranged, *lattice, placed);
+  placed.outside = count_outside(arranged, lattice, lines.size());
+  placed.is_held = held_edges(arranged, lattice, lines);
+  if (with_chains) take_chains(arranged, lattice, placed);
   placed.points = std::move(arranged.vertices);
   placed.edges = std::move(arranged.edges);
   placed.heights.reserve(placed.points.size());
   for (const Point p : placed.points) placed.heights.push_back(static_cast<float>(bilinear_at(samples, cols, rows, p)));
   placed.is_hard.assign(placed.points.size(), false);
-  if (auto set = set_heights(claims, lines, affine, conflict, placed); !set) return tl::unexpected(set.error());
+  SCARP_RETURN_IF_ERROR(set_heights(claims, lines, affine, conflict, placed));
   return placed;
 } catch (...) {
   return caught(ErrorKind::kInput, "place the lines on the raster");

@@ -93,7 +93,7 @@ class SourceWithin final : public SampleSource {
       : source_(std::move(source)), within_(std::move(within)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto copied = source_->read(col, row, cols, rows, out, stride); !copied) return copied;
+    SCARP_RETURN_IF_ERROR(source_->read(col, row, cols, rows, out, stride));
     for (int y = 0; y < rows; ++y) mask_beside(within_->row(row + y), col, col + cols, out + y * stride);
     return {};
   }
@@ -165,8 +165,7 @@ Result<std::vector<Line>> close_rings(std::vector<Line> lines) {
 
 Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutline, const ProgressCallback& progress) {
   for (const Line& ring : cutline.rings) {
-    if (auto placed = check_line_positions(ring.name, ring.points, cutline.affine); !placed)
-      return tl::unexpected(placed.error());
+    SCARP_RETURN_IF_ERROR(check_line_positions(ring.name, ring.points, cutline.affine));
   }
   LineRuns runs(cutline.affine, field.cols, field.rows);
   runs.add_polygons(cutline.rings);
@@ -186,8 +185,7 @@ Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutli
     constexpr std::int32_t kRowsTogether = 256;
     if (progress && row % kRowsTogether == 0 && !progress({"read", static_cast<double>(row) / field.rows, 0, 0}))
       return fail(ErrorKind::kCancelled, "cancelled while reading");
-    if (auto read = field.source->read(0, row, field.cols, 1, samples.data(), field.cols); !read)
-      return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(field.source->read(0, row, field.cols, 1, samples.data(), field.cols));
     count.add(within->row(row), samples);
   }
   if (!field.info.has_range) set_range(count.range(), field.info);

@@ -341,28 +341,23 @@ Result<FieldLines> prepare_from_source(const HeightField& field, const LineConst
   const bool is_cut = !cutline.rings.empty();
   const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
   const std::vector<Line> rings = clip_rings(cutline, field.cols, field.rows);
-  auto courses = find_courses(lines.lines, affine, field.cols, field.rows);
-  if (!courses) return tl::unexpected(courses.error());
-  const auto around = find_courses(rings, affine, field.cols, field.rows);
-  if (!around) return tl::unexpected(around.error());
-  courses->insert(courses->end(), around->begin(), around->end());
-  auto samples = LineSamples::read(field, *courses);
-  if (!samples) return tl::unexpected(samples.error());
+  SCARP_TRY(auto&& courses, find_courses(lines.lines, affine, field.cols, field.rows));
+  SCARP_TRY(const auto& around, find_courses(rings, affine, field.cols, field.rows));
+  courses.insert(courses.end(), around.begin(), around.end());
+  SCARP_TRY(auto&& samples, LineSamples::read(field, courses));
   const std::size_t breaklines = lines.lines.size();
-  const SoftLine soft(*samples, affine, tolerance);
+  const SoftLine soft(samples, affine, tolerance);
   const std::vector<Line> followed = follow_all(breaklines + rings.size(), threads, [&](std::size_t k) {
     return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
   });
-  std::vector<Segment> rigid = samples->outline_near();
+  std::vector<Segment> rigid = samples.outline_near();
   const std::int32_t width = (field.cols - 1) * kLatticeSteps;
   for (const std::int32_t row : shared_rows) rigid.push_back({{0, row * kLatticeSteps}, {width, row * kLatticeSteps}});
-  const auto placed = place_breaklines(followed, affine, *samples, rigid, lines.conflict, is_cut);
-  if (!placed) return tl::unexpected(placed.error());
+  SCARP_TRY(const auto& placed, place_breaklines(followed, affine, samples, rigid, lines.conflict, is_cut));
   FieldLines result;
-  result.farthest = find_farthest(lines.lines, affine, *samples);
-  result.edits = edit_samples(*placed, [&](Point p, float after) { return samples->change(p, after); });
-  if (auto taken = take_graph(*placed, followed, breaklines, is_cut, field.cols, field.rows, result); !taken)
-    return tl::unexpected(taken.error());
+  result.farthest = find_farthest(lines.lines, affine, samples);
+  result.edits = edit_samples(placed, [&](Point p, float after) { return samples.change(p, after); });
+  SCARP_RETURN_IF_ERROR(take_graph(placed, followed, breaklines, is_cut, field.cols, field.rows, result));
   if (!result.edits.empty()) result.source = edit_source({std::shared_ptr<const void>(), field.source}, result.edits);
   return result;
 }
@@ -398,13 +393,11 @@ std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& line
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
   for (const Line& ring : cutline.rings) {
-    if (auto placed = check_line_positions(ring.name, ring.points, cutline.affine); !placed)
-      return tl::unexpected(placed.error());
+    SCARP_RETURN_IF_ERROR(check_line_positions(ring.name, ring.points, cutline.affine));
   }
   if (field.samples == nullptr) return prepare_from_source(field, lines, cutline, tolerance, threads, shared_rows);
-  const auto cleaned = Samples::of(field);
-  if (!cleaned) return tl::unexpected(cleaned.error());
-  const Raster raster = cleaned->raster();
+  SCARP_TRY(const auto& cleaned, Samples::of(field));
+  const Raster raster = cleaned.raster();
   const bool is_cut = !cutline.rings.empty();
   const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
   const LineSamples samples(raster);
@@ -414,13 +407,13 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
   const std::vector<Line> followed = follow_all(breaklines + rings.size(), threads, [&](std::size_t k) {
     return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
   });
-  const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut);
-  if (!placed) return tl::unexpected(placed.error());
+  SCARP_TRY(const auto& placed,
+            place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut));
   FieldLines result;
   result.farthest = find_farthest(lines.lines, affine, samples);
-  if (is_cut || std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
+  if (is_cut || std::find(placed.is_hard.begin(), placed.is_hard.end(), true) != placed.is_hard.end()) {
     result.samples.assign(raster.samples, raster.row(raster.rows));
-    result.edits = edit_samples(*placed, [&](Point p, float after) {
+    result.edits = edit_samples(placed, [&](Point p, float after) {
       float& sample = result.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster.cols) +
                                      static_cast<std::size_t>(p.x)];
       const float before = sample;
@@ -428,11 +421,9 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
       return before;
     });
   }
-  if (auto taken = take_graph(*placed, followed, breaklines, is_cut, raster.cols, raster.rows, result); !taken)
-    return tl::unexpected(taken.error());
+  SCARP_RETURN_IF_ERROR(take_graph(placed, followed, breaklines, is_cut, raster.cols, raster.rows, result));
   if (!is_cut) return result;
-  if (auto cut = cut_samples(*result.graph.cut->rows, raster.cols, raster.rows, result); !cut)
-    return tl::unexpected(cut.error());
+  SCARP_RETURN_IF_ERROR(cut_samples(*result.graph.cut->rows, raster.cols, raster.rows, result));
   return result;
 }
 

@@ -48,8 +48,7 @@ Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const 
            samples.runs_[end].col - samples.runs_[end - 1].end < kWideGap)
       ++end;
     const std::int32_t count = samples.runs_[end - 1].end - first;
-    if (auto copied = read_window(field, first, at, count, 1, row.data(), count); !copied)
-      return tl::unexpected(copied.error());
+    SCARP_RETURN_IF_ERROR(read_window(field, first, at, count, 1, row.data(), count));
     for (; i < end; ++i) {
       const Run& run = samples.runs_[i];
       std::copy(row.begin() + (run.col - first), row.begin() + (run.end - first),

@@ -31,11 +31,10 @@ bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
 Result<Band> Band::read(const HeightField& field, int first, int rows, const Limits& limits, double guard,
                         Histogram& histogram) {
   Band band(field, first, rows, limits, guard, histogram);
-  if (auto taken = band.take_heights(field); !taken) return tl::unexpected(std::move(taken.error()));
+  SCARP_RETURN_IF_ERROR(band.take_heights(field));
   if (limits.source != nullptr) {
     band.tolerances_.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(field.cols));
-    auto read = limits.source->read(0, first, field.cols, rows, band.tolerances_.data(), field.cols);
-    if (!read) return tl::unexpected(std::move(read.error()));
+    SCARP_RETURN_IF_ERROR(limits.source->read(0, first, field.cols, rows, band.tolerances_.data(), field.cols));
   }
   band.classify();
   if (limits.region != nullptr) band.cut();
@@ -74,8 +73,7 @@ Result<void> Band::take_heights(const HeightField& field) {
   all_heights_ = heights_.data();
   std::fill(heights_.end() - kKernelPadding, heights_.end(), kNone);
   if (field.samples == nullptr) {
-    auto read = field.source->read(0, top, cols_, bottom - top, &heights_[height_at(0, top)], cols_);
-    if (!read) return read;
+    SCARP_RETURN_IF_ERROR(field.source->read(0, top, cols_, bottom - top, &heights_[height_at(0, top)], cols_));
   }
   const float nodata = field.samples != nullptr ? field.nodata.value_or(kNone) : kNone;
   std::vector<RowHeights> taken;

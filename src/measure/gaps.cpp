@@ -243,7 +243,7 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, con
       }
     }
   }
-  if (!domain.failure()) return tl::unexpected(domain.failure().error());
+  SCARP_RETURN_IF_ERROR(domain.failure());
   if (!doubts.empty()) settle(field, mesh, doubts, is_gap);
   return static_cast<std::uint64_t>(std::count(is_gap.begin(), is_gap.end(), true));
 }

@@ -47,7 +47,7 @@ class BoundLimits final : public SampleSource {
     const SampleSource* values = weights_ != nullptr ? weights_ : tolerances_;
     const float none = weights_ != nullptr ? 0 : kNoBound;
     if (values != nullptr) {
-      if (auto read = values->read(col, row, cols, rows, out, stride); !read) return read;
+      SCARP_RETURN_IF_ERROR(values->read(col, row, cols, rows, out, stride));
     }
     for (int y = 0; y < rows; ++y) {
       float* limits = out + y * stride;
@@ -82,12 +82,10 @@ Result<std::uint64_t> count_unbounded(const HeightField& field, const BoundLimit
     const int rows = std::min(together, field.rows - row);
     const std::size_t first = static_cast<std::size_t>(row) * cols, size = static_cast<std::size_t>(rows) * cols;
     limit.resize(size);
-    if (auto read = limits.read(0, row, field.cols, rows, limit.data(), field.cols); !read)
-      return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(limits.read(0, row, field.cols, rows, limit.data(), field.cols));
     if (field.source != nullptr) {
       heights.resize(size);
-      if (auto read = field.source->read(0, row, field.cols, rows, heights.data(), field.cols); !read)
-        return tl::unexpected(read.error());
+      SCARP_RETURN_IF_ERROR(field.source->read(0, row, field.cols, rows, heights.data(), field.cols));
     }
     for (std::size_t k = 0; k < size; ++k) {
       const bool is_height = field.source != nullptr ? std::isfinite(heights[k]) : !is_nodata(field, first + k);
@@ -103,10 +101,9 @@ Result<Exceptions> find_windowed_exceptions(const HeightField& field, const Judg
   auto limits = std::make_unique<BoundLimits>(options);
   if (!limits->has_any()) return found;
   if (options.weigh) {
-    const auto count = count_unbounded(field, *limits);
-    if (!count) return tl::unexpected(count.error());
-    found.count = *count;
-    if (*count == 0) return found;
+    SCARP_TRY(const auto& count, count_unbounded(field, *limits));
+    found.count = count;
+    if (count == 0) return found;
   }
   found.source = std::move(limits);
   return found;
@@ -239,7 +236,7 @@ class RowWeigher {
     weigher_.add(row, weighed);
   }
   Result<WeighedErrors> finish() const {
-    if (!read_) return tl::unexpected(read_.error());
+    SCARP_RETURN_IF_ERROR(read_);
     return weigher_.finish();
   }
 
@@ -261,11 +258,8 @@ Result<Measurement> measure_and_weigh(const HeightField& heights, const Mesh& me
     if (keep) keep(row, errors);
     rows.add(row, errors);
   };
-  Result<Measurement> measured = measure(heights, mesh, options);
-  if (!measured) return measured;
-  Result<WeighedErrors> found = rows.finish();
-  if (!found) return tl::unexpected(std::move(found.error()));
-  weighed = *found;
+  SCARP_TRY(Measurement measured, measure(heights, mesh, options));
+  SCARP_TRY(weighed, rows.finish());
   return measured;
 }
 
@@ -338,9 +332,8 @@ double judging_allowance(double bound, const HeightRange& heights) {
 }
 
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& request) {
-  if (auto sound = check_request(field, mesh, request); !sound) return tl::unexpected(sound.error());
-  const auto exceptions = find_exceptions(field, request);
-  if (!exceptions) return tl::unexpected(exceptions.error());
+  SCARP_RETURN_IF_ERROR(check_request(field, mesh, request));
+  SCARP_TRY(const auto& exceptions, find_exceptions(field, request));
   const bool has_channels = !field.channels.empty();
   const bool weighs_later =
       request.weigh && (has_channels || !request.tolerances.weights.empty() || !request.tolerances.values.empty());
@@ -349,7 +342,7 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   const bool keeps = request.keep_errors || weighs_later;
   const auto cols = static_cast<std::size_t>(field.cols);
   Judgement judgement;
-  judgement.ignored = exceptions->count;
+  judgement.ignored = exceptions.count;
   if (keeps) judgement.height_errors.resize(count_samples(field), kNaN);
   if (keeps && has_channels) judgement.norms.resize(count_samples(field), 0);
 
@@ -358,8 +351,8 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   options.run.progress = request.run.progress;
   options.topology = request.topology;
   options.cutline = request.cutline;
-  options.tolerance = exceptions->limits;
-  options.tolerance_source = exceptions->source.get();
+  options.tolerance = exceptions.limits;
+  options.tolerance_source = exceptions.source.get();
   const bool has_exceptions = !options.tolerance.empty() || options.tolerance_source != nullptr;
   const auto keep_errors = [&](int row, std::span<const float> errors) {
     if (request.on_row) request.on_row(row, errors);
@@ -372,9 +365,9 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   if (keeps || request.on_row) options.on_row = keep_errors;
   Result<Measurement> measured =
       weighs_along
-          ? measure_and_weigh(field, mesh, RowWeigher(field, request, *exceptions, 0), options, judgement.weighted)
+          ? measure_and_weigh(field, mesh, RowWeigher(field, request, exceptions, 0), options, judgement.weighted)
           : measure(field, mesh, options);
-  if (!measured) return tl::unexpected(std::move(measured.error()));
+  SCARP_RETURN_IF_ERROR(measured);
   judgement.heights = std::move(*measured);
   const std::vector<Offender> offenders = std::exchange(judgement.heights.offenders, {});
   judgement.heights.over_tolerance = 0;
@@ -386,9 +379,8 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   options.tolerance_source = nullptr;
   options.on_row = {};
   if (judgement.weighted && judgement.weighted->over > 0) {
-    const RowWeigher rows(field, request, *exceptions, rounding_of(judgement.heights.heights, 0));
-    const auto again = measure_and_weigh(field, mesh, rows, options, judgement.weighted);
-    if (!again) return tl::unexpected(again.error());
+    const RowWeigher rows(field, request, exceptions, rounding_of(judgement.heights.heights, 0));
+    SCARP_RETURN_IF_ERROR(measure_and_weigh(field, mesh, rows, options, judgement.weighted));
   }
   ChannelJudge channel_judge(field, mesh);
   for (std::size_t k = 0; k < field.channels.size(); ++k) {
@@ -398,7 +390,7 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
       add_to_norms(std::span(judgement.norms).subspan(start, cols), errors, field.channels[k].scale, request.norm);
     };
     measured = channel_judge.judge(k, options);
-    if (!measured) return tl::unexpected(std::move(measured.error()));
+    SCARP_RETURN_IF_ERROR(measured);
     judgement.channels.push_back(std::move(*measured));
   }
   if (request.norm == Norm::kSquares) {
@@ -406,7 +398,7 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   }
   if (!weighs_later) return judgement;
 
-  const Scales scales(field, judgement, *exceptions);
+  const Scales scales(field, judgement, exceptions);
   const double bound = request.max_error.value_or(HUGE_VAL);
   if (has_channels) judgement.combined = scales.weigh({}, {}, bound);
   if (!request.tolerances.weights.empty()) judgement.weighted = scales.weigh(request.tolerances.weights, {}, bound);

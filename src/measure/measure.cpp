@@ -49,10 +49,10 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
       field.frame.determinant() == 0 || !std::isfinite(field.frame.determinant())) {
     return fail(ErrorKind::kInput, "the height field's frame puts all samples on one line; give it a cell size");
   }
-  if (auto sound = judge::check_mesh(mesh); !sound) return sound;
+  SCARP_RETURN_IF_ERROR(judge::check_mesh(mesh));
   for (const Line& ring :
        options.cutline != nullptr ? std::span<const Line>(options.cutline->rings) : std::span<const Line>()) {
-    if (auto placed = check_line_positions(ring.name, ring.points, options.cutline->affine); !placed) return placed;
+    SCARP_RETURN_IF_ERROR(check_line_positions(ring.name, ring.points, options.cutline->affine));
   }
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");
@@ -190,7 +190,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
       reports[i] = band->finish(options.on_row ? keep : judge::Keep::kNothing);
     });
     for (std::size_t i = 0; i < reports.size(); ++i) {
-      if (!reports[i]) return tl::unexpected(std::move(reports[i].error()));
+      SCARP_RETURN_IF_ERROR(reports[i]);
       verdict.add((first + static_cast<int>(i)) * height, *reports[i]);
     }
   }
@@ -249,18 +249,13 @@ class Judged {
                            bool with_heights = true) {
     Judged judged(field, mesh);
     if (field.frame.space) {
-      if (auto sound = judge::check_mesh(mesh); !sound) return tl::unexpected(sound.error());
-      auto flat = judge::bring_to_map(field, mesh);
-      if (!flat) return tl::unexpected(flat.error());
-      judged.flat_mesh_ = std::move(*flat);
+      SCARP_RETURN_IF_ERROR(judge::check_mesh(mesh));
+      SCARP_TRY(judged.flat_mesh_, judge::bring_to_map(field, mesh));
       judged.flat_field_ = judge::on_map(field);
     }
-    if (auto checked = check_input(judged.field(), judged.mesh(), options); !checked)
-      return tl::unexpected(checked.error());
+    SCARP_RETURN_IF_ERROR(check_input(judged.field(), judged.mesh(), options));
     if (!with_heights || !judged.field().frame.is_affine()) return judged;
-    auto places = judge::place_on_grid(judged.field(), judged.mesh(), options.run.threads);
-    if (!places) return tl::unexpected(std::move(places.error()));
-    judged.places_ = std::move(*places);
+    SCARP_TRY(judged.places_, judge::place_on_grid(judged.field(), judged.mesh(), options.run.threads));
     return judged;
   }
 
@@ -324,10 +319,8 @@ Result<void> judge_topology(const Judged& judged, Surface& surface, const judge:
   const std::span<const std::uint32_t> ids = surface.list(mesh.triangle_count());
   judged.measure_shape(ids, options.run.threads, result);
   result.t_junctions = judge::count_t_junctions(mesh, surface.connections);
-  const Result<std::uint64_t> gaps =
-      judge::count_gaps(judged.field(), mesh, surface.connections, options.coverage_tolerance, region);
-  if (!gaps) return tl::unexpected(gaps.error());
-  result.gaps = *gaps;
+  SCARP_TRY(result.gaps,
+            judge::count_gaps(judged.field(), mesh, surface.connections, options.coverage_tolerance, region));
   if (surface.connections.is_single_layer) return {};
   bool is_stopped = false;
   result.overlaps = judge::count_overlaps(mesh, ids, options.run.threads, [&](double fraction) {
@@ -341,10 +334,9 @@ Result<void> judge_topology(const Judged& judged, Surface& surface, const judge:
 }  // namespace
 
 Result<Measurement> measure(const HeightField& asked, const Mesh& given, const MeasureOptions& options) try {
-  auto judged = Judged::of(asked, given, options);
-  if (!judged) return tl::unexpected(judged.error());
-  const HeightField& field = judged->field();
-  const Mesh& mesh = judged->mesh();
+  SCARP_TRY(auto&& judged, Judged::of(asked, given, options));
+  const HeightField& field = judged.field();
+  const Mesh& mesh = judged.mesh();
   ProgressGate gate(options.run.progress);
 
   Measurement result;
@@ -353,20 +345,17 @@ Result<Measurement> measure(const HeightField& asked, const Mesh& given, const M
   Surface surface = find_surface(mesh, options.topology, options.run.threads);
   result.closed = surface.closed;
 
-  const auto scanner = judged->make_scanner(surface, options.coverage_tolerance, options.run.threads);
+  const auto scanner = judged.make_scanner(surface, options.coverage_tolerance, options.run.threads);
   const auto region = make_region(options, field);
-  if (auto done = judge_heights(field, mesh, *scanner, region.get(), options, judge::Keep::kErrors, gate, result);
-      !done) {
-    return tl::unexpected(std::move(done.error()));
-  }
+  SCARP_RETURN_IF_ERROR(
+      judge_heights(field, mesh, *scanner, region.get(), options, judge::Keep::kErrors, gate, result));
 
   if (options.collect_above) {
-    const std::vector<Offender> more = judged->unfolding();
+    const std::vector<Offender> more = judged.unfolding();
     result.offenders.insert(result.offenders.end(), more.begin(), more.end());
   }
   if (!options.topology) return result;
-  if (auto done = judge_topology(*judged, surface, region.get(), options, gate, result); !done)
-    return tl::unexpected(std::move(done.error()));
+  SCARP_RETURN_IF_ERROR(judge_topology(judged, surface, region.get(), options, gate, result));
   return result;
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
@@ -374,14 +363,13 @@ Result<Measurement> measure(const HeightField& asked, const Mesh& given, const M
 
 Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                               Measurement& result) try {
-  auto judged = Judged::of(field, mesh, options, false);
-  if (!judged) return tl::unexpected(judged.error());
+  SCARP_TRY(auto&& judged, Judged::of(field, mesh, options, false));
   ProgressGate gate(options.run.progress);
-  Surface surface = find_surface(judged->mesh(), true, options.run.threads);
+  Surface surface = find_surface(judged.mesh(), true, options.run.threads);
   result.closed = surface.closed;
   result.down_facing = result.degenerate = result.overlaps = 0;
-  judged->look_in_space(surface);
-  return judge_topology(*judged, surface, make_region(options, judged->field()).get(), options, gate, result);
+  judged.look_in_space(surface);
+  return judge_topology(judged, surface, make_region(options, judged.field()).get(), options, gate, result);
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
 }
@@ -392,12 +380,11 @@ Result<void> resample_rows(const HeightField& asked, const Mesh& given,
   MeasureOptions options;
   options.run.threads = threads;
   options.on_row = on_row;
-  auto judged = Judged::of(asked, given, options);
-  if (!judged) return tl::unexpected(judged.error());
-  const HeightField& field = judged->field();
-  const Mesh& mesh = judged->mesh();
+  SCARP_TRY(auto&& judged, Judged::of(asked, given, options));
+  const HeightField& field = judged.field();
+  const Mesh& mesh = judged.mesh();
   Surface surface = find_surface(mesh, false, threads);
-  const auto scanner = judged->make_scanner(surface, options.coverage_tolerance, threads);
+  const auto scanner = judged.make_scanner(surface, options.coverage_tolerance, threads);
   ProgressGate gate(options.run.progress);
   Measurement ignored;
   return judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);
@@ -411,7 +398,7 @@ Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, 
     heights.resize(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
     std::copy(values.begin(), values.end(), heights.begin() + std::ptrdiff_t{row} * field.cols);
   };
-  if (auto resampled = resample_rows(field, mesh, keep, threads); !resampled) return tl::unexpected(resampled.error());
+  SCARP_RETURN_IF_ERROR(resample_rows(field, mesh, keep, threads));
   return heights;
 } catch (...) {
   return caught(ErrorKind::kInput, "resample the mesh");

@@ -180,8 +180,8 @@ void summarize(std::span<const double> errors, Measurement& result) {
 
 Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options) {
-  if (auto checked = check_mesh(mesh); !checked) return tl::unexpected(checked.error());
-  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(check_mesh(mesh));
+  SCARP_RETURN_IF_ERROR(check_options(options));
   ProgressGate gate(options.run.progress);
   const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
 

@@ -102,9 +102,8 @@ Result<void> check_span(const char* what, int samples, int parts, bool dovetail)
 }  // namespace
 
 Result<PrintTilePlan> PrintTilePlan::make(int cols, int rows, const PrintTileOptions& options) {
-  if (auto fits = check_span("columns", cols, options.columns, options.dovetail); !fits)
-    return tl::unexpected(fits.error());
-  if (auto fits = check_span("rows", rows, options.rows, options.dovetail); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_span("columns", cols, options.columns, options.dovetail));
+  SCARP_RETURN_IF_ERROR(check_span("rows", rows, options.rows, options.dovetail));
   const std::vector<int> along_cols = divide(cols, options.columns), along_rows = divide(rows, options.rows);
   const double width = (cols - 1.0) / options.columns, height = (rows - 1.0) / options.rows;
   // A tab and its gap must not meet its neighbours': half the narrower side is more than all of them need.

@@ -56,10 +56,10 @@ Result<Criterion> Criterion::make(const HeightField& field, const Request& optio
   criterion.aim_ = aim;
   criterion.factor_ = factor;
   for (const auto check : {&Criterion::check_weights, &Criterion::check_strategy, &Criterion::check_channels}) {
-    if (auto sound = (criterion.*check)(); !sound) return tl::unexpected(sound.error());
+    SCARP_RETURN_IF_ERROR((criterion.*check)());
   }
   if (options.goals.max_error) criterion.bound_ = tightened(*options.goals.max_error, field.sample_rounding);
-  if (auto set = criterion.set_bounds(); !set) return tl::unexpected(set.error());
+  SCARP_RETURN_IF_ERROR(criterion.set_bounds());
   criterion.set_factors();
   if (aim < 1) {
     for (const float of : criterion.bounds_) criterion.aims_.push_back(criterion.rule().aim_at(of));

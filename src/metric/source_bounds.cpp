@@ -45,7 +45,7 @@ Result<void> SourceBounds::read_aims(std::int32_t first, const Raster& samples, 
 Result<void> SourceBounds::read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
                                 std::ptrdiff_t stride) const {
   if (has_values()) {
-    if (auto done = source()->read(first.x, first.y, cols, rows, aims, stride); !done) return done;
+    SCARP_RETURN_IF_ERROR(source()->read(first.x, first.y, cols, rows, aims, stride));
   }
   for (std::int32_t y = 0; y < rows; ++y) {
     const std::span<float> row(aims + y * stride, static_cast<std::size_t>(cols));

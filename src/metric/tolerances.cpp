@@ -33,7 +33,7 @@ class RasterValues final : public SampleSource {
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     if (values_.source) {
-      if (auto read = values_.source->read(col, row, cols, rows, out, stride); !read) return read;
+      SCARP_RETURN_IF_ERROR(values_.source->read(col, row, cols, rows, out, stride));
     }
     for (int y = 0; y < rows; ++y) {
       float* to = out + y * stride;
@@ -58,13 +58,13 @@ class LeastTolerances final : public SampleSource {
       : a_(std::move(a)), b_(std::move(b)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto read = a_->read(col, row, cols, rows, out, stride); !read) return read;
+    SCARP_RETURN_IF_ERROR(a_->read(col, row, cols, rows, out, stride));
     constexpr int kSamples = 1 << 14;
     const int most = std::min(rows_of(kSamples, cols), rows);
     std::vector<float> other(static_cast<std::size_t>(most) * static_cast<std::size_t>(cols));
     for (int first = 0; first < rows; first += most) {
       const int count = std::min(most, rows - first);
-      if (auto read = b_->read(col, row + first, cols, count, other.data(), cols); !read) return read;
+      SCARP_RETURN_IF_ERROR(b_->read(col, row + first, cols, count, other.data(), cols));
       for (int y = 0; y < count; ++y) {
         float* to = out + (first + y) * stride;
         const float* from = other.data() + static_cast<std::ptrdiff_t>(y) * cols;
@@ -118,8 +118,7 @@ Result<std::optional<float>> look_through(const OwnedHeightField& raster, const 
     std::span<const float> values;
     if (raster.source) {
       buffer.resize(size);
-      if (auto read = raster.source->read(0, row, raster.cols, rows, buffer.data(), raster.cols); !read)
-        return tl::unexpected(read.error());
+      SCARP_RETURN_IF_ERROR(raster.source->read(0, row, raster.cols, rows, buffer.data(), raster.cols));
       values = buffer;
     } else {
       values = {raster.samples.data() + static_cast<std::ptrdiff_t>(row) * raster.cols, size};
@@ -128,7 +127,7 @@ Result<std::optional<float>> look_through(const OwnedHeightField& raster, const 
       if (values[k] < 0) return refuse_negative(raster, values[k], row, k);
       if (!std::isnan(values[k])) largest = std::max(largest.value_or(0), values[k]);
     }
-    if (auto go_on = look.report(raster, row); !go_on) return tl::unexpected(go_on.error());
+    SCARP_RETURN_IF_ERROR(look.report(raster, row));
   }
   return largest;
 }
@@ -153,9 +152,8 @@ Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, 
   OwnedTolerances made;
   if (raster) {
     const ProgressCallback& progress = options.in_windows ? options.run.progress : ProgressCallback();
-    const auto largest = look_through(*raster, progress);
-    if (!largest) return tl::unexpected(largest.error());
-    made.has_values = largest->has_value();
+    SCARP_TRY(const auto& largest, look_through(*raster, progress));
+    made.has_values = largest.has_value();
     if (!made.has_values && regions.empty() && !grid.beyond)
       return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples has a value", raster->info.path,
                                                  raster->cols, raster->rows));
@@ -193,9 +191,8 @@ Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, 
 Result<OwnedWeights> make_weights(OwnedHeightField raster, const ToleranceOptions& options) {
   if (raster.source && !options.in_windows)
     return fail(ErrorKind::kUsage, raster.info.path + " is not in memory: ask for weights in windows");
-  const auto found = look_through(raster, options.in_windows ? options.run.progress : ProgressCallback());
-  if (!found) return tl::unexpected(found.error());
-  const float largest = found->value_or(0);
+  SCARP_TRY(const auto& found, look_through(raster, options.in_windows ? options.run.progress : ProgressCallback()));
+  const float largest = found.value_or(0);
   if (largest == 0)
     return fail(ErrorKind::kInput,
                 fmt::format("{}: no weight is above 0, so no sample would have a bound", raster.info.path));

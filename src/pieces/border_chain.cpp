@@ -60,10 +60,9 @@ Result<Strip> read_strip(const HeightField& field, const BorderLine& line) {
   const std::int32_t most = (line.is_vertical ? field.cols : field.rows) - 1;
   const std::int32_t first = std::max(across - 1, 0), lines = std::min(across + 1, most) - first + 1;
   std::vector<float> window(count * static_cast<std::size_t>(lines));
-  const auto read = line.is_vertical
-                        ? read_window(field, first, line.row, lines, line.steps + 1, window.data(), lines)
-                        : read_window(field, line.col, first, line.steps + 1, lines, window.data(), line.steps + 1);
-  if (!read) return tl::unexpected(read.error());
+  SCARP_RETURN_IF_ERROR(
+      line.is_vertical ? read_window(field, first, line.row, lines, line.steps + 1, window.data(), lines)
+                       : read_window(field, line.col, first, line.steps + 1, lines, window.data(), line.steps + 1));
   for (std::size_t i = 0; i < count; ++i) {
     for (std::int32_t k = 0; k < lines; ++k) {
       const auto j = static_cast<std::size_t>(k);
@@ -101,19 +100,17 @@ std::vector<BorderRun> runs_of(const Strip& strip, std::int32_t steps) {
 }  // namespace
 
 Result<std::vector<BorderRun>> find_border_runs(const HeightField& field, const BorderLine& line) {
-  const auto strip = read_strip(field, line);
-  if (!strip) return tl::unexpected(strip.error());
-  return runs_of(*strip, line.steps);
+  SCARP_TRY(const auto& strip, read_strip(field, line));
+  return runs_of(strip, line.steps);
 }
 
 Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line,
                                                   const LineBound& bound) {
-  const auto strip = read_strip(field, line);
-  if (!strip) return tl::unexpected(strip.error());
+  SCARP_TRY(const auto& strip, read_strip(field, line));
   std::vector<std::int32_t> kept;
-  for (const BorderRun& run : runs_of(*strip, line.steps)) {
+  for (const BorderRun& run : runs_of(strip, line.steps)) {
     // A half cell whose missing corner lies on the line has no surface along it, and its run is one step.
-    if (run.has_surface && run.end - run.begin > 1) split_chord(strip->heights[1], run.begin, run.end, bound, kept);
+    if (run.has_surface && run.end - run.begin > 1) split_chord(strip.heights[1], run.begin, run.end, bound, kept);
     if (run.end < line.steps) kept.push_back(run.end);
   }
   std::sort(kept.begin(), kept.end());
@@ -122,15 +119,14 @@ Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, cons
 
 Result<std::vector<std::int32_t>> split_border(const HeightField& field, const BorderLine& line,
                                                std::span<const std::int32_t> kept, const LineBound& bound) {
-  const auto strip = read_strip(field, line);
-  if (!strip) return tl::unexpected(strip.error());
+  SCARP_TRY(const auto& strip, read_strip(field, line));
   std::vector<std::int32_t> more;
   auto end = kept.begin();
-  for (const BorderRun& run : runs_of(*strip, line.steps)) {
+  for (const BorderRun& run : runs_of(strip, line.steps)) {
     for (std::int32_t from = run.begin; from < run.end;) {
       while (end != kept.end() && *end <= from) ++end;
       const std::int32_t to = end == kept.end() ? run.end : std::min(*end, run.end);
-      if (run.has_surface && to - from > 1) split_chord(strip->heights[1], from, to, bound, more);
+      if (run.has_surface && to - from > 1) split_chord(strip.heights[1], from, to, bound, more);
       from = to;
     }
   }

@@ -62,7 +62,7 @@ Result<LockedBorder> LockedBorder::make(const HeightField& field, const Simplify
                         {"left", {0, 0}, {0, 1}, raster.rows, &EdgeVertices::left},
                         {"right", {right, 0}, {0, 1}, raster.rows, &EdgeVertices::right}};
   for (const Edge& edge : edges) {
-    if (auto added = border.add(edge, field, options, raster); !added) return tl::unexpected(added.error());
+    SCARP_RETURN_IF_ERROR(border.add(edge, field, options, raster));
   }
   return border;
 }

@@ -101,7 +101,7 @@ Result<Picture> draw_normal_map(const HeightField& field, int side) try {
     for (int y = rows.begin; y < rows.end; ++y) map.add(rows, y);
     return {};
   });
-  if (!swept) return tl::unexpected(swept.error());
+  SCARP_RETURN_IF_ERROR(swept);
   map.finish();
   return std::move(map.picture);
 } catch (...) {

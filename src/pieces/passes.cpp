@@ -18,7 +18,7 @@ Result<void> insert_until_done(Piece& piece, const ErrorMetric& metric, Refineme
     if (step % 256 == 0 && piece.check) {
       const double error = refinement.worst_error();
       const double share = error_progress(first_error, error, metric.goal());
-      if (auto fits = piece.check(piece.tin.vertex_count(), share, error); !fits) return fits;
+      SCARP_RETURN_IF_ERROR(piece.check(piece.tin.vertex_count(), share, error));
     }
     refinement.insert_worst();
   }
@@ -48,17 +48,16 @@ Result<void> seed(Piece& piece) {
 }
 
 Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work) {
-  auto inserted = ConstrainedMesh::insert(piece.samples, piece.tin, graph);
-  if (!inserted) return tl::unexpected(inserted.error());
-  piece.has_surface = inserted->has_surface();
-  const LatticeMetric metric(piece.samples, inserted->heights(), goals.threshold, piece.aims);
+  SCARP_TRY(auto&& inserted, ConstrainedMesh::insert(piece.samples, piece.tin, graph));
+  piece.has_surface = inserted.has_surface();
+  const LatticeMetric metric(piece.samples, inserted.heights(), goals.threshold, piece.aims);
   Refinement refinement(metric, piece.tin, Algorithm::kHeap, {},
                         piece.is_refined ? Refinement::Start::kClean : Refinement::Start::kScan);
   // Triangles of refinement that no line touches keep the bound.
-  if (piece.is_refined) refinement.scan(inserted->changed(), goals.threads);
-  if (auto refined = insert_until_done(piece, metric, refinement, work); !refined) return refined;
-  if (goals.releases_starts) inserted->release_starts(piece.tin);
-  piece.lattice = inserted->lattice(goals.threads);
+  if (piece.is_refined) refinement.scan(inserted.changed(), goals.threads);
+  SCARP_RETURN_IF_ERROR(insert_until_done(piece, metric, refinement, work));
+  if (goals.releases_starts) inserted.release_starts(piece.tin);
+  piece.lattice = inserted.lattice(goals.threads);
   return {};
 }
 
@@ -71,11 +70,10 @@ Result<FitOutcome> fit_piece(Piece& piece, FitOptions options) {
   options.free_sides.top = options.free_sides.top && !piece.has_above;
   options.free_sides.bottom = options.free_sides.bottom && !piece.has_below;
   options.bounds = piece.aims;
-  auto fitted = fit(piece.samples, std::move(piece.tin), std::move(piece.lattice), options);
-  if (!fitted) return tl::unexpected(fitted.error());
-  piece.tin = std::move(fitted->tin);
-  piece.lattice = std::move(fitted->lattice);
-  return FitOutcome{fitted->counts.removed, fitted->is_cut_short};
+  SCARP_TRY(auto&& fitted, fit(piece.samples, std::move(piece.tin), std::move(piece.lattice), options));
+  piece.tin = std::move(fitted.tin);
+  piece.lattice = std::move(fitted.lattice);
+  return FitOutcome{fitted.counts.removed, fitted.is_cut_short};
 }
 
 }  // namespace scarp

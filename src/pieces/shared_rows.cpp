@@ -140,10 +140,9 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
     const TilePlan plan(field.cols, field.rows, side);
     for (std::size_t tile = 0; tile < plan.per_row(); ++tile) {
       const TileWindow window = plan.window(tile);
-      const auto chain = simplify_border(field, {window.col, around, window.cols - 1, false}, threshold);
-      if (!chain) return tl::unexpected(chain.error());
+      SCARP_TRY(const auto& chain, simplify_border(field, {window.col, around, window.cols - 1, false}, threshold));
       if (tile > 0) kept.push_back(window.col);
-      for (const std::int32_t step : *chain) kept.push_back(window.col + step);
+      for (const std::int32_t step : chain) kept.push_back(window.col + step);
     }
     if (!strip.aims.empty()) {
       vertices = {{0, samples[0], false}, {(field.cols - 1) * kLatticeSteps, samples[field.cols - 1], false}};
@@ -155,15 +154,14 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
     share_samples(kept, y, samples, part);
     return {};
   }
-  const auto runs = find_border_runs(field, {0, around, field.cols - 1, false});
-  if (!runs) return tl::unexpected(runs.error());
-  for (const BorderRun& run : *runs) {
+  SCARP_TRY(const auto& runs, find_border_runs(field, {0, around, field.cols - 1, false}));
+  for (const BorderRun& run : runs) {
     vertices.push_back({run.begin * kLatticeSteps, samples[run.begin], false});
     if (run.begin > 0) kept.push_back(run.begin);
   }
-  vertices.push_back({runs->back().end * kLatticeSteps, samples[runs->back().end], false});
+  vertices.push_back({runs.back().end * kLatticeSteps, samples[runs.back().end], false});
   sort_along(vertices);
-  auto run = runs->begin();
+  auto run = runs.begin();
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
     while (run->end * kLatticeSteps <= vertices[i].x) ++run;
     if (run->has_surface)
@@ -184,10 +182,9 @@ Result<void> insert_shared_row(Piece& strip, bool is_top, bool is_whole) {
   const HeightField field{strip.around.samples, strip.around.cols, strip.around.rows};
   const BorderLine line{0, around, field.cols - 1, false};
   const LineBound bound(along(strip.aims, strip, y));
-  const auto more =
-      is_whole ? simplify_border(field, line, bound) : split_border(field, line, vertices_along(strip, y), bound);
-  if (!more) return tl::unexpected(more.error());
-  for (const std::int32_t col : *more) {
+  SCARP_TRY(const auto& more, is_whole ? simplify_border(field, line, bound)
+                                       : split_border(field, line, vertices_along(strip, y), bound));
+  for (const std::int32_t col : more) {
     const Point p{col, y};
     strip.tin.insert(p, strip.tin.locate(p, strip.tin.last_touched()));
   }

@@ -57,17 +57,17 @@ class StripWork {
 
   Result<void> work_on(Piece& strip, const std::function<bool(double, std::uint64_t)>& progress) {
     const bool is_whole = makes_whole(strip.first, strip.samples.rows);
-    if (auto loaded = load_aims(strip); !loaded) return loaded;
+    SCARP_RETURN_IF_ERROR(load_aims(strip));
     strip.is_refined = !is_whole && strip.aims.empty();
     const auto start = Clock::now();
     if (is_whole) {
-      if (auto seeded = seed(strip); !seeded) return seeded;
+      SCARP_RETURN_IF_ERROR(seed(strip));
     }
     if (lines_) {
-      if (auto inserted = insert_lines(strip, is_whole); !inserted) return inserted;
+      SCARP_RETURN_IF_ERROR(insert_lines(strip, is_whole));
       totals_.seconds_of_lines += seconds_since(start);
     } else if (bounds_ != nullptr) {
-      if (auto refined = refine_to_bounds(strip, is_whole); !refined) return refined;
+      SCARP_RETURN_IF_ERROR(refine_to_bounds(strip, is_whole));
       totals_.seconds_of_refinement += seconds_since(start);
     }
     return fit_ ? fit(strip, progress) : Result<void>();
@@ -87,12 +87,12 @@ class StripWork {
       if (!(is_top ? strip.has_above : strip.has_below)) continue;
       if (!is_whole) {
         split_shared_row(strip, is_top, goals_.threshold, part);
-      } else if (auto started = start_shared_row(strip, is_top, goals_.threshold, side_, part); !started) {
-        return started;
+      } else {
+        SCARP_RETURN_IF_ERROR(start_shared_row(strip, is_top, goals_.threshold, side_, part));
       }
     }
     settle_shared_rows(strip, aims_);
-    if (auto inserted = insert_constraints(strip, part, goals_, totals_.lines); !inserted) return inserted;
+    SCARP_RETURN_IF_ERROR(insert_constraints(strip, part, goals_, totals_.lines));
     has_surface_ = has_surface_ || strip.has_surface;
     if (!has_surface_ && !strip.has_below) return fail(ErrorKind::kInput, kNothingInCutline);
     return {};
@@ -102,7 +102,7 @@ class StripWork {
   Result<void> refine_to_bounds(Piece& strip, bool is_whole) {
     for (const bool is_top : {true, false}) {
       if (!(is_top ? strip.has_above : strip.has_below)) continue;
-      if (auto split = insert_shared_row(strip, is_top, is_whole); !split) return split;
+      SCARP_RETURN_IF_ERROR(insert_shared_row(strip, is_top, is_whole));
     }
     settle_shared_rows(strip, aims_);
     return refine(strip, SampleMetric(settings_by_bounds(strip.samples, strip.aims)), totals_.refinement);
@@ -112,11 +112,10 @@ class StripWork {
     const auto start = Clock::now();
     FitOptions options = *fit_;
     if (progress) options.progress = [&](double, std::uint64_t vertices) { return progress(0, vertices); };
-    const auto fitted = fit_piece(strip, std::move(options));
-    if (!fitted) return tl::unexpected(fitted.error());
+    SCARP_TRY(const auto& fitted, fit_piece(strip, std::move(options)));
     totals_.seconds_of_fit += seconds_since(start);
-    totals_.removed += fitted->removed;
-    totals_.is_cut_short = totals_.is_cut_short || fitted->is_cut_short;
+    totals_.removed += fitted.removed;
+    totals_.is_cut_short = totals_.is_cut_short || fitted.is_cut_short;
     return {};
   }
 

@@ -93,10 +93,9 @@ Result<void> TileWorker::find_border(const HeightField& field, const TileWindow&
   border_.clear();
   steps_ = 0;
   for (const BorderLine& line : shared_lines(window, shared)) {
-    const auto kept = simplify_border(field, line, threshold);
-    if (!kept) return tl::unexpected(kept.error());
+    SCARP_TRY(const auto& kept, simplify_border(field, line, threshold));
     steps_ += line.steps;
-    for (const std::int32_t step : *kept)
+    for (const std::int32_t step : kept)
       border_.push_back(tile_point(line.col - window.col + (line.is_vertical ? 0 : step),
                                    line.row - window.row + (line.is_vertical ? step : 0)));
   }

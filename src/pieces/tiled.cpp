@@ -53,7 +53,7 @@ Result<double> estimate_density(const HeightField& field, double threshold, int 
   std::size_t kept = 0;
   std::int64_t steps = 0;
   for (const Border& border : borders) {
-    if (!border.status) return tl::unexpected(border.status.error());
+    SCARP_RETURN_IF_ERROR(border.status);
     kept += border.kept;
     steps += border.steps;
   }
@@ -147,7 +147,7 @@ class TiledRun {
   }
 
   Result<std::optional<Tiled>> execute() {
-    if (auto fits = options_.memory.check_start(base_bytes_); !fits) return tl::unexpected(fits.error());
+    SCARP_RETURN_IF_ERROR(options_.memory.check_start(base_bytes_));
     for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step_) {
       if (is_streamed_) status_ = load_rows(first);
       const TileWindow window = plan_.window(first);
@@ -157,7 +157,7 @@ class TiledRun {
         status_ =
             finish_row(window, is_made_whole, static_cast<double>(first + step_) / static_cast<double>(plan_.count()));
     }
-    if (!status_) return tl::unexpected(status_.error());
+    SCARP_RETURN_IF_ERROR(status_);
     if (is_unsuited_) return std::optional<Tiled>();
     const bool is_whole = assembly_.is_whole();
     if (!fixed_.empty()) fixed_.resize(static_cast<std::size_t>(assembly_.vertex_count()), 0);
@@ -276,7 +276,7 @@ class TiledRun {
       return options_.memory.check_mesh(base_bytes_ + finish_bytes(vertices), all, share);
     };
     row_ = Assembly(plan_.per_row());
-    if (auto finished = options_.finish_row(strip); !finished) return finished;
+    SCARP_RETURN_IF_ERROR(options_.finish_row(strip));
     const Triangulation& tin = strip.tin;
     const VertexLattice& lattice = strip.lattice;
     assert(window.row == 0 || lattice.steps == steps_);
@@ -351,9 +351,7 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
   const bool is_streamed = goes_by_rows(field, options);
   double density = 0;
   if (!is_streamed) {
-    const auto estimate = estimate_density(field, options.threshold, options.threads);
-    if (!estimate) return tl::unexpected(estimate.error());
-    density = *estimate;
+    SCARP_TRY(density, estimate_density(field, options.threshold, options.threads));
   }
   std::int32_t side = options.tile_side;
   if (options.may_decline && !is_streamed && density < kLeastDensity) return std::optional<Tiled>();
@@ -370,17 +368,17 @@ Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const 
   field.rows = raster.rows;
   const MemoryBudget& memory = options.memory;
   const std::uint64_t bytes = worker_bytes(TilePlan(raster.cols, raster.rows, std::max(raster.cols, raster.rows)));
-  if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(memory.check_start(bytes));
   const std::uint64_t room = memory.rest() - std::min(memory.rest(), bytes);
   const std::size_t most =
       memory.is_limited() ? room / TileRoom::bytes_per_vertex(memory) : std::numeric_limits<std::size_t>::max();
   TileWorker worker;
   const TileOutcome outcome = worker.refine_alone(field, on_sides, inside, options.threshold, most);
-  if (!outcome.status) return tl::unexpected(outcome.status.error());
+  SCARP_RETURN_IF_ERROR(outcome.status);
   if (outcome.is_unsuited) return std::optional<Tiled>();
   const std::uint64_t vertices = outcome.is_broken_off ? most + 1 : outcome.piece.points.size();
   const std::uint64_t more = outcome.is_broken_off ? room : 0;
-  if (auto fits = memory.check_mesh(bytes + more, vertices, 1); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(memory.check_mesh(bytes + more, vertices, 1));
   Assembly assembly(1);
   assembly.append(outcome.piece);
   std::vector<HalfEdge> seams;

@@ -155,7 +155,7 @@ Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, 
       if (!constrain_outline(domain.tin, outline))
         return fail(ErrorKind::kInternal, "two edges of the outline of the valid data cross");
     }
-    if (auto marked = mark_outside(domain.tin, outline); !marked) return tl::unexpected(marked.error());
+    SCARP_RETURN_IF_ERROR(mark_outside(domain.tin, outline));
   }
   if (frame.transform) follow_curved_border(raster, domain.tin, frame);
   domain.unused = count_unused_corners(domain.tin);

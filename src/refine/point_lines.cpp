@@ -85,7 +85,7 @@ Result<PointLines> PointLines::build(const PointSet& points, const SnappedPoints
     result.sources_.push_back(std::move(sources));
     result.given_.push_back(k);
   }
-  if (auto checked = result.check_meetings(); !checked) return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(result.check_meetings());
   return result;
 }
 

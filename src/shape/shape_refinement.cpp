@@ -88,11 +88,11 @@ class ShapeRefiner {
       sizes_->measure_all(out_);
     }
     if (const double least = least_triangles(tin_, metric_, task_.goals, sizes_ ? &*sizes_ : nullptr); task_.foresee) {
-      if (auto fits = task_.foresee(least); !fits) return tl::unexpected(fits.error());
+      SCARP_RETURN_IF_ERROR(task_.foresee(least));
     }
     for (std::uint64_t before = work_.insertions + 1; before != work_.insertions;) {
       before = work_.insertions;
-      if (auto done = rows_ ? sweep_bands() : sweep_all(); !done) return tl::unexpected(done.error());
+      SCARP_RETURN_IF_ERROR(rows_ ? sweep_bands() : sweep_all());
     }
     work_.samples_scanned = refinement_->work().samples_scanned;
     work_.triangles_scanned = refinement_->work().triangles_scanned;
@@ -135,7 +135,7 @@ class ShapeRefiner {
         enqueue(t);
       }
       if (is_first) share_ = static_cast<double>(band_ + 1) / static_cast<double>(bands_.count());
-      if (auto done = work_off(); !done) return done;
+      SCARP_RETURN_IF_ERROR(work_off());
     }
     share_ = 1;
     return {};
@@ -147,7 +147,7 @@ class ShapeRefiner {
         return fail(ErrorKind::kInput,
                     "the mesh would have more than 1,431 million triangles: ask for larger angles or edges");
       if (step % 64 == 0 && task_.progress) {
-        if (auto on = task_.progress(share_, tin_.vertex_count(), refinement_->worst_error()); !on) return on;
+        SCARP_RETURN_IF_ERROR(task_.progress(share_, tin_.vertex_count(), refinement_->worst_error()));
       }
       if (!refinement_->done()) {
         refinement_->insert_worst();

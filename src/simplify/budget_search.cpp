@@ -111,9 +111,8 @@ class BudgetSearch {
 
   Result<Simplified> execute() {
     const auto start = Clock::now();
-    if (auto begun = has_effort_ ? begin_without_effort() : begin_with_least_mesh(); !begun)
-      return tl::unexpected(begun.error());
-    if (auto searched = search(); !searched) return tl::unexpected(searched.error());
+    SCARP_RETURN_IF_ERROR(has_effort_ ? begin_without_effort() : begin_with_least_mesh());
+    SCARP_RETURN_IF_ERROR(search());
     // The first mesh may have been searched for, too.
     if (!best_.passes.empty() && best_.passes.front().name == others_.name) {
       add_work(best_.passes.front(), others_);
@@ -150,7 +149,7 @@ class BudgetSearch {
       no_room_ = search.no_room();
       has_mesh_ = made.has_value();
     }
-    if (!made) return tl::unexpected(made.error());
+    SCARP_RETURN_IF_ERROR(made);
     best_ = std::move(*made);
     first_ = best_.judged_max_error;
     if (best_.mesh.triangle_count() < kFewTriangles) pace_ = kFromFew;
@@ -163,11 +162,10 @@ class BudgetSearch {
 
   Result<void> begin_with_least_mesh() {
     const double most = std::max(task_.most(), floor_);
-    auto least = run(number_.towards(most), number_.factor_of(most), 0.1);
-    if (!least) return tl::unexpected(least.error());
-    const MeshSize size{least->mesh.vertex_count(), least->mesh.triangle_count()};
-    if (auto fits = budget_.check(size, task_.least, ""); !fits) return fits;
-    best_ = std::move(*least);
+    SCARP_TRY(auto&& least, run(number_.towards(most), number_.factor_of(most), 0.1));
+    const MeshSize size{least.mesh.vertex_count(), least.mesh.triangle_count()};
+    SCARP_RETURN_IF_ERROR(budget_.check(size, task_.least, ""));
+    best_ = std::move(least);
     first_ = std::max(best_.judged_max_error, kLeast);
     is_at_floor_ = best_.judged_max_error <= floor_;
     end_by(best_);
@@ -180,12 +178,11 @@ class BudgetSearch {
     if (has_room_) return fit_into_room();
     if (has_effort_) {
       if (is_time_up()) return {};
-      const auto first = std::isinf(first_) ? Result<double>(task_.most()) : guess_by_refinement();
-      if (!first) return tl::unexpected(first.error());
-      if (auto looked = look(*first); !looked) return looked;
+      SCARP_TRY(const auto& first, std::isinf(first_) ? Result<double>(task_.most()) : guess_by_refinement());
+      SCARP_RETURN_IF_ERROR(look(first));
     }
     while (!has_ended() && !is_time_up()) {
-      if (auto looked = look(guess()); !looked) return looked;
+      SCARP_RETURN_IF_ERROR(look(guess()));
     }
     return {};
   }
@@ -217,9 +214,8 @@ class BudgetSearch {
     for (int look = 0; look < 2 && std::abs(step) > 0.1; ++look) {
       const double number = last.number + step;
       if (is_near_floor(number)) return floor_;
-      const auto used = expect_by_refinement(std::exp(number));
-      if (!used) return tl::unexpected(used.error());
-      const Sight here{number, *used};
+      SCARP_TRY(const auto& used, expect_by_refinement(std::exp(number)));
+      const Sight here{number, used};
       power_ = power_between(last, here, pace_.power);
       last = here;
       step = (last.used - std::log(pace_.aim)) / power_;
@@ -233,7 +229,7 @@ class BudgetSearch {
     refine.output.normals = refine.output.uvs = false;
     const auto made = run(std::move(refine), number_.factor_of(number), 0.05, Budget(0, 0));
     if (!made && made.error().kind == ErrorKind::kPromise) return std::log(pace_.aim);
-    if (!made) return tl::unexpected(made.error());
+    SCARP_RETURN_IF_ERROR(made);
     add_work(*made, others_);
     return expected_after(*made);
   }

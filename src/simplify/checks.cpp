@@ -115,8 +115,8 @@ Result<void> check_places(const HeightField& field) {
 }  // namespace
 
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options) {
-  if (auto goals = check_goals(options); !goals) return goals;
-  if (auto places = check_places(field); !places) return places;
+  SCARP_RETURN_IF_ERROR(check_goals(options));
+  SCARP_RETURN_IF_ERROR(check_places(field));
   if (!(options.domain.outline_tolerance >= 0 && std::isfinite(options.domain.outline_tolerance)))
     return usage(fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
                              options.domain.outline_tolerance));
@@ -140,7 +140,7 @@ Result<void> check_needs(const HeightField& field, const SimplifyOptions& option
   const bool has_error_for_all = options.goals.max_error || has_budget(options);
   if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
     return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
-  if (auto sound = check_border(field, options); !sound) return sound;
+  SCARP_RETURN_IF_ERROR(check_border(field, options));
   if (options.goals.objective == Objective::kRms && !has_budget(options))
     return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
   if (options.quality.vertices == Vertices::kFree && options.quality.effort != Effort::kHigh &&

@@ -23,9 +23,8 @@ GoalRefinement::GoalRefinement(const Plan& plan, const Raster& raster, const Cri
 
 Result<void> GoalRefinement::start(Simplified& result) {
   const auto start = Clock::now();
-  auto domain = build_domain(raster_, options_.domain.outline_tolerance, plan_.field.frame);
-  if (!domain) return tl::unexpected(domain.error());
-  take(std::move(*domain));
+  SCARP_TRY(auto&& domain, build_domain(raster_, options_.domain.outline_tolerance, plan_.field.frame));
+  take(std::move(domain));
   insert_points();
   result.passes.push_back(pass_of("domain", seconds_since(start)));
   return {};
@@ -43,8 +42,8 @@ Result<void> GoalRefinement::run(Simplified& result) {
                         : options_.features.points.empty() ? "the outline of the valid data alone needs"
                                                            : "the outline of the valid data and the points need";
   const char* advice = is_whole_ ? "" : ", or simplify the outline with an outline tolerance";
-  if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
-  if (auto refined = refine(result.stop); !refined) return refined;
+  SCARP_RETURN_IF_ERROR(budget_.check(size(), culprit, advice));
+  SCARP_RETURN_IF_ERROR(refine(result.stop));
   finish_edges(result);
   result.passes.push_back(pass_of("refine", seconds_since(start), result.work));
   return {};
@@ -115,7 +114,7 @@ Result<void> GoalRefinement::refine(StopReason& stop) {
         reporter_.due() && !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
       return fail(ErrorKind::kCancelled, "cancelled while refining");
     if (step % 256 == 0) {
-      if (auto fits = plan_.memory.check_mesh(0, vertices(), fraction(first_error)); !fits) return fits;
+      SCARP_RETURN_IF_ERROR(plan_.memory.check_mesh(0, vertices(), fraction(first_error)));
     }
     if (const auto budget = take_step()) {
       stop = *budget;
@@ -226,7 +225,7 @@ Result<bool> GoalRefinement::mend(std::vector<Offender> offenders, Simplified& r
     result.stop = *budget;
     return true;
   }
-  if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+  SCARP_RETURN_IF_ERROR(refine(result.stop));
   finish_edges(result);
   return true;
 }

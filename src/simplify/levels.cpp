@@ -32,14 +32,13 @@ Result<std::vector<Simplified>> simplify_levels(const HeightField& field, const 
   SimplifyOptions options = asked;
   Border& border = options.domain.border;
   border.is_locked = true;
-  if (auto sound = check(field, options, levels); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check(field, options, levels));
   if (!border.max_error) border.max_error = asked.goals.max_error;
   std::vector<Simplified> meshes;
   for (int level = 0; level < levels.count; ++level) {
     options.goals.max_error = *asked.goals.max_error * std::pow(levels.ratio, level);
-    auto mesh = simplify(field, options);
-    if (!mesh) return tl::unexpected(std::move(mesh.error()));
-    meshes.push_back(std::move(*mesh));
+    SCARP_TRY(auto&& mesh, simplify(field, options));
+    meshes.push_back(std::move(mesh));
   }
   return meshes;
 }

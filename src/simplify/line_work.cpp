@@ -33,10 +33,8 @@ Result<void> LineWork::prepare() {
   const auto start = Clock::now();
   std::vector<std::int32_t> rows;
   if (field_.samples == nullptr) rows = shared_rows(field_, strip_side(Plan(field_, options_)));
-  auto lines = prepare_lines(field_, options_.features.breaklines, options_.features.cutline, tolerance_,
-                             options_.run.threads, rows);
-  if (!lines) return tl::unexpected(lines.error());
-  lines_ = std::move(*lines);
+  SCARP_TRY(lines_, prepare_lines(field_, options_.features.breaklines, options_.features.cutline, tolerance_,
+                                  options_.run.threads, rows));
   is_prepared_ = true;
   seconds_ = seconds_since(start);
   return {};

@@ -20,8 +20,8 @@ constexpr double kLineShare = 0.5;
 /// `lines`: to be inserted, prepared or such as may wait; null: none.
 Result<Simplified> simplify_in_order(const HeightField& field, const Request& options, const Scale& scale,
                                      LineWork* lines) {
-  if (auto sound = check_values(field, options); !sound) return tl::unexpected(sound.error());
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_values(field, options));
+  SCARP_RETURN_IF_ERROR(check_size(field));
   const auto run = [&](const Plan& plan) {
     if (plan.options.domain.border.is_locked) return run_locked(plan, lines);
     return may_be_dominant(field, options) ? run_by_tiles(plan, lines) : run_greedily(plan, lines);
@@ -41,39 +41,36 @@ Result<Simplified> simplify_with_lines(const HeightField& field, Request& option
                                        double seconds) {
   options.run.memory.taken += line_bytes(field, options.features.breaklines) +
                               line_bytes(field, options.features.cutline.rings, options.features.cutline.affine);
-  if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(memory_budget(field, options).check_start(0));
   LineWork work(field, options, kLineShare * error);
   if (!work.may_wait()) {
-    if (auto prepared = work.prepare(); !prepared) return tl::unexpected(prepared.error());
+    SCARP_RETURN_IF_ERROR(work.prepare());
   }
-  auto result = simplify_in_order(work.field(), options, scale, &work);
-  if (!result) return result;
+  SCARP_TRY(auto&& result, simplify_in_order(work.field(), options, scale, &work));
   FieldLines* const lines = &work.lines();
-  result->passes.insert(result->passes.begin(), Pass{"arrange", seconds + work.seconds()});
-  result->edits = std::move(lines->edits);
-  result->lines_inserted = lines->inserted;
-  result->farthest_line = std::move(lines->farthest);
-  const Measurement& measured = result->measurement;
+  result.passes.insert(result.passes.begin(), Pass{"arrange", seconds + work.seconds()});
+  result.edits = std::move(lines->edits);
+  result.lines_inserted = lines->inserted;
+  result.farthest_line = std::move(lines->farthest);
+  const Measurement& measured = result.measurement;
   // If the field has a source, samples beyond a cut are nodata to refinement only.
   const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
-  if (lines->graph.cut) result->cut_off = valid - measured.samples - measured.uncovered - measured.stray;
+  if (lines->graph.cut) result.cut_off = valid - measured.samples - measured.uncovered - measured.stray;
   return result;
 }
 
 Result<Simplified> simplify_with_features(const HeightField& field, const Request& asked, const Scale& scale) {
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_size(field));
   const auto start = Clock::now();
   const double error = asked.goals.max_error.value_or(scale.line_error);
-  auto fitted = fit_features(field, asked.features, {error, asked.run});
-  if (!fitted) return tl::unexpected(std::move(fitted.error()));
+  SCARP_TRY(auto&& fitted, fit_features(field, asked.features, {error, asked.run}));
   Request options = asked;
-  options.features = {.breaklines = fitted->lines, .points = asked.features.points, .cutline = asked.features.cutline};
+  options.features = {.breaklines = fitted.lines, .points = asked.features.points, .cutline = asked.features.cutline};
   // No wall and no ridge may be found.
-  auto result = has_lines(options) ? simplify_with_lines(field, options, error, scale, seconds_since(start))
-                                   : simplify_in_order(field, options, scale, nullptr);
-  if (!result) return result;
-  result->features = std::move(*fitted);
-  result->lines_for = error;
+  SCARP_TRY(auto&& result, has_lines(options) ? simplify_with_lines(field, options, error, scale, seconds_since(start))
+                                              : simplify_in_order(field, options, scale, nullptr));
+  result.features = std::move(fitted);
+  result.lines_for = error;
   return result;
 }
 

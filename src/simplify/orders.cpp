@@ -62,7 +62,7 @@ Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Raster&
   run_beside(
       plan.options.run.threads, [&] { prepared = lines->prepare(); },
       [&] { tiled = refine_tiles(plan, raster, criterion, nullptr, strips); });
-  if (!prepared) return tl::unexpected(prepared.error());
+  SCARP_RETURN_IF_ERROR(prepared);
   return tiled;
 }
 
@@ -88,90 +88,79 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   const bool looks_beyond = plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr ||
                             has_own_bounds(field, plan.options);
   if (!plan.is_streamed && looks_beyond) {
-    auto cleaned = Samples::to_refine(field, plan.options.run.threads);
-    if (!cleaned) return tl::unexpected(cleaned.error());
-    raster = samples.emplace(std::move(*cleaned)).raster();
+    SCARP_TRY(auto&& cleaned, Samples::to_refine(field, plan.options.run.threads));
+    raster = samples.emplace(std::move(cleaned)).raster();
   }
-  const auto criterion = Criterion::make(field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
-  if (!criterion) return tl::unexpected(criterion.error());
-  if (!plan.is_streamed && std::isinf(criterion->largest_aim())) return run_greedily(plan, lines);
+  SCARP_TRY(const auto& criterion,
+            Criterion::make(field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor));
+  if (!plan.is_streamed && std::isinf(criterion.largest_aim())) return run_greedily(plan, lines);
   const std::uint64_t bytes = proof_bytes(field, plan.options);
-  if (auto fits = plan.memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(plan.memory.check_start(bytes));
   const auto start = Clock::now();
   StripTotals strips;
-  auto tiled = refine_beside_lines(plan, raster, *criterion, lines, strips);
-  if (!tiled) return tl::unexpected(tiled.error());
-  if (!*tiled) {
+  SCARP_TRY(auto&& tiled, refine_beside_lines(plan, raster, criterion, lines, strips));
+  if (!tiled) {
     if (plan.is_streamed)
       return fail(ErrorKind::kInput,
                   "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
     return run_greedily(plan, lines);
   }
-  const DomainMesh& domain = (*tiled)->domain;
-  if (auto has_room = plan.memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !has_room)
-    return tl::unexpected(has_room.error());
+  const DomainMesh& domain = tiled->domain;
+  SCARP_RETURN_IF_ERROR(plan.memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1));
   const double seconds = seconds_since(start);
-  const std::vector<Pass> passes = list_passes(plan, (*tiled)->work, strips, lines != nullptr, seconds);
-  add((*tiled)->work, strips.refinement);
+  const std::vector<Pass> passes = list_passes(plan, tiled->work, strips, lines != nullptr, seconds);
+  add(tiled->work, strips.refinement);
   const ConstraintGraph* left = plan.finishes_strips ? nullptr : graph_of(lines);
-  auto result = run_passes(plan, raster, *criterion, left, std::move(*tiled));
-  if (!result) return result;
-  result->passes.insert(result->passes.begin(), passes.begin(), passes.end());
-  result->seconds_refine += seconds;
-  result->is_cut_short = result->is_cut_short || strips.is_cut_short;
+  SCARP_TRY(auto&& result, run_passes(plan, raster, criterion, left, std::move(tiled)));
+  result.passes.insert(result.passes.begin(), passes.begin(), passes.end());
+  result.seconds_refine += seconds;
+  result.is_cut_short = result.is_cut_short || strips.is_cut_short;
   return result;
 }
 
 Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
   if (lines != nullptr) {
-    if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
+    SCARP_RETURN_IF_ERROR(lines->prepare());
   }
-  auto samples = Samples::to_refine(plan.field, plan.options.run.threads);
-  if (!samples) return tl::unexpected(samples.error());
-  const Raster raster = samples->raster();
-  const auto criterion =
-      Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
-  if (!criterion) return tl::unexpected(criterion.error());
-  return run_passes(plan, raster, *criterion, graph_of(lines), std::nullopt);
+  SCARP_TRY(auto&& samples, Samples::to_refine(plan.field, plan.options.run.threads));
+  const Raster raster = samples.raster();
+  SCARP_TRY(const auto& criterion,
+            Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor));
+  return run_passes(plan, raster, criterion, graph_of(lines), std::nullopt);
 }
 
 Result<Simplified> run_locked(const Plan& plan, LineWork* lines) {
   if (lines != nullptr) {
-    if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
+    SCARP_RETURN_IF_ERROR(lines->prepare());
   }
   const SimplifyOptions& options = plan.options;
-  const auto samples = Samples::to_refine(plan.field, options.run.threads);
-  if (!samples) return tl::unexpected(samples.error());
+  SCARP_TRY(const auto& samples, Samples::to_refine(plan.field, options.run.threads));
   const auto make_criterion = [&](const Raster& raster) {
     return Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
   };
   // The border's line needs tolerances that are sound.
-  if (auto sound = make_criterion(samples->raster()); !sound) return tl::unexpected(sound.error());
-  const auto border = LockedBorder::make(plan.field, options, samples->raster());
-  if (!border) return tl::unexpected(border.error());
+  SCARP_RETURN_IF_ERROR(make_criterion(samples.raster()));
+  SCARP_TRY(const auto& border, LockedBorder::make(plan.field, options, samples.raster()));
   if (lines != nullptr) {
-    if (auto kept = border->check(lines->graph().points, kLatticeSteps); !kept) return tl::unexpected(kept.error());
+    SCARP_RETURN_IF_ERROR(border.check(lines->graph().points, kLatticeSteps));
   }
-  const Raster raster = border->raster();
-  const auto criterion = make_criterion(raster);
-  if (!criterion) return tl::unexpected(criterion.error());
+  const Raster raster = border.raster();
+  SCARP_TRY(const auto& criterion, make_criterion(raster));
   const auto start = Clock::now();
   std::optional<Tiled> tiled;
-  if (lines == nullptr && may_be_dominant(plan.field, options) && !std::isinf(criterion->largest_aim())) {
+  if (lines == nullptr && may_be_dominant(plan.field, options) && !std::isinf(criterion.largest_aim())) {
     std::vector<Point> inside;
     for (const auto& [col, row] : options.features.points) inside.push_back({col, row});
     TiledOptions alone;
-    alone.threshold = criterion->largest_aim();
+    alone.threshold = criterion.largest_aim();
     alone.memory = plan.memory;
     if (options.run.progress && !Reporter(options.run.progress).report("refine", 0, 0, 0))
       return fail(ErrorKind::kCancelled, "cancelled while refining");
-    auto refined = refine_alone(raster, border->vertices(), inside, alone);
-    if (!refined) return tl::unexpected(refined.error());
-    tiled = std::move(*refined);
+    SCARP_TRY(tiled, refine_alone(raster, border.vertices(), inside, alone));
   }
   const double seconds = seconds_since(start);
   const auto pass = tiled ? std::optional(pass_of("tiles", seconds, tiled->work)) : std::nullopt;
-  auto result = run_passes(plan, raster, *criterion, graph_of(lines), std::move(tiled), border->vertices());
+  auto result = run_passes(plan, raster, criterion, graph_of(lines), std::move(tiled), border.vertices());
   if (!result || !pass) return result;
   result->passes.insert(result->passes.begin(), *pass);
   result->seconds_refine += seconds;

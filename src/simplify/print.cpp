@@ -136,8 +136,7 @@ Result<double> longest_side(const HeightField& field) {
     const float* samples = field.samples + static_cast<std::size_t>(first) * cols;
     if (field.source != nullptr) {
       read.resize(static_cast<std::size_t>(count) * cols);
-      if (auto has = field.source->read(0, first, field.cols, count, read.data(), field.cols); !has)
-        return tl::unexpected(has.error());
+      SCARP_RETURN_IF_ERROR(field.source->read(0, first, field.cols, count, read.data(), field.cols));
       samples = read.data();
     }
     for (int row = first; row < first + count; ++row) {
@@ -173,9 +172,8 @@ Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print,
   options.dovetail = print.dovetail;
   options.cell = cell_of(field.frame);
   if (print.gap != 0) {
-    const Result<double> longest = longest_side(field);
-    if (!longest) return tl::unexpected(longest.error());
-    for (double& side : options.cell) side *= print.size ? *print.size / *longest : 1;
+    SCARP_TRY(const double longest, longest_side(field));
+    for (double& side : options.cell) side *= print.size ? *print.size / longest : 1;
     options.gap = print.gap;
   }
   Result<PrintTilePlan> tiles = PrintTilePlan::make(field.cols, field.rows, options);
@@ -189,7 +187,7 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field,
                          const std::optional<PrintTilePlan>& tiles, const Mesh& terrain, const Cutline* cutline,
                          int threads) {
   Print print;
-  if (auto placed = place_print(options, terrain, print); !placed) return tl::unexpected(placed.error());
+  SCARP_RETURN_IF_ERROR(place_print(options, terrain, print));
   std::vector<Mesh> tops = tiles ? cut_print_tiles(terrain, field.frame, *tiles) : std::vector{terrain};
   std::vector<std::size_t> top_sizes;
   for (std::size_t k = 0; k < tops.size(); ++k) {
@@ -199,27 +197,25 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field,
     }
     if (options.is_placed()) place_mesh(tops[k], print.placement);
     top_sizes.push_back(tops[k].triangles.size());
-    Result<Mesh> solid = build_solid(std::move(tops[k]), options.is_placed() ? 0 : print.base);
-    if (!solid) return tl::unexpected(std::move(solid.error()));
+    SCARP_TRY(Mesh solid, build_solid(std::move(tops[k]), options.is_placed() ? 0 : print.base));
     const int columns = options.columns, at = static_cast<int>(k);
-    SolidFacts facts = measure_solid(*solid);
-    print.tiles.push_back({at / columns + 1, at % columns + 1, std::move(*solid), facts});
+    SolidFacts facts = measure_solid(solid);
+    print.tiles.push_back({at / columns + 1, at % columns + 1, std::move(solid), facts});
   }
   MeasureOptions measuring;
   measuring.topology = false;
   measuring.cutline = cutline;
   measuring.run.threads = threads;
-  const Result<Measurement> judged = measure(field, join_tops(print.tiles, top_sizes), measuring);
-  if (!judged) return tl::unexpected(judged.error());
-  print.max_error = judged->max_error;
-  print.uncovered = judged->uncovered;
-  print.heights = judged->heights;
-  if (judged->uncovered > 0 && options.gap == 0) {
+  SCARP_TRY(const Measurement& judged, measure(field, join_tops(print.tiles, top_sizes), measuring));
+  print.max_error = judged.max_error;
+  print.uncovered = judged.uncovered;
+  print.heights = judged.heights;
+  if (judged.uncovered > 0 && options.gap == 0) {
     return fail(ErrorKind::kPromise,
                 fmt::format("the solid leaves out {} sample{}, the first at column {}, row {}: it is too small for "
                             "float32 to tell samples apart",
-                            judged->uncovered, judged->uncovered == 1 ? "" : "s", judged->uncovered_at[0],
-                            judged->uncovered_at[1]));
+                            judged.uncovered, judged.uncovered == 1 ? "" : "s", judged.uncovered_at[0],
+                            judged.uncovered_at[1]));
   }
   return print;
 }
@@ -244,16 +240,15 @@ std::uint64_t Print::triangles() const {
 }
 
 Result<double> estimate_print_scale(const HeightField& field, const PrintOptions& print) {
-  if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_print(print));
   if (!print.size) return print.exaggerate;
-  const Result<double> longest = longest_side(field);
-  if (!longest) return tl::unexpected(longest.error());
-  if (!(*longest > 0)) return fail(ErrorKind::kInput, "no sample has a height");
-  return round_down(*print.size / *longest) * print.exaggerate;
+  SCARP_TRY(const double longest, longest_side(field));
+  if (!(longest > 0)) return fail(ErrorKind::kInput, "no sample has a height");
+  return round_down(*print.size / longest) * print.exaggerate;
 }
 
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options) {
-  if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_print(print));
   if (field.frame.space) return fail(ErrorKind::kUsage, "a print stands on a flat base: choose a frame on the map");
   // The mesh may come out smaller than the samples, within a cutline; then the scale is larger and the run repeated.
   std::optional<double> asked = options.goals.max_error;
@@ -261,45 +256,41 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
     if (print.max_error) asked = std::min(asked.value_or(HUGE_VAL), *print.max_error / scale);
   };
   if (print.max_error) {
-    const Result<double> scale = estimate_print_scale(field, print);
-    if (!scale) return tl::unexpected(scale.error());
-    tighten(*scale);
+    SCARP_TRY(const double scale, estimate_print_scale(field, print));
+    tighten(scale);
   }
-  const Result<std::optional<PrintTilePlan>> tiles = plan_print_tiles(print, field);
-  if (!tiles) return tl::unexpected(tiles.error());
+  SCARP_TRY(const std::optional<PrintTilePlan>& tiles, plan_print_tiles(print, field));
   const auto lines = static_cast<std::ptrdiff_t>(options.features.breaklines.lines.size());
-  if (*tiles) add_cuts(**tiles, options.features.breaklines);
+  if (tiles) add_cuts(*tiles, options.features.breaklines);
   const auto cuts = static_cast<std::uint64_t>(std::ssize(options.features.breaklines.lines) - lines);
   options.output.float32_positions = false;  // they are rounded where the print stands
   const Cutline* cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
   if (asked) options.goals.max_error = *asked * (1 - kReserve);
   std::vector<SampleEdit> edits;
   for (int run = 1;; ++run) {
-    Result<Simplified> simplified = simplify(field, options);
-    if (!simplified) return tl::unexpected(std::move(simplified.error()));
-    apply_edits(simplified->edits, field);
-    if (run == 1) edits = simplified->edits;
-    Result<Print> made = make_print(print, field, *tiles, simplified->mesh, cutline, options.run.threads);
-    if (!made) return tl::unexpected(std::move(made.error()));
+    SCARP_TRY(Simplified simplified, simplify(field, options));
+    apply_edits(simplified.edits, field);
+    if (run == 1) edits = simplified.edits;
+    SCARP_TRY(Print made, make_print(print, field, tiles, simplified.mesh, cutline, options.run.threads));
     const std::optional<double> before = asked;
-    tighten(made->placement.scale[2]);
+    tighten(made.placement.scale[2]);
     const double excess =
-        asked ? made->max_error + field.sample_rounding - *asked - judging_allowance(*asked, made->heights) : 0;
+        asked ? made.max_error + field.sample_rounding - *asked - judging_allowance(*asked, made.heights) : 0;
     const bool has_budget_ended =
-        simplified->stop == StopReason::kMaxTriangles || simplified->stop == StopReason::kMaxVertices;
+        simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
     if (!(excess > 0) || has_budget_ended) {
-      simplified->edits = std::move(edits);
-      simplified->lines_inserted -= std::min(cuts, simplified->lines_inserted);
-      auto& fitted = simplified->features.lines.lines;
+      simplified.edits = std::move(edits);
+      simplified.lines_inserted -= std::min(cuts, simplified.lines_inserted);
+      auto& fitted = simplified.features.lines.lines;
       if (cuts > 0) fitted.erase(fitted.begin() + lines, fitted.begin() + lines + static_cast<std::ptrdiff_t>(cuts));
-      return PrintedTerrain{std::move(*simplified), std::move(*made)};
+      return PrintedTerrain{std::move(simplified), std::move(made)};
     }
     options.goals.max_error = *asked < *before ? *asked * (1 - kReserve) : *options.goals.max_error - 2 * excess;
     if (run == kMostPrints || *options.goals.max_error < 0) {
       return fail(ErrorKind::kPromise,
                   fmt::format("the solid's max error is {:.6g} and not {:.6g}: its positions are rounded to float32, "
                               "which costs the rest; ask for a larger error or a larger size",
-                              made->max_error, *asked));
+                              made.max_error, *asked));
     }
   }
 }

@@ -79,9 +79,8 @@ Result<void> measure_channels(const HeightField& field, const SimplifyOptions& o
     judge.topology = false;
     judge.run.threads = options.run.threads;
     judge.on_row = tally.adder(field.channels[k].scale);
-    auto measured = measure(raised, raise_channel(result.mesh, static_cast<int>(k)), judge);
-    if (!measured) return tl::unexpected(measured.error());
-    result.channel_measurements.push_back(std::move(*measured));
+    SCARP_TRY(auto&& measured, measure(raised, raise_channel(result.mesh, static_cast<int>(k)), judge));
+    result.channel_measurements.push_back(std::move(measured));
   }
   return {};
 }
@@ -232,7 +231,7 @@ class WindowedVerdict {
   }
   /// The valid samples without a bound. Fails as what was read did.
   Result<std::uint64_t> finish() {
-    if (!status_) return tl::unexpected(status_.error());
+    SCARP_RETURN_IF_ERROR(status_);
     verdict_.finish();
     return ignored_;
   }
@@ -330,22 +329,18 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
                  SampleVerdict(criterion, exact, 1, largest_height(field, result.mesh, {}), result, proof));
     judge.on_row = [&rows](int row, std::span<const float> errors) { rows->add(row, errors); };
   }
-  auto measured = measure(field, result.mesh, judge);
-  if (!measured) return tl::unexpected(measured.error());
-  result.measurement = std::move(*measured);
+  SCARP_TRY(result.measurement, measure(field, result.mesh, judge));
   const Measurement& m = result.measurement;
 
   proof.offenders.insert(proof.offenders.begin(), m.offenders.begin(), m.offenders.end());
   if (is_tallied) {
-    if (auto done = measure_channels(field, options, *tally, result); !done) return tl::unexpected(done.error());
+    SCARP_RETURN_IF_ERROR(measure_channels(field, options, *tally, result));
     SampleVerdict verdict(criterion, exact, 1 + result.channel_measurements.size(),
                           largest_height(field, result.mesh, m.heights), result, proof);
     judge_samples(options, criterion, field, *tally, verdict);
   }
   if (rows) {
-    const auto ignored = rows->finish();
-    if (!ignored) return tl::unexpected(ignored.error());
-    result.ignored = *ignored;
+    SCARP_TRY(result.ignored, rows->finish());
   }
   if (by_sample) {
     if (m.uncovered > 0 && result.stop == StopReason::kMaxError) proof.broken = describe_breach(m, options);

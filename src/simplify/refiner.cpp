@@ -34,11 +34,9 @@ Refiner::~Refiner() = default;
 Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) try {
   if (field.samples == nullptr && field.source != nullptr)
     return fail(ErrorKind::kUsage, "a refiner needs the samples as one array of floats: read the raster as a whole");
-  auto samples = Samples::to_refine(field, 1);
-  if (!samples) return tl::unexpected(samples.error());
-  auto domain = build_domain(samples->raster(), outline_tolerance, field.frame);
-  if (!domain) return tl::unexpected(domain.error());
-  return Refiner(std::make_unique<Impl>(field, std::move(*samples), std::move(*domain)));
+  SCARP_TRY(auto&& samples, Samples::to_refine(field, 1));
+  SCARP_TRY(auto&& domain, build_domain(samples.raster(), outline_tolerance, field.frame));
+  return Refiner(std::make_unique<Impl>(field, std::move(samples), std::move(domain)));
 } catch (...) {
   return caught(ErrorKind::kInput, "triangulate this raster");
 }

@@ -55,11 +55,10 @@ class EngineRun {
     result.ignored = criterion_.ignored();
     result.order = tiled ? Order::kDominant : Order::kGreedy;
     result.effort = options_.quality.effort;
-    auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
-    if (!refined) return tl::unexpected(refined.error());
-    if (auto inserted = insert_lines(result); !inserted) return tl::unexpected(inserted.error());
-    if (auto shaped = fit_and_shape(result); !shaped) return tl::unexpected(shaped.error());
-    if (auto kept = refinement_.check_border(); !kept) return tl::unexpected(kept.error());
+    SCARP_RETURN_IF_ERROR(tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result));
+    SCARP_RETURN_IF_ERROR(insert_lines(result));
+    SCARP_RETURN_IF_ERROR(fit_and_shape(result));
+    SCARP_RETURN_IF_ERROR(refinement_.check_border());
     const ShapeGoals& shape = options_.quality.shape;
     const auto losses =
         shape.any() ? count_losses(refinement_.piece().tin, refinement_.piece().lattice.steps, field_.frame, shape)
@@ -72,10 +71,10 @@ class EngineRun {
     result.seconds_refine += seconds_since(start);
     if (is_useless({result.mesh.vertex_count(), result.mesh.triangle_count()})) return result;
     if (!is_final) {
-      if (auto looked = mend_ahead(result); !looked) return tl::unexpected(looked.error());
+      SCARP_RETURN_IF_ERROR(mend_ahead(result));
       order(result);
     }
-    if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
+    SCARP_RETURN_IF_ERROR(prove_and_mend(result));
     count_looser_outline(result);
     if (shape.any()) result.shape = report_shapes(result.mesh, shape, losses);
     return result;
@@ -83,7 +82,7 @@ class EngineRun {
 
  private:
   Result<void> insert_greedily(Simplified& result) {
-    if (auto started = refinement_.start(result); !started) return started;
+    SCARP_RETURN_IF_ERROR(refinement_.start(result));
     if (inserts_first()) return {};
     return refinement_.run(result);
   }
@@ -153,7 +152,7 @@ class EngineRun {
     };
     Work work;
     const ConstraintGoals goals{criterion_.aim(), plan_.fits && plan_.releases_starts, options_.run.threads};
-    if (auto inserted = insert_constraints(piece, *lines_, goals, work); !inserted) return inserted;
+    SCARP_RETURN_IF_ERROR(insert_constraints(piece, *lines_, goals, work));
     if (!piece.has_surface) return fail(ErrorKind::kInput, kNothingInCutline);
     if (inserts_first()) result.work = work;
     result.passes.push_back(pass_of("lines", seconds_since(start), work));
@@ -162,7 +161,7 @@ class EngineRun {
 
   Result<void> fit_and_shape(Simplified& result) {
     if (!plan_.removes_last) {
-      if (auto fitted = remove_vertices(result); !fitted) return fitted;
+      SCARP_RETURN_IF_ERROR(remove_vertices(result));
     }
     auto shaped = add_for_shapes(result);
     if (!shaped || !plan_.removes_last) return shaped;
@@ -177,9 +176,8 @@ class EngineRun {
     fix_points();
     std::optional<Criterion> whole;
     if (plan_.scale.start < 1) {
-      auto made = Criterion::make(field_, options_, raster_, plan_.aim, plan_.scale.factor);
-      if (!made) return tl::unexpected(made.error());
-      whole.emplace(std::move(*made));
+      SCARP_TRY(auto&& made, Criterion::make(field_, options_, raster_, plan_.aim, plan_.scale.factor));
+      whole.emplace(std::move(made));
     }
     const Criterion& criterion = whole ? *whole : criterion_;
     FitOptions options = fit_options(field_, options_, criterion.aim());
@@ -192,19 +190,18 @@ class EngineRun {
     if (plan_.is_streamed) read_windows(field_, plan_.memory, options, criterion_.source_bounds());
     options.threads = fit_threads(window_bytes(options));
     const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
-    if (auto fits = plan_.memory.check_mesh(windows, refinement_.vertices(), 1); !fits) return fits;
+    SCARP_RETURN_IF_ERROR(plan_.memory.check_mesh(windows, refinement_.vertices(), 1));
     Reporter reporter(options_.run.progress);
     if (options_.run.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {
         return !reporter.due() || reporter.report("fit", share, vertices, 0);
       };
     }
-    const auto fitted = fit_piece(refinement_.piece(), std::move(options));
-    if (!fitted) return tl::unexpected(fitted.error());
+    SCARP_TRY(const auto& fitted, fit_piece(refinement_.piece(), std::move(options)));
     note_vertices(result);
-    result.is_cut_short = fitted->is_cut_short;
+    result.is_cut_short = fitted.is_cut_short;
     result.passes.push_back(pass_of("fit", seconds_since(start)));
-    result.passes.back().removals = fitted->removed;
+    result.passes.back().removals = fitted.removed;
     return {};
   }
 
@@ -230,11 +227,10 @@ class EngineRun {
       return plan_.memory.check_mesh(rows, count, now / (before + (now - before) / share));
     };
     task.foresee = [&](double triangles) { return check_need(triangles, plan_.memory, rows); };
-    const auto work = refine_shapes(raster_, refinement_.piece().tin, refinement_.piece().lattice, task);
-    if (!work) return tl::unexpected(work.error());
+    SCARP_TRY(const auto& work, refine_shapes(raster_, refinement_.piece().tin, refinement_.piece().lattice, task));
     note_vertices(result);
     result.passes.push_back(
-        {"shape", seconds_since(start), work->samples_scanned, work->triangles_scanned, work->insertions});
+        {"shape", seconds_since(start), work.samples_scanned, work.triangles_scanned, work.insertions});
     return {};
   }
 
@@ -314,15 +310,13 @@ class EngineRun {
   /// which need longer. The proof handles faults that this cannot mend.
   Result<void> mend_ahead(Simplified& result) {
     const auto start = Clock::now();
-    const auto found = prove(field_, options_, criterion_, exact_, Look::kHeights, result);
-    if (!found) return tl::unexpected(found.error());
+    SCARP_TRY(const auto& found, prove(field_, options_, criterion_, exact_, Look::kHeights, result));
     result.seconds_measure += seconds_since(start);
     result.passes.push_back(pass_of("prove", seconds_since(start)));
-    if (found->kept) return {};
+    if (found.kept) return {};
     const auto again = Clock::now();
-    const auto mended = refinement_.mend(found->offenders, result);
-    if (!mended) return tl::unexpected(mended.error());
-    if (!*mended) return {};
+    SCARP_TRY(const auto& mended, refinement_.mend(found.offenders, result));
+    if (!mended) return {};
     result.passes.push_back(pass_of("refine", seconds_since(again)));
     freeze_into(result, false);
     result.seconds_refine += seconds_since(again);
@@ -334,25 +328,23 @@ class EngineRun {
   Result<void> prove_and_mend(Simplified& result) {
     for (;;) {
       const auto start = Clock::now();
-      const auto proof = prove(field_, options_, criterion_, exact_, Look::kAll, result);
-      if (!proof) return tl::unexpected(proof.error());
+      SCARP_TRY(const auto& proof, prove(field_, options_, criterion_, exact_, Look::kAll, result));
       result.seconds_measure += seconds_since(start);
       result.passes.push_back(pass_of("prove", seconds_since(start)));
       const bool is_sound = exact_ || result.measurement.is_sound();
       // In space a fold goes where its longest edge is split.
-      const bool may_unfold = field_.frame.space && result.measurement.down_facing > 0 && !proof->offenders.empty();
+      const bool may_unfold = field_.frame.space && result.measurement.down_facing > 0 && !proof.offenders.empty();
       if (!is_sound && !may_unfold)
         return fail(ErrorKind::kPromise,
                     "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
-      if (proof->kept && is_sound) return {};
-      if (!refinement_.has_piece()) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
+      if (proof.kept && is_sound) return {};
+      if (!refinement_.has_piece()) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof.broken);
       const auto again = Clock::now();
-      const auto mended = refinement_.mend(proof->offenders, result);
-      if (!mended) return tl::unexpected(mended.error());
-      if (!*mended)
+      SCARP_TRY(const auto& mended, refinement_.mend(proof.offenders, result));
+      if (!mended)
         return fail(ErrorKind::kPromise,
-                    (proof->kept ? "the mesh folds over itself" : proof->broken) +
+                    (proof.kept ? "the mesh folds over itself" : proof.broken) +
                         (rounds_offsets(field_, options_)
                              ? ": positions in the mesh are rounded to float32, which alone costs that much; ask for a "
                                "larger error, or write OBJ or PLY, whose positions are double, or use the local or "

@@ -27,7 +27,7 @@ namespace scarp {
 namespace {
 
 Result<Simplified> simplify_within_budget(const HeightField& field, SimplifyOptions options) {
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  SCARP_RETURN_IF_ERROR(check_size(field));
   if (options.quality.effort == Effort::kFast && insertion_stops(field, options)) return simplify_once(field, options);
   if (has_norm(field)) options.quality.vertices = Vertices::kSamples;
   const BudgetTask task = make_budget_task(field, options);
@@ -102,7 +102,7 @@ int choose_threads(const HeightField& field, const SimplifyOptions& options) {
 
 Result<void> check(const HeightField& field, const SimplifyOptions& options) {
   for (const auto check : {check_values, check_conflicts, check_needs}) {
-    if (auto sound = check(field, options); !sound) return sound;
+    SCARP_RETURN_IF_ERROR(check(field, options));
   }
   return {};
 }
@@ -122,7 +122,7 @@ Result<Simplified> without_exceptions(FunctionRef<Result<Simplified>()> work) tr
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) {
   return without_exceptions([&]() -> Result<Simplified> {
-    if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
+    SCARP_RETURN_IF_ERROR(check(field, asked));
     SimplifyOptions options = asked;
     options.quality.effort = choose_effort(field, asked);
     options.run.threads = choose_threads(field, options);
@@ -143,7 +143,7 @@ Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOption
     const Request request(options);
     if (options.domain.border.is_locked)
       return fail(ErrorKind::kUsage, describe(find_conflicts(Fields(Field::kStrategy, Field::kBorder)).front()));
-    if (auto sound = check(field, request); !sound) return tl::unexpected(sound.error());
+    SCARP_RETURN_IF_ERROR(check(field, request));
     auto made = simplify_once(field, request);
     if (made) made->why_fast = WhyFast::kStrategy;
     return made;

@@ -114,15 +114,14 @@ class PointRun {
   }
 
   Result<Simplified> execute(Clock::time_point start) {
-    if (auto fits = budget_.check(size(), "the hull of the points alone needs", ""); !fits)
-      return tl::unexpected(fits.error());
+    SCARP_RETURN_IF_ERROR(budget_.check(size(), "the hull of the points alone needs", ""));
     Simplified result;
-    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
-    if (auto settled = settle_lines(result.stop); !settled) return tl::unexpected(settled.error());
+    SCARP_RETURN_IF_ERROR(refine(result.stop));
+    SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
     take_best_prefix();
     freeze_into(result);
     result.seconds_refine = seconds_since(start);
-    if (auto proven = prove(result); !proven) return tl::unexpected(proven.error());
+    SCARP_RETURN_IF_ERROR(prove(result));
     return result;
   }
 
@@ -176,7 +175,7 @@ class PointRun {
         if (refinement_->done()) break;
       }
       for (const std::uint32_t point : splits) insert(point);
-      if (auto refined = refine(stop); !refined) return refined;
+      SCARP_RETURN_IF_ERROR(refine(stop));
     }
     flat_ = refinement_->flip_flats(lines_.on_lines());
     return {};
@@ -280,8 +279,8 @@ class PointRun {
       }
       insert(point);
     }
-    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
-    if (auto settled = settle_lines(result.stop); !settled) return tl::unexpected(settled.error());
+    SCARP_RETURN_IF_ERROR(refine(result.stop));
+    SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
     take_best_prefix();
     return true;
   }
@@ -308,18 +307,15 @@ class PointRun {
     if (options_.max_error) judge.collect_above = bound_ + allowance();
     for (;;) {
       const auto start = Clock::now();
-      auto measurement = judge::judge_points(points_, snapped_, result.mesh, judge);
-      if (!measurement) return tl::unexpected(measurement.error());
-      result.measurement = std::move(*measurement);
+      SCARP_TRY(result.measurement, judge::judge_points(points_, snapped_, result.mesh, judge));
       result.seconds_measure += seconds_since(start);
       const Measurement& m = result.measurement;
       const bool is_kept =
           result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
       if (m.is_sound() && is_kept) return {};
       const auto again = Clock::now();
-      const auto mended = m.is_sound() ? mend(result) : false;
-      if (!mended) return tl::unexpected(mended.error());
-      if (!*mended && !trim_border(result.mesh))
+      SCARP_TRY(const auto& mended, m.is_sound() ? mend(result) : false);
+      if (!mended && !trim_border(result.mesh))
         return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : describe_fold()) + advice(m));
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
@@ -386,42 +382,34 @@ std::array<double, 2> local_origin(const PointSet& points) { return {middle(poin
 
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
   const auto start = Clock::now();
-  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
-  if (auto checked = check_lines(points, options); !checked) return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(check_options(options));
+  SCARP_RETURN_IF_ERROR(check_lines(points, options));
   const bool is_on_lattice = options.float32_positions && !points.lines.empty();
-  const auto snapped =
-      snap_points(points, options.duplicates, is_on_lattice ? PointSteps::kFloat32 : PointSteps::kFinest);
-  if (!snapped) return tl::unexpected(snapped.error());
-  auto domain = build_domain(*snapped);
-  if (!domain) return tl::unexpected(domain.error());
-  if (auto wide = check_width(points, *snapped, *domain); !wide) return tl::unexpected(wide.error());
+  SCARP_TRY(const auto& snapped,
+            snap_points(points, options.duplicates, is_on_lattice ? PointSteps::kFloat32 : PointSteps::kFinest));
+  SCARP_TRY(auto&& domain, build_domain(snapped));
+  SCARP_RETURN_IF_ERROR(check_width(points, snapped, domain));
   if (options.boundary_length) {
-    domain = build_concave_domain(*snapped, std::move(*domain), *options.boundary_length);
-    if (!domain) return tl::unexpected(domain.error());
+    SCARP_TRY(domain, build_concave_domain(snapped, std::move(domain), *options.boundary_length));
   }
-  const auto lines = PointLines::build(points, *snapped);
-  if (!lines) return tl::unexpected(lines.error());
-  for (const std::uint32_t point : lines->ends()) {
-    const Point p = snapped->at[point];
-    domain->insert(point, p, domain->tin.locate(p, domain->tin.last_touched()));
+  SCARP_TRY(const auto& lines, PointLines::build(points, snapped));
+  for (const std::uint32_t point : lines.ends()) {
+    const Point p = snapped.at[point];
+    domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
   }
   std::vector<double> rounded;
   if (options.float32_positions) {
-    auto heights = round_heights(points, *snapped);
-    if (!heights) return tl::unexpected(heights.error());
-    rounded = std::move(*heights);
+    SCARP_TRY(rounded, round_heights(points, snapped));
   }
   SimplifiedPoints result;
   result.points = points.size();
-  result.duplicates = snapped->duplicates;
-  result.on_hull = domain->outline.size();
-  result.lattice_step = snapped->lattice.step;
-  if (!options.boundary_length && points.lines.empty()) result.hull_fit = find_hull_fit(*snapped);
-  PointRun run(points, *snapped, options.float32_positions ? std::span<const double>(rounded) : snapped->z, options,
-               std::move(*domain), *lines);
-  auto simplified = run.execute(start);
-  if (!simplified) return tl::unexpected(simplified.error());
-  result.simplified = std::move(*simplified);
+  result.duplicates = snapped.duplicates;
+  result.on_hull = domain.outline.size();
+  result.lattice_step = snapped.lattice.step;
+  if (!options.boundary_length && points.lines.empty()) result.hull_fit = find_hull_fit(snapped);
+  PointRun run(points, snapped, options.float32_positions ? std::span<const double>(rounded) : snapped.z, options,
+               std::move(domain), lines);
+  SCARP_TRY(result.simplified, run.execute(start));
   result.flat = run.flat();
   result.loose = run.loose();
   return result;

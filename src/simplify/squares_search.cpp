@@ -32,7 +32,7 @@ class SquaresSearch {
   Result<Simplified> execute() {
     const auto start = Clock::now();
     auto fast = refine();
-    if (!fast) return fast;
+    SCARP_RETURN_IF_ERROR(fast);
     const double reached = fast->judged_max_error;
     const double asked = number_.is_factor() ? 1 : options_.goals.max_error.value_or(reached);
     if (!(reached > 0) || std::isinf(reached) || fast->stop == StopReason::kExact) {
@@ -40,12 +40,11 @@ class SquaresSearch {
       // Efforts may spend a max error that refinement did not need.
       return searched && rank(*fast) < rank(*searched) ? fast : searched;
     }
-    const auto first = find_start(reached, static_cast<double>(fast->mesh.triangle_count()));
-    if (!first) return tl::unexpected(first.error());
+    SCARP_TRY(const auto& first, find_start(reached, static_cast<double>(fast->mesh.triangle_count())));
     std::optional<Simplified> best;
     for (const double bound : {asked, std::max(asked, reached)}) {
       if (best) break;
-      auto made = run(bound, std::min(1.0, *first / bound));
+      auto made = run(bound, std::min(1.0, first / bound));
       if (!made && made.error().kind == ErrorKind::kCancelled) return made;
       if (made && used_by(*made) <= 1) best = std::move(*made);
     }

@@ -154,7 +154,7 @@ Result<double> count_triangles(const std::vector<Window>& windows, double error,
   for (const Window& window : windows) {
     const Result<Simplified> simplified = simplify(window.field, options);
     if (!simplified && simplified.error().kind == ErrorKind::kPromise) return std::numeric_limits<double>::infinity();
-    if (!simplified) return tl::unexpected(simplified.error());
+    SCARP_RETURN_IF_ERROR(simplified);
     triangles += static_cast<double>(simplified->mesh.triangle_count());
   }
   return triangles;
@@ -182,13 +182,12 @@ class ShareSearch {
       }
       tried = error;
       ++looks;
-      const Result<double> triangles = count_triangles(windows_, error, progress);
-      if (!triangles) return tl::unexpected(triangles.error());
-      ratio_ = std::isfinite(*triangles) ? *triangles / aim : 1;
-      if (*triangles <= target) {
+      SCARP_TRY(const double triangles, count_triangles(windows_, error, progress));
+      ratio_ = std::isfinite(triangles) ? triangles / aim : 1;
+      if (triangles <= target) {
         found = error;
         fitting = aim;
-        if (*triangles >= kUse * target) return found;
+        if (triangles >= kUse * target) return found;
         aim = target / ratio_;
       } else {
         exceeding = aim;
@@ -229,7 +228,7 @@ Result<void> check_request(const HeightField& field, std::span<const double> sha
 
 Result<Suggestions> suggest_errors(const HeightField& field, std::span<const double> shares,
                                    const ProgressCallback& progress) {
-  if (auto checked = check_request(field, shares); !checked) return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(check_request(field, shares));
   std::vector<Window> windows = choose_windows(field);
   Suggestions suggestions;
   suggestions.is_estimate = !windows.front().samples.empty();
@@ -242,7 +241,7 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
                rows = static_cast<std::uint64_t>(window.field.rows);
     const bool is_nodata = !refiner && refiner.error().kind == ErrorKind::kInput && windows.size() > 1;
     if (is_nodata) continue;
-    if (!refiner) return tl::unexpected(std::move(refiner.error()));
+    SCARP_RETURN_IF_ERROR(refiner);
     full += 2 * (cols - 1) * (rows - 1);
     suggestions.samples_used += cols * rows;
     joint.add(std::move(*refiner));
@@ -254,8 +253,7 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
   }
 
   GreedyCurve curve;
-  if (auto followed = curve.follow(joint, shares.back() / kLeastRatio * static_cast<double>(full), progress); !followed)
-    return tl::unexpected(followed.error());
+  SCARP_RETURN_IF_ERROR(curve.follow(joint, shares.back() / kLeastRatio * static_cast<double>(full), progress));
   joint = {};
   ShareSearch search(valid, curve, field.sample_rounding);
   for (std::size_t k = 0; k < shares.size(); ++k) {
@@ -264,9 +262,8 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
     const auto report = [&](const Progress& now) {
       return !progress || progress({kPass, fraction, now.vertices, now.max_error});
     };
-    const auto error = search.find(shares[k] * static_cast<double>(full), report);
-    if (!error) return tl::unexpected(error.error());
-    suggestions.rows.push_back({shares[k], *error});
+    SCARP_TRY(const auto& error, search.find(shares[k] * static_cast<double>(full), report));
+    suggestions.rows.push_back({shares[k], error});
   }
   return suggestions;
 }

@@ -110,7 +110,7 @@ Result<CoarseTile> CoarseTile::reduce(const PyramidPlan& plan, TileId id, const 
           {rounded_down(low), rounded_up(high), static_cast<float>(heights.low), static_cast<float>(heights.high), 0});
     }
   }
-  if (auto looked = tile.look_at_samples(plan, id, nodes, source); !looked) return tl::unexpected(looked.error());
+  SCARP_RETURN_IF_ERROR(tile.look_at_samples(plan, id, nodes, source));
   return tile;
 }
 

@@ -19,13 +19,13 @@ Result<void> DecimatedNodes::read(const NodeWindow& window, std::span<float> out
     NodeWindow fine{per_turn_, window.col * step, (window.row + j) * step, static_cast<int>(between.size()),
                     1,         window.grid};
     if (!between.empty()) {
-      if (auto read = source_.read(fine, between); !read) return read;
+      SCARP_RETURN_IF_ERROR(source_.read(fine, between));
       for (int i = 0; i < window.cols; ++i) row[i] = between[static_cast<std::size_t>(i * step)];
       continue;
     }
     fine.cols = 1;
     for (int i = 0; i < window.cols; ++i, fine.col += step) {
-      if (auto read = source_.read(fine, {row + i, 1}); !read) return read;
+      SCARP_RETURN_IF_ERROR(source_.read(fine, {row + i, 1}));
     }
   }
   return {};

@@ -27,7 +27,7 @@ Result<Flags> find_heights(const PyramidPlan& plan, TileId block, const NodeSour
   std::vector<float> heights(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(cells + 1));
   for (std::int32_t y = 0; y < side; ++y) {
     band.row = first + std::int64_t{side - 1 - y} * cells;
-    if (auto read = source.read(band, heights); !read) return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(source.read(band, heights));
     for (std::size_t k = 0; k < heights.size(); ++k) {
       if (std::isnan(heights[k])) continue;
       const auto col = static_cast<std::int32_t>(k % static_cast<std::size_t>(steps + 1));
@@ -107,7 +107,7 @@ Result<std::vector<std::vector<std::uint64_t>>> find_tiles(const PyramidPlan& pl
         }
         return result.has_value();
       });
-  if (!result) return tl::unexpected(result.error());
+  SCARP_RETURN_IF_ERROR(result);
   for (auto& level : levels) std::sort(level.begin(), level.end());
   return levels;
 }

@@ -32,12 +32,11 @@ class NodeSamples final : public SampleSource {
       for (int y = row / kChunk; y <= (row + rows - 1) / kChunk; ++y) {
         if (chunks.band != y) chunks = {y, {}};
         for (int x = col / kChunk; x <= (col + cols - 1) / kChunk; ++x) {
-          const auto chunk = find(chunks, x, y);
-          if (!chunk) return tl::unexpected(chunk.error());
+          SCARP_TRY(const auto& chunk, find(chunks, x, y));
           const int first_col = std::max(col, x * kChunk), end_col = std::min(col + cols, (x + 1) * kChunk);
           const int first_row = std::max(row, y * kChunk), end_row = std::min(row + rows, (y + 1) * kChunk);
           for (int j = first_row; j < end_row; ++j) {
-            const float* from = (*chunk)->data() + std::ptrdiff_t{j - y * kChunk} * width_of(x);
+            const float* from = chunk->data() + std::ptrdiff_t{j - y * kChunk} * width_of(x);
             std::copy(from + (first_col - x * kChunk), from + (end_col - x * kChunk),
                       out + (j - row) * stride + (first_col - col));
           }
@@ -110,7 +109,7 @@ class Placing {
   Result<std::vector<Line>> place(std::span<const Line> given) const {
     std::vector<Line> lines(given.begin(), given.end());
     for (Line& line : lines) {
-      if (auto whole = go_on(line); !whole) return tl::unexpected(whole.error());
+      SCARP_RETURN_IF_ERROR(go_on(line));
     }
     // Holes lie in the turn of the ring around them.
     const double first = lines.front().points.front()[0];
@@ -177,13 +176,12 @@ Result<std::vector<TileLake>> find_levels(const TileWaters& waters, const NodeSo
     end = first + 1;
     if (!lines[first].is_ring()) continue;
     while (end < lines.size() && lines[end].polygon == lines[first].polygon) ++end;
-    const auto rings = placing.place(lines.subspan(first, end - first));
-    if (!rings) return tl::unexpected(rings.error());
+    SCARP_TRY(const auto& rings, placing.place(lines.subspan(first, end - first)));
     TileLake lake;
-    lake.name = rings->front().name;
+    lake.name = rings.front().name;
     lake.level = NAN;
     NodesAround around;
-    for (const Line& ring : *rings) {
+    for (const Line& ring : rings) {
       lake.rings.emplace_back();
       for (const auto& point : ring.points) {
         lake.rings.back().push_back({point[0], point[1]});
@@ -196,9 +194,8 @@ Result<std::vector<TileLake>> find_levels(const TileWaters& waters, const NodeSo
       WaterOptions options;
       options.affine = affine_of(*box);
       options.percentile = given.percentile;
-      const auto found = find_lakes(field_of(samples, *box), lines_of(lake), options);
-      if (!found) return tl::unexpected(found.error());
-      if (!found->empty()) lake.level = found->front().level;
+      SCARP_TRY(const auto& found, find_lakes(field_of(samples, *box), lines_of(lake), options));
+      if (!found.empty()) lake.level = found.front().level;
     }
     lakes.push_back(std::move(lake));
   }
@@ -212,10 +209,9 @@ Result<std::vector<TileRiver>> find_profiles(const TileWaters& waters, const Nod
   NodesAround around;
   for (const Line& line : given) {
     if (line.is_ring()) continue;
-    auto placed = placing.place({&line, 1});
-    if (!placed) return tl::unexpected(placed.error());
-    for (const auto& point : placed->front().points) around.add(point[0], point[1]);
-    lines.push_back(std::move(placed->front()));
+    SCARP_TRY(auto&& placed, placing.place({&line, 1}));
+    for (const auto& point : placed.front().points) around.add(point[0], point[1]);
+    lines.push_back(std::move(placed.front()));
   }
   const auto box = lines.empty() ? std::nullopt : around.box(waters);
   if (!box) return std::vector<TileRiver>();
@@ -228,10 +224,9 @@ Result<std::vector<TileRiver>> find_profiles(const TileWaters& waters, const Nod
     lakes.back().shore = lines_of(lake);
   }
   const NodeSamples samples(nodes, waters, *box);
-  const auto found = carve_rivers(field_of(samples, *box), lines, lakes, {affine_of(*box), tolerance});
-  if (!found) return tl::unexpected(found.error());
+  SCARP_TRY(const auto& found, carve_rivers(field_of(samples, *box), lines, lakes, {affine_of(*box), tolerance}));
   std::vector<TileRiver> rivers;
-  for (const River& river : *found) rivers.push_back({river.name, river.course.points});
+  for (const River& river : found) rivers.push_back({river.name, river.course.points});
   return rivers;
 }
 
@@ -246,14 +241,10 @@ Result<TileWaters> find_tile_waters(const PyramidPlan& plan, const NodeSource& n
   waters.per_turn = plan.grid.per_turn(plan.max_zoom(), plan.cells);
   const std::unique_ptr<NodeSource> lowered = zero ? make_raised_source(nodes, std::make_shared<Below>(zero)) : nullptr;
   const NodeSource& above = lowered ? *lowered : nodes;
-  auto lakes = find_levels(waters, above, lines);
-  if (!lakes) return tl::unexpected(lakes.error());
-  waters.lakes = std::move(*lakes);
+  SCARP_TRY(waters.lakes, find_levels(waters, above, lines));
   if (lines.rivers.empty()) return waters;
   const auto flat = make_watered_source(above, std::make_shared<TileWaters>(waters), nullptr);
-  auto rivers = find_profiles(waters, *flat, lines.rivers, plan.levels.back().max_error / 2);
-  if (!rivers) return tl::unexpected(rivers.error());
-  waters.rivers = std::move(*rivers);
+  SCARP_TRY(waters.rivers, find_profiles(waters, *flat, lines.rivers, plan.levels.back().max_error / 2));
   return waters;
 }
 

@@ -262,7 +262,7 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
   const double least = settings.max_error > 0 ? settings.max_error
                                               : std::max(settings.grid.geometric_error(finest, globe.semi_major()) / 4,
                                                          quanta.least_error());
-  if (auto fits = quanta.check(least, finest); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(quanta.check(least, finest));
   plan.least_quantum = quanta.least();
   for (int z = 0; z <= finest; ++z) {
     PyramidLevel level;

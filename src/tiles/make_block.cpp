@@ -24,10 +24,9 @@ Result<std::optional<HeldNodes>> read_block(const PyramidPlan& plan, TileId bloc
                                             int threads) {
   if (!is_covered(plan, block)) return std::optional<HeldNodes>();
   const std::int32_t steps = steps_of(plan, block.z);
-  auto nodes = HeldNodes::read(plan.grid.window_of(block, steps, normal_reach(steps)), source, threads);
-  if (!nodes) return tl::unexpected(nodes.error());
-  if (!nodes->has_heights()) return std::optional<HeldNodes>();
-  return std::optional(std::move(*nodes));
+  SCARP_TRY(auto&& nodes, HeldNodes::read(plan.grid.window_of(block, steps, normal_reach(steps)), source, threads));
+  if (!nodes.has_heights()) return std::optional<HeldNodes>();
+  return std::optional(std::move(nodes));
 }
 
 std::uint64_t mixed(std::uint64_t hash, double value) {
@@ -50,7 +49,7 @@ Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldN
                 double{row.heights[i]});
     }
   });
-  if (!visited) return tl::unexpected(visited.error());
+  SCARP_RETURN_IF_ERROR(visited);
   return std::max<std::uint64_t>(sum, 1);
 }
 
@@ -83,25 +82,21 @@ Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSourc
 Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source,
                                             const TileEncoder& encode) {
   if (!is_wanted(plan, id)) return std::optional<KeptTile>();
-  const auto nodes = read_nodes(plan, id, source);
-  if (!nodes) return tl::unexpected(nodes.error());
-  if (!nodes->has_heights() && id.z > plan.block_level) {
+  SCARP_TRY(const auto& nodes, read_nodes(plan, id, source));
+  if (!nodes.has_heights() && id.z > plan.block_level) {
     if (!plan.has_siblings) return std::optional<KeptTile>();
-    const auto parent = read_nodes(plan, {id.z - 1, id.x / 2, id.y / 2}, source);
-    if (!parent) return tl::unexpected(parent.error());
-    if (!parent->has_heights()) return std::optional<KeptTile>();
+    SCARP_TRY(const auto& parent, read_nodes(plan, {id.z - 1, id.x / 2, id.y / 2}, source));
+    if (!parent.has_heights()) return std::optional<KeptTile>();
   }
-  auto kept = make_proven_tile(plan, id, *nodes, source, encode);
-  if (!kept) return tl::unexpected(kept.error());
-  return std::optional(std::move(*kept));
+  SCARP_TRY(auto&& kept, make_proven_tile(plan, id, nodes, source, encode));
+  return std::optional(std::move(kept));
 }
 
 }  // namespace
 
 Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
-  const auto nodes = read_block(plan, block, source, threads);
-  if (!nodes) return tl::unexpected(nodes.error());
-  const auto hash = *nodes ? hash_of(plan, block, **nodes) : Result<std::uint64_t>(0);
+  SCARP_TRY(const auto& nodes, read_block(plan, block, source, threads));
+  const auto hash = nodes ? hash_of(plan, block, *nodes) : Result<std::uint64_t>(0);
   return hash ? with_masks(plan, block, *hash) : hash;
 }
 
@@ -110,39 +105,33 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   TileOutput output(plan, sink, run);
   BlockReport made;
   made.block = block;
-  const auto read = read_block(plan, block, source, run.threads);
-  if (!read) return tl::unexpected(read.error());
-  const std::optional<HeldNodes>& nodes = *read;
+  SCARP_TRY(const auto& read, read_block(plan, block, source, run.threads));
+  const std::optional<HeldNodes>& nodes = read;
   if (!nodes) {
     const auto complete = [](TerrainTile& tile) -> Result<void> {
       tile.source_error = 0;
       return {};
     };
     const auto make_flat = [&](TileId id, const TileEncoder& encode) -> Result<std::optional<KeptTile>> {
-      auto flat = make_flat_tile(plan, id, complete, encode);
-      if (!flat) return tl::unexpected(flat.error());
-      return std::optional(std::move(*flat));
+      SCARP_TRY(auto&& flat, make_flat_tile(plan, id, complete, encode));
+      return std::optional(std::move(flat));
     };
-    if (auto put = output.make({block}, make_flat); !put) return tl::unexpected(put.error());
+    SCARP_RETURN_IF_ERROR(output.make({block}, make_flat));
     made.report = output.take_report();
     made.hash = with_masks(plan, block, 0);
     return made;
   }
   const auto make = [&](TileId id, const TileEncoder& encode) { return make_if_any(plan, id, *nodes, encode); };
-  if (auto put = output.make(tiles_of(block, std::min(deepest, plan.max_zoom())), make); !put)
-    return tl::unexpected(put.error());
+  SCARP_RETURN_IF_ERROR(output.make(tiles_of(block, std::min(deepest, plan.max_zoom())), make));
   made.report = output.take_report();
   made.report.has_heights = true;
-  const auto hash = hash_of(plan, block, *nodes);
-  if (!hash) return tl::unexpected(hash.error());
-  made.hash = with_masks(plan, block, *hash);
+  SCARP_TRY(const auto& hash, hash_of(plan, block, *nodes));
+  made.hash = with_masks(plan, block, hash);
   if (plan.block_level == 0) return made;
   const std::int32_t steps = steps_of(plan, block.z);
-  const auto whole = TileNodes::read(plan, block, steps, 0, *nodes);
-  if (!whole) return tl::unexpected(whole.error());
-  const auto reduced = CoarseTile::reduce(plan, block, *whole, source);
-  if (!reduced) return tl::unexpected(reduced.error());
-  made.reduced = reduced->to_bytes();
+  SCARP_TRY(const auto& whole, TileNodes::read(plan, block, steps, 0, *nodes));
+  SCARP_TRY(const auto& reduced, CoarseTile::reduce(plan, block, whole, source));
+  made.reduced = reduced.to_bytes();
   return made;
 }
 

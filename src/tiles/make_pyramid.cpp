@@ -21,8 +21,7 @@ namespace {
 Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, const CoarseLevel& below,
                                             const TileEncoder& encode) {
   const std::int32_t steps = 2 * kCoarseCells;
-  const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), below);
-  if (!nodes) return tl::unexpected(nodes.error());
+  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), below));
   double source_error = 0;
   const auto judge = [&](const TerrainTile& made) -> Result<TileVerdict> {
     const CoarseVerdict verdict = bound_errors(made, plan.grid, below);
@@ -34,14 +33,13 @@ Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, 
   const bool has_land = std::any_of(children.begin(), children.end(),
                                     [&](TileId child) { return below.at(child.x, child.y).has_heights; });
   const auto complete = [&](TerrainTile& tile) -> Result<void> {
-    if (nodes->is_flat() && has_land) tile.node_error = judge(tile)->error;
+    if (nodes.is_flat() && has_land) tile.node_error = judge(tile)->error;
     tile.source_error = source_error;
     return {};
   };
-  auto kept = nodes->is_flat() ? make_flat_tile(plan, id, complete, encode)
-                               : make_tile_of(plan, id, *nodes, judge, complete, encode);
-  if (!kept) return tl::unexpected(kept.error());
-  return std::optional(std::move(*kept));
+  SCARP_TRY(auto&& kept, nodes.is_flat() ? make_flat_tile(plan, id, complete, encode)
+                                         : make_tile_of(plan, id, nodes, judge, complete, encode));
+  return std::optional(std::move(kept));
 }
 
 CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles, const CoarseLevel& below) {
@@ -63,22 +61,20 @@ Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, con
                                          const TileEncoder& encode) {
   const std::int32_t steps = 2 * kCoarseCells;
   const DecimatedNodes few(source, plan.grid.per_turn(plan.max_zoom(), plan.cells));
-  const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), few);
-  if (!nodes) return tl::unexpected(nodes.error());
+  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), few));
   // Like make_coarse(): the first mesh that does not fold is the tile, whatever its error.
   const auto accept = [](const TerrainTile&) -> Result<TileVerdict> { return TileVerdict{0, {}}; };
   const auto complete = [](TerrainTile& tile) -> Result<void> {
     tile.node_error = std::numeric_limits<double>::quiet_NaN();
     return {};
   };
-  return nodes->is_flat() ? make_flat_tile(plan, id, complete, encode)
-                          : make_tile_of(plan, id, *nodes, accept, complete, encode);
+  return nodes.is_flat() ? make_flat_tile(plan, id, complete, encode)
+                         : make_tile_of(plan, id, nodes, accept, complete, encode);
 }
 
 Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
-  auto kept = make_kept_unproven_tile(plan, id, source, {});
-  if (!kept) return tl::unexpected(kept.error());
-  return std::move(kept->tile);
+  SCARP_TRY(auto&& kept, make_kept_unproven_tile(plan, id, source, {}));
+  return std::move(kept.tile);
 }
 
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
@@ -90,9 +86,8 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
   for (BlockReport& block : blocks) {
     report.add(block.report);
     if (block.reduced.empty()) continue;
-    auto coarse = CoarseTile::from_bytes(block.reduced);
-    if (!coarse) return tl::unexpected(coarse.error());
-    below.add(block.block.x, block.block.y, std::move(*coarse));
+    SCARP_TRY(auto&& coarse, CoarseTile::from_bytes(block.reduced));
+    below.add(block.block.x, block.block.y, std::move(coarse));
     block = {};
   }
   if (plan.block_level == 0) return report;
@@ -101,9 +96,8 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
   for (int z = plan.block_level - 1; z >= 0; --z) {
     std::vector<TileId> tiles;
     for (const auto& [y, x] : chosen[static_cast<std::size_t>(z)]) tiles.push_back({z, x, y});
-    auto made = output.make(
-        tiles, [&](TileId id, const TileEncoder& encode) { return make_coarse(plan, id, below, encode); });
-    if (!made) return tl::unexpected(made.error());
+    SCARP_RETURN_IF_ERROR(
+        output.make(tiles, [&](TileId id, const TileEncoder& encode) { return make_coarse(plan, id, below, encode); }));
     below = join_level(plan, tiles, below);
   }
   report.add(output.take_report());
@@ -122,9 +116,8 @@ Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& so
     const std::uint64_t one_cost = block_cost(plan, block);
     part.progress = part_of(run.progress, share_of(done), share_of(one_cost));
     done += one_cost;
-    auto one = make_block(plan, block, source, sink, part);
-    if (!one) return tl::unexpected(one.error());
-    made.push_back(std::move(*one));
+    SCARP_TRY(auto&& one, make_block(plan, block, source, sink, part));
+    made.push_back(std::move(one));
   }
   part.progress = part_of(run.progress, share_of(done), share_of(cost - done));
   return finish_pyramid(plan, std::move(made), sink, part);

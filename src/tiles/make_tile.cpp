@@ -63,7 +63,7 @@ class TileMaker {
         leave_lines_out({}, true);
         continue;
       }
-      if (!mesh) return tl::unexpected(mesh.error());
+      SCARP_RETURN_IF_ERROR(mesh);
       TerrainTile tile = quantize(*mesh);
       tile.max_error = max_error;
       tile.lines_left_out = static_cast<std::uint64_t>(std::count(is_left_out_.begin(), is_left_out_.end(), true));
@@ -74,18 +74,17 @@ class TileMaker {
         if (trial + 1 >= kMeshTrials / 2) leave_lines_out(folds, trial + 2 >= kMeshTrials);
         continue;
       }
-      const Result<TileVerdict> verdict = judge_(tile);
-      if (!verdict) return tl::unexpected(verdict.error());
-      tile.node_error = verdict->error;
-      const double worst = std::max(verdict->error, verdict->sample_error);
+      SCARP_TRY(const TileVerdict& verdict, judge_(tile));
+      tile.node_error = verdict.error;
+      const double worst = std::max(verdict.error, verdict.sample_error);
       if (worst < least || !best) best = std::move(tile);
       least = std::min(least, worst);
       const std::size_t before = forced_.size();
-      force_around(verdict->offenders);
-      force_around(verdict->beside);
-      if (worst <= max_error || verdict->offenders.size() + verdict->beside.size() == 0) break;
+      force_around(verdict.offenders);
+      force_around(verdict.beside);
+      if (worst <= max_error || verdict.offenders.size() + verdict.beside.size() == 0) break;
       // The land between the nodes is too far from a sample.
-      if (forced_.size() == before && verdict->error <= max_error) break;
+      if (forced_.size() == before && verdict.error <= max_error) break;
     }
     if (!best) return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} folds over", id_.z, id_.x, id_.y));
     finish(*best);
@@ -232,9 +231,8 @@ class TileMaker {
     }
     for (const auto& [row, col] : forced_) options.features.points.push_back({col, row - land_.top});
     add_lines_to(options);
-    auto simplified = simplify(field, options);
-    if (!simplified) return tl::unexpected(simplified.error());
-    return std::move(simplified->mesh);
+    SCARP_TRY(auto&& simplified, simplify(field, options));
+    return std::move(simplified.mesh);
   }
 
   TerrainTile quantize(const Mesh& mesh) const {
@@ -374,12 +372,10 @@ TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const
 
 Result<TileVerdict> judge_at_nodes_and_samples(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid,
                                                const NodeSource& source) {
-  auto verdict = judge_at_nodes(tile, nodes, grid);
-  if (!verdict) return verdict;
-  const Result<SampleVerdict> samples = judge_at_samples(tile, grid, nodes, source, tile.max_error);
-  if (!samples) return tl::unexpected(samples.error());
-  verdict->sample_error = samples->error;
-  verdict->beside = nodes_at(samples->far_points, TileRows(grid, tile.id, nodes.steps()), tile.units);
+  SCARP_TRY(auto&& verdict, judge_at_nodes(tile, nodes, grid));
+  SCARP_TRY(const SampleVerdict& samples, judge_at_samples(tile, grid, nodes, source, tile.max_error));
+  verdict.sample_error = samples.error;
+  verdict.beside = nodes_at(samples.far_points, TileRows(grid, tile.id, nodes.steps()), tile.units);
   return verdict;
 }
 
@@ -398,14 +394,11 @@ Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNode
                               const TileCompletion& complete, const TileEncoder& encode) {
   TileMaker maker(plan, id, nodes, judge);
   for (double max_error = plan.levels[static_cast<std::size_t>(id.z)].max_error;; max_error *= 2) {
-    auto tile = maker.make(max_error);
-    if (!tile) return tl::unexpected(tile.error());
-    if (auto completed = complete(*tile); !completed) return tl::unexpected(completed.error());
-    KeptTile kept{std::move(*tile), {}};
+    SCARP_TRY(auto&& tile, maker.make(max_error));
+    SCARP_RETURN_IF_ERROR(complete(tile));
+    KeptTile kept{std::move(tile), {}};
     if (!encode) return kept;
-    auto bytes = encode(kept.tile);
-    if (!bytes) return tl::unexpected(bytes.error());
-    kept.bytes = std::move(*bytes);
+    SCARP_TRY(kept.bytes, encode(kept.tile));
     const bool fits = plan.max_tile_bytes == 0 || kept.bytes.size() <= plan.max_tile_bytes;
     if (fits || max_error >= maker.relief()) return kept;
   }
@@ -428,9 +421,8 @@ Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const Tile
                               : judge_at_nodes(tile, nodes, plan.grid);
   };
   const auto complete = [&](TerrainTile& tile) -> Result<void> {
-    const Result<SampleVerdict> verdict = judge_at_samples(tile, plan.grid, nodes, source);
-    if (!verdict) return tl::unexpected(verdict.error());
-    tile.source_error = verdict->error;
+    SCARP_TRY(const SampleVerdict& verdict, judge_at_samples(tile, plan.grid, nodes, source));
+    tile.source_error = verdict.error;
     return {};
   };
   return nodes.is_flat() ? make_flat_tile(plan, id, complete, encode)
@@ -441,15 +433,13 @@ Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSo
                                 const TileEncoder& encode) {
   if (id.z < plan.block_level) return make_kept_unproven_tile(plan, id, source, encode);
   const std::int32_t steps = steps_of(plan, id.z);
-  const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), source);
-  if (!nodes) return tl::unexpected(nodes.error());
-  return make_proven_tile(plan, id, *nodes, source, encode);
+  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), source));
+  return make_proven_tile(plan, id, nodes, source, encode);
 }
 
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
-  auto kept = make_kept_tile(plan, id, source, {});
-  if (!kept) return tl::unexpected(kept.error());
-  return std::move(kept->tile);
+  SCARP_TRY(auto&& kept, make_kept_tile(plan, id, source, {}));
+  return std::move(kept.tile);
 }
 
 }  // namespace scarp

@@ -23,7 +23,7 @@ class RaisedNodes final : public NodeSource {
       : source_(source), zero_(std::move(zero)) {}
 
   Result<void> read(const NodeWindow& window, std::span<float> out) const override {
-    if (auto read = source_.read(window, out); !read) return read;
+    SCARP_RETURN_IF_ERROR(source_.read(window, out));
     std::int64_t step = 1;
     while (window.grid.largest_step(window.per_turn) * static_cast<double>(2 * step) <= kAnchorDegrees) step *= 2;
     const auto before = [&](std::int64_t i) { return i >= 0 ? i / step : -((-i + step - 1) / step); };
@@ -69,7 +69,7 @@ class RaisedNodes final : public NodeSource {
       const double x = (box.west + box.east) / 2, y = (box.south + box.north) / 2;
       for (const DegreeBox& part : {DegreeBox{box.west, box.south, x, y}, DegreeBox{x, box.south, box.east, y},
                                     DegreeBox{box.west, y, x, box.north}, DegreeBox{x, y, box.east, box.north}}) {
-        if (auto visited = visit_samples(part, visit); !visited) return visited;
+        SCARP_RETURN_IF_ERROR(visit_samples(part, visit));
       }
       return {};
     }

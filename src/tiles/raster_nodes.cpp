@@ -52,10 +52,8 @@ class Part {
              (wraps ? wrap(col + k + count, field.cols) : clamped(col + k + count, field.cols)) == from + count)
         ++count;
       std::vector<float> run(static_cast<std::size_t>(count) * static_cast<std::size_t>(height));
-      if (auto read =
-              read_window(field, static_cast<int>(from), static_cast<int>(first_row), count, height, run.data(), count);
-          !read)
-        return tl::unexpected(read.error());
+      SCARP_RETURN_IF_ERROR(
+          read_window(field, static_cast<int>(from), static_cast<int>(first_row), count, height, run.data(), count));
       for (int y = 0; y < rows; ++y) {
         const std::int64_t source_row = clamped(row + y, field.rows) - first_row;
         std::copy_n(run.data() + source_row * count, count, part.samples_.data() + std::ptrdiff_t{y} * cols + k);
@@ -103,8 +101,7 @@ class RasterNodes final : public NodeSource {
 
   Result<void> read(const NodeWindow& window, std::span<float> out) const override {
     const bool is_aligned = place_.from_degrees == nullptr && place_.affine[2] == 0 && place_.affine[4] == 0;
-    auto read = is_aligned ? read_aligned(window, out) : read_placed(window, out);
-    if (!read) return read;
+    SCARP_RETURN_IF_ERROR(is_aligned ? read_aligned(window, out) : read_placed(window, out));
     return level_poles(window, out);
   }
 
@@ -114,7 +111,7 @@ class RasterNodes final : public NodeSource {
     const SampleRows rows(field_, place_);
     if (place_.from_degrees != nullptr) return rows.visit_placed(box, visit);
     for (const double turn : {-720, -360, 0, 360, 720}) {
-      if (auto visited = rows.visit_in_degrees(box, turn, visit); !visited) return visited;
+      SCARP_RETURN_IF_ERROR(rows.visit_in_degrees(box, turn, visit));
     }
     return {};
   }
@@ -154,8 +151,7 @@ class RasterNodes final : public NodeSource {
       return {};
     }
     if (x.count() > 2 * window.cols * std::max(1.0, spacing(window)) + 64) return read_in_halves(window, out);
-    auto part = Part::read(field_, x.first, y.first, x.count(), y.count(), turn_);
-    if (!part) return tl::unexpected(part.error());
+    SCARP_TRY(auto&& part, Part::read(field_, x.first, y.first, x.count(), y.count(), turn_));
     // A row of samples between columns, four of them at hand, then a row of nodes between the four.
     std::array<std::vector<double>, 4> between;
     std::array<std::int64_t, 4> held{-1, -1, -1, -1};
@@ -172,7 +168,7 @@ class RasterNodes final : public NodeSource {
         const std::int64_t row = down.first + static_cast<std::int64_t>(k) - y.first;
         const auto slot = static_cast<std::size_t>(row & 3);
         if (held[slot] != row) {
-          const float* samples = part->row(row);
+          const float* samples = part.row(row);
           for (std::size_t i = 0; i < x.taps.size(); ++i) {
             if (!x.is_inside[i]) continue;
             const Taps& along = x.taps[i];
@@ -194,7 +190,7 @@ class RasterNodes final : public NodeSource {
         nodes[i] = static_cast<float>(height);
         if (std::isnan(height)) {
           const std::int64_t row = down.first + 1 - y.first, col = x.taps[i].first + 1 - x.first;
-          nodes[i] = bilinear(part->row(row) + col, part->row(row + 1) + col, x.taps[i].part, down.part);
+          nodes[i] = bilinear(part.row(row) + col, part.row(row + 1) + col, x.taps[i].part, down.part);
         }
       }
     }
@@ -214,7 +210,7 @@ class RasterNodes final : public NodeSource {
       part.col += first;
       part.cols = count;
       std::vector<float> nodes(static_cast<std::size_t>(count) * static_cast<std::size_t>(window.rows));
-      if (auto read = read_aligned(part, nodes); !read) return read;
+      SCARP_RETURN_IF_ERROR(read_aligned(part, nodes));
       for (int j = 0; j < window.rows; ++j)
         std::copy_n(nodes.data() + std::ptrdiff_t{j} * count, count,
                     out.data() + std::ptrdiff_t{j} * window.cols + first);
@@ -309,9 +305,8 @@ class RasterNodes final : public NodeSource {
       std::fill(out.begin(), out.end(), kNone);
       return {};
     }
-    auto part =
-        Part::read(field_, left, top, static_cast<int>(right - left + 1), static_cast<int>(bottom - top + 1), false);
-    if (!part) return tl::unexpected(part.error());
+    SCARP_TRY(auto&& part, Part::read(field_, left, top, static_cast<int>(right - left + 1),
+                                      static_cast<int>(bottom - top + 1), false));
     for (int j = 0; j < window.rows; ++j) {
       for (int i = 0; i < window.cols; ++i) {
         const At place = anchors.at(i, j);
@@ -322,14 +317,14 @@ class RasterNodes final : public NodeSource {
         const Taps x = taps_at(place.col), y = taps_at(place.row);
         double height = 0;
         for (std::size_t k = 0; k < 4; ++k) {
-          const float* s = part->row(y.first + static_cast<std::int64_t>(k) - top) + (x.first - left);
+          const float* s = part.row(y.first + static_cast<std::int64_t>(k) - top) + (x.first - left);
           height += y.weights[k] * (x.weights[0] * double{s[0]} + x.weights[1] * double{s[1]} +
                                     x.weights[2] * double{s[2]} + x.weights[3] * double{s[3]});
         }
         node = static_cast<float>(height);
         if (std::isnan(height)) {
-          const float* upper = part->row(y.first + 1 - top) + (x.first + 1 - left);
-          const float* lower = part->row(y.first + 2 - top) + (x.first + 1 - left);
+          const float* upper = part.row(y.first + 1 - top) + (x.first + 1 - left);
+          const float* lower = part.row(y.first + 2 - top) + (x.first + 1 - left);
           node = bilinear(upper, lower, x.part, y.part);
         }
       }
@@ -345,8 +340,7 @@ class RasterNodes final : public NodeSource {
       NodeWindow pole{window.per_turn, 0, row, 1, 1, window.grid};
       float height = kNone;
       const bool is_aligned = place_.from_degrees == nullptr && place_.affine[2] == 0 && place_.affine[4] == 0;
-      auto read = is_aligned ? read_aligned(pole, {&height, 1}) : read_placed(pole, {&height, 1});
-      if (!read) return read;
+      SCARP_RETURN_IF_ERROR(is_aligned ? read_aligned(pole, {&height, 1}) : read_placed(pole, {&height, 1}));
       std::fill_n(out.begin() + std::ptrdiff_t{j} * window.cols, window.cols, height);
     }
     return {};

@@ -76,8 +76,7 @@ Result<void> SampleRows::read_bands(const Window& window, const Take& take) cons
     band.row += first;
     band.rows = std::min(together, window.rows - first);
     heights.resize(static_cast<std::size_t>(band.cols) * static_cast<std::size_t>(band.rows));
-    auto read = read_window(field_, band.col, band.row, band.cols, band.rows, heights.data(), band.cols);
-    if (!read) return read;
+    SCARP_RETURN_IF_ERROR(read_window(field_, band.col, band.row, band.cols, band.rows, heights.data(), band.cols));
     take(band, heights.data());
   }
   return {};

@@ -25,7 +25,7 @@ Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& 
     surface.judge({(row.longitude - box.west) * per_u, (row.latitude - box.south) * per_v, row.step_longitude * per_u,
                    row.step_latitude * per_v, row.heights});
   });
-  if (!visited) return tl::unexpected(visited.error());
+  SCARP_RETURN_IF_ERROR(visited);
   return SampleVerdict{surface.largest_error(), surface.far_points()};
 }
 

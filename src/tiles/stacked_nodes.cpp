@@ -67,7 +67,7 @@ class StackedNodes final : public NodeSource {
       NodeWindow part = window;
       if (!narrow(source.covered, out, part)) continue;
       nodes.resize(static_cast<std::size_t>(part.cols) * static_cast<std::size_t>(part.rows));
-      if (auto read = source.nodes->read(part, nodes); !read) return read;
+      SCARP_RETURN_IF_ERROR(source.nodes->read(part, nodes));
       for (int j = 0; j < part.rows; ++j) {
         float* row = out.data() + (part.row - window.row + j) * window.cols + (part.col - window.col);
         const float* from = nodes.data() + std::ptrdiff_t{j} * part.cols;

@@ -44,7 +44,7 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
   const std::size_t count = static_cast<std::size_t>(land.cols) * static_cast<std::size_t>(land.rows);
   std::vector<float> part(land.cols < side ? count : 0);
   const std::span<float> out = land.cols < side ? std::span(part) : std::span(&*row_of(land.row), count);
-  if (auto read = count > 0 ? source.read(land, out) : Result<void>(); !read) return tl::unexpected(read.error());
+  SCARP_RETURN_IF_ERROR(count > 0 ? source.read(land, out) : Result<void>());
   for (std::int32_t j = 0; !part.empty() && j < land.rows; ++j)
     std::copy_n(&part[static_cast<std::size_t>(j) * static_cast<std::size_t>(land.cols)], land.cols,
                 row_of(land.row + j) + static_cast<std::ptrdiff_t>(land.col - window.col));
@@ -128,7 +128,7 @@ Result<HeldNodes> HeldNodes::read(const NodeWindow& window, const NodeSource& so
                   .subspan(cols * static_cast<std::size_t>(first), cols * static_cast<std::size_t>(band.rows)));
   });
   for (const Result<void>& one : read) {
-    if (!one) return tl::unexpected(one.error());
+    SCARP_RETURN_IF_ERROR(one);
   }
   return held;
 }

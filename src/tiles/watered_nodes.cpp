@@ -114,7 +114,7 @@ class WateredNodes final : public NodeSource {
       return fail(ErrorKind::kUsage,
                   "these tiles have other nodes than the plan, and water is known at those of the plan "
                   "alone: give the plan that the tiles are made by");
-    if (auto read = source_.read(window, out); !read) return read;
+    SCARP_RETURN_IF_ERROR(source_.read(window, out));
     if (!meets_any(window)) return {};
     const Claims claims = claims_in(window);
     if (!claims.is_any()) return {};
@@ -122,7 +122,7 @@ class WateredNodes final : public NodeSource {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       if (std::isnan(out[i])) heights[i] = kNoHeight;
     }
-    if (auto raised = raise(window, heights); !raised) return raised;
+    SCARP_RETURN_IF_ERROR(raise(window, heights));
     for (std::size_t i = 0; i < heights.size(); ++i) {
       if (std::isnan(heights[i])) continue;
       out[i] = claims.claim(i) == Claim::kRim ? std::max(out[i], heights[i]) : heights[i];
@@ -143,7 +143,7 @@ class WateredNodes final : public NodeSource {
       const double x = (box.west + box.east) / 2, y = (box.south + box.north) / 2;
       for (const DegreeBox& part : {DegreeBox{box.west, box.south, x, y}, DegreeBox{x, box.south, box.east, y},
                                     DegreeBox{box.west, y, x, box.north}, DegreeBox{x, y, box.east, box.north}}) {
-        if (auto visited = visit_samples(part, visit); !visited) return visited;
+        SCARP_RETURN_IF_ERROR(visit_samples(part, visit));
       }
       return {};
     }
@@ -156,7 +156,7 @@ class WateredNodes final : public NodeSource {
     const Claims claims = claims_in(window);
     if (!claims.is_any()) return source_.visit_samples(box, visit);
     std::vector<float> raised(claims.heights().begin(), claims.heights().end());
-    if (auto done = raise(window, raised); !done) return done;
+    SCARP_RETURN_IF_ERROR(raise(window, raised));
     std::vector<float> changed;
     return source_.visit_samples(box, [&](const SampleRow& row) {
       const auto [first, end] =

@@ -34,9 +34,8 @@ Result<RasterFormat> choose_format(const Given& asked, const std::string& output
 }
 
 Result<int> parse_side(std::string_view option, const std::string& text) {
-  const Result<std::uint64_t> side = parse_count(option, text, 2);
-  if (!side) return tl::unexpected(side.error());
-  return static_cast<int>(std::min<std::uint64_t>(*side, 1 << 30));
+  SCARP_TRY(const std::uint64_t side, parse_count(option, text, 2));
+  return static_cast<int>(std::min<std::uint64_t>(side, 1 << 30));
 }
 
 /// A number above 0.
@@ -88,40 +87,33 @@ Result<void> GenerateCommand::run() const {
     return fail(ErrorKind::kUsage, fmt::format("STYLE {} is unknown: choose {}", shell_word(style_),
                                                fmt::join(field_style_names(), ", ")));
   }
-  const Result<int> cols = parse_side("COLS", cols_), rows = parse_side("ROWS", rows_);
-  if (!cols) return tl::unexpected(cols.error());
-  if (!rows) return tl::unexpected(rows.error());
-  const Result<std::uint64_t> seed = parse_count("--seed", seed_.value_or("0"), 0);
-  if (!seed) return tl::unexpected(seed.error());
+  SCARP_TRY(const int cols, parse_side("COLS", cols_));
+  SCARP_TRY(const int rows, parse_side("ROWS", rows_));
+  SCARP_TRY(const std::uint64_t seed, parse_count("--seed", seed_.value_or("0"), 0));
   if (seed_ && *style != FieldStyle::kFractal && *style != FieldStyle::kSmooth) {
     return fail(ErrorKind::kUsage, fmt::format("--seed is for fractal and smooth only: {} is always the same", style_));
   }
-  const Result<double> range = parse_positive("--range", range_.value_or("1"));
-  if (!range) return tl::unexpected(range.error());
-  const Result<double> size = parse_positive("--size", size_.value_or("1"));
-  if (!size) return tl::unexpected(size.error());
-  const Result<RasterFormat> format = choose_format(format_, output_);
-  if (!format) return tl::unexpected(format.error());
-  if (size_ && *format == RasterFormat::kPgm) {
+  SCARP_TRY(const double range, parse_positive("--range", range_.value_or("1")));
+  SCARP_TRY(const double size, parse_positive("--size", size_.value_or("1")));
+  SCARP_TRY(const RasterFormat format, choose_format(format_, output_));
+  if (size_ && format == RasterFormat::kPgm) {
     return fail(ErrorKind::kUsage, "--size needs a GeoTIFF: PGM has no room for coordinates");
   }
-  const Result<void> checked = check_outputs({{"OUTPUT", output_}}, {}, overwrite_);
-  if (!checked) return checked;
+  SCARP_RETURN_IF_ERROR(check_outputs({{"OUTPUT", output_}}, {}, overwrite_));
 
-  Result<OwnedHeightField> field = generate_field(*style, *cols, *rows, *seed);
-  if (!field) return tl::unexpected(std::move(field.error()));
-  if (range_) stretch(*field, *range);
-  if (size_) place(*field, *size);
+  SCARP_TRY(OwnedHeightField field, generate_field(*style, cols, rows, seed));
+  if (range_) stretch(field, range);
+  if (size_) place(field, size);
   const Result<std::vector<std::uint8_t>> bytes =
-      encode_raster({field->samples, field->cols, field->rows, &field->info}, *format);
+      encode_raster({field.samples, field.cols, field.rows, &field.info}, format);
   if (!bytes) {
     return fail(bytes.error().kind, fmt::format("{} cannot be written: {}", output_, bytes.error().message));
   }
   const Result<void> written = write_file(output_, *bytes, overwrite_);
   if (!written || quiet_) return written;
   const std::string summary =
-      fmt::format("{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field->info.path, field->cols, field->rows,
-                  format_number(field->info.min), format_number(field->info.max), output_, format_bytes(bytes->size()));
+      fmt::format("{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field.info.path, field.cols, field.rows,
+                  format_number(field.info.min), format_number(field.info.max), output_, format_bytes(bytes->size()));
   if (is_stdout(output_)) {
     print_to_stderr(summary);
     return {};

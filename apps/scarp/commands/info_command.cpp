@@ -60,12 +60,11 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
     if (*value) return fail(ErrorKind::kUsage, fmt::format("{} is for points: leave it out, or say --points", name));
   }
   if (const auto format = is_one ? find_mesh(raster_.path()) : std::nullopt) return run_mesh(*format, command_line);
-  Result<ReadOptions> read = raster_.parse();
-  if (!read) return tl::unexpected(std::move(read.error()));
+  SCARP_TRY(ReadOptions read, raster_.parse());
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  read->run.progress = display.callback();
-  read->heights_in = HeightsIn::kFile;
-  Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
+  read.run.progress = display.callback();
+  read.heights_in = HeightsIn::kFile;
+  Result<OwnedHeightField> field = read_height_field(raster_.path(), read);
   if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
   if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
   for (std::string& warning : warn_of_undeclared_nodata(field->info, *field))
@@ -84,7 +83,7 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   display.finish();
   if (!json_) return print_to_stdout(suggestion_table(*field, suggestions));
   if (!quiet_) print_warnings(field->info.warnings);
-  return print_to_stdout(to_text(raster_report(*field, suggestions, read->band, command_line)));
+  return print_to_stdout(to_text(raster_report(*field, suggestions, read.band, command_line)));
 }
 
 Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
@@ -107,33 +106,30 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
 }
 
 Result<void> InfoCommand::run_points(const std::string& command_line) const {
-  if (auto fits = refuse("points", true); !fits) return fits;
+  SCARP_RETURN_IF_ERROR(refuse("points", true));
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  const auto as = raster_.parse();
-  if (!as) return tl::unexpected(as.error());
-  const Result<PointSet> points = read_points(raster_.path(), {.layer = layer_.value_or(""),
-                                                               .z_field = z_field_.value_or(""),
-                                                               .crs = as->crs,
-                                                               .progress = display.callback(),
-                                                               .columns = columns_.value_or(""),
-                                                               .nodata = as->nodata,
-                                                               .z_scale = as->z_scale,
-                                                               .z_offset = as->z_offset,
-                                                               .z_unit = as->z_unit,
-                                                               .heights_in = HeightsIn::kFile});
-  if (!points) return tl::unexpected(points.error());
+  SCARP_TRY(const auto& as, raster_.parse());
+  SCARP_TRY(const PointSet& points, read_points(raster_.path(), {.layer = layer_.value_or(""),
+                                                                 .z_field = z_field_.value_or(""),
+                                                                 .crs = as.crs,
+                                                                 .progress = display.callback(),
+                                                                 .columns = columns_.value_or(""),
+                                                                 .nodata = as.nodata,
+                                                                 .z_scale = as.z_scale,
+                                                                 .z_offset = as.z_offset,
+                                                                 .z_unit = as.z_unit,
+                                                                 .heights_in = HeightsIn::kFile}));
   display.finish();
-  if (!quiet_) print_warnings(points->warnings);
-  return print_to_stdout(json_ ? to_text(points_facts_report(*points, command_line)) : points_facts(*points));
+  if (!quiet_) print_warnings(points.warnings);
+  return print_to_stdout(json_ ? to_text(points_facts_report(points, command_line)) : points_facts(points));
 }
 
 Result<void> InfoCommand::run_mesh(const std::string& format, const std::string& command_line) const {
-  if (auto fits = refuse("a mesh", false); !fits) return fits;
+  SCARP_RETURN_IF_ERROR(refuse("a mesh", false));
   MeshFileAxes axes;
-  Result<Mesh> mesh = read_mesh(raster_.path(), &axes);
-  if (!mesh) return tl::unexpected(std::move(mesh.error()));
+  SCARP_TRY(Mesh mesh, read_mesh(raster_.path(), &axes));
   std::error_code ignored;
-  MeshFile file{raster_.path(), format, std::filesystem::file_size(raster_.path(), ignored), std::move(*mesh), axes};
+  MeshFile file{raster_.path(), format, std::filesystem::file_size(raster_.path(), ignored), std::move(mesh), axes};
   return print_to_stdout(json_ ? to_text(mesh_facts_report(file, command_line)) : mesh_facts(file));
 }
 

@@ -31,13 +31,12 @@ std::vector<LevelNumbers> list_levels(const Outcome& outcome) {
 }  // namespace
 
 Result<Simplified> simplify_as_levels(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
-  Result<std::vector<Simplified>> levels = simplify_levels(outcome.view(), options, *plan.levels);
-  if (!levels) return tl::unexpected(std::move(levels.error()));
-  for (std::size_t k = 1; k < levels->size(); ++k) {
+  SCARP_TRY(std::vector<Simplified> levels, simplify_levels(outcome.view(), options, *plan.levels));
+  for (std::size_t k = 1; k < levels.size(); ++k) {
     const double times = std::pow(plan.levels->ratio, static_cast<double>(k));
-    outcome.coarser.push_back({times * options.goals.max_error.value_or(0), std::move((*levels)[k])});
+    outcome.coarser.push_back({times * options.goals.max_error.value_or(0), std::move(levels[k])});
   }
-  return std::move(levels->front());
+  return std::move(levels.front());
 }
 
 Json describe_levels(const SimplifyPlan& plan, const Outcome& outcome) {

@@ -79,16 +79,13 @@ Result<void> MeasureCommand::check_outputs_of_run() const {
   std::vector<PlannedOutput> outputs;
   if (map_) {
     outputs.push_back({"--map", *map_});
-    const Result<void> named = check_png_name(outputs.back());
-    if (!named) return named;
+    SCARP_RETURN_IF_ERROR(check_png_name(outputs.back()));
   }
   if (error_raster_) {
     outputs.push_back({"--error-raster", *error_raster_});
-    const Result<void> named = check_tiff_name(outputs.back());
-    if (!named) return named;
+    SCARP_RETURN_IF_ERROR(check_tiff_name(outputs.back()));
   }
-  const Result<void> checked = check_outputs(outputs, files_read(*command_), overwrite_);
-  if (!checked) return checked;
+  SCARP_RETURN_IF_ERROR(check_outputs(outputs, files_read(*command_), overwrite_));
   for (const PlannedOutput& output : outputs) {
     if (json_ && is_stdout(output.path)) {
       return fail(ErrorKind::kUsage,
@@ -114,27 +111,20 @@ Result<void> MeasureCommand::write_files(const Judged& judged, StreamedErrors& s
   if (map_) {
     const Picture picture =
         streamed.map ? streamed.map->draw() : draw_error_map(errors, field.cols, field.rows, map_options(judged, 1400));
-    Result<std::vector<std::uint8_t>> png = encode_png(picture);
-    if (!png) return tl::unexpected(std::move(png.error()));
-    map = std::move(*png);
+    SCARP_TRY(map, encode_png(picture));
     files.push_back({*map_, map});
   }
   if (streamed.raster) {
     files.push_back({*error_raster_, {}, &*streamed.raster});
   } else if (error_raster_) {
-    Result<std::vector<std::uint8_t>> tiff =
-        encode_raster({errors, field.cols, field.rows, &field.info}, RasterFormat::kGeoTiff);
-    if (!tiff) return tl::unexpected(std::move(tiff.error()));
-    raster = std::move(*tiff);
+    SCARP_TRY(raster, encode_raster({errors, field.cols, field.rows, &field.info}, RasterFormat::kGeoTiff));
     files.push_back({*error_raster_, raster});
   }
   return scarp::write_files(files, overwrite_);
 }
 
 Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judged& judged) const {
-  Result<Mesh> mesh = read_mesh(mesh_);
-  if (!mesh) return tl::unexpected(std::move(mesh.error()));
-  judged.mesh = std::move(*mesh);
+  SCARP_TRY(judged.mesh, read_mesh(mesh_));
   turn_up(judged.is_y_up, mesh_, judged.mesh);
   undo_placement(judged.mesh);
   const RasterArguments asked = remember_options(raster_, judged.mesh);
@@ -157,35 +147,28 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   }
   if (!asked.crs && fit_frame(judged.mesh, judged.field)) {
     read->crs = "source";
-    if (auto again = read_field(*read, judged); !again) return again;
+    SCARP_RETURN_IF_ERROR(read_field(*read, judged));
   }
   if (!raster_.crs) judged.warnings = place_frame(judged.mesh, judged.field);
   if (!judged.channels.empty()) {
-    const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
-    if (!restored) return restored;
+    SCARP_RETURN_IF_ERROR(restore_channels(judged.mesh, judged.channels, mesh_));
   }
   if (judged.goal) {
     RasterInfo& info = judged.field.info;
     if (judged.plan.image && !judged.goal->unit.empty())
       return fail(ErrorKind::kUsage, "--fail-above with a unit is for heights: errors of --image are in grey levels");
-    if (auto fits = settle_goal("--fail-above", info, *judged.goal, info.warnings); !fits) return fits;
+    SCARP_RETURN_IF_ERROR(settle_goal("--fail-above", info, *judged.goal, info.warnings));
     judged.fail_above = judged.goal->absolute(judged.plan.image ? judged.channels.relief : info.max - info.min);
   }
-  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
-  if (!limit) return tl::unexpected(limit.error());
-  const Result<int> threads = parse_threads(threads_);
-  if (!threads) return tl::unexpected(threads.error());
-  Result<Companions> companions = read_companions(companions_, judged.field.info, judged.field, judged.fail_above,
-                                                  {progress, limit->value_or(0), *threads});
-  if (!companions) return tl::unexpected(std::move(companions.error()));
-  judged.companions = std::move(*companions);
-  if (error_raster_ && *limit && judged.field.source) {
+  SCARP_TRY(const std::optional<std::uint64_t>& limit, memory_.parse());
+  SCARP_TRY(const int threads, parse_threads(threads_));
+  SCARP_TRY(judged.companions, read_companions(companions_, judged.field.info, judged.field, judged.fail_above,
+                                               {progress, limit.value_or(0), threads}));
+  if (error_raster_ && limit && judged.field.source) {
     const std::uint64_t bytes = judged.companions.bytes + RasterFile::bytes(judged.field.cols);
-    if (auto fits = check_room(judged.field, **limit, bytes, "--error-raster"); !fits) return fits;
+    SCARP_RETURN_IF_ERROR(check_room(judged.field, *limit, bytes, "--error-raster"));
   }
-  Result<Cut> cut = read_cut(cut_, judged.field.info, progress, judged.field, judged.companions.warnings);
-  if (!cut) return tl::unexpected(std::move(cut.error()));
-  judged.cut = std::move(*cut);
+  SCARP_TRY(judged.cut, read_cut(cut_, judged.field.info, progress, judged.field, judged.companions.warnings));
   const std::vector<std::string>& of_raster = judged.field.info.warnings;
   judged.warnings.insert(judged.warnings.begin(), of_raster.begin(), of_raster.end());
   judged.warnings.insert(judged.warnings.end(), judged.companions.warnings.begin(), judged.companions.warnings.end());
@@ -194,25 +177,21 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
 
 Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judged) const {
   if (judged.plan.image) {
-    Result<Image> image = read_image(judged.plan, raster_.path(), options, raster_.band.has_value());
-    if (!image) return tl::unexpected(std::move(image.error()));
-    judged.field = std::move(image->field);
-    judged.channels = std::move(image->channels);
+    SCARP_TRY(Image image, read_image(judged.plan, raster_.path(), options, raster_.band.has_value()));
+    judged.field = std::move(image.field);
+    judged.channels = std::move(image.channels);
     return {};
   }
-  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
-  if (!limit) return tl::unexpected(limit.error());
+  SCARP_TRY(const std::optional<std::uint64_t>& limit, memory_.parse());
   MemoryNeeds needs{cut_.files.empty() && companions_.roi.empty() ? 0 : kVectorBytes};
   if (companions_.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
-  Result<OwnedHeightField> field = read_within(raster_.path(), options, *limit, needs);
+  Result<OwnedHeightField> field = read_within(raster_.path(), options, limit, needs);
   if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
   if (const std::optional<std::string> need = find_need_of_samples()) {
-    if (auto in_memory = check_in_memory(*field, *need, needs); !in_memory) return in_memory;
+    SCARP_RETURN_IF_ERROR(check_in_memory(*field, *need, needs));
   }
   judged.field = std::move(*field);
-  Result<Channels> textures = read_textures(judged.plan, judged.field, options.run.progress);
-  if (!textures) return tl::unexpected(std::move(textures.error()));
-  judged.channels = std::move(*textures);
+  SCARP_TRY(judged.channels, read_textures(judged.plan, judged.field, options.run.progress));
   return {};
 }
 
@@ -233,9 +212,7 @@ Result<MeasureCommand::StreamedErrors> MeasureCommand::begin_errors(const Judged
     errors.map.emplace(field.cols, field.rows, map_options(judged, side));
   }
   if (error_raster_) {
-    auto raster = RasterFile::create(*error_raster_, field.cols, field.rows, &field.info, overwrite_);
-    if (!raster) return tl::unexpected(raster.error());
-    errors.raster = std::move(*raster);
+    SCARP_TRY(errors.raster, RasterFile::create(*error_raster_, field.cols, field.rows, &field.info, overwrite_));
   }
   return errors;
 }
@@ -257,10 +234,9 @@ Result<Judgement> MeasureCommand::judge(const ProgressCallback& progress, const 
       if (errors.raster && written) written = errors.raster->add(of_row);
     };
   }
-  auto judgement = judge_mesh(judged.view(), judged.mesh, options);
-  if (!judgement) return judgement;
+  SCARP_TRY(auto&& judgement, judge_mesh(judged.view(), judged.mesh, options));
   if (errors.raster && written) written = errors.raster->finish();
-  if (!written) return tl::unexpected(written.error());
+  SCARP_RETURN_IF_ERROR(written);
   return judgement;
 }
 
@@ -274,45 +250,30 @@ Result<void> MeasureCommand::judge_points_inputs(const Runner& runner, JudgedPoi
 
 Result<void> MeasureCommand::judge_inputs(const Runner& runner, Judged& judged, StreamedErrors& errors) const {
   const Clock::time_point start = Clock::now();
-  if (auto ordered = check_order(); !ordered) return ordered;
-  const Result<ReadOptions> read = raster_.parse();
-  if (!read) return tl::unexpected(read.error());
-  const Result<int> threads = parse_threads(threads_);
-  if (!threads) return tl::unexpected(threads.error());
-  const Result<bool> is_y_up = parse_up(up_);
-  if (!is_y_up) return tl::unexpected(is_y_up.error());
-  judged.is_y_up = *is_y_up;
-  Result<ChannelPlan> plan = channels_.parse(raster_);
-  if (!plan) return tl::unexpected(std::move(plan.error()));
-  judged.plan = std::move(*plan);
-  const Result<void> companions_agree = companions_.check("--fail-above", fail_above_.has_value());
-  if (!companions_agree) return companions_agree;
-  if (auto checked = cut_.check(); !checked) return checked;
-  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
-  if (!limit) return tl::unexpected(limit.error());
-  if (*limit && judged.plan.image) {
+  SCARP_RETURN_IF_ERROR(check_order());
+  SCARP_RETURN_IF_ERROR(raster_.parse());
+  SCARP_RETURN_IF_ERROR(parse_threads(threads_));
+  SCARP_TRY(judged.is_y_up, parse_up(up_));
+  SCARP_TRY(judged.plan, channels_.parse(raster_));
+  SCARP_RETURN_IF_ERROR(companions_.check("--fail-above", fail_above_.has_value()));
+  SCARP_RETURN_IF_ERROR(cut_.check());
+  SCARP_TRY(const std::optional<std::uint64_t>& limit, memory_.parse());
+  if (limit && judged.plan.image) {
     return fail(ErrorKind::kUsage, "--memory cannot be combined with --image: images are read as a whole");
   }
   if (fail_above_) {
-    Result<ErrorGoal> goal = parse_error_goal("--fail-above", *fail_above_);
-    if (!goal) return tl::unexpected(std::move(goal.error()));
-    if (auto fits = refuse_print("--fail-above", *goal); !fits) return fits;
-    judged.goal = std::move(*goal);
+    SCARP_TRY(ErrorGoal goal, parse_error_goal("--fail-above", *fail_above_));
+    SCARP_RETURN_IF_ERROR(refuse_print("--fail-above", goal));
+    judged.goal = std::move(goal);
   }
-  const Result<void> outputs = check_outputs_of_run();
-  if (!outputs) return outputs;
+  SCARP_RETURN_IF_ERROR(check_outputs_of_run());
 
-  const Result<void> has_inputs = read_inputs(runner.progress, judged);
-  if (!has_inputs) return has_inputs;
+  SCARP_RETURN_IF_ERROR(read_inputs(runner.progress, judged));
   judged.seconds_read = seconds_since(start);
 
   const Clock::time_point measure_start = Clock::now();
-  Result<StreamedErrors> begun = begin_errors(judged);
-  if (!begun) return tl::unexpected(std::move(begun.error()));
-  errors = std::move(*begun);
-  Result<Judgement> judgement = judge(runner.progress, judged, errors);
-  if (!judgement) return tl::unexpected(std::move(judgement.error()));
-  judged.judgement = std::move(*judgement);
+  SCARP_TRY(errors, begin_errors(judged));
+  SCARP_TRY(judged.judgement, judge(runner.progress, judged, errors));
   complete_info(judged.judgement.heights.heights, judged.field.info);
   judged.seconds_measure = seconds_since(measure_start);
   decide(judged);

@@ -75,7 +75,7 @@ Result<void> write_all(const paper::Study& study, const fs::path& page, bool ove
   for (const auto& picture : study.pictures()) {
     if (done) done = write_file((page.parent_path() / picture.path).string(), picture.bytes, overwrite);
   }
-  if (!done) return done;
+  SCARP_RETURN_IF_ERROR(done);
   const std::string& text = study.page.text();
   return write_file(page.string(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, overwrite);
 }
@@ -97,18 +97,15 @@ Result<void> PaperCommand::run() const {
   if (fs::exists(page, error) && !overwrite_) {
     return fail(ErrorKind::kOutput, fmt::format("{} exists already: --overwrite replaces it", page.string()));
   }
-  const Result<void> has_gnuplot = paper::find_gnuplot();
-  if (!has_gnuplot) return has_gnuplot;
-  Result<paper::Fields> fields = paper::read_fields(data_);
-  if (!fields) return tl::unexpected(std::move(fields.error()));
+  SCARP_RETURN_IF_ERROR(paper::find_gnuplot());
+  SCARP_TRY(paper::Fields fields, paper::read_fields(data_));
   Result<void> has_place = make_folder(page.parent_path() / "images" / "paper");
   if (has_place) has_place = check_outputs({{"--out", page.string()}}, {}, overwrite_);
-  if (!has_place) return has_place;
-  paper::Study study(std::move(*fields), data_, !no_timing_, quiet_);
+  SCARP_RETURN_IF_ERROR(has_place);
+  paper::Study study(std::move(fields), data_, !no_timing_, quiet_);
   add_header(study);
   for (const auto& add_experiment : kExperiments) {
-    const Result<void> added = add_experiment(study);
-    if (!added) return added;
+    SCARP_RETURN_IF_ERROR(add_experiment(study));
     if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   }
   const Result<void> written = write_all(study, page, overwrite_);

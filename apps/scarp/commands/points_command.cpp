@@ -15,13 +15,11 @@ namespace scarp::cli {
 namespace {
 
 Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
-  if (auto completed = complete_mesh(plan, arguments, outcome); !completed)
-    return tl::unexpected(std::move(completed.error()));
+  SCARP_RETURN_IF_ERROR(complete_mesh(plan, arguments, outcome));
   turn_as_planned(plan, outcome.simplified.mesh);
-  auto bytes = encode_as(plan.format, outcome.simplified.mesh,
-                         {.compress = plan.compress, .threads = plan.simplify.run.threads}, plan.doubles);
-  if (!bytes) return tl::unexpected(std::move(bytes.error()));
-  return ReadyFile{plan.output, plan.format.name(), std::move(*bytes)};
+  SCARP_TRY(auto&& bytes, encode_as(plan.format, outcome.simplified.mesh,
+                                    {.compress = plan.compress, .threads = plan.simplify.run.threads}, plan.doubles));
+  return ReadyFile{plan.output, plan.format.name(), std::move(bytes)};
 }
 
 }  // namespace
@@ -32,24 +30,21 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
   SimplifyPlan plan;
   PointsOutcome outcome;
-  if (auto made = make_points_mesh(command, given, arguments, {display.callback()}, plan, outcome); !made) return made;
+  SCARP_RETURN_IF_ERROR(make_points_mesh(command, given, arguments, {display.callback()}, plan, outcome));
 
   const Clock::time_point write_start = Clock::now();
-  Result<ReadyFile> file = encode(plan, arguments, outcome);
-  if (!file) return tl::unexpected(std::move(file.error()));
-  std::vector<ReadyFile> files{std::move(*file)};
+  SCARP_TRY(ReadyFile file, encode(plan, arguments, outcome));
+  std::vector<ReadyFile> files{std::move(file)};
   for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   std::vector<FileBytes> named;
   for (const ReadyFile& each : files) named.push_back({each.path, each.bytes});
-  const Result<void> written = write_files(named, plan.overwrite);
-  if (!written) return written;
+  SCARP_RETURN_IF_ERROR(write_files(named, plan.overwrite));
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
   if (plan.report) {
     const Json report = make_report(plan, outcome, files, command_line);
-    const Result<void> reported = write_report(report, *plan.report, plan.overwrite, plan.output);
-    if (!reported) return reported;
+    SCARP_RETURN_IF_ERROR(write_report(report, *plan.report, plan.overwrite, plan.output));
   }
   display.finish();
 
@@ -66,18 +61,16 @@ Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArgu
   const Clock::time_point start = Clock::now();
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
   JudgedPoints judged;
-  if (auto done = judge_points(command, given, arguments, {display.callback()}, judged); !done) return done;
+  SCARP_RETURN_IF_ERROR(judge_points(command, given, arguments, {display.callback()}, judged));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   display.finish();
   judged.seconds_total = seconds_since(start);
 
   if (!given.quiet) print_warnings(judged.points.warnings);
   if (given.json) {
-    const Result<void> printed = print_to_stdout(to_text(make_report(judged, given.mesh, command_line)));
-    if (!printed) return printed;
+    SCARP_RETURN_IF_ERROR(print_to_stdout(to_text(make_report(judged, given.mesh, command_line))));
   } else if (!given.quiet) {
-    const Result<void> printed = print_to_stdout(make_table(judged, given.mesh));
-    if (!printed) return printed;
+    SCARP_RETURN_IF_ERROR(print_to_stdout(make_table(judged, given.mesh)));
   }
   if (judged.broken) return fail(ErrorKind::kPromise, fmt::format("{}: {}", given.mesh, *judged.broken));
   return {};

@@ -22,9 +22,9 @@ namespace {
 /// Points have no use for many of the command's options; silence would be a lie.
 Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
   constexpr std::array<std::string_view, 26> kMeant{
-      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",     "--up",
-      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",    "--double",
-      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",   "--compress", "--columns",
+      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",      "--base",     "--up",
+      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points",  "--layer",    "--double",
+      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",    "--compress", "--columns",
       "--nodata",        "--z-scale",       "--z-offset",    "--z-unit",     "--boundary"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
@@ -96,10 +96,9 @@ Result<ReadOptions> remember_reading(const RasterArguments& given, const Mesh& m
   if (!given.crs) asked.crs = find("crs_option");
   if (!given.crs && asked.crs == Given("local") && way_to_source(mesh)) asked.crs = "source";
   if (!given.nodata) asked.nodata = find("nodata");
-  auto options = asked.parse();
-  if (!options) return options;
-  options->heights_in = find("unit") == Given("m") ? HeightsIn::kMetres : heights_in(path);
-  options->default_frame = default_frame(path) == DefaultFrame::kLocal ? DefaultFrame::kLocal : DefaultFrame::kMetric;
+  SCARP_TRY(auto&& options, asked.parse());
+  options.heights_in = find("unit") == Given("m") ? HeightsIn::kMetres : heights_in(path);
+  options.default_frame = default_frame(path) == DefaultFrame::kLocal ? DefaultFrame::kLocal : DefaultFrame::kMetric;
   return options;
 }
 
@@ -182,59 +181,50 @@ void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
 Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& given, const PointsArguments& arguments,
                               const Runner& runner, SimplifyPlan& plan, PointsOutcome& outcome) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(command, given.raster.path()); !meant) return meant;
+  SCARP_RETURN_IF_ERROR(refuse_raster_options(command, given.raster.path()));
   if (!given.max_error && !given.max_triangles && !given.max_points)
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
                 "with -t or -p");
-  Result<SimplifyPlan> planned = plan_simplify(given, files_read(command));
-  if (!planned) return tl::unexpected(std::move(planned.error()));
-  plan = std::move(*planned);
+  SCARP_TRY(plan, plan_simplify(given, files_read(command)));
   if (runner.on_plan) runner.on_plan(plan.read);
   if (plan.format.kind == OutputKind::kDem)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
                             "such as .glb or .ply",
                             given.output, shell_word(base_name(given.raster.path()))));
-  const auto policy = parse_policy(arguments.duplicates);
-  if (!policy) return tl::unexpected(policy.error());
-  const auto boundary_length = parse_boundary(arguments.boundary);
-  if (!boundary_length) return tl::unexpected(boundary_length.error());
+  SCARP_TRY(const auto& policy, parse_policy(arguments.duplicates));
+  SCARP_TRY(const auto& boundary_length, parse_boundary(arguments.boundary));
 
-  outcome.policy = *policy;
+  outcome.policy = policy;
   outcome.boundary = arguments.boundary.value_or("hull");
   ReadOptions as = plan.read;
   as.crs = crs_option(plan);
-  Result<PointSet> points = read(given.raster.path(), arguments, as, runner.progress);
-  if (!points) return tl::unexpected(std::move(points.error()));
-  if (points->is_local && plan.read.crs.empty()) plan.read.crs = "local";
-  if (auto fits = check_unit_of_frame(plan.format, points->unit_in_metres); !fits) return fits;
-  outcome.points = std::move(*points);
+  SCARP_TRY(PointSet points, read(given.raster.path(), arguments, as, runner.progress));
+  if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
+  SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
+  outcome.points = std::move(points);
   if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
     return fail(ErrorKind::kUsage,
                 fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
                             "beyond any budget; ask for an error with -e",
                             given.max_triangles ? "--max-triangles" : "--max-points",
                             shell_word(base_name(given.raster.path()))));
-  if (!outcome.points.lines.empty() && *boundary_length)
+  if (!outcome.points.lines.empty() && boundary_length)
     return fail(ErrorKind::kUsage,
                 fmt::format("--boundary {} cannot be combined with lines, and {} holds them: they may cross what it "
                             "takes away; leave it out",
                             *arguments.boundary, shell_word(base_name(given.raster.path()))));
-  if (auto checked = check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit); !checked)
-    return checked;
+  SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit));
   if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
     outcome.centre = local_origin(outcome.points);
-  auto projections = plan_projection_files(plan, outcome.points.crs);
-  if (!projections) return tl::unexpected(std::move(projections.error()));
-  outcome.projections = std::move(*projections);
+  SCARP_TRY(outcome.projections, plan_projection_files(plan, outcome.points.crs));
   outcome.warnings = plan.warnings;
   outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);
   if (plan.error_goal) {
-    if (auto fits = refuse_print("--max-error", *plan.error_goal); !fits) return fits;
-    if (auto fits = settle_goal("--max-error", outcome.points.heights, *plan.error_goal, outcome.warnings); !fits)
-      return fits;
+    SCARP_RETURN_IF_ERROR(refuse_print("--max-error", *plan.error_goal));
+    SCARP_RETURN_IF_ERROR(settle_goal("--max-error", outcome.points.heights, *plan.error_goal, outcome.warnings));
   }
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
   outcome.seconds_read = seconds_since(start);
@@ -245,7 +235,7 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   options.max_vertices = plan.simplify.goals.max_vertices;
   options.float32_positions = plan.format.is_float32();  // points do not lie where float32 is exact
   options.duplicates = outcome.policy;
-  options.boundary_length = *boundary_length;
+  options.boundary_length = boundary_length;
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = runner.progress;
   Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
@@ -273,7 +263,7 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
 }
 
 Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
-  if (auto finished = finish_mesh(plan, outcome); !finished) return finished;
+  SCARP_RETURN_IF_ERROR(finish_mesh(plan, outcome));
   if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
   add_metadata(plan, arguments, outcome);
   return {};
@@ -282,43 +272,34 @@ Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& argu
 Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments& given,
                           const PointsArguments& arguments, const Runner& runner, JudgedPoints& judged) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(command, given.input.path()); !meant) return meant;
-  const Result<int> threads = parse_threads(given.threads);
-  if (!threads) return tl::unexpected(threads.error());
+  SCARP_RETURN_IF_ERROR(refuse_raster_options(command, given.input.path()));
+  SCARP_TRY(const int threads, parse_threads(given.threads));
   std::optional<ErrorGoal> goal;
   if (given.fail_above) {
-    Result<ErrorGoal> parsed = parse_error_goal("--fail-above", *given.fail_above);
-    if (!parsed) return tl::unexpected(std::move(parsed.error()));
-    if (auto fits = refuse_print("--fail-above", *parsed); !fits) return fits;
-    goal = std::move(*parsed);
+    SCARP_TRY(ErrorGoal parsed, parse_error_goal("--fail-above", *given.fail_above));
+    SCARP_RETURN_IF_ERROR(refuse_print("--fail-above", parsed));
+    goal = std::move(parsed);
   }
-  Result<Mesh> mesh = read_mesh(given.mesh);
-  if (!mesh) return tl::unexpected(std::move(mesh.error()));
-  judged.mesh = std::move(*mesh);
+  SCARP_TRY(judged.mesh, read_mesh(given.mesh));
   // The settings of the mesh hold for its judge, unless options set others.
   const auto remembered = [&](const Given& option, const char* key) -> Given {
     const auto entry = judged.mesh.metadata.find(key);
     return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
   };
-  const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
-  if (!policy) return tl::unexpected(policy.error());
-  judged.policy = *policy;
-  const auto boundary_length = parse_boundary(remembered(arguments.boundary, "boundary"));
-  if (!boundary_length) return tl::unexpected(boundary_length.error());
+  SCARP_TRY(judged.policy, parse_policy(remembered(arguments.duplicates, "duplicates")));
+  SCARP_TRY(const auto& boundary_length, parse_boundary(remembered(arguments.boundary, "boundary")));
   PointsArguments asked = arguments;
   asked.columns = remembered(arguments.columns, "columns");
   const std::string path = given.input.path();
-  const auto as = remember_reading(given.input, judged.mesh, given.mesh);
-  if (!as) return tl::unexpected(as.error());
-  Result<PointSet> points = read(path, asked, *as, runner.progress);
-  if (!points && !given.input.crs && !as->crs.empty())
-    return tl::unexpected(explain_frame(std::move(points.error()), as->crs, given.mesh, path));
-  if (!points) return tl::unexpected(std::move(points.error()));
+  SCARP_TRY(const auto& as, remember_reading(given.input, judged.mesh, given.mesh));
+  Result<PointSet> points = read(path, asked, as, runner.progress);
+  if (!points && !given.input.crs && !as.crs.empty())
+    return tl::unexpected(explain_frame(std::move(points.error()), as.crs, given.mesh, path));
+  SCARP_RETURN_IF_ERROR(points);
   judged.points = std::move(*points);
   if (!given.input.crs) put_back(judged.points, judged.mesh);
   if (goal) {
-    if (auto fits = settle_goal("--fail-above", judged.points.heights, *goal, judged.points.warnings); !fits)
-      return fits;
+    SCARP_RETURN_IF_ERROR(settle_goal("--fail-above", judged.points.heights, *goal, judged.points.warnings));
     const HeightRange heights = height_range(judged.points);
     judged.fail_above = goal->absolute(heights.max - heights.min);
   }
@@ -326,12 +307,10 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
 
   const Clock::time_point measure_start = Clock::now();
   MeasureOptions options;
-  options.run.threads = *threads;
+  options.run.threads = threads;
   options.run.progress = runner.progress;
-  options.inlets = boundary_length->has_value();
-  Result<Measurement> measured = measure_points(judged.points, judged.mesh, judged.policy, options);
-  if (!measured) return tl::unexpected(std::move(measured.error()));
-  judged.measured = std::move(*measured);
+  options.inlets = boundary_length.has_value();
+  SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
   if (judged.measured.samples == 0)

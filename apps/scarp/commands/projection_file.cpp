@@ -57,8 +57,7 @@ Result<std::optional<ProjectionFile>> plan_file(const SimplifyPlan& plan, const 
   std::error_code error;
   const bool is_there = fs::exists(file.path, error);
   if (is_there && text_of(file.path) == file.text) return std::nullopt;
-  if (auto checked = check_outputs({{"the .prj file of OUTPUT,", file.path}}, plan.files_read, plan.overwrite); !checked)
-    return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(check_outputs({{"the .prj file of OUTPUT,", file.path}}, plan.files_read, plan.overwrite));
   const std::string owner = is_there ? find_owner(plan, file.path) : "";
   if (!owner.empty()) {
     return fail(ErrorKind::kOutput,
@@ -77,9 +76,9 @@ Result<std::vector<ProjectionFile>> plan_projection_files(const SimplifyPlan& pl
   if (!text) return files;
   const int levels = plan.has_file_per_level() ? plan.levels->count : 1;
   for (int k = 0; k < levels; ++k) {
-    auto file = plan_file(plan, plan.has_file_per_level() ? level_path(plan.output, k) : plan.output, *text);
-    if (!file) return tl::unexpected(std::move(file.error()));
-    if (*file) files.push_back(std::move(**file));
+    SCARP_TRY(auto&& file,
+              plan_file(plan, plan.has_file_per_level() ? level_path(plan.output, k) : plan.output, *text));
+    if (file) files.push_back(std::move(*file));
   }
   return files;
 }

@@ -79,60 +79,46 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
   const std::string& path = tiles_.raster.path();
   const bool is_plan = lower_extension(path) == ".json";
   if (is_plan || names_tile_set(path)) {
-    if (auto alone = check_alone(); !alone) return tl::unexpected(alone.error());
+    SCARP_RETURN_IF_ERROR(check_alone());
   }
   if (!is_plan && names_tile_set(path)) {
-    auto answers = TileAnswers::open(path);
-    if (!answers) return tl::unexpected(answers.error());
-    served.answers = std::move(*answers);
+    SCARP_TRY(served.answers, TileAnswers::open(path));
     return served;
   }
-  const Result<std::uint64_t> memory = parse_bytes("--memory", memory_.value_or(kMemory));
-  if (!memory) return tl::unexpected(memory.error());
+  SCARP_TRY(const std::uint64_t memory, parse_bytes("--memory", memory_.value_or(kMemory)));
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   if (is_plan) {
-    auto job = read_tile_job(path);
-    if (!job) return tl::unexpected(job.error());
-    auto opened = open_job(std::move(*job), *memory / 2, threads);
-    if (!opened) return tl::unexpected(opened.error());
-    served.job = std::move(*opened);
+    SCARP_TRY(auto&& job, read_tile_job(path));
+    SCARP_TRY(served.job, open_job(std::move(job), memory / 2, threads));
   } else {
-    auto opened = tiles_.open(display.callback(), *memory / 2);
-    if (!opened) return tl::unexpected(opened.error());
-    served.job = std::move(*opened);
+    SCARP_TRY(served.job, tiles_.open(display.callback(), memory / 2));
   }
   Run run;
   run.threads = threads;
   run.progress = display.callback();
-  auto set = LiveTileSet::open(served.job.job, served.job.raster->nodes(), *memory / 2, run);
-  if (!set) return tl::unexpected(set.error());
+  SCARP_TRY(auto&& set, LiveTileSet::open(served.job.job, served.job.raster->nodes(), memory / 2, run));
   display.finish();
-  served.live = set->get();
-  served.answers = std::make_unique<TileAnswers>(std::move(*set), base_name(path));
+  served.live = set.get();
+  served.answers = std::make_unique<TileAnswers>(std::move(set), base_name(path));
   return served;
 }
 
 Result<void> ServeCommand::run() const {
-  const Result<std::uint64_t> port = parse_count("--port", port_.value_or(kPort), 0);
-  if (!port) return tl::unexpected(port.error());
-  if (*port > kMostPort) return fail(ErrorKind::kUsage, fmt::format("--port {} must be at most {}", *port, kMostPort));
-  const Result<int> threads = parse_threads(threads_);
-  if (!threads) return tl::unexpected(threads.error());
-  const Result<Served> served = open(*threads);
-  if (!served) return tl::unexpected(served.error());
-  const TileAnswers& answers = *served->answers;
-  auto server = HttpServer::listen(host_.value_or(kHost), static_cast<int>(*port));
-  if (!server) return tl::unexpected(server.error());
+  SCARP_TRY(const std::uint64_t port, parse_count("--port", port_.value_or(kPort), 0));
+  if (port > kMostPort) return fail(ErrorKind::kUsage, fmt::format("--port {} must be at most {}", port, kMostPort));
+  SCARP_TRY(const int threads, parse_threads(threads_));
+  SCARP_TRY(const Served& served, open(threads));
+  const TileAnswers& answers = *served.answers;
+  SCARP_TRY(auto&& server, HttpServer::listen(host_.value_or(kHost), static_cast<int>(port)));
   if (!quiet_) {
-    if (served->job.raster) print_warnings(warnings_of_raster(*served->job.raster));
-    print_warnings(served->job.warnings);
-    auto printed = print_summary(describe(tiles_.raster.path(), *answers.set(), served->live,
-                                          served->job.job.facts.heights_above, server->url()));
-    if (!printed) return printed;
+    if (served.job.raster) print_warnings(warnings_of_raster(*served.job.raster));
+    print_warnings(served.job.warnings);
+    SCARP_RETURN_IF_ERROR(print_summary(
+        describe(tiles_.raster.path(), *answers.set(), served.live, served.job.job.facts.heights_above, server.url())));
   }
   std::optional<Preparation> preparation;
-  if (served->live != nullptr) preparation.emplace(*served->live, *threads);
-  return server->run([&](const Request& request) { return answers.answer(request); }, *threads, interrupted);
+  if (served.live != nullptr) preparation.emplace(*served.live, threads);
+  return server.run([&](const Request& request) { return answers.answer(request); }, threads, interrupted);
 }
 
 }  // namespace scarp::cli

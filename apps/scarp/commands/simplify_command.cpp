@@ -21,44 +21,41 @@ SimplifyCommand::SimplifyCommand(CLI::App& program) : command_(add_command(progr
 
 Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
-  if (auto single = points_.check_single(given_.raster.paths); !single) return single;
+  SCARP_RETURN_IF_ERROR(points_.check_single(given_.raster.paths));
   if (points_.are_meant(given_.raster.path())) return run_simplify_points(*command_, given_, points_, command_line);
-  if (auto unused = points_.check_unused(given_.raster.path()); !unused) return unused;
-  Result<SimplifyPlan> plan = plan_simplify(given_, files_read(*command_));
-  if (!plan) return tl::unexpected(std::move(plan.error()));
+  SCARP_RETURN_IF_ERROR(points_.check_unused(given_.raster.path()));
+  SCARP_TRY(SimplifyPlan plan, plan_simplify(given_, files_read(*command_)));
 
   Outcome outcome;
   ProgressDisplay display(ProgressDisplay::choose(given_.json_progress, given_.quiet));
   const Runner runner{display.callback(), content_with_interrupt, [&] { display.let_interrupt_finish("fit"); }};
-  if (const Result<void> made = make_mesh(given_, *plan, runner, outcome); !made) return made;
+  SCARP_RETURN_IF_ERROR(make_mesh(given_, plan, runner, outcome));
 
   const Clock::time_point write_start = Clock::now();
   const bool go_on = display.callback()(
       {"write", 0, outcome.simplified.mesh.vertex_count(), outcome.simplified.measurement.max_error});
   if (!go_on) return fail(ErrorKind::kCancelled, "interrupted");
-  const Result<std::vector<ReadyFile>> files = encode_files(*plan, display.callback(), outcome);
-  if (!files) return tl::unexpected(files.error());
+  SCARP_TRY(const std::vector<ReadyFile>& files, encode_files(plan, display.callback(), outcome));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
 
   // From here on the work is done: all files get their names, or none.
   std::vector<FileBytes> ready;
-  for (const ReadyFile& file : *files) ready.push_back({file.path, file.bytes, file.raster.get()});
-  if (const Result<void> written = write_files(ready, plan->overwrite); !written) return written;
+  for (const ReadyFile& file : files) ready.push_back({file.path, file.bytes, file.raster.get()});
+  SCARP_RETURN_IF_ERROR(write_files(ready, plan.overwrite));
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
-  if (plan->report) {
-    const Json report = make_report(*plan, outcome, *files, command_line);
-    const Result<void> written = write_report(report, *plan->report, plan->overwrite, plan->output);
-    if (!written) return written;
+  if (plan.report) {
+    const Json report = make_report(plan, outcome, files, command_line);
+    SCARP_RETURN_IF_ERROR(write_report(report, *plan.report, plan.overwrite, plan.output));
   }
   display.finish();
 
   if (given_.quiet) return {};
   outcome.was_ended = outcome.simplified.is_cut_short && content_with_interrupt();
   print_warnings(outcome.warnings);
-  const std::string summary = make_summary(*plan, outcome, *files) + (given_.timing ? timing_lines(outcome) : "");
-  bool stdout_is_data = is_stdout(plan->report.value_or(""));
-  for (const ReadyFile& file : *files) stdout_is_data = stdout_is_data || is_stdout(file.path);
+  const std::string summary = make_summary(plan, outcome, files) + (given_.timing ? timing_lines(outcome) : "");
+  bool stdout_is_data = is_stdout(plan.report.value_or(""));
+  for (const ReadyFile& file : files) stdout_is_data = stdout_is_data || is_stdout(file.path);
   if (stdout_is_data) {
     print_to_stderr(summary);
     return {};

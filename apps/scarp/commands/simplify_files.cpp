@@ -55,9 +55,8 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
 }
 
 Result<void> add_picture(const std::string& path, const Picture& picture, std::vector<ReadyFile>& files) {
-  Result<std::vector<std::uint8_t>> png = encode_png(picture);
-  if (!png) return tl::unexpected(std::move(png.error()));
-  files.push_back({path, "png", std::move(*png)});
+  SCARP_TRY(std::vector<std::uint8_t> png, encode_png(picture));
+  files.push_back({path, "png", std::move(png)});
   return {};
 }
 
@@ -71,9 +70,8 @@ Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<
 Result<void> add_preview(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
   const Mesh& mesh = outcome.simplified.mesh;
   const int side = picture_side(outcome.field, memory_of(plan, outcome), mesh.vertex_count());
-  const Result<Picture> picture = draw_preview(outcome.field, mesh, preview_options(outcome, side));
-  if (!picture) return tl::unexpected(picture.error());
-  return add_picture(*plan.preview, *picture, files);
+  SCARP_TRY(const Picture& picture, draw_preview(outcome.field, mesh, preview_options(outcome, side)));
+  return add_picture(*plan.preview, picture, files);
 }
 
 /// Writes rows as `make` hands them out.
@@ -81,16 +79,16 @@ Result<std::shared_ptr<RasterFile>> write_rows(
     const SimplifyPlan& plan, const std::string& path, const Outcome& outcome,
     const std::function<Result<void>(const std::function<void(int row, std::span<const float> values)>& on_row)>&
         make) {
-  auto raster = RasterFile::create(path, outcome.field.cols, outcome.field.rows, &outcome.as_read, plan.overwrite);
-  if (!raster) return tl::unexpected(raster.error());
+  SCARP_TRY(auto&& raster,
+            RasterFile::create(path, outcome.field.cols, outcome.field.rows, &outcome.as_read, plan.overwrite));
   Result<void> written;
   const auto made = make([&](int, std::span<const float> values) {
-    if (written) written = raster->add(values);
+    if (written) written = raster.add(values);
   });
-  if (!made) return tl::unexpected(made.error());
-  if (written) written = raster->finish();
-  if (!written) return tl::unexpected(written.error());
-  return std::make_shared<RasterFile>(std::move(*raster));
+  SCARP_RETURN_IF_ERROR(made);
+  if (written) written = raster.finish();
+  SCARP_RETURN_IF_ERROR(written);
+  return std::make_shared<RasterFile>(std::move(raster));
 }
 
 /// Judges the heights once more, and writes each row as it comes.
@@ -101,7 +99,7 @@ Result<void> add_streamed_errors(const SimplifyPlan& plan, JudgeOptions options,
     const auto judged = judge_mesh(outcome.field.view(), outcome.simplified.mesh, options);
     return judged ? Result<void>() : tl::unexpected(judged.error());
   });
-  if (!raster) return tl::unexpected(raster.error());
+  SCARP_RETURN_IF_ERROR(raster);
   files.push_back({*plan.error_raster, "tif", {}, std::move(*raster)});
   return {};
 }
@@ -118,15 +116,13 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
   options.run.progress = progress;
   if (outcome.field.source) return add_streamed_errors(plan, options, outcome, files);
   options.keep_errors = true;
-  Result<Judgement> judged =
-      judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
-  if (!judged) return tl::unexpected(std::move(judged.error()));
+  SCARP_TRY(Judgement judged,
+            judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options));
   const std::vector<float> errors =
-      take_error_raster(std::move(*judged), plan.channels.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
-  Result<std::vector<std::uint8_t>> tiff =
-      encode_raster({errors, outcome.field.cols, outcome.field.rows, &outcome.as_read}, RasterFormat::kGeoTiff);
-  if (!tiff) return tl::unexpected(std::move(tiff.error()));
-  files.push_back({*plan.error_raster, "tif", std::move(*tiff)});
+      take_error_raster(std::move(judged), plan.channels.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  SCARP_TRY(std::vector<std::uint8_t> tiff,
+            encode_raster({errors, outcome.field.cols, outcome.field.rows, &outcome.as_read}, RasterFormat::kGeoTiff));
+  files.push_back({*plan.error_raster, "tif", std::move(tiff)});
   return {};
 }
 
@@ -149,9 +145,8 @@ Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome
   const std::vector<Mesh> solids = named_solids(plan, outcome);
   std::vector<ReadyFile> tiles;
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    Result<std::vector<std::uint8_t>> bytes = encode_mesh(solids[k], plan.format.mesh, plan.doubles);
-    if (!bytes) return tl::unexpected(std::move(bytes.error()));
-    tiles.push_back({paths[k], plan.format.name(), std::move(*bytes)});
+    SCARP_TRY(std::vector<std::uint8_t> bytes, encode_mesh(solids[k], plan.format.mesh, plan.doubles));
+    tiles.push_back({paths[k], plan.format.name(), std::move(bytes)});
   }
   files.erase(files.begin());
   files.insert(files.begin(), std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
@@ -161,9 +156,8 @@ Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome
 /// The approximation on the raster's grid.
 Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Outcome& outcome) {
   const Mesh& mesh = outcome.simplified.mesh;
-  const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.run.threads);
-  if (!heights) return tl::unexpected(heights.error());
-  return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
+  SCARP_TRY(const std::vector<float>& heights, resample(outcome.field, mesh, plan.simplify.run.threads));
+  return encode_raster({heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
 }
 
 /// True if OUTPUT is made from the samples as well as from the mesh.
@@ -179,19 +173,16 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
     auto raster = write_rows(plan, plan.output, outcome, [&](const auto& on_row) {
       return resample_rows(outcome.field, mesh, on_row, plan.simplify.run.threads);
     });
-    if (!raster) return tl::unexpected(raster.error());
+    SCARP_RETURN_IF_ERROR(raster);
     file.raster = std::move(*raster);
     return {};
   }
-  const auto glb = glb_options(plan, outcome);
-  if (!glb) return tl::unexpected(glb.error());
+  SCARP_TRY(const auto& glb, glb_options(plan, outcome));
   const bool has_zones = plan.zones.find_lines() != nullptr;
-  Result<std::vector<std::uint8_t>> bytes = outcome.print ? encode_3mf(named_solids(plan, outcome))
-                                            : is_dem      ? encode_dem(plan, outcome)
-                                            : has_zones   ? encode_2dm(mesh, outcome.zones)
-                                                          : encode_as(plan.format, mesh, *glb, plan.doubles);
-  if (!bytes) return tl::unexpected(std::move(bytes.error()));
-  file.bytes = std::move(*bytes);
+  SCARP_TRY(file.bytes, outcome.print ? encode_3mf(named_solids(plan, outcome))
+                        : is_dem      ? encode_dem(plan, outcome)
+                        : has_zones   ? encode_2dm(mesh, outcome.zones)
+                                      : encode_as(plan.format, mesh, glb, plan.doubles));
   return {};
 }
 
@@ -205,15 +196,14 @@ Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vect
       levels.push_back({plan.output, plan.format.name(), {}});
       return encode_output(plan, outcome, levels.back());
     });
-    if (!encoded) return encoded;
+    SCARP_RETURN_IF_ERROR(encoded);
   }
   files.erase(files.begin());
   if (plan.levels_in_one) {
     std::vector<std::vector<std::uint8_t>> all;
     for (ReadyFile& level : levels) all.push_back(std::move(level.bytes));
-    auto joined = join_glb_levels(all, plan.levels->ratio);
-    if (!joined) return tl::unexpected(std::move(joined.error()));
-    levels = {{plan.output, plan.format.name(), std::move(*joined)}};
+    SCARP_TRY(auto&& joined, join_glb_levels(all, plan.levels->ratio));
+    levels = {{plan.output, plan.format.name(), std::move(joined)}};
   } else {
     for (std::size_t k = 0; k < levels.size(); ++k) levels[k].path = level_path(plan.output, static_cast<int>(k));
   }
@@ -230,14 +220,12 @@ Result<void> add_page(const SimplifyPlan& plan, Outcome& outcome, std::vector<Re
   if (meshes.empty()) {
     Mesh mesh = outcome.simplified.mesh;
     if (is_y_up(mesh)) undo_y_up(mesh);
-    auto glb = encode_mesh(mesh, MeshFormat::kGlb);
-    if (!glb) return tl::unexpected(std::move(glb.error()));
-    meshes.push_back({plan.output, files.front().size(), std::move(*glb)});
+    SCARP_TRY(auto&& glb, encode_mesh(mesh, MeshFormat::kGlb));
+    meshes.push_back({plan.output, files.front().size(), std::move(glb)});
   }
-  auto page = make_view_page(plan.page_template, meshes.front().path, meshes, &outcome.field);
-  if (!page) return tl::unexpected(std::move(page.error()));
-  if (page->left_out) outcome.warnings.push_back(*page->left_out);
-  files.push_back({*plan.html, "html", std::move(page->html)});
+  SCARP_TRY(auto&& page, make_view_page(plan.page_template, meshes.front().path, meshes, &outcome.field));
+  if (page.left_out) outcome.warnings.push_back(*page.left_out);
+  files.push_back({*plan.html, "html", std::move(page.html)});
   return {};
 }
 
@@ -247,22 +235,19 @@ Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome)
   const std::array<double, 6>& affine = outcome.field.frame.affine;
   GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}, .threads = plan.simplify.run.threads};
   if (plan.images.drape) {
-    auto bytes = encode_image(outcome.drape, plan.images.drape_format);
-    if (!bytes) return tl::unexpected(bytes.error());
-    glb.base_color = {std::move(*bytes), mime_type_of(plan.images.drape_format)};
+    SCARP_TRY(auto&& bytes, encode_image(outcome.drape, plan.images.drape_format));
+    glb.base_color = {std::move(bytes), mime_type_of(plan.images.drape_format)};
   }
   if (plan.images.normal_map) {
-    const auto normals = draw_normal_map(outcome.field, *plan.images.normal_map);
-    if (!normals) return tl::unexpected(normals.error());
-    auto bytes = encode_png(*normals);
-    if (!bytes) return tl::unexpected(bytes.error());
-    glb.normal_map = {std::move(*bytes), "image/png"};
+    SCARP_TRY(const auto& normals, draw_normal_map(outcome.field, *plan.images.normal_map));
+    SCARP_TRY(auto&& bytes, encode_png(normals));
+    glb.normal_map = {std::move(bytes), "image/png"};
   }
   return glb;
 }
 
 Result<void> complete_mesh(const SimplifyPlan& plan, Outcome& outcome) {
-  if (auto finished = finish_mesh(plan, outcome); !finished) return finished;
+  SCARP_RETURN_IF_ERROR(finish_mesh(plan, outcome));
   add_metadata(plan, outcome);
   return {};
 }
@@ -278,22 +263,21 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (added && plan.render) added = add_render(plan, outcome, files);
   if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
   if (added) added = complete_mesh(plan, outcome);
-  if (!added) return tl::unexpected(std::move(added.error()));
+  SCARP_RETURN_IF_ERROR(added);
   if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
-    if (auto encoded = encode_print_tiles(plan, outcome, files); !encoded)
-      return tl::unexpected(std::move(encoded.error()));
+    SCARP_RETURN_IF_ERROR(encode_print_tiles(plan, outcome, files));
     return files;
   }
   if (plan.zones.find_lines() != nullptr) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
   // They may use more memory than the mesh and its file.
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
-  if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
+  SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
   if (plan.levels) {
-    if (auto encoded = encode_levels(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));
+    SCARP_RETURN_IF_ERROR(encode_levels(plan, outcome, files));
   }
   if (plan.html) {
-    if (auto page = add_page(plan, outcome, files); !page) return tl::unexpected(std::move(page.error()));
+    SCARP_RETURN_IF_ERROR(add_page(plan, outcome, files));
   }
   for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   return files;

@@ -26,7 +26,7 @@ Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {
   run.vertices = mesh.vertex_count();
   run.triangles = mesh.triangle_count();
   if (!plan.base) return {};
-  if (auto closed = close_with_base(mesh, *plan.base); !closed) return closed;
+  SCARP_RETURN_IF_ERROR(close_with_base(mesh, *plan.base));
   run.solid_vertices = mesh.vertex_count();
   run.solid_triangles = mesh.triangle_count();
   return {};

@@ -41,21 +41,18 @@ MemoryNeeds needs_of(const SimplifyPlan& plan) {
 
 Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, Outcome& outcome) {
   const MemoryNeeds needs = needs_of(plan);
-  Result<OwnedHeightField> field = read_within(plan.input, options, plan.memory, needs);
-  if (!field) return tl::unexpected(std::move(field.error()));
+  SCARP_TRY(OwnedHeightField field, read_within(plan.input, options, plan.memory, needs));
   if (plan.needs_samples) {
-    if (auto in_memory = check_in_memory(*field, *plan.needs_samples, needs); !in_memory) return in_memory;
+    SCARP_RETURN_IF_ERROR(check_in_memory(field, *plan.needs_samples, needs));
   }
-  outcome.field = std::move(*field);
+  outcome.field = std::move(field);
   outcome.as_read = outcome.field.info;
   if (plan.policy == NodataPolicy::kFill) outcome.filled = fill_nodata(outcome.field, plan.fill_distance);
   if (plan.policy == NodataPolicy::kBackground) outcome.filled = fill_background(outcome.field, plan.background);
-  Result<Channels> textures = read_textures(plan.channels, outcome.field, options.run.progress);
-  if (!textures) return tl::unexpected(std::move(textures.error()));
-  outcome.channels = std::move(*textures);
+  SCARP_TRY(outcome.channels, read_textures(plan.channels, outcome.field, options.run.progress));
   if (!plan.error_goal) return {};
   ErrorGoal goal = *plan.error_goal;
-  if (auto fits = settle_goal("--max-error", outcome.as_read, goal, outcome.as_read.warnings); !fits) return fits;
+  SCARP_RETURN_IF_ERROR(settle_goal("--max-error", outcome.as_read, goal, outcome.as_read.warnings));
   outcome.asked = goal.absolute(outcome.as_read.max - outcome.as_read.min);
   if (!plan.error_goal->is_on_print) return {};
   const Result<double> scale = estimate_print_scale(outcome.field.view(), *plan.solid);
@@ -65,10 +62,9 @@ Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, 
 }
 
 Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, bool one_band, Outcome& outcome) {
-  Result<Image> image = read_image(plan.channels, plan.input, options, one_band);
-  if (!image) return tl::unexpected(std::move(image.error()));
-  outcome.field = std::move(image->field);
-  outcome.channels = std::move(image->channels);
+  SCARP_TRY(Image image, read_image(plan.channels, plan.input, options, one_band));
+  outcome.field = std::move(image.field);
+  outcome.channels = std::move(image.channels);
   outcome.as_read = outcome.field.info;
   if (plan.error_goal && !plan.error_goal->unit.empty())
     return fail(ErrorKind::kUsage, "--max-error with a unit is for heights: errors of --image are in grey levels");
@@ -94,11 +90,10 @@ Result<void> read_draped_image(const SimplifyPlan& plan, const ProgressCallback&
   if (!plan.images.drape) return {};
   Run run;
   run.progress = progress;
-  Result<Drape> drape = read_drape(*plan.images.drape, outcome.as_read, outcome.field.cols, outcome.field.rows,
-                                   plan.images.drape_size, run);
-  if (!drape) return tl::unexpected(std::move(drape.error()));
-  outcome.drape = std::move(drape->picture);
-  for (std::string& warning : drape->warnings) outcome.companions.warnings.push_back(std::move(warning));
+  SCARP_TRY(Drape drape, read_drape(*plan.images.drape, outcome.as_read, outcome.field.cols, outcome.field.rows,
+                                    plan.images.drape_size, run));
+  outcome.drape = std::move(drape.picture);
+  for (std::string& warning : drape.warnings) outcome.companions.warnings.push_back(std::move(warning));
   return {};
 }
 
@@ -106,15 +101,10 @@ Result<void> read_draped_image(const SimplifyPlan& plan, const ProgressCallback&
 Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   Features& features = outcome.features;
   std::vector<std::string>& warnings = outcome.companions.warnings;
-  Result<LineConstraints> lines = plan.lines.read(outcome.as_read, outcome.field.rows, progress, warnings);
-  if (!lines) return tl::unexpected(std::move(lines.error()));
-  features.breaklines = std::move(*lines);
-  Result<ZonePlan> zones =
-      plan.zones.read(outcome.as_read, outcome.field.rows, progress, features.breaklines, warnings);
-  if (!zones) return tl::unexpected(std::move(zones.error()));
-  outcome.zone_plan = std::move(*zones);
-  const auto waters = read_waters(plan.lines, progress, memory_of(plan, outcome), outcome.field, features, warnings);
-  if (!waters) return waters;
+  SCARP_TRY(features.breaklines, plan.lines.read(outcome.as_read, outcome.field.rows, progress, warnings));
+  SCARP_TRY(outcome.zone_plan,
+            plan.zones.read(outcome.as_read, outcome.field.rows, progress, features.breaklines, warnings));
+  SCARP_RETURN_IF_ERROR(read_waters(plan.lines, progress, memory_of(plan, outcome), outcome.field, features, warnings));
   features.walls = plan.cliff.goals();
   features.ridges = plan.ridges.goals();
   return {};
@@ -124,27 +114,22 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   const Clock::time_point start = Clock::now();
   ReadOptions options = plan.read;
   options.run.progress = progress;
-  const Result<void> read =
-      plan.channels.image ? read_colors(plan, options, one_band, outcome) : read_heights(plan, options, outcome);
-  if (!read) return read;
-  Result<Companions> companions = read_companions(plan.companions, outcome.as_read, outcome.field, outcome.asked,
-                                                  {progress, plan.memory.value_or(0), plan.simplify.run.threads});
-  if (!companions) return tl::unexpected(std::move(companions.error()));
-  outcome.companions = std::move(*companions);
-  if (auto draped = read_draped_image(plan, progress, outcome); !draped) return draped;
+  SCARP_RETURN_IF_ERROR(plan.channels.image ? read_colors(plan, options, one_band, outcome)
+                                            : read_heights(plan, options, outcome));
+  SCARP_TRY(outcome.companions, read_companions(plan.companions, outcome.as_read, outcome.field, outcome.asked,
+                                                {progress, plan.memory.value_or(0), plan.simplify.run.threads}));
+  SCARP_RETURN_IF_ERROR(read_draped_image(plan, progress, outcome));
   if (plan.memory && outcome.companions.inserts_samples()) {
-    if (auto in_memory = check_in_memory(outcome.field, "--script", needs_of(plan)); !in_memory) return in_memory;
+    SCARP_RETURN_IF_ERROR(check_in_memory(outcome.field, "--script", needs_of(plan)));
   }
   const bool is_dem = plan.format.kind == OutputKind::kDem;
   if (plan.memory && (plan.error_raster || is_dem) && outcome.field.source) {
     const std::uint64_t bytes = outcome.companions.bytes + RasterFile::bytes(outcome.field.cols);
     const char* culprit = is_dem ? "the approximation as a raster" : "--error-raster";
-    if (auto fits = check_room(outcome.field, *plan.memory, bytes, culprit); !fits) return fits;
+    SCARP_RETURN_IF_ERROR(check_room(outcome.field, *plan.memory, bytes, culprit));
   }
-  if (auto features = read_features(plan, progress, outcome); !features) return features;
-  Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
-  if (!cut) return tl::unexpected(std::move(cut.error()));
-  outcome.cut = std::move(*cut);
+  SCARP_RETURN_IF_ERROR(read_features(plan, progress, outcome));
+  SCARP_TRY(outcome.cut, read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings));
   complete_info(outcome.field.info, outcome.as_read);
   outcome.seconds_read = seconds_since(start);
   return {};
@@ -185,14 +170,13 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   options.weigh = has_norms || companions.ignores_samples();
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = progress;
-  const Result<Judgement> judged =
-      judge_mesh(has_norms ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
-  if (!judged) return tl::unexpected(judged.error());
-  outcome.bounded = plan.channels.image ? judged->combined->bounded : judged->bounded;
+  SCARP_TRY(const Judgement& judged,
+            judge_mesh(has_norms ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options));
+  outcome.bounded = plan.channels.image ? judged.combined->bounded : judged.bounded;
   if (companions.ignores_samples()) {
-    outcome.bounded_goal = judged->weighted   ? judged->weighted->bounded.value
-                           : judged->combined ? judged->combined->bounded.value
-                                              : judged->bounded.value;
+    outcome.bounded_goal = judged.weighted   ? judged.weighted->bounded.value
+                           : judged.combined ? judged.combined->bounded.value
+                                             : judged.bounded.value;
   }
   add_judging(start, outcome);
   return {};
@@ -233,12 +217,9 @@ Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan
   const Clock::time_point start = Clock::now();
   Simplified& simplified = outcome.simplified;
   if (plan.solid) {
-    Result<Measurement> measured = measure(outcome.field, simplified.mesh, options);
-    if (!measured) return tl::unexpected(std::move(measured.error()));
-    simplified.measurement = std::move(*measured);
+    SCARP_TRY(simplified.measurement, measure(outcome.field, simplified.mesh, options));
   } else {
-    const Result<void> measured = measure_topology(outcome.field, simplified.mesh, options, simplified.measurement);
-    if (!measured) return measured;
+    SCARP_RETURN_IF_ERROR(measure_topology(outcome.field, simplified.mesh, options, simplified.measurement));
   }
   add_judging(start, outcome);
   return {};
@@ -258,13 +239,12 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   }
   if (plan.levels) return simplify_as_levels(plan, options, outcome);
   if (!plan.solid) return simplify(outcome.view(), options);
-  Result<PrintedTerrain> printed = simplify_as_print(*plan.solid, outcome.field, options);
-  if (!printed) return tl::unexpected(std::move(printed.error()));
-  outcome.print = std::move(printed->print);
+  SCARP_TRY(PrintedTerrain printed, simplify_as_print(*plan.solid, outcome.field, options));
+  outcome.print = std::move(printed.print);
   // The mesh may be smaller than the samples, and the print of it at a larger scale than was estimated.
   if (plan.solid->max_error && outcome.asked)
     outcome.asked = std::min(*outcome.asked, *plan.solid->max_error / outcome.print->placement.scale[2]);
-  return std::move(printed->simplified);
+  return std::move(printed.simplified);
 }
 
 /// Rewrites the library's error about an outline tolerance in terms of the option.
@@ -282,31 +262,26 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
   if (!has_inputs)
     return tl::unexpected(name_memory(given.memory, outcome.field, given.raster.explain(has_inputs.error())));
 
-  const Result<void> has_place = check_place_of_channels(plan, outcome.channels);
-  if (!has_place) return has_place;
+  SCARP_RETURN_IF_ERROR(check_place_of_channels(plan, outcome.channels));
   const Frame& frame = outcome.field.frame;
   if (plan.read.heights_in == HeightsIn::kMetres) {
-    if (auto checked = check_unit_of_frame(plan.format, frame.unit_in_metres); !checked) return checked;
+    SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, frame.unit_in_metres));
   }
-  if (auto checked = check_crs_of(plan.format, frame.crs, outcome.as_read.unit); !checked) return checked;
-  auto projections = plan_projection_files(plan, frame.crs);
-  if (!projections) return tl::unexpected(std::move(projections.error()));
-  outcome.projections = std::move(*projections);
+  SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, frame.crs, outcome.as_read.unit));
+  SCARP_TRY(outcome.projections, plan_projection_files(plan, frame.crs));
   if (plan.format.is_landxml() && frame.kind == Frame::Kind::kLocal && outcome.as_read.is_geographic &&
       plan.read.crs.empty()) {
     plan.warnings.push_back(
         "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
         "in its place");
   }
-  if (auto checked = check_frame_of_lines(plan.find_lines(), frame, plan.read.crs, plan.input); !checked)
-    return checked;
+  SCARP_RETURN_IF_ERROR(check_frame_of_lines(plan.find_lines(), frame, plan.read.crs, plan.input));
   SimplifyOptions options = plan.simplify;
   // Filled nodata is not the same on both sides of an edge.
   if (options.output.normals && options.domain.border.is_locked && plan.policy == NodataPolicy::kHole) {
     const OwnedHeightField& field = outcome.field;
-    Result<BeyondEdges> beyond = read_beyond(plan.input, plan.read, outcome.as_read, field.cols, field.rows);
-    if (!beyond) return tl::unexpected(std::move(beyond.error()));
-    options.domain.border.beyond = std::move(*beyond);
+    SCARP_TRY(options.domain.border.beyond,
+              read_beyond(plan.input, plan.read, outcome.as_read, field.cols, field.rows));
   }
   options.goals.max_error = outcome.asked;
   options.tolerances = outcome.companions.bounds();
@@ -319,7 +294,7 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
     if (runner.on_keeping) runner.on_keeping();
   }
   if (plan.memory) options.run.memory.taken = memory_of(plan, outcome).taken + outcome.cut.bytes;
-  if (auto checked = check_conflicts(given, outcome.view(), options); !checked) return checked;
+  SCARP_RETURN_IF_ERROR(check_conflicts(given, outcome.view(), options));
   Result<Simplified> simplified = simplify_as_planned(plan, options, outcome);
   if (!simplified) {
     Error error = name_outline(name_memory(given.memory, outcome.field, std::move(simplified.error())));
@@ -338,18 +313,16 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
   const bool by_construction = options.output.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows)
                                                                 : field.frame.is_affine();
   if (plan.report && by_construction) {
-    const Result<void> judged = judge_topology(runner.progress, plan, outcome);
-    if (!judged) return judged;
+    SCARP_RETURN_IF_ERROR(judge_topology(runner.progress, plan, outcome));
   }
   if (outcome.simplified.ignored > 0) {
-    const Result<void> judged = judge_bounded(plan, runner.progress, outcome);
-    if (!judged) return judged;
+    SCARP_RETURN_IF_ERROR(judge_bounded(plan, runner.progress, outcome));
   }
   Result<void> promise = check_promise(outcome);
   for (Level& level : outcome.coarser) {
     if (promise) promise = with_level(outcome, level, [&] { return check_promise(outcome); });
   }
-  if (!promise) return promise;
+  SCARP_RETURN_IF_ERROR(promise);
   outcome.warnings = plan.warnings;
   const auto needle = plan.channels.image ? std::nullopt : find_needle(field, outcome.as_read);
   if (needle) outcome.warnings.push_back(*needle);

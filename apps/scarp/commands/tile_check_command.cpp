@@ -62,9 +62,8 @@ Result<void> TileCheckCommand::check_unused() const {
 Result<OpenedJob> TileCheckCommand::open_source(const TileSetReader& set, const TileGrid& of_set,
                                                 const ProgressCallback& progress, int threads) const {
   if (lower_extension(*source_) == ".json") {
-    auto job = read_tile_job(*source_);
-    if (!job) return tl::unexpected(job.error());
-    return open_job(std::move(*job), kSourceBytes, threads);
+    SCARP_TRY(auto&& job, read_tile_job(*source_));
+    return open_job(std::move(job), kSourceBytes, threads);
   }
   TileArguments tiles = tiles_;
   tiles.raster.paths = {*source_};
@@ -78,26 +77,21 @@ Result<OpenedJob> TileCheckCommand::open_source(const TileSetReader& set, const 
 Result<void> TileCheckCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
   TileCheckOptions options;
-  const Result<int> threads = parse_threads(threads_);
-  if (!threads) return tl::unexpected(threads.error());
-  options.run.threads = *threads;
-  if (auto unused = check_unused(); !unused) return unused;
-  const auto set = open_tile_set(set_);
-  if (!set) return tl::unexpected(set.error());
-  const TileGrid of_set = find_grid(**set);
+  SCARP_TRY(const int threads, parse_threads(threads_));
+  options.run.threads = threads;
+  SCARP_RETURN_IF_ERROR(check_unused());
+  SCARP_TRY(const auto& set, open_tile_set(set_));
+  const TileGrid of_set = find_grid(*set);
   if (tiles_.grid) {
-    const Result<GridKind> kind = parse_grid(*tiles_.grid, false);
-    if (!kind) return tl::unexpected(kind.error());
+    SCARP_TRY(const GridKind kind, parse_grid(*tiles_.grid, false));
     if (of_set.is_flat())
       return fail(ErrorKind::kUsage, "--grid is for sets that do not name theirs, and those of a local grid do");
-    options.grid = TileGrid{.kind = *kind};
+    options.grid = TileGrid{.kind = kind};
   }
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   OpenedJob opened;
   if (source_) {
-    auto source = open_source(**set, of_set, display.callback(), *threads);
-    if (!source) return tl::unexpected(source.error());
-    opened = std::move(*source);
+    SCARP_TRY(opened, open_source(*set, of_set, display.callback(), threads));
     const PyramidPlan& plan = opened.job.plan;
     const LocalRaster &mine = plan.grid.local, &theirs = of_set.local;
     if (mine.cols != theirs.cols || mine.rows != theirs.rows || mine.cell_x != theirs.cell_x ||
@@ -114,20 +108,18 @@ Result<void> TileCheckCommand::run(const std::string& command_line) const {
     if (is_plan || tiles_.background) options.nodes.background = plan.background;
   }
   options.run.progress = display.callback();
-  const Result<TileCheck> check = check_tiles(**set, options);
-  if (!check) return tl::unexpected(check.error());
+  SCARP_TRY(const TileCheck& check, check_tiles(*set, options));
   display.finish();
   if (json_) {
     Json report{{"command", command_line}, {"set", set_}};
-    add_tile_check(report, *check);
+    add_tile_check(report, check);
     report["seconds"] = seconds_since(start);
-    if (auto printed = print_to_stdout(to_text(report)); !printed) return printed;
+    SCARP_RETURN_IF_ERROR(print_to_stdout(to_text(report)));
   } else if (!quiet_) {
-    if (auto printed = print_to_stdout(make_check_summary(set_, *check, seconds_since(start))); !printed)
-      return printed;
+    SCARP_RETURN_IF_ERROR(print_to_stdout(make_check_summary(set_, check, seconds_since(start))));
   }
-  if (check->holds()) return {};
-  return fail(ErrorKind::kPromise, describe_faults(set_, *check));
+  if (check.holds()) return {};
+  return fail(ErrorKind::kPromise, describe_faults(set_, check));
 }
 
 }  // namespace scarp::cli

@@ -25,33 +25,31 @@ TileCommand::TileCommand(CLI::App& program) : command_(add_command(program, kTil
 
 Result<void> TileCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
-  const Result<int> threads = parse_threads(threads_);
-  if (!threads) return tl::unexpected(threads.error());
+  SCARP_TRY(const int threads, parse_threads(threads_));
   std::vector<PlannedOutput> outputs;
   if (report_) outputs.push_back({"--report", *report_});
-  if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
+  SCARP_RETURN_IF_ERROR(check_outputs(outputs, files_read(*command_), overwrite_));
 
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   TileCounts counts;
   display.show_tiles(counts);
   Run run;
-  run.threads = *threads;
+  run.threads = threads;
   run.progress = display.callback();
-  const Result<MadeTiles> made = make_tiles(tiles_, output_, overwrite_, run, counts);
-  if (!made) return tl::unexpected(made.error());
+  SCARP_TRY(const MadeTiles& made, make_tiles(tiles_, output_, overwrite_, run, counts));
   display.finish();
-  if (!quiet_) print_warnings(made->warnings);
-  const TileJob& job = made->opened.job;
+  if (!quiet_) print_warnings(made.warnings);
+  const TileJob& job = made.opened.job;
   const double seconds = seconds_since(start);
   if (report_) {
     Json json{{"command", command_line}, {"input", tiles_.raster.paths}};
-    add_tiles(json, job, output_, made->report);
-    json["warnings"] = made->warnings;
+    add_tiles(json, job, output_, made.report);
+    json["warnings"] = made.warnings;
     json["seconds"] = seconds;
-    if (auto written = write_report(json, *report_, overwrite_, output_); !written) return written;
+    SCARP_RETURN_IF_ERROR(write_report(json, *report_, overwrite_, output_));
   }
   if (quiet_) return {};
-  return print_summary(make_tile_summary(job, output_, made->report, seconds));
+  return print_summary(make_tile_summary(job, output_, made.report, seconds));
 }
 
 }  // namespace scarp::cli

@@ -31,40 +31,35 @@ TileFinishCommand::TileFinishCommand(CLI::App& program) : command_(add_command(p
 Result<void> TileFinishCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
   Run run;
-  const Result<int> threads = parse_threads(threads_);
-  if (!threads) return tl::unexpected(threads.error());
-  run.threads = *threads;
+  SCARP_TRY(run.threads, parse_threads(threads_));
   std::vector<PlannedOutput> outputs;
   if (report_) outputs.push_back({"--report", *report_});
-  if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
-  const Result<TileJob> job = read_tile_job(plan_);
-  if (!job) return tl::unexpected(job.error());
-  if (auto fits = check_container(*job, output_); !fits) return fits;
-  auto container = create_tile_set(output_, job->format, overwrite_);
-  if (!container) return tl::unexpected(container.error());
+  SCARP_RETURN_IF_ERROR(check_outputs(outputs, files_read(*command_), overwrite_));
+  SCARP_TRY(const TileJob& job, read_tile_job(plan_));
+  SCARP_RETURN_IF_ERROR(check_container(job, output_));
+  SCARP_TRY(auto&& container, create_tile_set(output_, job.format, overwrite_));
   TileCounts counts;
-  CountedSet set(std::move(*container), counts);
+  CountedSet set(std::move(container), counts);
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   display.show_tiles(counts);
   run.progress = display.callback();
   PartsCost cost;
-  const Result<PyramidReport> report = finish_parts(*job, parts_folder(plan_, parts_, *job), set, run, &cost);
-  if (!report) return tl::unexpected(report.error());
+  SCARP_TRY(const PyramidReport& report, finish_parts(job, parts_folder(plan_, parts_, job), set, run, &cost));
   display.finish();
   if (!quiet_) {
-    print_warnings(warnings_of_levels(job->plan, *report));
-    if (const auto changed = find_changed(*job)) print_warnings({*changed + ": the set shows it as it was then"});
+    print_warnings(warnings_of_levels(job.plan, report));
+    if (const auto changed = find_changed(job)) print_warnings({*changed + ": the set shows it as it was then"});
   }
   const double seconds = seconds_since(start);
   if (report_) {
     Json json{{"command", command_line}, {"plan", plan_}};
-    add_tiles(json, *job, output_, *report);
-    json["model"] = compare_model(*job, *report, cost);
+    add_tiles(json, job, output_, report);
+    json["model"] = compare_model(job, report, cost);
     json["seconds"] = seconds;
-    if (auto written = write_report(json, *report_, overwrite_, output_); !written) return written;
+    SCARP_RETURN_IF_ERROR(write_report(json, *report_, overwrite_, output_));
   }
   if (quiet_) return {};
-  return print_summary(make_tile_summary(*job, output_, *report, seconds) + summarize_model(*job, *report, cost));
+  return print_summary(make_tile_summary(job, output_, report, seconds) + summarize_model(job, report, cost));
 }
 
 }  // namespace scarp::cli

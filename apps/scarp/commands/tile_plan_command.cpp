@@ -75,11 +75,10 @@ TilePlanCommand::TilePlanCommand(CLI::App& program) : command_(add_command(progr
 
 Result<OpenedJob> TilePlanCommand::open(const ProgressCallback& progress) const {
   constexpr Choice<bool> kHashes[] = {{"stamp", false}, {"content", true}};
-  const Result<bool> reads_all = choose("--hash", hash_.value_or("stamp"), kHashes);
-  if (!reads_all) return tl::unexpected(reads_all.error());
+  SCARP_TRY(const bool reads_all, choose("--hash", hash_.value_or("stamp"), kHashes));
   Result<OpenedJob> opened = changed_since_ ? follow(progress) : tiles_.open(progress);
-  if (opened && *reads_all) {
-    if (auto added = add_contents(opened->job); !added) return tl::unexpected(added.error());
+  if (opened && reads_all) {
+    SCARP_RETURN_IF_ERROR(add_contents(opened->job));
   }
   return opened;
 }
@@ -93,49 +92,44 @@ Result<OpenedJob> TilePlanCommand::follow(const ProgressCallback& progress) cons
       return fail(ErrorKind::kUsage,
                   fmt::format("{} does not go with --changed-since: {} has decided it", name, *changed_since_));
   }
-  const Result<TileJob> earlier = read_tile_job(*changed_since_);
-  if (!earlier) return tl::unexpected(earlier.error());
-  auto opened = tiles_.follow(*earlier, progress);
-  if (!opened) return opened;
+  SCARP_TRY(const TileJob& earlier, read_tile_job(*changed_since_));
+  SCARP_TRY(auto&& opened, tiles_.follow(earlier, progress));
   std::error_code error;
-  opened->job.parts =
-      std::filesystem::absolute(parts_folder(*changed_since_, {}, *earlier), error).lexically_normal().string();
+  opened.job.parts =
+      std::filesystem::absolute(parts_folder(*changed_since_, {}, earlier), error).lexically_normal().string();
   return opened;
 }
 
 Result<void> TilePlanCommand::run() const {
   std::vector<PlannedOutput> outputs{{"PLAN", plan_}};
   if (slurm_) outputs.push_back({"--slurm", *slurm_});
-  if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
+  SCARP_RETURN_IF_ERROR(check_outputs(outputs, files_read(*command_), overwrite_));
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  Result<OpenedJob> opened = open(display.callback());
-  if (!opened) return tl::unexpected(opened.error());
-  const Result<TileEstimate> estimate = estimate_tiles(opened->job, opened->raster->nodes());
-  if (!estimate) return tl::unexpected(estimate.error());
-  opened->job.estimate = *estimate;
+  SCARP_TRY(OpenedJob opened, open(display.callback()));
+  SCARP_TRY(const TileEstimate& estimate, estimate_tiles(opened.job, opened.raster->nodes()));
+  opened.job.estimate = estimate;
   if (survey_) {
     Run run;
     run.progress = display.callback();
-    if (auto surveyed = survey_blocks(opened->job, opened->raster->nodes(), run); !surveyed) return surveyed;
+    SCARP_RETURN_IF_ERROR(survey_blocks(opened.job, opened.raster->nodes(), run));
   }
-  const std::uint64_t blocks = std::max<std::uint64_t>(estimate->blocks, 1);
+  const std::uint64_t blocks = std::max<std::uint64_t>(estimate.blocks, 1);
   std::uint64_t shards = std::min(blocks, kMostShards);
   if (shards_) {
-    const Result<std::uint64_t> count = parse_count("--shards", *shards_, 1);
-    if (!count) return tl::unexpected(count.error());
-    shards = std::min(*count, blocks);
+    SCARP_TRY(const std::uint64_t count, parse_count("--shards", *shards_, 1));
+    shards = std::min(count, blocks);
   }
-  const std::vector<std::uint8_t> plan = encode_tile_job(opened->job);
-  const std::string script = slurm_script(plan_, shards, estimate->memory + kShareRasterBytes);
+  const std::vector<std::uint8_t> plan = encode_tile_job(opened.job);
+  const std::string script = slurm_script(plan_, shards, estimate.memory + kShareRasterBytes);
   std::vector<FileBytes> files{{plan_, plan}};
   if (slurm_)
     files.push_back({*slurm_, std::span(reinterpret_cast<const std::uint8_t*>(script.data()), script.size())});
-  if (auto written = write_files(files, overwrite_); !written) return written;
+  SCARP_RETURN_IF_ERROR(write_files(files, overwrite_));
   display.finish();
   if (quiet_) return {};
-  print_warnings(warnings_of_raster(*opened->raster));
-  print_warnings(opened->warnings);
-  return print_summary(make_summary(opened->job, plan_, *estimate, shards));
+  print_warnings(warnings_of_raster(*opened.raster));
+  print_warnings(opened.warnings);
+  return print_summary(make_summary(opened.job, plan_, estimate, shards));
 }
 
 }  // namespace scarp::cli

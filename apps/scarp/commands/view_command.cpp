@@ -50,9 +50,8 @@ bool is_tile_set(const std::string& path) {
 
 /// A mesh for each level that the page holds, the finest first.
 Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<std::string>& warnings) {
-  const auto set = open_tile_set(path);
-  if (!set) return tl::unexpected(set.error());
-  const auto levels = read_level_meshes(**set, kMostTileBytes);
+  SCARP_TRY(const auto& set, open_tile_set(path));
+  const auto levels = read_level_meshes(*set, kMostTileBytes);
   if (!levels && levels.error().kind == ErrorKind::kUsage) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is too large for a page: {}; 'scarp serve {}' serves it to globes, with a page of "
@@ -60,7 +59,7 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
                             path, levels.error().message, shell_word(path)));
   }
   if (!levels) return fail(levels.error().kind, path + ": " + levels.error().message);
-  const auto& tiles = (*set)->tiles();
+  const auto& tiles = set->tiles();
   std::size_t finest = tiles.size() - 1;
   while (tiles[finest].empty()) --finest;
   if (static_cast<int>(finest) > levels->front().z) {
@@ -69,7 +68,7 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
         "all of them to globes, with a page of docs/guide/globe.md",
         levels->front().z, finest, format_bytes(kMostTileBytes), shell_word(path)));
   }
-  if (const auto faults = find_set_faults(**set); !faults.empty()) {
+  if (const auto faults = find_set_faults(*set); !faults.empty()) {
     const std::string more = faults.size() > 1 ? fmt::format(", and {} more", faults.size() - 1) : "";
     warnings.push_back(fmt::format("{} is not whole: {}{}; 'scarp tile check {}' tells all", path, faults.front(), more,
                                    shell_word(path)));
@@ -104,29 +103,25 @@ std::vector<std::string> ViewCommand::mesh_paths() const {
 Result<std::vector<PageMesh>> ViewCommand::read_meshes(bool is_y_up, Mesh& first) const {
   std::vector<PageMesh> meshes;
   for (const std::string& path : mesh_paths()) {
-    auto bytes = read_file(path);
-    if (!bytes) return tl::unexpected(bytes.error());
-    Result<Mesh> mesh = decode_mesh(*bytes, path);
-    if (!mesh) return tl::unexpected(mesh.error());
-    turn_up(is_y_up, path, *mesh);
-    undo_placement(*mesh);
-    const std::uint64_t size = bytes->size();
-    if (!std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()).starts_with("glTF")) {
-      bytes = encode_mesh(*mesh, MeshFormat::kGlb);
-      if (!bytes) return tl::unexpected(bytes.error());
+    SCARP_TRY(auto&& bytes, read_file(path));
+    SCARP_TRY(Mesh mesh, decode_mesh(bytes, path));
+    turn_up(is_y_up, path, mesh);
+    undo_placement(mesh);
+    const std::uint64_t size = bytes.size();
+    if (!std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("glTF")) {
+      SCARP_TRY(bytes, encode_mesh(mesh, MeshFormat::kGlb));
     }
-    if (meshes.empty()) first = std::move(*mesh);
-    meshes.push_back({path, size, std::move(*bytes)});
+    if (meshes.empty()) first = std::move(mesh);
+    meshes.push_back({path, size, std::move(bytes)});
   }
   return meshes;
 }
 
 Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<std::string>& warnings) const {
   const RasterArguments asked = remember_options(raster_, mesh);
-  Result<ReadOptions> read = asked.parse();
-  if (!read) return tl::unexpected(read.error());
-  read->heights_in = heights_in(mesh_);
-  Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
+  SCARP_TRY(ReadOptions read, asked.parse());
+  read.heights_in = heights_in(mesh_);
+  Result<OwnedHeightField> field = read_height_field(raster_.path(), read);
   if (!field && is_point_file(raster_.path())) {
     return fail(ErrorKind::kInput,
                 fmt::format("{} holds points, and a page judges by a raster alone: 'scarp view {}' shows the mesh, "
@@ -135,17 +130,16 @@ Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<
   }
   if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
   if (!asked.crs && fit_frame(mesh, *field)) {
-    read->crs = "source";
-    if (field = read_height_field(raster_.path(), *read); !field) return field;
+    read.crs = "source";
+    if (field = read_height_field(raster_.path(), read); !field) return field;
   }
   if (!raster_.crs) warnings = place_frame(mesh, *field);
   return field;
 }
 
 Result<void> ViewCommand::check_place(const Mesh& mesh, const OwnedHeightField& field) const {
-  const auto measured = measure(field.view(), mesh, {.topology = false});
-  if (!measured) return tl::unexpected(measured.error());
-  if (measured->samples > 0) return {};
+  SCARP_TRY(const auto& measured, measure(field.view(), mesh, {.topology = false}));
+  if (measured.samples > 0) return {};
   return fail(ErrorKind::kPromise,
               mesh_ + ": " + describe_elsewhere(extent_of(mesh), extent_of(field.view()), raster_.path()));
 }
@@ -157,10 +151,9 @@ Result<void> ViewCommand::run() const {
                             raster_.canonical().substr(1), shell_word(mesh_)));
   }
   if (!raster_.paths.empty()) {
-    if (const auto read = raster_.parse(); !read) return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(raster_.parse());
   }
-  const Result<bool> is_y_up = parse_up(up_);
-  if (!is_y_up) return tl::unexpected(is_y_up.error());
+  SCARP_TRY(const bool is_y_up, parse_up(up_));
   const bool is_set = is_tile_set(mesh_);
   if (is_set && !raster_.paths.empty()) {
     return fail(ErrorKind::kUsage,
@@ -173,33 +166,28 @@ Result<void> ViewCommand::run() const {
                                                "name the folder that holds one of them, or a mesh",
                                                mesh_));
   }
-  const auto page_template = read_page_template();
-  if (!page_template) return tl::unexpected(page_template.error());
+  SCARP_TRY(const auto& page_template, read_page_template());
   const std::string path =
       page_.value_or(std::filesystem::path(without_slash(mesh_)).replace_extension(".html").string());
-  if (auto checked = check_outputs({{"--output", path}}, files_read(*command_), overwrite_); !checked) return checked;
+  SCARP_RETURN_IF_ERROR(check_outputs({{"--output", path}}, files_read(*command_), overwrite_));
   Mesh mesh;
   std::vector<std::string> warnings;
-  const auto meshes = is_set ? read_levels(mesh_, warnings) : read_meshes(*is_y_up, mesh);
-  if (!meshes) return tl::unexpected(meshes.error());
+  SCARP_TRY(const auto& meshes, is_set ? read_levels(mesh_, warnings) : read_meshes(is_y_up, mesh));
   std::optional<OwnedHeightField> field;
   if (!raster_.paths.empty()) {
-    auto read = read_raster(mesh, warnings);
-    if (!read) return tl::unexpected(std::move(read.error()));
-    field = std::move(*read);
-    if (auto lies = check_place(mesh, *field); !lies) return lies;
+    SCARP_TRY(field, read_raster(mesh, warnings));
+    SCARP_RETURN_IF_ERROR(check_place(mesh, *field));
   }
-  const auto page = make_view_page(*page_template, without_slash(mesh_), *meshes, field ? &*field : nullptr);
-  if (!page) return tl::unexpected(page.error());
-  if (page->left_out) warnings.push_back(*page->left_out);
-  if (auto written = write_file(path, page->html, overwrite_); !written) return written;
+  SCARP_TRY(const auto& page, make_view_page(page_template, without_slash(mesh_), meshes, field ? &*field : nullptr));
+  if (page.left_out) warnings.push_back(*page.left_out);
+  SCARP_RETURN_IF_ERROR(write_file(path, page.html, overwrite_));
   if (!quiet_) {
     print_warnings(warnings);
-    const std::string summary = fmt::format("{}: {}; open it in a browser\n", path, format_bytes(page->html.size()));
+    const std::string summary = fmt::format("{}: {}; open it in a browser\n", path, format_bytes(page.html.size()));
     if (is_stdout(path)) {
       print_to_stderr(summary);
-    } else if (auto printed = print_summary(summary); !printed) {
-      return printed;
+    } else {
+      SCARP_RETURN_IF_ERROR(print_summary(summary));
     }
   }
   return open_ ? open_in_browser(path) : Result<void>();

@@ -22,9 +22,8 @@ Result<std::vector<double>> parse_weights(const std::string& text) {
   std::vector<double> weights;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.find(',', start), text.size());
-    const Result<double> weight = parse_non_negative("--channel-weights", text.substr(start, end - start));
-    if (!weight) return tl::unexpected(weight.error());
-    weights.push_back(*weight);
+    SCARP_TRY(const double weight, parse_non_negative("--channel-weights", text.substr(start, end - start)));
+    weights.push_back(weight);
     start = end + 1;
   }
   if (*std::max_element(weights.begin(), weights.end()) > 0) return weights;
@@ -142,13 +141,12 @@ Result<ChannelPlan> ChannelArguments::parse(const RasterArguments& raster) const
   }
   if (texture_weight) {
     if (textures.empty()) return fail(ErrorKind::kUsage, "--texture-weight needs --texture");
-    const Result<double> weight = parse_non_negative("--texture-weight", *texture_weight);
-    if (!weight) return tl::unexpected(weight.error());
-    if (*weight > 1) {
+    SCARP_TRY(const double weight, parse_non_negative("--texture-weight", *texture_weight));
+    if (weight > 1) {
       return fail(ErrorKind::kUsage, fmt::format("--texture-weight {} is above 1, which means textures only",
                                                  shell_word(*texture_weight)));
     }
-    plan.texture_weight = *weight;
+    plan.texture_weight = weight;
   }
   const std::pair<const char*, const Given*> needing[] = {{"--norm", &norm}, {"--channel-weights", &weights}};
   for (const auto& [name, text] : needing) {
@@ -158,14 +156,10 @@ Result<ChannelPlan> ChannelArguments::parse(const RasterArguments& raster) const
   }
   plan.norm = image ? Norm::kMax : Norm::kSum;
   if (norm) {
-    const Result<Norm> parsed = choose("--norm", *norm, kNorms);
-    if (!parsed) return tl::unexpected(parsed.error());
-    plan.norm = *parsed;
+    SCARP_TRY(plan.norm, choose("--norm", *norm, kNorms));
   }
   if (weights) {
-    Result<std::vector<double>> parsed = parse_weights(*weights);
-    if (!parsed) return tl::unexpected(std::move(parsed.error()));
-    plan.weights = std::move(*parsed);
+    SCARP_TRY(plan.weights, parse_weights(*weights));
   }
   return plan;
 }
@@ -195,19 +189,16 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
       texture.error().message = fmt::format("--texture: {}", texture.error().message);
       return tl::unexpected(std::move(texture.error()));
     }
-    const Result<void> fits =
-        check_grid(heights.info, heights.cols, heights.rows, "--texture", texture->info, texture->cols, texture->rows);
-    if (!fits) return tl::unexpected(fits.error());
-    const Result<void> covers = check_coverage(*texture, heights);
-    if (!covers) return tl::unexpected(covers.error());
+    SCARP_RETURN_IF_ERROR(
+        check_grid(heights.info, heights.cols, heights.rows, "--texture", texture->info, texture->cols, texture->rows));
+    SCARP_RETURN_IF_ERROR(check_coverage(*texture, heights));
     append(channels.bands, std::move(*texture));
   }
   if (channels.count() > kMaxChannels) {
     return fail(ErrorKind::kInput, fmt::format("--texture: the files hold {} bands, more than {}: leave some out",
                                                channels.count(), kMaxChannels));
   }
-  const Result<void> counted = check_weight_count(plan, channels.count());
-  if (!counted) return tl::unexpected(counted.error());
+  SCARP_RETURN_IF_ERROR(check_weight_count(plan, channels.count()));
 
   channels.names = name_bands(channels.bands);
   const double relief = heights.info.max > heights.info.min ? heights.info.max - heights.info.min : 1;
@@ -226,11 +217,8 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
 Result<Image> read_image(const ChannelPlan& plan, const std::string& path, const ReadOptions& options, bool one_band) {
   Image image;
   Channels& channels = image.channels;
-  Result<OwnedChannels> bands = read_channels(path, options, !one_band);
-  if (!bands) return tl::unexpected(std::move(bands.error()));
-  channels.bands = std::move(*bands);
-  const Result<void> counted = check_weight_count(plan, channels.count());
-  if (!counted) return tl::unexpected(counted.error());
+  SCARP_TRY(channels.bands, read_channels(path, options, !one_band));
+  SCARP_RETURN_IF_ERROR(check_weight_count(plan, channels.count()));
 
   channels.names = name_bands(channels.bands);
   channels.height_scale = 0;

@@ -32,9 +32,7 @@ Result<OwnedHeightField> read_values(const char* option, const std::string& path
   Result<OwnedHeightField> values =
       in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
   if (!values) return name_option(option, ": ", std::move(values.error()));
-  const Result<void> fits =
-      check_grid(raster, field.cols, field.rows, option, values->info, values->cols, values->rows);
-  if (!fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_grid(raster, field.cols, field.rows, option, values->info, values->cols, values->rows));
   return values;
 }
 
@@ -80,10 +78,9 @@ Result<RegionFile> parse_region(const std::string& text) {
   if (at == std::string::npos || at == 0)
     return fail(ErrorKind::kUsage,
                 fmt::format("--roi {}: behind the file an error is missing, such as {}=0.2", shell_word(text), text));
-  const Result<double> tolerance =
-      parse_non_negative(fmt::format("--roi {}: the error", shell_word(text)), text.substr(at + 1));
-  if (!tolerance) return tl::unexpected(tolerance.error());
-  return RegionFile{text.substr(0, at), *tolerance};
+  SCARP_TRY(const double tolerance,
+            parse_non_negative(fmt::format("--roi {}: the error", shell_word(text)), text.substr(at + 1)));
+  return RegionFile{text.substr(0, at), tolerance};
 }
 
 /// In the order of CompanionArguments::roi.
@@ -95,12 +92,10 @@ Result<std::vector<Region>> read_regions(const CompanionArguments& given, const 
   options.progress = progress;
   std::vector<Region> regions;
   for (const std::string& text : given.roi) {
-    const Result<RegionFile> file = parse_region(text);
-    if (!file) return tl::unexpected(file.error());
-    auto set = read_lines(file->path, options);
-    if (!set) return tl::unexpected(std::move(set.error()));
-    companions.warnings.insert(companions.warnings.end(), set->warnings.begin(), set->warnings.end());
-    regions.push_back({std::move(set->lines), file->tolerance});
+    SCARP_TRY(const RegionFile& file, parse_region(text));
+    SCARP_TRY(auto&& set, read_lines(file.path, options));
+    companions.warnings.insert(companions.warnings.end(), set.warnings.begin(), set.warnings.end());
+    regions.push_back({std::move(set.lines), file.tolerance});
   }
   return regions;
 }
@@ -140,27 +135,24 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
   std::optional<OwnedHeightField> values;
   std::uint64_t bytes = 0;
   if (given.tolerance) {
-    auto read = read_values("--tolerance", *given.tolerance, raster, field, run, in_windows);
-    if (!read) return tl::unexpected(std::move(read.error()));
-    if (const double scale = units_of(read->info, raster); scale != 1) {
-      read = read_values("--tolerance", *given.tolerance, raster, field, run, in_windows, scale);
-      if (!read) return tl::unexpected(std::move(read.error()));
+    SCARP_TRY(auto&& read, read_values("--tolerance", *given.tolerance, raster, field, run, in_windows));
+    if (const double scale = units_of(read.info, raster); scale != 1) {
+      SCARP_TRY(read, read_values("--tolerance", *given.tolerance, raster, field, run, in_windows, scale));
     }
-    add_warnings(*read, companions);
-    if (in_windows) bytes = bytes_beside(*read, field, run.memory);
-    values = std::move(*read);
+    add_warnings(read, companions);
+    if (in_windows) bytes = bytes_beside(read, field, run.memory);
+    values = std::move(read);
   }
-  const auto regions = read_regions(given, raster, run.progress, companions);
-  if (!regions) return tl::unexpected(regions.error());
-  if (in_windows && !regions->empty()) {
-    if (auto fits = check_regions(field, *regions, run.memory); !fits) return fits;
+  SCARP_TRY(const auto& regions, read_regions(given, raster, run.progress, companions));
+  if (in_windows && !regions.empty()) {
+    SCARP_RETURN_IF_ERROR(check_regions(field, regions, run.memory));
   }
-  auto made = make_tolerances(std::move(values), *regions, grid_of(given, raster, field, bound),
+  auto made = make_tolerances(std::move(values), regions, grid_of(given, raster, field, bound),
                               {in_windows, {run.threads, {}, run.progress}});
   if (!made) return name_option("--tolerance", " ", std::move(made.error()));
   if (given.tolerance && !made->has_values) {
     companions.warnings.push_back(fmt::format("--tolerance {} holds no value: it changes nothing", *given.tolerance));
-    if (regions->empty()) return {};
+    if (regions.empty()) return {};
   }
   warn_of_missing(given, made->found, companions);
   companions.bytes += made->bytes + bytes;
@@ -172,14 +164,13 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
 Result<void> read_weights(const std::string& path, const RasterInfo& raster, const OwnedHeightField& field,
                           const CompanionRun& run, Companions& companions) {
   const bool in_windows = field.source != nullptr;
-  Result<OwnedHeightField> values = read_values("--mask", path, raster, field, run, in_windows);
-  if (!values) return tl::unexpected(std::move(values.error()));
-  add_warnings(*values, companions);
+  SCARP_TRY(OwnedHeightField values, read_values("--mask", path, raster, field, run, in_windows));
+  add_warnings(values, companions);
   if (in_windows) {
-    companions.bytes += bytes_beside(*values, field, run.memory);
-    if (auto fits = check_room(field, run.memory, companions.bytes, "--mask"); !fits) return fits;
+    companions.bytes += bytes_beside(values, field, run.memory);
+    SCARP_RETURN_IF_ERROR(check_room(field, run.memory, companions.bytes, "--mask"));
   }
-  Result<OwnedWeights> mask = make_weights(std::move(*values), {in_windows, {run.threads, {}, run.progress}});
+  Result<OwnedWeights> mask = make_weights(std::move(values), {in_windows, {run.threads, {}, run.progress}});
   if (!mask) return name_option("--mask", " ", std::move(mask.error()));
   companions.mask = std::move(*mask);
   return {};
@@ -188,9 +179,7 @@ Result<void> read_weights(const std::string& path, const RasterInfo& raster, con
 /// Reads the steps of --script, which count in addition to heights that have a source.
 Result<void> read_steps(const std::string& path, const OwnedHeightField& field, const CompanionRun& run,
                         Companions& companions) {
-  Result<Script> script = read_script(path, field.cols, field.rows);
-  if (!script) return tl::unexpected(std::move(script.error()));
-  companions.script = std::move(*script);
+  SCARP_TRY(companions.script, read_script(path, field.cols, field.rows));
   if (companions.script.size() == 0)
     companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", path));
   if (!field.source) return {};
@@ -217,13 +206,12 @@ const char* CompanionArguments::find_tolerance() const {
 
 Result<void> CompanionArguments::check(const char* bound_option, bool has_bound) const {
   for (const std::string& text : roi) {
-    if (const auto region = parse_region(text); !region) return tl::unexpected(region.error());
+    SCARP_RETURN_IF_ERROR(parse_region(text));
   }
   if (mask && !roi.empty())
     return fail(ErrorKind::kUsage, "--mask cannot be combined with --roi: regions have errors, not weights");
   if (falloff) {
-    if (const auto distance = parse_non_negative("--falloff", *falloff); !distance)
-      return tl::unexpected(distance.error());
+    SCARP_RETURN_IF_ERROR(parse_non_negative("--falloff", *falloff));
     if (roi.empty())
       return fail(ErrorKind::kUsage, "--falloff needs --roi: there is no region that it could be around");
     if (!has_bound)
@@ -257,15 +245,13 @@ Result<Companions> read_companions(const CompanionArguments& given, const Raster
                                    const CompanionRun& run) {
   Companions companions;
   if (given.mask) {
-    if (auto read = read_weights(*given.mask, raster, field, run, companions); !read)
-      return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(read_weights(*given.mask, raster, field, run, companions));
   }
   if (given.find_tolerance() != nullptr) {
-    const Result<void> read = read_tolerances(given, raster, field, bound, run, companions);
-    if (!read) return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(read_tolerances(given, raster, field, bound, run, companions));
   }
   if (given.script) {
-    if (auto read = read_steps(*given.script, field, run, companions); !read) return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(read_steps(*given.script, field, run, companions));
   }
   return companions;
 }

@@ -31,16 +31,15 @@ Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCa
     return flats;
   }
   if (given.water.empty()) return std::vector<Lake>();
-  const auto polygons = read_files(given.water, plan_reading(field, progress), warnings);
-  if (!polygons) return tl::unexpected(polygons.error());
-  if (auto closed = check_polygons(*polygons, "--water", "--rivers"); !closed) return tl::unexpected(closed.error());
+  SCARP_TRY(const auto& polygons, read_files(given.water, plan_reading(field, progress), warnings));
+  SCARP_RETURN_IF_ERROR(check_polygons(polygons, "--water", "--rivers"));
   WaterOptions options;
   options.affine = affine;
   options.run.memory.limit = memory.limit;
   options.run.memory.taken = memory.taken;
   options.run.progress = progress;
   if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
-  auto lakes = flatten_lakes(field, *polygons, options);
+  auto lakes = flatten_lakes(field, polygons, options);
   if (lakes && lakes->empty()) warnings.push_back("--water names no lake in the raster: it changes nothing");
   return lakes;
 }
@@ -78,12 +77,8 @@ std::string rivers_line(const std::vector<River>& rivers) {
 
 Result<void> read_waters(const LineArguments& given, const ProgressCallback& progress, const MemoryShare& memory,
                          OwnedHeightField& field, Features& features, std::vector<std::string>& warnings) {
-  auto lakes = add_lakes(given, progress, memory, field, features.breaklines.affine, warnings);
-  if (!lakes) return tl::unexpected(lakes.error());
-  features.lakes = std::move(*lakes);
-  auto streams = read_streams(given, progress, field, warnings);
-  if (!streams) return tl::unexpected(streams.error());
-  features.rivers = std::move(*streams);
+  SCARP_TRY(features.lakes, add_lakes(given, progress, memory, field, features.breaklines.affine, warnings));
+  SCARP_TRY(features.rivers, read_streams(given, progress, field, warnings));
   return {};
 }
 

@@ -16,9 +16,8 @@ void CliffArguments::add_to(CLI::App& command) { add_option(command, OptionId::k
 
 Result<void> CliffArguments::check(bool has_error) const {
   if (!height) return {};
-  const Result<double> above = parse_non_negative("--cliff", *height);
-  if (!above) return tl::unexpected(above.error());
-  if (*above == 0) return fail(ErrorKind::kUsage, "--cliff 0 would make a wall of every step: it must be above 0");
+  SCARP_TRY(const double above, parse_non_negative("--cliff", *height));
+  if (above == 0) return fail(ErrorKind::kUsage, "--cliff 0 would make a wall of every step: it must be above 0");
   if (!has_error)
     return fail(ErrorKind::kUsage, "--cliff needs --max-error, or a budget: walls are fitted to one bound");
   return {};

@@ -56,13 +56,11 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
   options.crs = raster.crs;
   options.ignore_z = true;
   options.progress = progress;
-  auto lines = read_files(given.files, options, warnings);
-  if (!lines) return tl::unexpected(std::move(lines.error()));
-  auto rings = close_rings(std::move(*lines));
-  if (!rings) return tl::unexpected(std::move(rings.error()));
-  cut.polygons = count_polygons(*rings);
+  SCARP_TRY(auto&& lines, read_files(given.files, options, warnings));
+  SCARP_TRY(auto&& rings, close_rings(std::move(lines)));
+  cut.polygons = count_polygons(rings);
   cut.cutline.affine = map_affine(raster, field.rows);
-  cut.cutline.rings = std::move(*rings);
+  cut.cutline.rings = std::move(rings);
   if (given.inset) {
     const std::array<double, 2> unit = unit_of(raster);
     const double sample = std::min(raster.cell_x * unit[0], raster.cell_y * unit[1]);
@@ -77,13 +75,12 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
     cut.cutline.rings = std::move(*moved);
   }
   if (!given.mask_outside) return cut;
-  const auto left = mask_outside(field, cut.cutline, progress);
-  if (!left) return tl::unexpected(left.error());
-  cut.masked = left->lost;
-  cut.bytes = left->bytes;
+  SCARP_TRY(const auto& left, mask_outside(field, cut.cutline, progress));
+  cut.masked = left.lost;
+  cut.bytes = left.bytes;
   cut.cutline.rings = {};
-  const bool is_empty = left->kept == 0;
-  if (is_empty || (cut.masked > 0 && !left->has_surface))
+  const bool is_empty = left.kept == 0;
+  if (is_empty || (cut.masked > 0 && !left.has_surface))
     return fail(ErrorKind::kInput,
                 fmt::format("--cutline {} --mask-outside: no {} of {} lies in the polygons{}",
                             shell_word(given.files.front()), is_empty ? "height" : "cell with three heights",

@@ -12,13 +12,12 @@ namespace {
 constexpr std::uint64_t kMostPixels = 16384;
 
 Result<int> parse_side(const char* option, const std::string& text) {
-  const Result<std::uint64_t> side = parse_count(option, text, 1);
-  if (!side) return tl::unexpected(side.error());
-  if (*side > kMostPixels) {
+  SCARP_TRY(const std::uint64_t side, parse_count(option, text, 1));
+  if (side > kMostPixels) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} {} is above {}, the most pixels that graphics cards show", option, text, kMostPixels));
   }
-  return static_cast<int>(*side);
+  return static_cast<int>(side);
 }
 
 }  // namespace
@@ -49,17 +48,11 @@ Result<ImagePlan> ImageArguments::parse(const OutputFormat& format) const {
   if (drape && drape->empty()) return fail(ErrorKind::kUsage, "the name of the image to drape is empty");
   plan.drape = drape;
   if (drape_size) {
-    const Result<int> side = parse_side("--drape-size", *drape_size);
-    if (!side) return tl::unexpected(side.error());
-    plan.drape_size = *side;
+    SCARP_TRY(plan.drape_size, parse_side("--drape-size", *drape_size));
   }
-  const Result<ImageFormat> stored = parse_image_format(drape_format);
-  if (!stored) return tl::unexpected(stored.error());
-  plan.drape_format = *stored;
+  SCARP_TRY(plan.drape_format, parse_image_format(drape_format));
   if (normal_map) {
-    const Result<int> side = parse_side("--normal-map", *normal_map);
-    if (!side) return tl::unexpected(side.error());
-    plan.normal_map = *side;
+    SCARP_TRY(plan.normal_map, parse_side("--normal-map", *normal_map));
   }
   return plan;
 }

@@ -20,15 +20,13 @@ Result<std::optional<Levels>> LevelArguments::parse(const OutputFormat& format, 
     return std::optional<Levels>();
   }
   const std::size_t colon = lods->find(':');
-  const Result<std::uint64_t> count = parse_count("--lods", lods->substr(0, colon), 2);
-  if (!count) return tl::unexpected(count.error());
-  if (*count > 32) return usage(fmt::format("--lods {} is more than 32 levels", *count));
-  Levels levels{static_cast<int>(*count)};
+  SCARP_TRY(const std::uint64_t count, parse_count("--lods", lods->substr(0, colon), 2));
+  if (count > 32) return usage(fmt::format("--lods {} is more than 32 levels", count));
+  Levels levels{static_cast<int>(count)};
   if (colon != std::string::npos) {
-    const Result<double> ratio = parse_number(fmt::format("--lods {}: the ratio", *lods), lods->substr(colon + 1));
-    if (!ratio) return tl::unexpected(ratio.error());
-    if (!(*ratio > 1)) return usage(fmt::format("--lods {} has a ratio that is not above 1", *lods));
-    levels.ratio = *ratio;
+    SCARP_TRY(const double ratio, parse_number(fmt::format("--lods {}: the ratio", *lods), lods->substr(colon + 1)));
+    if (!(ratio > 1)) return usage(fmt::format("--lods {} has a ratio that is not above 1", *lods));
+    levels.ratio = ratio;
   }
   if (!format.is_mesh())
     return usage(fmt::format("--lods writes meshes, and {} is none: choose .glb, .ply or .obj", format.title()));

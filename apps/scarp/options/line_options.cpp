@@ -31,10 +31,9 @@ double largest_edit(const std::vector<SampleEdit>& edits) {
 
 Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
                                      std::vector<std::string>& warnings) {
-  auto set = read_lines(files, options);
-  if (!set) return tl::unexpected(std::move(set.error()));
-  warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
-  return std::move(set->lines);
+  SCARP_TRY(auto&& set, read_lines(files, options));
+  warnings.insert(warnings.end(), set.warnings.begin(), set.warnings.end());
+  return std::move(set.lines);
 }
 
 void LineArguments::add_to(CLI::App& command) {
@@ -71,17 +70,15 @@ Result<void> LineArguments::check() const {
     return fail(ErrorKind::kUsage, "--soft-breaklines cannot be combined with --breakline-z; drop one of them");
   if (percentile) {
     if (water.empty()) return fail(ErrorKind::kUsage, "--water-percentile needs --water: there is no lake without");
-    const Result<double> share = parse_non_negative("--water-percentile", *percentile);
-    if (!share) return tl::unexpected(share.error());
-    if (*share > 100)
+    SCARP_TRY(const double share, parse_non_negative("--water-percentile", *percentile));
+    if (share > 100)
       return fail(ErrorKind::kUsage, fmt::format("--water-percentile {} is above 100", shell_word(*percentile)));
   }
   if (flats) {
     if (!water.empty())
       return fail(ErrorKind::kUsage,
                   "--detect-flats cannot be combined with --water: lakes are found, or named by a file");
-    const Result<std::uint64_t> samples = parse_count("--detect-flats", *flats, 3);
-    if (!samples) return tl::unexpected(samples.error());
+    SCARP_RETURN_IF_ERROR(parse_count("--detect-flats", *flats, 3));
   }
   if (!conflict) return {};
   const Result<LineConflict> rule = choose("--line-conflict", *conflict, kConflicts);
@@ -120,10 +117,9 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   options.z_field = z_field.value_or("");
   options.ignore_z = are_soft;
   options.progress = progress;
-  auto set = read_lines(breaklines, options, raster);
-  if (!set) return tl::unexpected(std::move(set.error()));
-  warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
-  constraints.lines = std::move(set->lines);
+  SCARP_TRY(auto&& set, read_lines(breaklines, options, raster));
+  warnings.insert(warnings.end(), set.warnings.begin(), set.warnings.end());
+  constraints.lines = std::move(set.lines);
   // Their heights are the file's, as the raster's are.
   for (Line& each : constraints.lines) {
     for (auto& point : each.points) point[2] = raster.z_scale * point[2] + raster.z_offset;

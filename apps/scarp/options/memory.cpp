@@ -61,13 +61,12 @@ void MemoryArguments::add_to(CLI::App& command) { add_option(command, OptionId::
 
 Result<std::optional<std::uint64_t>> MemoryArguments::parse() const {
   if (!memory) return std::nullopt;
-  const Result<std::uint64_t> limit = parse_bytes("--memory", *memory);
-  if (!limit) return tl::unexpected(limit.error());
-  if (*limit < kProgramBytes) {
+  SCARP_TRY(const std::uint64_t limit, parse_bytes("--memory", *memory));
+  if (limit < kProgramBytes) {
     return fail(ErrorKind::kUsage, fmt::format("--memory {} is too little: the program alone takes {}M", *memory,
                                                kProgramBytes / 1000000));
   }
-  return *limit;
+  return limit;
 }
 
 Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text) {

@@ -56,21 +56,18 @@ Result<void> parse_heights(const RasterArguments& given, ReadOptions& options) {
   for (const auto& [name, text, value] : {std::tuple{"--z-scale", &given.z_scale, &options.z_scale},
                                           std::tuple{"--z-offset", &given.z_offset, &options.z_offset}}) {
     if (!*text) continue;
-    const Result<double> number = parse_number(name, **text);
-    if (!number) return tl::unexpected(number.error());
-    *value = *number;
+    SCARP_TRY(*value, parse_number(name, **text));
   }
   if (options.z_scale == 0)
     return fail(ErrorKind::kUsage, "--z-scale 0 makes all heights equal: give a factor other than 0");
   if (given.z_unit && given.z_unit->empty()) return fail(ErrorKind::kUsage, "the unit of --z-unit is empty");
   options.z_unit = given.z_unit.value_or("");
   if (!given.cell_size) return {};
-  const Result<double> cell = parse_number("--cell-size", *given.cell_size);
-  if (!cell) return tl::unexpected(cell.error());
-  if (*cell <= 0)
+  SCARP_TRY(const double cell, parse_number("--cell-size", *given.cell_size));
+  if (cell <= 0)
     return fail(ErrorKind::kUsage,
                 fmt::format("--cell-size {} is not above 0: give the width of a cell", *given.cell_size));
-  options.cell_size = *cell;
+  options.cell_size = cell;
   return {};
 }
 
@@ -78,7 +75,7 @@ Result<void> parse_heights(const RasterArguments& given, ReadOptions& options) {
 
 Result<double> parse_number(std::string_view option, const std::string& text) {
   const std::optional<double> value = find_number(text);
-  if (auto fits = check_size(option, text, value); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_size(option, text, value));
   if (!value || !std::isfinite(*value)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is not a finite number", option, shell_word(text)));
   }
@@ -96,7 +93,7 @@ Result<double> parse_non_negative(std::string_view option, const std::string& te
 Result<std::optional<double>> parse_nodata(const Given& nodata) {
   if (!nodata) return std::optional<double>();
   const std::optional<double> value = find_number(*nodata);
-  if (auto fits = check_size("--nodata", *nodata, value); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_size("--nodata", *nodata, value));
   if (!value) return fail(ErrorKind::kUsage, fmt::format("--nodata {} is not a number or nan", shell_word(*nodata)));
   return value;
 }
@@ -130,13 +127,12 @@ Result<std::uint64_t> parse_count(std::string_view option, const std::string& te
 
 Result<int> parse_threads(const Given& text) {
   if (!text) return 0;
-  const Result<std::uint64_t> threads = parse_count("--num-threads", *text, 0);
-  if (!threads) return tl::unexpected(threads.error());
-  if (*threads > 1024) {
+  SCARP_TRY(const std::uint64_t threads, parse_count("--num-threads", *text, 0));
+  if (threads > 1024) {
     return fail(ErrorKind::kUsage,
                 fmt::format("--num-threads {} is more than 1024: ask for fewer, or for 0, all cores", *text));
   }
-  return static_cast<int>(*threads);
+  return static_cast<int>(threads);
 }
 
 std::string canonical_option(const char* name, const Given& text) {
@@ -157,7 +153,7 @@ Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& t
     break;
   }
   std::optional<double> value = find_number(number);
-  if (auto fits = check_size(option, text, value); !fits) return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_size(option, text, value));
   if (!value || !std::isfinite(*value)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is neither a finite number, in the units of the heights, nor a "
                                                "percentage of the relief such as 0.5%, nor a length such as 1m",
@@ -250,9 +246,7 @@ Result<ReadOptions> RasterArguments::parse() const {
   if (!extent.empty()) {
     std::array<double, 4> box{};
     for (std::size_t k = 0; k < box.size(); ++k) {
-      const Result<double> value = parse_number("--te", extent[k]);
-      if (!value) return tl::unexpected(value.error());
-      box[k] = *value;
+      SCARP_TRY(box[k], parse_number("--te", extent[k]));
     }
     if (!(box[0] < box[2]) || !(box[1] < box[3])) {
       return fail(ErrorKind::kUsage, fmt::format("--te {} {} {} {} is empty: its order is XMIN YMIN XMAX YMAX",
@@ -261,26 +255,22 @@ Result<ReadOptions> RasterArguments::parse() const {
     options.view.extent = box;
   }
   if (resolution) {
-    const Result<double> value = parse_number("--resolution", *resolution);
-    if (!value) return tl::unexpected(value.error());
-    if (!(*value > 0)) return fail(ErrorKind::kUsage, fmt::format("--resolution {} is not above 0", *resolution));
+    SCARP_TRY(const double value, parse_number("--resolution", *resolution));
+    if (!(value > 0)) return fail(ErrorKind::kUsage, fmt::format("--resolution {} is not above 0", *resolution));
     if (decode) {
       return fail(ErrorKind::kUsage,
                   "--resolution cannot be combined with --decode: means of packed colours are no heights");
     }
-    options.view.resolution = *value;
+    options.view.resolution = value;
   }
   if (band) {
-    const Result<std::uint64_t> number = parse_count("--band", *band, 1);
-    if (!number) return tl::unexpected(number.error());
-    if (*number > 65535) {
+    SCARP_TRY(const std::uint64_t number, parse_count("--band", *band, 1));
+    if (number > 65535) {
       return fail(ErrorKind::kUsage, fmt::format("--band {} is more than any raster has (65535)", *band));
     }
-    options.band = static_cast<int>(*number);
+    options.band = static_cast<int>(number);
   }
-  const auto value = parse_nodata(nodata);
-  if (!value) return tl::unexpected(value.error());
-  options.nodata = *value;
+  SCARP_TRY(options.nodata, parse_nodata(nodata));
   if (decode) {
     if (*decode == "terrarium") {
       options.decode = Decode::kTerrarium;
@@ -298,7 +288,7 @@ Result<ReadOptions> RasterArguments::parse() const {
     if (crs->empty()) return fail(ErrorKind::kUsage, "--crs is empty: choose source, local, grid or a CRS");
     options.crs = *crs;
   }
-  if (auto heights = parse_heights(*this, options); !heights) return tl::unexpected(heights.error());
+  SCARP_RETURN_IF_ERROR(parse_heights(*this, options));
   return options;
 }
 

@@ -162,13 +162,12 @@ Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_pr
     return false;
   }
   if (!up) return row.has_choice_of_up && !is_print && *row.up == 'y';
-  const Result<bool> is_y = parse_up(up);
-  if (!is_y) return is_y;
+  SCARP_TRY(const bool is_y, parse_up(up));
   if (!row.has_choice_of_up && *up != row.up) {
     return fail(ErrorKind::kUsage,
                 fmt::format("--up {}: {} is always {} up; choose .obj, .ply or .stl", *up, row.title, row.up));
   }
-  return row.has_choice_of_up && *is_y;
+  return row.has_choice_of_up && is_y;
 }
 
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {

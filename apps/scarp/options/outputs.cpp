@@ -138,8 +138,7 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
                     fmt::format("{} and {} name the same file, {}", earlier->second, output.option, output.path));
       }
     }
-    const Result<void> checked = check_output(output, overwrite);
-    if (!checked) return checked;
+    SCARP_RETURN_IF_ERROR(check_output(output, overwrite));
   }
   return {};
 }

@@ -20,9 +20,8 @@ void RidgeArguments::add_to(CLI::App& command) {
 Result<void> RidgeArguments::check(bool has_error) const {
   if (are_kept && !height) return fail(ErrorKind::kUsage, "--keep-ridges needs --ridges: there are none without");
   if (!height) return {};
-  const Result<double> above = parse_non_negative("--ridges", *height);
-  if (!above) return tl::unexpected(above.error());
-  if (*above == 0) return fail(ErrorKind::kUsage, "--ridges 0 would make a ridge of all noise: it must be above 0");
+  SCARP_TRY(const double above, parse_non_negative("--ridges", *height));
+  if (above == 0) return fail(ErrorKind::kUsage, "--ridges 0 would make a ridge of all noise: it must be above 0");
   if (!has_error)
     return fail(ErrorKind::kUsage, "--ridges needs --max-error, or a budget: lines are fitted to one bound");
   return {};

@@ -18,10 +18,9 @@ namespace {
 
 Result<std::optional<double>> parse_above_zero(const char* option, const Given& text) {
   if (!text) return std::nullopt;
-  const Result<double> value = parse_number(option, *text);
-  if (!value) return tl::unexpected(value.error());
-  if (!(*value > 0)) return fail(ErrorKind::kUsage, fmt::format("{} {} is not above 0", option, shell_word(*text)));
-  return *value;
+  SCARP_TRY(const double value, parse_number(option, *text));
+  if (!(value > 0)) return fail(ErrorKind::kUsage, fmt::format("{} {} is not above 0", option, shell_word(*text)));
+  return value;
 }
 
 /// Those counts that are not 0: "3 in sharp corners, 2 elsewhere".
@@ -62,22 +61,19 @@ Result<ShapeGoals> ShapeArguments::parse() const {
   ShapeGoals goals;
   if (min_angle) {
     constexpr double kLargest = 33;
-    const Result<double> angle = parse_non_negative("--min-angle", *min_angle);
-    if (!angle) return tl::unexpected(angle.error());
-    if (*angle > kLargest)
+    SCARP_TRY(const double angle, parse_non_negative("--min-angle", *min_angle));
+    if (angle > kLargest)
       return fail(
           ErrorKind::kUsage,
           fmt::format("--min-angle {} is above {}: beyond that refinement hardly ever comes to an end; up to 20 "
                       "degrees are proven to be possible, 30 mostly are",
                       shell_word(*min_angle), kLargest));
-    goals.min_angle = *angle;
+    goals.min_angle = angle;
   }
   for (const auto& [option, given, goal] :
        {std::tuple{"--max-edge", &max_edge, &goals.max_edge}, std::tuple{"--grade", &grade, &goals.grade},
         std::tuple{"--min-edge", &min_edge, &goals.min_edge}}) {
-    const auto value = parse_above_zero(option, *given);
-    if (!value) return tl::unexpected(value.error());
-    *goal = *value;
+    SCARP_TRY(*goal, parse_above_zero(option, *given));
   }
   if (goals.min_edge && goals.max_edge && *goals.min_edge > *goals.max_edge / 2)
     return fail(

@@ -21,19 +21,13 @@ Result<void> plan_goals(const SimplifyArguments& given, SimplifyPlan& plan) {
                             shell_word(given.raster.path())));
   }
   if (given.max_error) {
-    const Result<ErrorGoal> goal = parse_error_goal("--max-error", *given.max_error);
-    if (!goal) return tl::unexpected(goal.error());
-    plan.error_goal = *goal;
+    SCARP_TRY(plan.error_goal, parse_error_goal("--max-error", *given.max_error));
   }
   if (given.max_triangles) {
-    const Result<std::uint64_t> budget = parse_count("--max-triangles", *given.max_triangles, 1);
-    if (!budget) return tl::unexpected(budget.error());
-    plan.simplify.goals.max_triangles = *budget;
+    SCARP_TRY(plan.simplify.goals.max_triangles, parse_count("--max-triangles", *given.max_triangles, 1));
   }
   if (given.max_points) {
-    const Result<std::uint64_t> budget = parse_count("--max-points", *given.max_points, 1);
-    if (!budget) return tl::unexpected(budget.error());
-    plan.simplify.goals.max_vertices = *budget;
+    SCARP_TRY(plan.simplify.goals.max_vertices, parse_count("--max-points", *given.max_points, 1));
   }
   return {};
 }
@@ -48,39 +42,34 @@ Result<void> plan_nodata(const SimplifyArguments& given, SimplifyPlan& plan) {
     return fail(ErrorKind::kUsage,
                 fmt::format("--nodata-policy {} is unknown: choose hole, fill or background", shell_word(policy)));
   }
-  const Result<double> distance = parse_fill_distance(given.fill_distance, plan.policy == NodataPolicy::kFill);
-  if (!distance) return tl::unexpected(distance.error());
-  plan.fill_distance = *distance;
+  SCARP_TRY(plan.fill_distance, parse_fill_distance(given.fill_distance, plan.policy == NodataPolicy::kFill));
   if (given.background.has_value() != (plan.policy == NodataPolicy::kBackground)) {
     return fail(ErrorKind::kUsage, given.background
                                        ? "--background needs --nodata-policy background"
                                        : "--nodata-policy background needs the height to use: --background V");
   }
   if (given.background) {
-    const Result<double> height = parse_number("--background", *given.background);
-    if (!height) return tl::unexpected(height.error());
-    if (std::abs(*height) > std::numeric_limits<float>::max()) {
+    SCARP_TRY(const double height, parse_number("--background", *given.background));
+    if (std::abs(height) > std::numeric_limits<float>::max()) {
       return fail(ErrorKind::kUsage, fmt::format("--background {} does not fit a float", *given.background));
     }
-    plan.background = static_cast<float>(*height);
+    plan.background = static_cast<float>(height);
   }
   if (given.outline_tolerance) {
-    const Result<double> tolerance = parse_non_negative("--outline-tolerance", *given.outline_tolerance);
-    if (!tolerance) return tl::unexpected(tolerance.error());
-    plan.simplify.domain.outline_tolerance = *tolerance;
+    SCARP_TRY(plan.simplify.domain.outline_tolerance,
+              parse_non_negative("--outline-tolerance", *given.outline_tolerance));
   }
   return {};
 }
 
 Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
-  const Result<ChannelPlan> channels = given.channels.parse(given.raster);
-  if (!channels) return tl::unexpected(channels.error());
-  plan.channels = *channels;
-  plan.simplify.goals.norm = channels->norm;
-  if (channels->image && plan.policy != NodataPolicy::kHole) {
+  SCARP_TRY(const ChannelPlan& channels, given.channels.parse(given.raster));
+  plan.channels = channels;
+  plan.simplify.goals.norm = channels.norm;
+  if (channels.image && plan.policy != NodataPolicy::kHole) {
     return fail(ErrorKind::kUsage, "--image cannot be combined with --nodata-policy: missing pixels are holes");
   }
-  if (channels->has_channels() && !channels->image && channels->texture_weight == 1) {
+  if (channels.has_channels() && !channels.image && channels.texture_weight == 1) {
     if (given.max_error) {
       return fail(ErrorKind::kUsage,
                   "--max-error bounds heights, and --texture-weight 1 does not look at them: ask for "
@@ -96,10 +85,8 @@ Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
 
 Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.companions = given.companions;
-  const Result<void> checked = given.companions.check("--max-error", given.max_error.has_value());
-  if (!checked) return checked;
-  const Result<void> parsed = given.strategy.parse_into(plan.simplify, plan.strategy);
-  if (!parsed) return parsed;
+  SCARP_RETURN_IF_ERROR(given.companions.check("--max-error", given.max_error.has_value()));
+  SCARP_RETURN_IF_ERROR(given.strategy.parse_into(plan.simplify, plan.strategy));
   const char* strategy = given.strategy.find_strategy();
   plan.by_paper = strategy != nullptr;
   if (plan.by_paper) plan.strategy_option = strategy;
@@ -130,10 +117,10 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.ridges = given.ridges;
   plan.cut = given.cut;
   plan.zones = given.zones;
-  if (auto checked = given.lines.check(); !checked) return checked;
-  if (auto checked = given.cliff.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
-  if (auto checked = given.ridges.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
-  if (auto checked = given.cut.check(); !checked) return checked;
+  SCARP_RETURN_IF_ERROR(given.lines.check());
+  SCARP_RETURN_IF_ERROR(given.cliff.check(given.max_error || find_budget(given) != nullptr));
+  SCARP_RETURN_IF_ERROR(given.ridges.check(given.max_error || find_budget(given) != nullptr));
+  SCARP_RETURN_IF_ERROR(given.cut.check());
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
   if (lakes != nullptr && plan.simplify.quality.vertices == Vertices::kFree)
@@ -143,9 +130,7 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
 }
 
 Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
-  const Result<ShapeGoals> goals = given.shape.parse();
-  if (!goals) return tl::unexpected(goals.error());
-  plan.simplify.quality.shape = *goals;
+  SCARP_TRY(plan.simplify.quality.shape, given.shape.parse());
   return {};
 }
 
@@ -183,9 +168,7 @@ const char* find_print_obstacle(const SimplifyArguments& given) {
 }
 
 Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
-  const Result<std::optional<PrintOptions>> solid = given.solid.parse(plan.warnings);
-  if (!solid) return tl::unexpected(solid.error());
-  plan.solid = *solid;
+  SCARP_TRY(plan.solid, given.solid.parse(plan.warnings));
   if (plan.error_goal && plan.error_goal->is_on_print) {
     if (!plan.solid || !plan.solid->size)
       return fail(ErrorKind::kUsage, fmt::format("--max-error {} is an error on a print, which needs its size: --solid "
@@ -229,9 +212,7 @@ Result<void> plan_zones(const SimplifyArguments& given, SimplifyPlan& plan) {
 
 /// Refuses settings that conflict with images inside the file.
 Result<void> plan_images(const SimplifyArguments& given, SimplifyPlan& plan) {
-  Result<ImagePlan> images = given.images.parse(plan.format);
-  if (!images) return tl::unexpected(std::move(images.error()));
-  plan.images = std::move(*images);
+  SCARP_TRY(plan.images, given.images.parse(plan.format));
   if (plan.images.drape && plan.channels.has_channels()) {
     return fail(ErrorKind::kUsage,
                 fmt::format("--drape cannot be combined with {}: the colours of both would be multiplied",
@@ -264,10 +245,9 @@ Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan)
   plan.doubles = given.doubles;
   if (given.doubles && !format.is_ply())
     return fail(ErrorKind::kUsage, fmt::format("--double is for PLY: the positions of {} are what they are", title));
-  const Result<bool> is_y_up = choose_y_up(given.up, format, plan.solid.has_value());
-  if (!is_y_up) return tl::unexpected(is_y_up.error());
+  SCARP_TRY(const bool is_y_up, choose_y_up(given.up, format, plan.solid.has_value()));
   // Who reads earth-centred coordinates expects them as they are.
-  plan.is_y_up = *is_y_up && (given.up || crs == "enu" || !is_in_space(crs));
+  plan.is_y_up = is_y_up && (given.up || crs == "enu" || !is_in_space(crs));
   if (given.compress && !format.is_glb()) {
     return fail(ErrorKind::kUsage, fmt::format("--compress writes GLB, and OUTPUT is {}: choose .glb", title));
   }
@@ -305,30 +285,25 @@ Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan)
 }
 
 Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
-  const Result<OutputFormat> format = choose_output_format(given.format, given.output);
-  if (!format) return tl::unexpected(format.error());
-  plan.format = *format;
-  plan.read.default_frame = format->default_frame();
-  plan.read.heights_in = plan.channels.image ? HeightsIn::kFile : format->heights_in();
+  SCARP_TRY(const OutputFormat& format, choose_output_format(given.format, given.output));
+  plan.format = format;
+  plan.read.default_frame = format.default_frame();
+  plan.read.heights_in = plan.channels.image ? HeightsIn::kFile : format.heights_in();
   if (given.base) {
-    const Result<double> base = parse_number("--base", *given.base);
-    if (!base) return tl::unexpected(base.error());
+    SCARP_TRY(const double base, parse_number("--base", *given.base));
     constexpr double kFarthest = 1e30;  // differences to heights must fit float32
-    if (std::abs(*base) > kFarthest) {
+    if (std::abs(base) > kFarthest) {
       return fail(ErrorKind::kUsage, fmt::format("--base {} is out of the range of float32 heights: choose one between "
                                                  "-1e30 and 1e30",
                                                  *given.base));
     }
-    plan.base = *base;
+    plan.base = base;
   }
-  if (auto images = plan_images(given, plan); !images) return images;
-  const Result<void> attributes = plan_attributes(given, plan);
-  if (!attributes) return attributes;
-  if (auto solid = plan_solid_format(given, plan); !solid) return solid;
+  SCARP_RETURN_IF_ERROR(plan_images(given, plan));
+  SCARP_RETURN_IF_ERROR(plan_attributes(given, plan));
+  SCARP_RETURN_IF_ERROR(plan_solid_format(given, plan));
 
-  const Result<std::optional<Levels>> levels = given.levels.parse(plan.format, given.output);
-  if (!levels) return tl::unexpected(levels.error());
-  plan.levels = *levels;
+  SCARP_TRY(plan.levels, given.levels.parse(plan.format, given.output));
   plan.levels_in_one = given.levels.in_one;
   std::vector<PlannedOutput> outputs;
   if (plan.has_file_per_level()) {
@@ -343,13 +318,11 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   for (const auto& [option, path] : pictures) {
     if (!*path) continue;
     outputs.push_back({option, **path});
-    const Result<void> named = check_png_name(outputs.back());
-    if (!named) return named;
+    SCARP_RETURN_IF_ERROR(check_png_name(outputs.back()));
   }
   if (given.error_raster) {
     outputs.push_back({"--error-raster", *given.error_raster});
-    const Result<void> named = check_tiff_name(outputs.back());
-    if (!named) return named;
+    SCARP_RETURN_IF_ERROR(check_tiff_name(outputs.back()));
   }
   if (given.html) outputs.push_back({"--html", *given.html});
   if (given.report) outputs.push_back({"--report", *given.report});
@@ -369,9 +342,7 @@ Result<void> plan_page(const SimplifyArguments& given, SimplifyPlan& plan) {
                                                  "terrain of heights",
                                                  name));
   }
-  auto page = read_page_template();
-  if (!page) return tl::unexpected(page.error());
-  plan.page_template = std::move(*page);
+  SCARP_TRY(plan.page_template, read_page_template());
   return {};
 }
 
@@ -409,9 +380,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
 }
 
 Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
-  const Result<std::optional<std::uint64_t>> limit = given.memory.parse();
-  if (!limit) return tl::unexpected(limit.error());
-  plan.memory = *limit;
+  SCARP_TRY(plan.memory, given.memory.parse());
   if (!plan.memory) return {};
   if (plan.channels.image) {
     return fail(ErrorKind::kUsage, "--memory cannot be combined with --image: images are read as a whole");
@@ -474,21 +443,16 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<s
   plan.overwrite = given.overwrite;
   plan.canonical_command = canonical_command(given);
 
-  const Result<ReadOptions> read = given.raster.parse();
-  if (!read) return tl::unexpected(read.error());
-  plan.read = *read;
-  const Result<int> threads = parse_threads(given.threads);
-  if (!threads) return tl::unexpected(threads.error());
-  plan.simplify.run.threads = plan.read.run.threads = *threads;
+  SCARP_TRY(plan.read, given.raster.parse());
+  SCARP_TRY(const int threads, parse_threads(given.threads));
+  plan.simplify.run.threads = plan.read.run.threads = threads;
   for (const auto step :
        {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape, plan_levels,
         plan_objective, plan_conflicts, plan_outputs, plan_page, plan_zones, plan_space, plan_memory}) {
-    const Result<void> planned = step(given, plan);
-    if (!planned) return tl::unexpected(planned.error());
+    SCARP_RETURN_IF_ERROR(step(given, plan));
   }
   // Last: who has mistaken an option reads of that first.
-  if (auto checked = check_outputs(plan.outputs, plan.files_read, given.overwrite); !checked)
-    return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(check_outputs(plan.outputs, plan.files_read, given.overwrite));
   return plan;
 }
 

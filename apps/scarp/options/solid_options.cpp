@@ -67,28 +67,25 @@ Result<void> take_solid(const Pair& pair, PrintOptions& plan, std::vector<std::s
   if (!value) return fail(ErrorKind::kUsage, fmt::format("{} needs a value: {}=VALUE", name, key));
   if (key == "base") {
     if (*value == "auto") return {};
-    const Result<double> base = parse_number(name, *value);
-    if (!base) return tl::unexpected(base.error());
-    if (std::abs(*base) > 1e30) return fail(ErrorKind::kUsage, fmt::format("{} {} is out of range", name, *value));
-    plan.base = *base;
+    SCARP_TRY(const double base, parse_number(name, *value));
+    if (std::abs(base) > 1e30) return fail(ErrorKind::kUsage, fmt::format("{} {} is out of range", name, *value));
+    plan.base = base;
     return {};
   }
   if (key == "exaggerate") {
-    const Result<double> factor = parse_number(name, *value);
-    if (!factor) return tl::unexpected(factor.error());
-    if (!(*factor > 0) || *factor > 1e6)
+    SCARP_TRY(const double factor, parse_number(name, *value));
+    if (!(factor > 0) || factor > 1e6)
       return fail(ErrorKind::kUsage, fmt::format("{} {} is not above 0 and at most a million", name, *value));
-    plan.exaggerate = *factor;
+    plan.exaggerate = factor;
     return {};
   }
-  const Result<Length> length = parse_length(name, *value);
-  if (!length) return tl::unexpected(length.error());
+  SCARP_TRY(const Length length, parse_length(name, *value));
   if (key == "thickness") {
     plan.thickness = plan.printed_thickness = std::nullopt;
-    (length->is_metric ? plan.printed_thickness : plan.thickness) = length->value;
+    (length.is_metric ? plan.printed_thickness : plan.thickness) = length.value;
   } else {
-    plan.size = length->value;
-    if (!length->is_metric)
+    plan.size = length.value;
+    if (!length.is_metric)
       warnings.push_back(fmt::format("{} {} is taken for millimetres: size={}mm says so", name, *value, *value));
   }
   return {};
@@ -112,17 +109,14 @@ Result<void> take_split(const Pair& pair, bool is_first, PrintOptions& plan, boo
                 fmt::format("--split {} is no COLUMNSxROWS of print tiles, 1 to 100 each, such as 2x3",
                             shell_word(key + (value ? "=" + *value : ""))));
   if (key == "gap" && value) {
-    const Result<Length> gap = parse_length("--split gap", *value);
-    if (!gap) return tl::unexpected(gap.error());
-    plan.gap = gap->value;
-    is_gap_metric = gap->is_metric;
+    SCARP_TRY(const Length gap, parse_length("--split gap", *value));
+    plan.gap = gap.value;
+    is_gap_metric = gap.is_metric;
     return {};
   }
   if (key != "joint" || !value) return refuse_key("--split", key, "joint or gap");
   constexpr Choice<bool> kJoints[] = {{"none", false}, {"dovetail", true}};
-  const Result<bool> joint = choose("--split joint", *value, kJoints);
-  if (!joint) return tl::unexpected(joint.error());
-  plan.dovetail = *joint;
+  SCARP_TRY(plan.dovetail, choose("--split joint", *value, kJoints));
   return {};
 }
 
@@ -141,13 +135,13 @@ Result<std::optional<PrintOptions>> SolidArguments::parse(std::vector<std::strin
   }
   PrintOptions plan;
   for (const Pair& pair : split_pairs(*solid)) {
-    if (auto taken = take_solid(pair, plan, warnings); !taken) return tl::unexpected(taken.error());
+    SCARP_RETURN_IF_ERROR(take_solid(pair, plan, warnings));
   }
   if (plan.base && (plan.thickness || plan.printed_thickness))
     return fail(ErrorKind::kUsage, "--solid base cannot be combined with thickness; drop one of them");
   bool is_first = true, is_gap_metric = false;
   for (const Pair& pair : split ? split_pairs(*split) : std::vector<Pair>()) {
-    if (auto taken = take_split(pair, is_first, plan, is_gap_metric); !taken) return tl::unexpected(taken.error());
+    SCARP_RETURN_IF_ERROR(take_split(pair, is_first, plan, is_gap_metric));
     is_first = false;
   }
   for (const auto& [name, is_metric] :

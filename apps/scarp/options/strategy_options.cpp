@@ -60,23 +60,20 @@ Result<Batch> parse_batch(const std::string& text) {
         ErrorKind::kUsage,
         fmt::format("--batch {} is unknown: choose const, frac:A such as frac:0.9, or independent", shell_word(text)));
   }
-  const Result<double> fraction = parse_number("--batch frac:", text.substr(5));
-  if (!fraction) return tl::unexpected(fraction.error());
-  if (*fraction <= 0 || *fraction > 1) {
+  SCARP_TRY(const double fraction, parse_number("--batch frac:", text.substr(5)));
+  if (fraction <= 0 || fraction > 1) {
     return fail(ErrorKind::kUsage,
                 fmt::format("--batch {}: the fraction must be above 0 and at most 1", shell_word(text)));
   }
   batch.rule = Batch::Rule::kFraction;
-  batch.fraction = *fraction;
+  batch.fraction = fraction;
   return batch;
 }
 
 Result<EdgeRule> parse_edges(const StrategyArguments& given) {
   EdgeRule rule;
   if (given.edges) {
-    const Result<bool> data = choose("--edges", *given.edges, kEdgeWords);
-    if (!data) return tl::unexpected(data.error());
-    rule.data_dependent = *data;
+    SCARP_TRY(rule.data_dependent, choose("--edges", *given.edges, kEdgeWords));
   }
   const std::pair<const char*, const Given*> needing[] = {{"--edge-score", &given.edge_score},
                                                           {"--shape-threshold", &given.shape_threshold},
@@ -87,24 +84,19 @@ Result<EdgeRule> parse_edges(const StrategyArguments& given) {
     }
   }
   if (given.edge_score) {
-    const Result<EdgeScore> score = choose("--edge-score", *given.edge_score, kScores);
-    if (!score) return tl::unexpected(score.error());
-    rule.score = *score;
+    SCARP_TRY(rule.score, choose("--edge-score", *given.edge_score, kScores));
   }
   if (given.shape_threshold) {
-    const Result<double> threshold = parse_non_negative("--shape-threshold", *given.shape_threshold);
-    if (!threshold) return tl::unexpected(threshold.error());
-    if (*threshold > 1) {
+    SCARP_TRY(const double threshold, parse_non_negative("--shape-threshold", *given.shape_threshold));
+    if (threshold > 1) {
       return fail(ErrorKind::kUsage, fmt::format("--shape-threshold {} is above 1: it lies between 0, by the data "
                                                  "alone, and 1, by the shape alone",
                                                  shell_word(*given.shape_threshold)));
     }
-    rule.shape_threshold = *threshold;
+    rule.shape_threshold = threshold;
   }
   if (given.supersample) {
-    const Result<double> supersample = parse_non_negative("--supersample", *given.supersample);
-    if (!supersample) return tl::unexpected(supersample.error());
-    rule.supersample = *supersample;
+    SCARP_TRY(rule.supersample, parse_non_negative("--supersample", *given.supersample));
   }
   return rule;
 }
@@ -171,44 +163,35 @@ const char* StrategyArguments::find_strategy() const {
 
 Result<void> StrategyArguments::parse_into(SimplifyOptions& options, Strategy& strategy) const {
   if (effort) {
-    const Result<Effort> parsed = choose("--effort", *effort, kEfforts);
-    if (!parsed) return tl::unexpected(parsed.error());
-    options.quality.effort = *parsed;
+    SCARP_TRY(options.quality.effort, choose("--effort", *effort, kEfforts));
   }
   if (vertices) {
-    const Result<Vertices> parsed = choose("--vertices", *vertices, kVertexWords);
-    if (!parsed) return tl::unexpected(parsed.error());
-    if (*parsed == Vertices::kFree && options.quality.effort < Effort::kHigh)
+    SCARP_TRY(const Vertices parsed, choose("--vertices", *vertices, kVertexWords));
+    if (parsed == Vertices::kFree && options.quality.effort < Effort::kHigh)
       return fail(ErrorKind::kUsage,
                   "--vertices free needs --effort high or max: below that no vertex is moved, and all are samples");
-    options.quality.vertices = *parsed;
+    options.quality.vertices = parsed;
   }
   if (min_shape) {
-    const Result<double> parsed = parse_non_negative("--min-shape", *min_shape);
-    if (!parsed) return tl::unexpected(parsed.error());
-    if (*parsed > 0.5)
+    SCARP_TRY(const double parsed, parse_non_negative("--min-shape", *min_shape));
+    if (parsed > 0.5)
       return fail(ErrorKind::kUsage,
                   fmt::format("--min-shape {} is above 0.5, the shape of half a sample's square: choose "
                               "one from 0 to 0.5",
                               shell_word(*min_shape)));
-    options.quality.min_shape = *parsed;
+    options.quality.min_shape = parsed;
   }
   if (time_limit) {
-    const Result<double> parsed = parse_non_negative("--time-limit", *time_limit);
-    if (!parsed) return tl::unexpected(parsed.error());
-    const auto seconds = std::chrono::duration<double>(std::min(*parsed, 1e9));
+    SCARP_TRY(const double parsed, parse_non_negative("--time-limit", *time_limit));
+    const auto seconds = std::chrono::duration<double>(std::min(parsed, 1e9));
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(seconds);
     options.run.is_time_up = [end] { return std::chrono::steady_clock::now() >= end; };
   }
   if (objective) {
-    const Result<Objective> parsed = choose("--objective", *objective, kObjectives);
-    if (!parsed) return tl::unexpected(parsed.error());
-    options.goals.objective = *parsed;
+    SCARP_TRY(options.goals.objective, choose("--objective", *objective, kObjectives));
   }
   if (importance) {
-    const Result<Importance> parsed = parse_importance(*importance);
-    if (!parsed) return tl::unexpected(parsed.error());
-    strategy.importance = *parsed;
+    SCARP_TRY(strategy.importance, parse_importance(*importance));
   }
   const Importance::Feature feature = strategy.importance.feature;
   const bool by_raster = feature != Importance::Feature::kNoFeature && feature != Importance::Feature::kDistance;
@@ -219,27 +202,19 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options, Strategy& s
   }
   strategy.importance.one_pass = one_pass;
   if (order) {
-    const Result<Order> parsed = choose("--order", *order, kOrders);
-    if (!parsed) return tl::unexpected(parsed.error());
-    options.quality.order = *parsed;
+    SCARP_TRY(options.quality.order, choose("--order", *order, kOrders));
   }
   if (algorithm) {
-    const Result<Algorithm> parsed = choose("--algorithm", *algorithm, kAlgorithms);
-    if (!parsed) return tl::unexpected(parsed.error());
-    strategy.algorithm = *parsed;
+    SCARP_TRY(strategy.algorithm, choose("--algorithm", *algorithm, kAlgorithms));
   }
   if (batch) {
-    const Result<Batch> parsed = parse_batch(*batch);
-    if (!parsed) return tl::unexpected(parsed.error());
-    strategy.batch = *parsed;
+    SCARP_TRY(strategy.batch, parse_batch(*batch));
     if (one_pass)
       return fail(ErrorKind::kUsage,
                   "--one-pass cannot be combined with --batch: one pass ranks all samples once and never looks at the "
                   "mesh");
   }
-  const Result<EdgeRule> rule = parse_edges(*this);
-  if (!rule) return tl::unexpected(rule.error());
-  strategy.edges = *rule;
+  SCARP_TRY(strategy.edges, parse_edges(*this));
   return {};
 }
 

@@ -75,19 +75,17 @@ std::string vertical_word(const std::string& text) {
 /// "1737400,1737400".
 Result<Geodetic> parse_ellipsoid(const std::string& text) {
   const std::size_t comma = text.find(',');
-  const Result<double> a = parse_number("--ellipsoid", text.substr(0, comma));
-  if (!a) return tl::unexpected(a.error());
-  const Result<double> b = comma == std::string::npos ? *a : parse_number("--ellipsoid", text.substr(comma + 1));
-  if (!b) return tl::unexpected(b.error());
-  if (!(*a >= 10'000) || !(*a <= 1e9) || !(*b <= *a) || !(*b >= *a / 2))
+  SCARP_TRY(const double a, parse_number("--ellipsoid", text.substr(0, comma)));
+  SCARP_TRY(const double b, comma == std::string::npos ? a : parse_number("--ellipsoid", text.substr(comma + 1)));
+  if (!(a >= 10'000) || !(a <= 1e9) || !(b <= a) || !(b >= a / 2))
     return fail(
         ErrorKind::kUsage,
         fmt::format("--ellipsoid {} is no ellipsoid of a planet: give its radius at the equator and that to the "
                     "poles in metres, as 3396190,3376200",
                     text));
   Geodetic ellipsoid;
-  ellipsoid.semi_major = *a;
-  ellipsoid.inverse_flattening = *a == *b ? 0 : *a / (*a - *b);
+  ellipsoid.semi_major = a;
+  ellipsoid.inverse_flattening = a == b ? 0 : a / (a - b);
   return ellipsoid;
 }
 
@@ -112,14 +110,13 @@ void add_plane(const GlobeRaster& raster, LayerFacts& facts) {
 }  // namespace
 
 Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
-  if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
+  SCARP_RETURN_IF_ERROR(check_rasters(job));
   ReadOptions options = job.reading;
   options.run.memory.limit = memory;
   options.run.threads = threads;
-  auto raster = GlobeRaster::open(mosaics_of(job), options, job.datum, job.plan.grid.kind);
-  if (!raster) return tl::unexpected(raster.error());
-  (*raster)->add_waters(job.plan);
-  return OpenedJob{std::move(*raster), std::move(job)};
+  SCARP_TRY(auto&& raster, GlobeRaster::open(mosaics_of(job), options, job.datum, job.plan.grid.kind));
+  raster->add_waters(job.plan);
+  return OpenedJob{std::move(raster), std::move(job)};
 }
 
 Result<std::optional<DegreeBox>> parse_box(const Given& text) {
@@ -129,9 +126,7 @@ Result<std::optional<DegreeBox>> parse_box(const Given& text) {
   for (std::size_t at = 0; at <= text->size(); ++count) {
     const std::size_t end = std::min(text->find(',', at), text->size());
     if (count < sides.size()) {
-      const Result<double> side = parse_number("--only", text->substr(at, end - at));
-      if (!side) return tl::unexpected(side.error());
-      sides[count] = *side;
+      SCARP_TRY(sides[count], parse_number("--only", text->substr(at, end - at)));
     }
     at = end + 1;
   }
@@ -192,76 +187,56 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
   PyramidSettings settings;
   settings.effort = default_effort;
   if (max_error) {
-    const Result<double> error = parse_number("--max-error", *max_error);
-    if (!error) return tl::unexpected(error.error());
-    if (!(*error > 0)) return fail(ErrorKind::kUsage, fmt::format("--max-error {} must be above 0", *max_error));
-    settings.max_error = *error;
+    SCARP_TRY(const double error, parse_number("--max-error", *max_error));
+    if (!(error > 0)) return fail(ErrorKind::kUsage, fmt::format("--max-error {} must be above 0", *max_error));
+    settings.max_error = error;
   }
   if (quality) {
-    const Result<double> number = parse_number("--quality", *quality);
-    if (!number) return tl::unexpected(number.error());
-    settings.quality = *number;
+    SCARP_TRY(settings.quality, parse_number("--quality", *quality));
   }
   if (zoom) {
-    const Result<std::uint64_t> level = parse_count("--zoom", *zoom, 0);
-    if (!level) return tl::unexpected(level.error());
-    settings.max_zoom = static_cast<int>(std::min<std::uint64_t>(*level, kMaxTileLevel + 1));
+    SCARP_TRY(const std::uint64_t level, parse_count("--zoom", *zoom, 0));
+    settings.max_zoom = static_cast<int>(std::min<std::uint64_t>(level, kMaxTileLevel + 1));
   }
   if (max_tile_bytes) {
-    const Result<std::uint64_t> bytes = parse_bytes("--max-tile-bytes", *max_tile_bytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (*bytes == 0) return fail(ErrorKind::kUsage, "--max-tile-bytes 0 holds no tile: give 1 or more, such as 20k");
-    settings.max_tile_bytes = *bytes;
+    SCARP_TRY(const std::uint64_t bytes, parse_bytes("--max-tile-bytes", *max_tile_bytes));
+    if (bytes == 0) return fail(ErrorKind::kUsage, "--max-tile-bytes 0 holds no tile: give 1 or more, such as 20k");
+    settings.max_tile_bytes = bytes;
   }
-  const Result<bool> binds = choose("--bound", bound.value_or("nodes"), kBounds);
-  if (!binds) return tl::unexpected(binds.error());
-  settings.binds_samples = *binds;
-  if (*binds) settings.cells *= 2;
+  SCARP_TRY(const bool binds, choose("--bound", bound.value_or("nodes"), kBounds));
+  settings.binds_samples = binds;
+  if (binds) settings.cells *= 2;
   if (cells) {
-    const Result<int> count = choose("--cells", *cells, kCellWords);
-    if (!count) return tl::unexpected(count.error());
-    settings.cells = *count;
+    SCARP_TRY(settings.cells, choose("--cells", *cells, kCellWords));
   }
   if (effort) {
-    const Result<Effort> chosen = choose("--effort", *effort, kTileEfforts);
-    if (!chosen) return tl::unexpected(chosen.error());
-    settings.effort = *chosen;
+    SCARP_TRY(settings.effort, choose("--effort", *effort, kTileEfforts));
   }
   if (background) {
-    const Result<double> height = parse_number("--background", *background);
-    if (!height) return tl::unexpected(height.error());
-    settings.background = static_cast<float>(*height);
+    SCARP_TRY(const double height, parse_number("--background", *background));
+    settings.background = static_cast<float>(height);
   }
-  const Result<std::optional<DegreeBox>> box = parse_box(only);
-  if (!box) return tl::unexpected(box.error());
-  settings.only = *box;
+  SCARP_TRY(settings.only, parse_box(only));
   return settings;
 }
 
 Result<Datum> TileArguments::parse_datum() const {
-  Result<Datum> datum = parse_vertical(vertical.value_or("auto"));
-  if (!datum) return datum;
+  SCARP_TRY(Datum datum, parse_vertical(vertical.value_or("auto")));
   if (geoid) {
-    datum->vertical = Vertical::kGeoid;
-    datum->geoid = *geoid;
+    datum.vertical = Vertical::kGeoid;
+    datum.geoid = *geoid;
   }
   if (ellipsoid) {
-    const Result<Geodetic> axes = parse_ellipsoid(*ellipsoid);
-    if (!axes) return tl::unexpected(axes.error());
-    datum->ellipsoid = *axes;
+    SCARP_TRY(datum.ellipsoid, parse_ellipsoid(*ellipsoid));
   }
   return datum;
 }
 
 Result<ReadOptions> TileArguments::parse_reading() const {
-  Result<ReadOptions> options = raster.parse();
-  if (!options) return options;
-  const Result<TileNodata> policy = choose("--nodata-policy", nodata_policy.value_or("voids"), kTileNodata);
-  if (!policy) return tl::unexpected(policy.error());
-  const Result<double> distance = parse_fill_distance(fill_distance, *policy == TileNodata::kFill);
-  if (!distance) return tl::unexpected(distance.error());
-  options->fill_distance = *distance;
-  if (*policy == TileNodata::kVoids) options->void_side = kVoidSide;
+  SCARP_TRY(ReadOptions options, raster.parse());
+  SCARP_TRY(const TileNodata policy, choose("--nodata-policy", nodata_policy.value_or("voids"), kTileNodata));
+  SCARP_TRY(options.fill_distance, parse_fill_distance(fill_distance, policy == TileNodata::kFill));
+  if (policy == TileNodata::kVoids) options.void_side = kVoidSide;
   return options;
 }
 
@@ -271,103 +246,88 @@ Result<WaterFiles> TileArguments::parse_waters() const {
     return fail(ErrorKind::kUsage, "--watermask needs --water: it shows the lakes that are given there");
   if (!percentile) return files;
   if (water.empty()) return fail(ErrorKind::kUsage, "--water-percentile needs --water: there is no lake without");
-  const Result<double> share = parse_non_negative("--water-percentile", *percentile);
-  if (!share) return tl::unexpected(share.error());
-  if (*share > 100)
+  SCARP_TRY(const double share, parse_non_negative("--water-percentile", *percentile));
+  if (share > 100)
     return fail(ErrorKind::kUsage, fmt::format("--water-percentile {} is above 100", shell_word(*percentile)));
-  files.percentile = *share;
+  files.percentile = share;
   return files;
 }
 
 Result<TileFormat> TileArguments::choose_format(std::optional<GridKind> grid_of_tiles) const {
   const char* const by_default = grid_of_tiles == GridKind::kLocal ? "3dtiles" : "qm";
-  const Result<TileFormat> kept = choose("--of", format.value_or(by_default), kTileFormats);
-  if (!kept) return kept;
+  SCARP_TRY(const TileFormat kept, choose("--of", format.value_or(by_default), kTileFormats));
   const bool is_known = format || grid_of_tiles;
-  if (auto fits = check_conflicts(*this, grid_of_tiles, is_known ? std::optional(*kept) : std::nullopt); !fits)
-    return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_conflicts(*this, grid_of_tiles, is_known ? std::optional(kept) : std::nullopt));
   return kept;
 }
 
 Result<std::optional<TileDrape>> TileArguments::parse_drape() const {
-  const Result<ImageFormat> image = parse_image_format(drape_format);
-  if (!image) return tl::unexpected(image.error());
+  SCARP_TRY(const ImageFormat image, parse_image_format(drape_format));
   if (drape_format && !drape) return fail(ErrorKind::kUsage, "--drape-format needs an image: --drape FILE");
   if (!drape) return std::optional<TileDrape>();
-  return std::optional(stamp_drape(*drape, *image));
+  return std::optional(stamp_drape(*drape, image));
 }
 
 Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uint64_t memory) const {
-  Result<PyramidSettings> settings = parse_settings();
-  if (!settings) return tl::unexpected(settings.error());
-  const Result<Datum> datum = parse_datum();
-  if (!datum) return tl::unexpected(datum.error());
-  Result<ReadOptions> options = parse_reading();
-  if (!options) return tl::unexpected(options.error());
-  const Result<WaterFiles> waters = parse_waters();
-  if (!waters) return tl::unexpected(waters.error());
+  SCARP_TRY(PyramidSettings settings, parse_settings());
+  SCARP_TRY(const Datum& datum, parse_datum());
+  SCARP_TRY(ReadOptions options, parse_reading());
+  SCARP_TRY(const WaterFiles& waters, parse_waters());
   std::optional<GridKind> kind;
   if (grid) {
-    const Result<GridKind> given = parse_grid(*grid, takes_local);
-    if (!given) return tl::unexpected(given.error());
-    kind = *given;
+    SCARP_TRY(kind, parse_grid(*grid, takes_local));
   }
   // checks what the options alone show; without --grid the rest depends on the raster
-  if (auto fits = choose_format(kind); !fits) return tl::unexpected(fits.error());
-  auto image = parse_drape();
-  if (!image) return tl::unexpected(image.error());
+  SCARP_RETURN_IF_ERROR(choose_format(kind));
+  SCARP_TRY(auto&& image, parse_drape());
   OpenedJob opened;
   TileJob& job = opened.job;
-  job.drape = std::move(*image);
-  job.reading = *options;
-  job.datum = *datum;
+  job.drape = std::move(image);
+  job.reading = options;
+  job.datum = datum;
   if (geoid) job.geoid = stamp_of(*geoid);
-  options->with_range = true;
-  options->run.progress = progress;
-  options->run.memory.limit = memory;
+  options.with_range = true;
+  options.run.progress = progress;
+  options.run.memory.limit = memory;
   const std::vector<std::vector<std::string>> mosaics = find_mosaics(raster.paths);
-  auto globe = GlobeRaster::open(mosaics, *options, *datum, kind);
+  auto globe = GlobeRaster::open(mosaics, options, datum, kind);
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   opened.raster = std::move(*globe);
-  if (settings->binds_samples && opened.raster->grid(settings->cells).is_flat()) {  // nodes are samples
-    settings->binds_samples = false;
-    if (!cells) settings->cells = PyramidSettings{}.cells;
+  if (settings.binds_samples && opened.raster->grid(settings.cells).is_flat()) {  // nodes are samples
+    settings.binds_samples = false;
+    if (!cells) settings.cells = PyramidSettings{}.cells;
   }
-  settings->grid = opened.raster->grid(settings->cells);
-  const Result<TileFormat> kept = choose_format(settings->grid.kind);
-  if (!kept) return tl::unexpected(kept.error());
-  job.format = *kept;
-  settings->has_siblings = *kept == TileFormat::kGlb;
+  settings.grid = opened.raster->grid(settings.cells);
+  SCARP_TRY(const TileFormat kept, choose_format(settings.grid.kind));
+  job.format = kept;
+  settings.has_siblings = kept == TileFormat::kGlb;
   // Nodata of a plane that lies anywhere is no sea.
-  if (settings->grid.is_flat() && !background) settings->background = static_cast<float>(opened.raster->info().min);
-  settings->ellipsoid = opened.raster->place().ellipsoid;
-  if (settings->binds_samples && !opened.raster->nodes().has_samples())
+  if (settings.grid.is_flat() && !background) settings.background = static_cast<float>(opened.raster->info().min);
+  settings.ellipsoid = opened.raster->place().ellipsoid;
+  if (settings.binds_samples && !opened.raster->nodes().has_samples())
     return fail(ErrorKind::kUsage,
                 "--bound samples is for one raster or mosaic: of several nobody knows which samples are to be seen");
   if (!breaklines.empty() && !opened.raster->place().body.empty())
     return fail(ErrorKind::kUsage,
                 "--breaklines is for tiles of the earth: nobody says on which other ellipsoid the lines lie");
   for (const std::string& file : breaklines) {
-    const auto lines = read_lines(file, {.crs = "EPSG:4326", .ignore_z = true});
-    if (!lines) return tl::unexpected(lines.error());
-    for (const Line& line : lines->lines) {
-      settings->lines.emplace_back();
-      for (const auto& point : line.points) settings->lines.back().push_back({point[0], point[1]});
+    SCARP_TRY(const auto& lines, read_lines(file, {.crs = "EPSG:4326", .ignore_z = true}));
+    for (const Line& line : lines.lines) {
+      settings.lines.emplace_back();
+      for (const auto& point : line.points) settings.lines.back().push_back({point[0], point[1]});
     }
-    opened.warnings.insert(opened.warnings.end(), lines->warnings.begin(), lines->warnings.end());
+    opened.warnings.insert(opened.warnings.end(), lines.warnings.begin(), lines.warnings.end());
   }
-  auto plan = plan_pyramid(opened.raster->facts(), *settings);
-  if (!plan) return tl::unexpected(plan.error());
-  job.plan = std::move(*plan);
+  SCARP_TRY(job.plan, plan_pyramid(opened.raster->facts(), settings));
   std::vector<std::string> paths;
   for (const std::vector<std::string>& mosaic : mosaics) {
     job.mosaics.push_back(static_cast<std::uint32_t>(mosaic.size()));
     paths.insert(paths.end(), mosaic.begin(), mosaic.end());
   }
   stamp_rasters(job, paths);
-  job.waters = *waters;
+  job.waters = waters;
   job.plan.has_water_mask = has_water_mask;
-  if (auto found = find_waters(job, *opened.raster); !found) return tl::unexpected(found.error());
+  SCARP_RETURN_IF_ERROR(find_waters(job, *opened.raster));
   for (std::string& one : warn_of_walls(*opened.raster, job.plan)) opened.warnings.push_back(std::move(one));
   job.filled = opened.raster->voids().filled;
   if (!geoid && vertical != Given("auto")) job.facts.vertical = vertical_word(vertical.value_or(""));
@@ -401,9 +361,7 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
                 fmt::format("{} has other rows, columns or cells than the raster of the earlier plan, "
                             "whose grid is local: make the set anew",
                             raster.path()));
-  auto plan = plan_pyramid(opened.raster->facts(), settings);
-  if (!plan) return tl::unexpected(plan.error());
-  now.plan = std::move(*plan);
+  SCARP_TRY(now.plan, plan_pyramid(opened.raster->facts(), settings));
   std::vector<std::string> paths;
   for (const std::vector<std::string>& mosaic : mosaics) {
     now.mosaics.push_back(static_cast<std::uint32_t>(mosaic.size()));
@@ -411,7 +369,7 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
   }
   stamp_rasters(now, paths);
   now.waters = earlier.waters;
-  if (auto found = find_waters(now, *opened.raster); !found) return tl::unexpected(found.error());
+  SCARP_RETURN_IF_ERROR(find_waters(now, *opened.raster));
   if (!earlier.geoid.path.empty()) now.geoid = stamp_of(earlier.geoid.path);
   if (earlier.drape) now.drape = stamp_drape(earlier.drape->path(), earlier.drape->format);
   now.facts = earlier.facts;
@@ -421,9 +379,7 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
   add_plane(*opened.raster, now.facts);
   now.facts.name = base_name(raster.path());
   now.facts.description = fmt::format("heights above {}", now.facts.heights_above);
-  auto job = follow_job(earlier, std::move(now));
-  if (!job) return tl::unexpected(job.error());
-  opened.job = std::move(*job);
+  SCARP_TRY(opened.job, follow_job(earlier, std::move(now)));
   return opened;
 }
 

@@ -98,24 +98,20 @@ Result<ZonePlan> ZoneArguments::read(const RasterInfo& raster, int rows, const P
   if (materials) {
     options.z_field = field.value_or("");
     options.ignore_z = !field;
-    auto lines = read_files({*materials}, options, warnings);
-    if (!lines) return tl::unexpected(std::move(lines.error()));
+    SCARP_TRY(auto&& lines, read_files({*materials}, options, warnings));
     const std::string user = "--materials " + shell_word(base_name(*materials));
-    if (auto closed = check_polygons(*lines, user); !closed) return tl::unexpected(closed.error());
-    auto zones = make_zones(*lines, field);
-    if (!zones) return tl::unexpected(std::move(zones.error()));
-    plan.zones = std::move(*zones);
-    for (Line& line : *lines) {
+    SCARP_RETURN_IF_ERROR(check_polygons(lines, user));
+    SCARP_TRY(plan.zones, make_zones(lines, field));
+    for (Line& line : lines) {
       drop_heights(line);
       breaklines.lines.push_back(std::move(line));
     }
   }
   options.z_field.clear();
   options.ignore_z = true;
-  auto lines = read_files(strings, options, warnings);
-  if (!lines) return tl::unexpected(std::move(lines.error()));
-  breaklines.lines.insert(breaklines.lines.end(), lines->begin(), lines->end());
-  plan.strings = std::move(*lines);
+  SCARP_TRY(auto&& lines, read_files(strings, options, warnings));
+  breaklines.lines.insert(breaklines.lines.end(), lines.begin(), lines.end());
+  plan.strings = std::move(lines);
   return plan;
 }
 

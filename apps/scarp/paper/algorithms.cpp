@@ -24,11 +24,10 @@ Result<Runs> run(const Study& study, const Field& field, std::uint64_t vertices)
   for (std::size_t k = 0; k < kAlgorithms.size(); ++k) {
     PaperOptions options;
     options.strategy.algorithm = kAlgorithms[k];
-    const Result<Simplified> result = study.run(field.heights, field.file, exactly(vertices, options));
-    if (!result) return tl::unexpected(result.error());
-    runs.works[k] = result->work;
-    if (k == 0) first = result->mesh;
-    runs.same = runs.same && result->mesh.positions == first.positions && result->mesh.triangles == first.triangles;
+    SCARP_TRY(const Simplified& result, study.run(field.heights, field.file, exactly(vertices, options)));
+    runs.works[k] = result.work;
+    if (k == 0) first = result.mesh;
+    runs.same = runs.same && result.mesh.positions == first.positions && result.mesh.triangles == first.triangles;
   }
   return runs;
 }
@@ -40,9 +39,8 @@ Result<std::array<double, 3>> time_all(const Study& study, const Field& field, s
     for (std::size_t k = 0; k < kAlgorithms.size(); ++k) {
       PaperOptions options;
       options.strategy.algorithm = kAlgorithms[k];
-      const Result<double> seconds = study.time(field, vertices, options);
-      if (!seconds) return tl::unexpected(seconds.error());
-      least[k] = round == 0 ? *seconds : std::min(least[k], *seconds);
+      SCARP_TRY(const double seconds, study.time(field, vertices, options));
+      least[k] = round == 0 ? seconds : std::min(least[k], seconds);
     }
   }
   return least;
@@ -64,10 +62,9 @@ Result<Plot> make_plot(Study& study, const Field& field) {
   plot.curves[2].style = Curve::Style::kLine;
   for (std::uint64_t m = 8; m <= std::min<std::uint64_t>(512, field.samples() / 4); m *= 2) {
     study.note(fmt::format("algorithms: {}, {} vertices", field.key, m));
-    const Result<Runs> runs = run(study, field, m);
-    if (!runs) return tl::unexpected(runs.error());
+    SCARP_TRY(const Runs& runs, run(study, field, m));
     for (std::size_t k = 0; k < kNames.size(); ++k)
-      plot.curves[k].points.push_back({static_cast<double>(m), static_cast<double>(runs->works[k].samples_scanned)});
+      plot.curves[k].points.push_back({static_cast<double>(m), static_cast<double>(runs.works[k].samples_scanned)});
   }
   return plot;
 }
@@ -82,10 +79,9 @@ Result<void> add_algorithms(Study& study) {
   for (const Field* field : fields) {
     const std::uint64_t vertices = std::max<std::uint64_t>(field->share(0.1), 8);
     study.note(fmt::format("algorithms: {}, {} vertices", field->key, vertices));
-    const Result<Runs> runs = run(study, *field, vertices);
-    if (!runs) return tl::unexpected(runs.error());
-    all_same = all_same && runs->same;
-    const auto& [one, two, three] = runs->works;
+    SCARP_TRY(const Runs& runs, run(study, *field, vertices));
+    all_same = all_same && runs.same;
+    const auto& [one, two, three] = runs.works;
     std::vector<std::string> row{field->key,
                                  fmt::format("{}", vertices),
                                  number(millions(one.samples_scanned)),
@@ -95,12 +91,11 @@ Result<void> add_algorithms(Study& study) {
                                         static_cast<double>(std::max<std::uint64_t>(three.samples_scanned, 1))),
                                  fmt::format("{}", two.queue_moves),
                                  fmt::format("{}", three.queue_moves),
-                                 runs->same ? "yes" : "no"};
+                                 runs.same ? "yes" : "no"};
     if (study.timing) {
-      const auto seconds = time_all(study, *field, vertices);
-      if (!seconds) return tl::unexpected(seconds.error());
-      row.push_back(number((*seconds)[0] / (*seconds)[2]));
-      row.push_back(number((*seconds)[1] / (*seconds)[2]));
+      SCARP_TRY(const auto& seconds, time_all(study, *field, vertices));
+      row.push_back(number(seconds[0] / seconds[2]));
+      row.push_back(number(seconds[1] / seconds[2]));
     }
     rows.push_back(std::move(row));
   }
@@ -113,10 +108,8 @@ Result<void> add_algorithms(Study& study) {
     header.push_back("CPU time II / III (measured once)");
   }
   study.page.table(header, rows);
-  const Result<Plot> plot = make_plot(study, *fields.front());
-  if (!plot) return tl::unexpected(plot.error());
-  const Result<void> drawn = study.add_plot("algorithms", *plot);
-  if (!drawn) return drawn;
+  SCARP_TRY(const Plot& plot, make_plot(study, *fields.front()));
+  SCARP_RETURN_IF_ERROR(study.add_plot("algorithms", plot));
   study.page.list({all_same
                        ? "All three insert the same samples in the same order: the meshes are equal to the last bit."
                        : "The meshes are not all equal, which they should be.",

@@ -33,9 +33,8 @@ Result<void> add_batches(Study& study) {
     if (const auto bound = figure_of(study, kThreeFields, kBatchBounds, *field)) {
       bounds.push_back(*bound);
     } else {
-      const Result<Trial> trial = study.delaunay(*field, field->share(1));
-      if (!trial) return tl::unexpected(trial.error());
-      bounds.push_back(trial->max_error);
+      SCARP_TRY(const Trial& trial, study.delaunay(*field, field->share(1)));
+      bounds.push_back(trial.max_error);
     }
     header.insert(header.end(),
                   {fmt::format("{}, max error {}", field->key, number(bounds.back())), "against sequential", "passes"});
@@ -51,21 +50,20 @@ Result<void> add_batches(Study& study) {
       PaperOptions options;
       options.goals.max_error = bounds[f];
       options.strategy.batch = rule.batch;
-      const Result<Trial> trial = study.reach(*fields[f], options);
-      if (!trial) return tl::unexpected(trial.error());
-      trials[r].push_back(*trial);
+      SCARP_TRY(const Trial& trial, study.reach(*fields[f], options));
+      trials[r].push_back(trial);
       std::optional<double> scape_vertices, scape_passes;
       if (rule.figures != nullptr) {
         scape_vertices = figure_of(study, kThreeFields, rule.figures->vertices, *fields[f]);
         scape_passes = figure_of(study, kThreeFields, rule.figures->passes, *fields[f]);
       }
       const std::string what = fmt::format("{} on {}", rule.name, fields[f]->key);
-      vertices.add(what, static_cast<double>(trial->vertices), scape_vertices);
-      passes.add(what, static_cast<double>(trial->work.passes), scape_passes);
-      line.push_back(beside_count(trial->vertices, scape_vertices));
+      vertices.add(what, static_cast<double>(trial.vertices), scape_vertices);
+      passes.add(what, static_cast<double>(trial.work.passes), scape_passes);
+      line.push_back(beside_count(trial.vertices, scape_vertices));
       line.push_back(
-          percent_of_change(static_cast<double>(trial->vertices), static_cast<double>(trials[0][f].vertices)));
-      line.push_back(beside_count(trial->work.passes, scape_passes));
+          percent_of_change(static_cast<double>(trial.vertices), static_cast<double>(trials[0][f].vertices)));
+      line.push_back(beside_count(trial.work.passes, scape_passes));
     }
     cells.push_back(std::move(line));
   }

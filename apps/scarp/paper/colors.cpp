@@ -17,7 +17,7 @@ HeightField with_colors(HeightField heights, const OwnedChannels& image, double 
 namespace {
 
 Result<Painted> paint_mesh(Result<Simplified> run, const HeightField& field, const OwnedChannels& image) {
-  if (!run) return tl::unexpected(std::move(run.error()));
+  SCARP_RETURN_IF_ERROR(run);
   Painted painted{std::move(*run), {}, 0};
   color_by_channels(painted.run.mesh, image);
   painted.picture = draw_gouraud(field, painted.run.mesh);

@@ -33,16 +33,14 @@ Result<void> add_edge_curves(Study& study) {
     for (const double share : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0}) {
       const std::uint64_t vertices = field.share(share);
       if (vertices < 5) continue;
-      const Result<Trial> delaunay = study.delaunay(field, vertices);
-      if (!delaunay) return tl::unexpected(delaunay.error());
-      const Result<Trial> trial = study.refine(field, vertices, with_edges(scape_edges(EdgeScore::kSum, 0.5)));
-      if (!trial) return tl::unexpected(trial.error());
-      if (!(trial->rmse > 0) || !(delaunay->rmse > 0)) break;
+      SCARP_TRY(const Trial& delaunay, study.delaunay(field, vertices));
+      SCARP_TRY(const Trial& trial, study.refine(field, vertices, with_edges(scape_edges(EdgeScore::kSum, 0.5))));
+      if (!(trial.rmse > 0) || !(delaunay.rmse > 0)) break;
       const auto m = static_cast<double>(vertices);
-      with.points.push_back({m, 100 * trial->rmse / field.relief()});
-      without.points.push_back({m, 100 * delaunay->rmse / field.relief()});
-      ratio.points.push_back({share, trial->rmse / delaunay->rmse});
-      better += trial->rmse < delaunay->rmse ? 1 : 0;
+      with.points.push_back({m, 100 * trial.rmse / field.relief()});
+      without.points.push_back({m, 100 * delaunay.rmse / field.relief()});
+      ratio.points.push_back({share, trial.rmse / delaunay.rmse});
+      better += trial.rmse < delaunay.rmse ? 1 : 0;
       ++runs;
     }
     if (with.points.empty()) continue;
@@ -52,10 +50,8 @@ Result<void> add_edge_curves(Study& study) {
   }
   if (errors.curves.empty()) return {};
   study.page.heading(3, "Delaunay and data-dependent edges against vertices");
-  const Result<void> drawn = study.add_plot("edge_rms", errors);
-  if (!drawn) return drawn;
-  const Result<void> ratios_drawn = study.add_plot("edge_ratio", ratios);
-  if (!ratios_drawn) return ratios_drawn;
+  SCARP_RETURN_IF_ERROR(study.add_plot("edge_rms", errors));
+  SCARP_RETURN_IF_ERROR(study.add_plot("edge_ratio", ratios));
   study.page.list({fmt::format("Data-dependent edges have the smaller RMS in {} of {} runs.", better, runs)});
   return {};
 }

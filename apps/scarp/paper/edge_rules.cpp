@@ -39,9 +39,8 @@ Result<ModeTrials> run_modes(Study& study) {
   for (std::size_t k = 0; k < kModes.size(); ++k) {
     study.note(fmt::format("edge rules: {}", kModes[k].name));
     for (const Field& field : study.fields.all) {
-      const Result<Trial> trial = run(study, field, kModes[k], field.share(1));
-      if (!trial) return tl::unexpected(trial.error());
-      trials[k].push_back(*trial);
+      SCARP_TRY(const Trial& trial, run(study, field, kModes[k], field.share(1)));
+      trials[k].push_back(trial);
     }
   }
   return trials;
@@ -100,14 +99,13 @@ Result<std::optional<double>> find_saving(Study& study, const Field& field, cons
   double known_share = 1, known_rmse = full.rmse;
   if (known_rmse > rmse) return std::nullopt;
   for (const double share : {0.9, 0.8, 0.7}) {
-    const Result<Trial> trial = run(study, field, mode, static_cast<std::uint64_t>(share * full_vertices));
-    if (!trial) return tl::unexpected(trial.error());
-    if (trial->rmse > rmse) {
-      const double t = std::log(rmse / known_rmse) / std::log(trial->rmse / known_rmse);
+    SCARP_TRY(const Trial& trial, run(study, field, mode, static_cast<std::uint64_t>(share * full_vertices)));
+    if (trial.rmse > rmse) {
+      const double t = std::log(rmse / known_rmse) / std::log(trial.rmse / known_rmse);
       return 100 * (1 - known_share * std::pow(share / known_share, t));
     }
     known_share = share;
-    known_rmse = trial->rmse;
+    known_rmse = trial.rmse;
   }
   return std::nullopt;
 }
@@ -120,15 +118,11 @@ Result<void> add_gain_table(Study& study, const ModeTrials& trials) {
     const Field& field = study.fields.all[f];
     study.note(fmt::format("edge rules: gain on {}", field.key));
     const Trial &delaunay = trials[0][f], &sum = trials[kSumMode][f], &pure = trials[kSumPureMode][f];
-    const Result<Trial> delaunay_5 = study.delaunay(field, field.share(5));
-    if (!delaunay_5) return tl::unexpected(delaunay_5.error());
-    const Result<Trial> sum_5 = run(study, field, kModes[kSumMode], field.share(5));
-    if (!sum_5) return tl::unexpected(sum_5.error());
-    const auto saving = find_saving(study, field, kModes[kSumMode], delaunay.rmse, sum);
-    if (!saving) return tl::unexpected(saving.error());
-    const auto tight = find_saving(study, field, kModes[kTightMode], delaunay.rmse, trials[kTightMode][f]);
-    if (!tight) return tl::unexpected(tight.error());
-    rows.push_back({field.key, percent_of_change(sum_5->rmse, delaunay_5->rmse), percent(*saving), percent(*tight),
+    SCARP_TRY(const Trial& delaunay_5, study.delaunay(field, field.share(5)));
+    SCARP_TRY(const Trial& sum_5, run(study, field, kModes[kSumMode], field.share(5)));
+    SCARP_TRY(const auto& saving, find_saving(study, field, kModes[kSumMode], delaunay.rmse, sum));
+    SCARP_TRY(const auto& tight, find_saving(study, field, kModes[kTightMode], delaunay.rmse, trials[kTightMode][f]));
+    rows.push_back({field.key, percent_of_change(sum_5.rmse, delaunay_5.rmse), percent(saving), percent(tight),
                     fmt::format("{:.1f} %", delaunay.thin_share), fmt::format("{:.1f} %", sum.thin_share),
                     fmt::format("{:.1f} %", pure.thin_share),
                     number(static_cast<double>(sum.work.samples_scanned) /
@@ -166,12 +160,11 @@ Result<void> add_bound_table(Study& study, const ModeTrials& trials) {
     for (const std::size_t k : kShown) {
       PaperOptions options = with_edges(kModes[k].edges);
       options.goals.max_error = bound;
-      const Result<Trial> trial = study.reach(field, options);
-      if (!trial) return tl::unexpected(trial.error());
-      const auto triangles = static_cast<double>(trial->triangles);
+      SCARP_TRY(const Trial& trial, study.reach(field, options));
+      const auto triangles = static_cast<double>(trial.triangles);
       if (k == 0) delaunay = triangles;
-      row.push_back(k == 0 ? fmt::format("{}", trial->triangles)
-                           : fmt::format("{} ({})", trial->triangles, percent_of_change(triangles, delaunay)));
+      row.push_back(k == 0 ? fmt::format("{}", trial.triangles)
+                           : fmt::format("{} ({})", trial.triangles, percent_of_change(triangles, delaunay)));
     }
     rows.push_back(std::move(row));
   }
@@ -201,12 +194,10 @@ Result<void> add_times(Study& study) {
     study.note(fmt::format("edge rules: times on {}", field.key));
     std::array<std::array<double, 3>, kTimedRules.size()> ratios{};
     for (std::size_t run = 0; run < 3; ++run) {
-      const Result<double> delaunay = study.time(field, field.share(1));
-      if (!delaunay) return tl::unexpected(delaunay.error());
+      SCARP_TRY(const double delaunay, study.time(field, field.share(1)));
       for (std::size_t k = 0; k < kTimedRules.size(); ++k) {
-        const Result<double> seconds = study.time(field, field.share(1), with_edges(kTimedRules[k].edges));
-        if (!seconds) return tl::unexpected(seconds.error());
-        ratios[k][run] = *seconds / *delaunay;
+        SCARP_TRY(const double seconds, study.time(field, field.share(1), with_edges(kTimedRules[k].edges)));
+        ratios[k][run] = seconds / delaunay;
       }
     }
     rows.push_back({field.key});
@@ -227,14 +218,11 @@ Result<void> add_times(Study& study) {
 }  // namespace
 
 Result<void> add_edge_rules(Study& study) {
-  const Result<ModeTrials> trials = run_modes(study);
-  if (!trials) return tl::unexpected(trials.error());
+  SCARP_TRY(const ModeTrials& trials, run_modes(study));
   study.page.heading(2, "Data-dependent triangulation, Algorithm IV (section 4.4, page 18)");
-  add_mode_table(study, *trials);
-  const Result<void> gains = add_gain_table(study, *trials);
-  if (!gains) return gains;
-  const Result<void> bounds = add_bound_table(study, *trials);
-  if (!bounds) return bounds;
+  add_mode_table(study, trials);
+  SCARP_RETURN_IF_ERROR(add_gain_table(study, trials));
+  SCARP_RETURN_IF_ERROR(add_bound_table(study, trials));
   return study.timing ? add_times(study) : Result<void>{};
 }
 
@@ -249,25 +237,23 @@ Result<void> add_edge_sweep(Study& study) {
   int color = 0;
   for (const Field* field : fields) {
     header.push_back(field->key);
-    const Result<Trial> delaunay = study.delaunay(*field, field->share(1));
-    if (!delaunay) return tl::unexpected(delaunay.error());
+    SCARP_TRY(const Trial& delaunay, study.delaunay(*field, field->share(1)));
     ++color;
     Curve ours{field->key, Curve::Style::kLineAndPoints, {}, color};
     Curve theirs{field->key + ", Scape", Curve::Style::kDashes, {}, color};
     for (std::size_t k = 0; k <= 10; ++k) {
       const double q = static_cast<double>(k) / 10;
       study.note(fmt::format("edge rules: sweep of {}, q {:g}", field->key, q));
-      const Result<Trial> trial = study.refine(*field, field->share(1), with_edges(scape_edges(EdgeScore::kSum, q)));
-      if (!trial) return tl::unexpected(trial.error());
+      SCARP_TRY(const Trial& trial, study.refine(*field, field->share(1), with_edges(scape_edges(EdgeScore::kSum, q))));
       std::optional<double> scape;
       if (const int at = position_of(kThreeFields, field->key); study.fields.are_of_paper && at >= 0) {
         scape = kSweep[static_cast<std::size_t>(at)][k];
         theirs.points.push_back({q, *scape / *figure_of(study, kReportFields, kDelaunayRmse, *field)});
       }
       if (rows[k].empty()) rows[k].push_back(fmt::format("{:g}", q));
-      rows[k].push_back(beside(trial->rmse, scape));
-      differences.add(fmt::format("q {:g} on {}", q, field->key), trial->rmse, scape);
-      ours.points.push_back({q, trial->rmse / delaunay->rmse});
+      rows[k].push_back(beside(trial.rmse, scape));
+      differences.add(fmt::format("q {:g} on {}", q, field->key), trial.rmse, scape);
+      ours.points.push_back({q, trial.rmse / delaunay.rmse});
     }
     plot.curves.push_back(std::move(ours));
     if (!theirs.points.empty()) plot.curves.push_back(std::move(theirs));
@@ -275,8 +261,7 @@ Result<void> add_edge_sweep(Study& study) {
   study.page.heading(3, "The threshold of shape");
   study.page.paragraph("RMS of the sum at 1 % of the samples.");
   study.page.table(header, rows);
-  const Result<void> drawn = study.add_plot("sweep", plot);
-  if (!drawn) return drawn;
+  SCARP_RETURN_IF_ERROR(study.add_plot("sweep", plot));
   if (!differences.empty()) study.page.list({differences.sentence("figures")});
   return {};
 }

@@ -49,11 +49,10 @@ Result<Series> run(Study& study, const Field& field) {
     const std::uint64_t vertices = field.share(share);
     if (vertices < 5) continue;
     study.note(fmt::format("effort: {}, {} vertices", field.key, vertices));
-    const Result<Trial> trial = study.delaunay(field, vertices);
-    if (!trial) return tl::unexpected(trial.error());
+    SCARP_TRY(const Trial& trial, study.delaunay(field, vertices));
     series.vertices.push_back(vertices);
-    series.trials.push_back(*trial);
-    points.push_back({std::log(static_cast<double>(vertices)), scans(*trial) / static_cast<double>(field.samples())});
+    series.trials.push_back(trial);
+    points.push_back({std::log(static_cast<double>(vertices)), scans(trial) / static_cast<double>(field.samples())});
   }
   if (points.size() > 1) series.line = fit(points);
   return series;
@@ -105,14 +104,13 @@ Result<void> add_effort(Study& study) {
   Differences counts;
   double least = 1e300, most = 0;
   for (const Field* field : fields) {
-    Result<Series> series = run(study, *field);
-    if (!series) return tl::unexpected(series.error());
-    for (std::size_t k = 0; k < series->trials.size(); ++k) {
-      const Trial& trial = series->trials[k];
+    SCARP_TRY(Series series, run(study, *field));
+    for (std::size_t k = 0; k < series.trials.size(); ++k) {
+      const Trial& trial = series.trials[k];
       const double millions = scans(trial) / 1e6;
       const double moves = static_cast<double>(trial.work.queue_moves) / static_cast<double>(trial.vertices);
-      const auto scape = scape_scans(study, *field, series->vertices[k]);
-      counts.add(fmt::format("{} at {} vertices", field->key, series->vertices[k]), millions, scape);
+      const auto scape = scape_scans(study, *field, series.vertices[k]);
+      counts.add(fmt::format("{} at {} vertices", field->key, series.vertices[k]), millions, scape);
       least = std::min(least, moves);
       most = std::max(most, moves);
       rows.push_back({field->key, fmt::format("{}", trial.vertices),
@@ -120,15 +118,14 @@ Result<void> add_effort(Study& study) {
                       number(static_cast<double>(trial.work.triangles_scanned) / static_cast<double>(trial.vertices)),
                       number(moves)});
     }
-    all.push_back(std::move(*series));
+    all.push_back(std::move(series));
   }
   study.page.heading(2, "The cost of Algorithm III (section 4, page 13)");
   study.page.paragraph("Expected: O((n + m) log m) for n samples and m vertices.");
   study.page.table(
       {"field", "m", "million samples scanned", "without corners", "triangles scanned / m", "queue entries moved / m"},
       rows);
-  const Result<void> drawn = study.add_plot("effort", make_plot(study, all));
-  if (!drawn) return drawn;
+  SCARP_RETURN_IF_ERROR(study.add_plot("effort", make_plot(study, all)));
   std::vector<std::string> remarks;
   for (const Series& series : all) {
     const bool compares = study.fields.are_of_paper && series.field->key == kScanField;

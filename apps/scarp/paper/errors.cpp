@@ -15,8 +15,7 @@ Result<void> add_reference_rows(Study& study) {
   Differences rmse, triangles, max_error;
   const auto add_row = [&](const Field& field, std::uint64_t vertices, const ReferenceRow* scape) -> Result<void> {
     study.note(fmt::format("reference: {}, {} vertices", field.key, vertices));
-    const Result<Trial> trial = study.delaunay(field, vertices);
-    if (!trial) return tl::unexpected(trial.error());
+    SCARP_TRY(const Trial& trial, study.delaunay(field, vertices));
     std::optional<double> their_triangles, their_max, their_rmse;
     if (scape != nullptr) {
       their_triangles = static_cast<double>(scape->triangles);
@@ -24,27 +23,25 @@ Result<void> add_reference_rows(Study& study) {
       their_rmse = scape->rmse;
     }
     const std::string what = fmt::format("{} at {} vertices", field.key, vertices);
-    triangles.add(what, static_cast<double>(trial->triangles), their_triangles);
-    max_error.add(what, trial->max_error, their_max);
-    rmse.add(what, trial->rmse, their_rmse);
-    rows.push_back({field.key, fmt::format("{}", trial->vertices), beside_count(trial->triangles, their_triangles),
-                    beside(trial->max_error, their_max), beside(trial->rmse, their_rmse),
-                    fmt::format("{:.2f} %", 100 * trial->max_error / field.relief()),
-                    fmt::format("{:.2f} %", 100 * trial->rmse / field.relief())});
+    triangles.add(what, static_cast<double>(trial.triangles), their_triangles);
+    max_error.add(what, trial.max_error, their_max);
+    rmse.add(what, trial.rmse, their_rmse);
+    rows.push_back({field.key, fmt::format("{}", trial.vertices), beside_count(trial.triangles, their_triangles),
+                    beside(trial.max_error, their_max), beside(trial.rmse, their_rmse),
+                    fmt::format("{:.2f} %", 100 * trial.max_error / field.relief()),
+                    fmt::format("{:.2f} %", 100 * trial.rmse / field.relief())});
     return {};
   };
   if (study.fields.are_of_paper) {
     for (const ReferenceRow& row : kReferenceRows) {
       const Field* field = study.find(row.field);
       if (field == nullptr) continue;
-      const Result<void> added = add_row(*field, row.vertices, &row);
-      if (!added) return added;
+      SCARP_RETURN_IF_ERROR(add_row(*field, row.vertices, &row));
     }
   } else {
     for (const Field& field : study.fields.all) {
       for (const double share : {0.1, 1.0, 5.0, 10.0}) {
-        const Result<void> added = add_row(field, std::max<std::uint64_t>(field.share(share), 5), nullptr);
-        if (!added) return added;
+        SCARP_RETURN_IF_ERROR(add_row(field, std::max<std::uint64_t>(field.share(share), 5), nullptr));
       }
     }
   }
@@ -66,11 +63,10 @@ Result<void> add_cross_checks(Study& study) {
     const Field* field = study.fields.are_of_paper ? study.find(check.field) : nullptr;
     if (field == nullptr) continue;
     if (rows.empty() || rows.back().front() != check.field) {
-      const Result<Trial> trial = study.delaunay(*field, check.vertices);
-      if (!trial) return tl::unexpected(trial.error());
+      SCARP_TRY(const Trial& trial, study.delaunay(*field, check.vertices));
       rows.push_back(
-          {field->key, fmt::format("{}", check.vertices), "Scarp", number(trial->max_error), number(trial->rmse)});
-      ours = trial->rmse;
+          {field->key, fmt::format("{}", check.vertices), "Scarp", number(trial.max_error), number(trial.rmse)});
+      ours = trial.rmse;
     }
     farthest = std::max(farthest, 100 * std::abs(ours / check.rmse - 1));
     rows.push_back(
@@ -122,9 +118,8 @@ Result<Curves> trace(const Field& field, int color) {
     MeasureOptions heights_only;
     heights_only.topology = false;
     heights_only.run.threads = 0;
-    const auto judged = measure(field.heights, refiner->mesh(), heights_only);
-    if (!judged) return tl::unexpected(judged.error());
-    curves.rmse.points.push_back({static_cast<double>(m), 100 * judged->rmse / field.relief()});
+    SCARP_TRY(const auto& judged, measure(field.heights, refiner->mesh(), heights_only));
+    curves.rmse.points.push_back({static_cast<double>(m), 100 * judged.rmse / field.relief()});
   }
   return curves;
 }
@@ -135,10 +130,9 @@ Result<void> add_spikes(Study& study) {
   std::vector<std::vector<std::string>> rows;
   Differences differences;
   for (const MaxErrorFigure& figure : kCraterSpikes) {
-    const Result<Trial> trial = study.delaunay(*crater, figure.vertices);
-    if (!trial) return tl::unexpected(trial.error());
-    rows.push_back({fmt::format("{}", trial->vertices), beside(trial->max_error, figure.max_error)});
-    differences.add(fmt::format("{} vertices", figure.vertices), trial->max_error, figure.max_error);
+    SCARP_TRY(const Trial& trial, study.delaunay(*crater, figure.vertices));
+    rows.push_back({fmt::format("{}", trial.vertices), beside(trial.max_error, figure.max_error)});
+    differences.add(fmt::format("{} vertices", figure.vertices), trial.max_error, figure.max_error);
   }
   study.page.paragraph(
       "The max error has spikes, where a single sample suddenly lies under a long triangle. So `scarp simplify -p` "
@@ -162,11 +156,10 @@ Result<void> add_error_curves(Study& study) {
   for (const Field& field : study.fields.all) {
     study.note(fmt::format("error curves: {}", field.key));
     color = color % 8 + 1;
-    Result<Curves> curves = trace(field, color);
-    if (!curves) return tl::unexpected(std::move(curves.error()));
-    if (curves->max_error.points.empty()) continue;
-    max_plot.curves.push_back(std::move(curves->max_error));
-    rmse_plot.curves.push_back(std::move(curves->rmse));
+    SCARP_TRY(Curves curves, trace(field, color));
+    if (curves.max_error.points.empty()) continue;
+    max_plot.curves.push_back(std::move(curves.max_error));
+    rmse_plot.curves.push_back(std::move(curves.rmse));
     Curve their_max{"", Curve::Style::kPoints, {}, color}, their_rmse = their_max;
     for (const ReferenceRow& row : kReferenceRows) {
       const auto m = static_cast<double>(row.vertices);

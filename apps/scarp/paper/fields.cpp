@@ -23,9 +23,7 @@ Result<Field> read_field(const std::string& path, const std::string& key) {
   Field field{key, fs::path(path).filename().string(), {}};
   ReadOptions options;
   options.crs = "grid";
-  Result<OwnedHeightField> read = read_height_field(path, options);
-  if (!read) return tl::unexpected(std::move(read.error()));
-  field.heights = std::move(*read);
+  SCARP_TRY(field.heights, read_height_field(path, options));
   return field;
 }
 
@@ -74,24 +72,21 @@ Result<Fields> read_fields(const std::string& folder) {
     }
     const std::string path = find_file(folder, names);
     if (path.empty()) continue;
-    Result<Field> field = read_field(path, key);
-    if (!field) return tl::unexpected(std::move(field.error()));
-    fields.all.push_back(std::move(*field));
+    SCARP_TRY(Field field, read_field(path, key));
+    fields.all.push_back(std::move(field));
   }
   fields.are_of_paper = !fields.all.empty();
   if (fields.are_of_paper) return fields;
 
-  const Result<std::vector<fs::path>> paths = list_rasters(folder);
-  if (!paths) return tl::unexpected(paths.error());
-  for (const fs::path& path : *paths) {
-    Result<Field> field = read_field(path.string(), path.stem().string());
-    if (!field) return tl::unexpected(std::move(field.error()));
-    if (field->heights.info.valid < field->samples()) {
-      fields.left_out.push_back(field->file + " has missing samples");
-    } else if (field->samples() > kMostSamples) {
-      fields.left_out.push_back(fmt::format("{} has more than {} samples", field->file, kMostSamples));
+  SCARP_TRY(const std::vector<fs::path>& paths, list_rasters(folder));
+  for (const fs::path& path : paths) {
+    SCARP_TRY(Field field, read_field(path.string(), path.stem().string()));
+    if (field.heights.info.valid < field.samples()) {
+      fields.left_out.push_back(field.file + " has missing samples");
+    } else if (field.samples() > kMostSamples) {
+      fields.left_out.push_back(fmt::format("{} has more than {} samples", field.file, kMostSamples));
     } else {
-      fields.all.push_back(std::move(*field));
+      fields.all.push_back(std::move(field));
     }
   }
   if (fields.all.empty()) {

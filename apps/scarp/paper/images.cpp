@@ -52,12 +52,11 @@ struct Subject {
 Picture middle(const Picture& picture) { return crop(picture, kShorterSide, kShorterSide); }
 
 Result<Subject> read_subject(const Image& known, const std::string& path) {
-  Result<OwnedChannels> image = read_channels(path);
-  if (!image) return tl::unexpected(std::move(image.error()));
-  const double scale = static_cast<double>(kShorterSide) / std::min(image->cols, image->rows);
+  SCARP_TRY(OwnedChannels image, read_channels(path));
+  const double scale = static_cast<double>(kShorterSide) / std::min(image.cols, image.rows);
   Subject subject{&known,
-                  resize(*image, static_cast<int>(std::lround(scale * image->cols)),
-                         static_cast<int>(std::lround(scale * image->rows))),
+                  resize(image, static_cast<int>(std::lround(scale * image.cols)),
+                         static_cast<int>(std::lround(scale * image.rows))),
                   {}};
   subject.flat.assign(subject.image.bands.front().size(), 0.0f);
   return subject;
@@ -84,30 +83,25 @@ struct Outcome {
 Result<Outcome> compare(const Study& study, const Subject& subject) {
   study.note(fmt::format("images: {}", subject.known->file));
   const UniformGrid grid = uniform_grid(subject.image.cols, subject.image.rows, kImageVertices);
-  const Result<Painted> uniform = paint_uniform(study, subject, grid);
-  if (!uniform) return tl::unexpected(uniform.error());
+  SCARP_TRY(const Painted& uniform, paint_uniform(study, subject, grid));
   Outcome outcome;
   outcome.rows.push_back({subject.known->file, fmt::format("uniform grid, {} × {}", grid.cols, grid.rows),
-                          fmt::format("{}", grid.vertices()), format_psnr(uniform->psnr), ""});
-  std::vector<Picture> beside{middle(draw_channels(subject.image)), middle(uniform->picture)};
+                          fmt::format("{}", grid.vertices()), format_psnr(uniform.psnr), ""});
+  std::vector<Picture> beside{middle(draw_channels(subject.image)), middle(uniform.picture)};
   for (std::size_t k = 0; k < kGreedy.size(); ++k) {
     const Treatment& treatment = kGreedy[k];
-    const Result<Painted> painted = paint_greedy(study, subject, grid.vertices(), treatment.edges);
-    if (!painted) return tl::unexpected(painted.error());
-    outcome.rows.push_back({"", treatment.name, fmt::format("{}", painted->run.mesh.vertex_count()),
-                            format_psnr(painted->psnr), with_sign(painted->psnr - uniform->psnr, 2) + " dB"});
-    if (k != kNormalsTreatment) outcome.better = outcome.better && painted->psnr > uniform->psnr;
-    if (k < kDrawnTreatments) beside.push_back(middle(painted->picture));
+    SCARP_TRY(const Painted& painted, paint_greedy(study, subject, grid.vertices(), treatment.edges));
+    outcome.rows.push_back({"", treatment.name, fmt::format("{}", painted.run.mesh.vertex_count()),
+                            format_psnr(painted.psnr), with_sign(painted.psnr - uniform.psnr, 2) + " dB"});
+    if (k != kNormalsTreatment) outcome.better = outcome.better && painted.psnr > uniform.psnr;
+    if (k < kDrawnTreatments) beside.push_back(middle(painted.picture));
   }
-  const Result<Painted> squares =
-      paint_by_squares(study, subject.field(), subject.known->file, subject.image, grid.vertices(), kSquaresEffort);
-  if (!squares) return tl::unexpected(squares.error());
-  outcome.rows.push_back({"", kSquares, fmt::format("{}", squares->run.mesh.vertex_count()), format_psnr(squares->psnr),
-                          with_sign(squares->psnr - uniform->psnr, 2) + " dB"});
-  beside.push_back(middle(squares->picture));
-  Result<std::vector<std::uint8_t>> png = encode_beside(std::move(beside));
-  if (!png) return tl::unexpected(std::move(png.error()));
-  outcome.png = std::move(*png);
+  SCARP_TRY(const Painted& squares, paint_by_squares(study, subject.field(), subject.known->file, subject.image,
+                                                     grid.vertices(), kSquaresEffort));
+  outcome.rows.push_back({"", kSquares, fmt::format("{}", squares.run.mesh.vertex_count()), format_psnr(squares.psnr),
+                          with_sign(squares.psnr - uniform.psnr, 2) + " dB"});
+  beside.push_back(middle(squares.picture));
+  SCARP_TRY(outcome.png, encode_beside(std::move(beside)));
   return outcome;
 }
 
@@ -121,19 +115,16 @@ Result<std::optional<std::uint64_t>> trace(const Study& study, const Subject& su
   for (std::uint64_t m = 100; m <= subject.flat.size() / 3; m *= 2) {
     study.note(fmt::format("images: {}, {} vertices", subject.known->file, m));
     const UniformGrid grid = uniform_grid(subject.image.cols, subject.image.rows, m);
-    const Result<Painted> even = paint_uniform(study, subject, grid);
-    if (!even) return tl::unexpected(even.error());
-    const Result<Painted> chosen = paint_greedy(study, subject, grid.vertices(), kGreedy[kTracedTreatment].edges);
-    if (!chosen) return tl::unexpected(chosen.error());
-    const Result<Painted> best =
-        paint_by_squares(study, subject.field(), subject.known->file, subject.image, grid.vertices(), kSquaresEffort);
-    if (!best) return tl::unexpected(best.error());
+    SCARP_TRY(const Painted& even, paint_uniform(study, subject, grid));
+    SCARP_TRY(const Painted& chosen, paint_greedy(study, subject, grid.vertices(), kGreedy[kTracedTreatment].edges));
+    SCARP_TRY(const Painted& best, paint_by_squares(study, subject.field(), subject.known->file, subject.image,
+                                                    grid.vertices(), kSquaresEffort));
     const auto x = static_cast<double>(grid.vertices());
-    squares.points.push_back({x, best->psnr});
-    uniform.points.push_back({x, even->psnr});
-    greedy.points.push_back({x, chosen->psnr});
-    if (!(chosen->psnr > even->psnr)) overtakes.reset();
-    if (chosen->psnr > even->psnr && !overtakes) overtakes = grid.vertices();
+    squares.points.push_back({x, best.psnr});
+    uniform.points.push_back({x, even.psnr});
+    greedy.points.push_back({x, chosen.psnr});
+    if (!(chosen.psnr > even.psnr)) overtakes.reset();
+    if (chosen.psnr > even.psnr && !overtakes) overtakes = grid.vertices();
   }
   plot.curves.push_back(std::move(squares));
   plot.curves.push_back(std::move(greedy));
@@ -159,17 +150,14 @@ Result<void> add_images(Study& study) {
   for (const Image& image : kImages) {
     const std::string path = find_file(study.folder, {image.file});
     if (path.empty()) continue;
-    const Result<Subject> subject = read_subject(image, path);
-    if (!subject) return tl::unexpected(subject.error());
-    Result<Outcome> outcome = compare(study, *subject);
-    if (!outcome) return tl::unexpected(std::move(outcome.error()));
-    rows.insert(rows.end(), outcome->rows.begin(), outcome->rows.end());
-    pictures.emplace_back(&image, std::move(outcome->png));
-    better = better && outcome->better;
-    const auto overtakes = trace(study, *subject, ++color, plot);
-    if (!overtakes) return tl::unexpected(overtakes.error());
-    remarks.push_back(*overtakes
-                          ? fmt::format("{}: greedy insertion is better from {} vertices on.", image.file, **overtakes)
+    SCARP_TRY(const Subject& subject, read_subject(image, path));
+    SCARP_TRY(Outcome outcome, compare(study, subject));
+    rows.insert(rows.end(), outcome.rows.begin(), outcome.rows.end());
+    pictures.emplace_back(&image, std::move(outcome.png));
+    better = better && outcome.better;
+    SCARP_TRY(const auto& overtakes, trace(study, subject, ++color, plot));
+    remarks.push_back(overtakes
+                          ? fmt::format("{}: greedy insertion is better from {} vertices on.", image.file, *overtakes)
                           : fmt::format("{}: the uniform grid has the better PSNR throughout.", image.file));
   }
   if (rows.empty()) return {};
@@ -182,16 +170,14 @@ Result<void> add_images(Study& study) {
   study.page.table({"image", "mesh", "vertices", "PSNR", "against uniform"}, rows);
   for (auto& [image, png] : pictures) {
     const std::string name = image->file;
-    const Result<void> added =
+    SCARP_RETURN_IF_ERROR(
         study.add_picture("image_" + name.substr(0, name.find('.')),
                           fmt::format("The image's middle, uniform grid, greedy insertion with Delaunay and "
                                       "data-dependent edges, least squared error ({})",
                                       image->source),
-                          std::move(png));
-    if (!added) return added;
+                          std::move(png)));
   }
-  const Result<void> drawn = study.add_plot("image_psnr", plot);
-  if (!drawn) return drawn;
+  SCARP_RETURN_IF_ERROR(study.add_plot("image_psnr", plot));
   remarks.insert(
       remarks.begin(),
       better

@@ -53,13 +53,12 @@ Result<void> add_memory(Study& study) {
     study.note(fmt::format("memory: {}, {} vertices", field->key, field->share(share)));
     if (!restart_peak()) return {};
     const auto before = read_status("VmRSS");
-    const Result<Trial> trial = study.refine(*field, field->share(share));
-    if (!trial) return tl::unexpected(trial.error());
+    SCARP_TRY(const Trial& trial, study.refine(*field, field->share(share)));
     const auto peak = read_status("VmHWM");
     if (!before || !peak) return {};
     const double bytes = *peak - *before;
-    rows.push_back({field->key, fmt::format("{}", trial->vertices), fmt::format("{:.1f}", bytes / 1e6),
-                    fmt::format("{:.0f}", bytes / static_cast<double>(trial->vertices))});
+    rows.push_back({field->key, fmt::format("{}", trial.vertices), fmt::format("{:.1f}", bytes / 1e6),
+                    fmt::format("{:.0f}", bytes / static_cast<double>(trial.vertices))});
   }
   study.page.heading(2, "Memory");
   study.page.paragraph(

@@ -142,9 +142,8 @@ Result<std::vector<std::uint8_t>> draw_plot(const Plot& plot) {
   }
   const std::string data = folder.file("data"), script = folder.file("script"), png = folder.file("plot.png"),
                     log = folder.file("log");
-  if (auto written = write_file(data, bytes_of(make_data(plot))); !written) return tl::unexpected(written.error());
-  if (auto written = write_file(script, bytes_of(make_script(plot, data, png))); !written)
-    return tl::unexpected(written.error());
+  SCARP_RETURN_IF_ERROR(write_file(data, bytes_of(make_data(plot))));
+  SCARP_RETURN_IF_ERROR(write_file(script, bytes_of(make_script(plot, data, png))));
   const int code = run_gnuplot(script, log);
   if (code == -1) return missing();
   if (code != 0) {

@@ -90,12 +90,11 @@ Result<std::string> try_other_draws(const Study& study, const Field& field) {
   for (std::uint64_t draw = 1; draw <= kOtherDraws; ++draw) {
     PaperOptions options;
     options.points = random_points(field.heights, std::max<std::uint64_t>(field.share(1), 4), kSeed + draw);
-    const Result<Trial> trial = study.refine(field, options.points.size(), options);
-    if (!trial) return tl::unexpected(trial.error());
-    least = draw == 1 ? trial->rmse : std::min(least, trial->rmse);
-    most = std::max(most, trial->rmse);
-    least_max = draw == 1 ? trial->max_error : std::min(least_max, trial->max_error);
-    most_max = std::max(most_max, trial->max_error);
+    SCARP_TRY(const Trial& trial, study.refine(field, options.points.size(), options));
+    least = draw == 1 ? trial.rmse : std::min(least, trial.rmse);
+    most = std::max(most, trial.rmse);
+    least_max = draw == 1 ? trial.max_error : std::min(least_max, trial.max_error);
+    most_max = std::max(most_max, trial.max_error);
   }
   return fmt::format("{} {} to {} (max {} to {})", field.key, number(least), number(most), number(least_max),
                      number(most_max));
@@ -159,20 +158,19 @@ Result<void> add_selectors(Study& study) {
     Row row{&selector, {}};
     std::vector<std::string> line{selector.name};
     for (const Field* field : fields) {
-      const Result<Trial> trial = run(study, *field, selector);
-      if (!trial) return tl::unexpected(trial.error());
+      SCARP_TRY(const Trial& trial, run(study, *field, selector));
       std::optional<double> rmse, max_error;
       if (selector.figures != nullptr) {
         rmse = figure_of(study, kThreeFields, selector.figures->rmse, *field);
         max_error = figure_of(study, kThreeFields, selector.figures->max_error, *field);
       }
-      line.push_back(beside(trial->rmse, rmse));
-      line.push_back(beside(trial->max_error, max_error));
+      line.push_back(beside(trial.rmse, rmse));
+      line.push_back(beside(trial.max_error, max_error));
       const std::string what = fmt::format("{} on {}", selector.name, field->key);
       const bool is_draw = selector.choice != Selector::Choice::kImportance;
-      (is_draw ? drawn : selector.importance == Importance{} ? greedy : ranked).add(what, trial->rmse, rmse);
-      (is_draw ? drawn_max : ranked_max).add(what, trial->max_error, max_error);
-      row.trials.push_back(*trial);
+      (is_draw ? drawn : selector.importance == Importance{} ? greedy : ranked).add(what, trial.rmse, rmse);
+      (is_draw ? drawn_max : ranked_max).add(what, trial.max_error, max_error);
+      row.trials.push_back(trial);
     }
     rows.push_back(std::move(row));
     cells.push_back(std::move(line));
@@ -192,9 +190,8 @@ Result<void> add_selectors(Study& study) {
   study.note("selectors: other random points");
   std::string draws;
   for (const Field* field : fields) {
-    const Result<std::string> range = try_other_draws(study, *field);
-    if (!range) return tl::unexpected(range.error());
-    draws += (draws.empty() ? "" : ", ") + *range;
+    SCARP_TRY(const std::string& range, try_other_draws(study, *field));
+    draws += (draws.empty() ? "" : ", ") + range;
   }
   remarks.push_back(fmt::format("Random points in {} other draws, RMS: {}.", kOtherDraws, draws));
   if (!greedy.empty()) {

@@ -33,13 +33,11 @@ Result<void> add_settling(Study& study) {
     for (const Field* field : fields) {
       EdgeRule settled = start.edges;
       settled.settle = true;
-      const Result<Trial> before = study.refine(*field, field->share(1), with_edges(start.edges));
-      if (!before) return tl::unexpected(before.error());
-      const Result<Trial> after = study.refine(*field, field->share(1), with_edges(settled));
-      if (!after) return tl::unexpected(after.error());
-      row.insert(row.end(), {number(before->rmse),
-                             fmt::format("{} ({})", number(after->rmse), percent_of_change(after->rmse, before->rmse)),
-                             number(before->max_error), number(after->max_error)});
+      SCARP_TRY(const Trial& before, study.refine(*field, field->share(1), with_edges(start.edges)));
+      SCARP_TRY(const Trial& after, study.refine(*field, field->share(1), with_edges(settled)));
+      row.insert(row.end(), {number(before.rmse),
+                             fmt::format("{} ({})", number(after.rmse), percent_of_change(after.rmse, before.rmse)),
+                             number(before.max_error), number(after.max_error)});
     }
     rows.push_back(std::move(row));
   }

@@ -91,9 +91,8 @@ Result<Simplified> Study::run_by_effort(const HeightField& field, const std::str
 }
 
 Result<Trial> Study::reach(const Field& field, PaperOptions options) const {
-  const Result<Simplified> result = run(field.heights, field.file, std::move(options));
-  if (!result) return tl::unexpected(result.error());
-  return summarize(*result);
+  SCARP_TRY(const Simplified& result, run(field.heights, field.file, std::move(options)));
+  return summarize(result);
 }
 
 Result<Trial> Study::refine(const Field& field, std::uint64_t vertices, PaperOptions options) const {
@@ -104,14 +103,12 @@ Result<double> Study::time(const Field& field, std::uint64_t vertices, PaperOpti
   options = exactly(vertices, std::move(options));
   options.run.threads = 1;
   const double start = cpu_seconds();
-  const Result<Simplified> result = run(field.heights, field.file, std::move(options));
-  if (!result) return tl::unexpected(result.error());
+  SCARP_TRY(const Simplified& result, run(field.heights, field.file, std::move(options)));
   const double judging = cpu_seconds();
   MeasureOptions heights_only;
   heights_only.topology = false;
   heights_only.run.threads = 1;
-  const auto judged = measure(field.heights, result->mesh, heights_only);
-  if (!judged) return tl::unexpected(judged.error());
+  SCARP_RETURN_IF_ERROR(measure(field.heights, result.mesh, heights_only));
   return std::max(judging - start - (cpu_seconds() - judging), 1e-6);
 }
 
@@ -130,9 +127,8 @@ Result<void> Study::add_picture(const std::string& name, const std::string& capt
 }
 
 Result<void> Study::add_plot(const std::string& name, const Plot& plot) {
-  Result<std::vector<std::uint8_t>> png = draw_plot(plot);
-  if (!png) return tl::unexpected(std::move(png.error()));
-  return add_picture(name, plot.title, std::move(*png));
+  SCARP_TRY(std::vector<std::uint8_t> png, draw_plot(plot));
+  return add_picture(name, plot.title, std::move(png));
 }
 
 PaperOptions exactly(std::uint64_t vertices, PaperOptions options) {

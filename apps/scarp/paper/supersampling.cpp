@@ -33,14 +33,13 @@ Result<void> add_supersampling(Study& study) {
       for (std::size_t f = 0; f < fields.size(); ++f) {
         EdgeRule edges = scape_edges(EdgeScore::kSum, threshold);
         edges.supersample = fraction;
-        const Result<Trial> trial = study.refine(*fields[f], fields[f]->share(1), with_edges(edges));
-        if (!trial) return tl::unexpected(trial.error());
-        if (fraction == 0) without.push_back(*trial);
-        better += trial->rmse < without[f].rmse ? 1 : 0;
+        SCARP_TRY(const Trial& trial, study.refine(*fields[f], fields[f]->share(1), with_edges(edges)));
+        if (fraction == 0) without.push_back(trial);
+        better += trial.rmse < without[f].rmse ? 1 : 0;
         row.insert(row.end(),
-                   {number(trial->rmse), percent_of_change(trial->rmse, without[f].rmse),
-                    fmt::format("{:.1f} %", trial->thin_share),
-                    number(static_cast<double>(trial->work.samples_scanned) /
+                   {number(trial.rmse), percent_of_change(trial.rmse, without[f].rmse),
+                    fmt::format("{:.1f} %", trial.thin_share),
+                    number(static_cast<double>(trial.work.samples_scanned) /
                            static_cast<double>(std::max<std::uint64_t>(without[f].work.samples_scanned, 1)))});
       }
       rows.push_back(std::move(row));

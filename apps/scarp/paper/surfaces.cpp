@@ -24,35 +24,30 @@ Result<void> add_views(Study& study, const std::string& name, const std::string&
     if (mesh.vertex_count() == field.samples()) fitting.line_width /= 2;
     pictures.push_back(draw_view(field.heights, mesh, fitting));
   }
-  Result<std::vector<std::uint8_t>> png = encode_beside(std::move(pictures));
-  if (!png) return tl::unexpected(std::move(png.error()));
-  return study.add_picture(name, caption, std::move(*png));
+  SCARP_TRY(std::vector<std::uint8_t> png, encode_beside(std::move(pictures)));
+  return study.add_picture(name, caption, std::move(png));
 }
 
 }  // namespace
 
 Result<void> add_illustration(Study& study) {
   study.note("illustration");
-  Result<OwnedHeightField> heights = generate_field(FieldStyle::kFractal, kFigureSide, kFigureSide, kFigureSeed);
-  if (!heights) return tl::unexpected(std::move(heights.error()));
-  const Field field{"fractal", "fractal", std::move(*heights)};
-  const Result<Simplified> run = study.run(field.heights, field.file, exactly(kFigureVertices));
-  if (!run) return tl::unexpected(run.error());
+  SCARP_TRY(OwnedHeightField heights, generate_field(FieldStyle::kFractal, kFigureSide, kFigureSide, kFigureSeed));
+  const Field field{"fractal", "fractal", std::move(heights)};
+  SCARP_TRY(const Simplified& run, study.run(field.heights, field.file, exactly(kFigureVertices)));
   study.page.heading(2, "A field and its TIN (figures 1 and 2)");
-  study.page.paragraph(
-      fmt::format("The paper's are {0} × {0} samples, and a TIN of {1} of them. Here: `scarp generate fractal {0} {0} "
-                  "--seed {2}`, with {3} triangles between its samples, and {1} of them, with {4}.",
-                  kFigureSide, kFigureVertices, kFigureSeed, 2 * (kFigureSide - 1) * (kFigureSide - 1),
-                  run->mesh.triangle_count()));
+  study.page.paragraph(fmt::format(
+      "The paper's are {0} × {0} samples, and a TIN of {1} of them. Here: `scarp generate fractal {0} {0} "
+      "--seed {2}`, with {3} triangles between its samples, and {1} of them, with {4}.",
+      kFigureSide, kFigureVertices, kFigureSeed, 2 * (kFigureSide - 1) * (kFigureSide - 1), run.mesh.triangle_count()));
   View view;
   view.up = {0.6, 0.8};
   view.line_width = 0.7;
   view.relief = 0.3;
-  const Result<void> added = add_views(study, "illustration", "The field, and the TIN", field,
-                                       {make_full_mesh(field.heights), run->mesh}, view);
-  if (!added) return added;
-  study.page.paragraph(fmt::format("Max error {}, RMS {}, of a relief of {}.", number(run->measurement.max_error),
-                                   number(run->measurement.rmse), number(field.relief())));
+  SCARP_RETURN_IF_ERROR(add_views(study, "illustration", "The field, and the TIN", field,
+                                  {make_full_mesh(field.heights), run.mesh}, view));
+  study.page.paragraph(fmt::format("Max error {}, RMS {}, of a relief of {}.", number(run.measurement.max_error),
+                                   number(run.measurement.rmse), number(field.relief())));
   return {};
 }
 
@@ -62,9 +57,8 @@ Result<void> add_surfaces(Study& study) {
   const std::uint64_t vertices = std::max<std::uint64_t>(field.share(kShownShare), 4);
   std::vector<Mesh> meshes;
   for (const EdgeRule& edges : {EdgeRule{}, scape_edges(EdgeScore::kSum, 0.5)}) {
-    Result<Simplified> run = study.run(field.heights, field.file, exactly(vertices, with_edges(edges)));
-    if (!run) return tl::unexpected(std::move(run.error()));
-    meshes.push_back(std::move(run->mesh));
+    SCARP_TRY(Simplified run, study.run(field.heights, field.file, exactly(vertices, with_edges(edges))));
+    meshes.push_back(std::move(run.mesh));
   }
   study.page.heading(3, "Meshes and surfaces");
   View map;
@@ -72,11 +66,10 @@ Result<void> add_surfaces(Study& study) {
   map.up = {0, 1};
   map.line_width = 0.9;
   map.relief = 0.1;
-  const Result<void> added = add_views(
+  SCARP_RETURN_IF_ERROR(add_views(
       study, "edges",
       fmt::format("{} with {} vertices: Delaunay edges, and data-dependent ones (sum, q 0.5)", field.key, vertices),
-      field, meshes, map);
-  if (!added) return added;
+      field, meshes, map));
   study.page.paragraph(
       "Data-dependent triangles lie along what is steep, long and narrow; Delaunay triangles are as round as they can "
       "be.");

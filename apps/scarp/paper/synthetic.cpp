@@ -22,37 +22,32 @@ const std::array<Column, 4> kColumns{{{"Delaunay", {}},
                                       {"normals, q 0", scape_edges(EdgeScore::kNormals, 0)}}};
 
 Result<Field> make_field(const std::string& name) {
-  Result<OwnedHeightField> heights = generate_field(*find_field_style(name), kSide, kSide);
-  if (!heights) return tl::unexpected(std::move(heights.error()));
-  return Field{name, name, std::move(*heights)};
+  SCARP_TRY(OwnedHeightField heights, generate_field(*find_field_style(name), kSide, kSide));
+  return Field{name, name, std::move(heights)};
 }
 
 Result<std::vector<std::string>> measure_errors(Study& study, const SyntheticFigures& figures,
                                                 Differences& differences) {
-  const Result<Field> field = make_field(figures.style);
-  if (!field) return tl::unexpected(field.error());
+  SCARP_TRY(const Field& field, make_field(figures.style));
   std::vector<std::string> row{figures.style};
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
-    const Result<Trial> trial = study.refine(*field, kBudget, with_edges(kColumns[k].edges));
-    if (!trial) return tl::unexpected(trial.error());
-    row.push_back(beside(trial->max_error, figures.max_error[k]));
-    differences.add(fmt::format("{}, {}", figures.style, kColumns[k].name), trial->max_error, figures.max_error[k]);
+    SCARP_TRY(const Trial& trial, study.refine(field, kBudget, with_edges(kColumns[k].edges)));
+    row.push_back(beside(trial.max_error, figures.max_error[k]));
+    differences.add(fmt::format("{}, {}", figures.style, kColumns[k].name), trial.max_error, figures.max_error[k]);
   }
   return row;
 }
 
 Result<std::vector<std::string>> count_vertices(Study& study, const char* style) {
-  const Result<Field> field = make_field(style);
-  if (!field) return tl::unexpected(field.error());
+  SCARP_TRY(const Field& field, make_field(style));
   std::vector<std::string> row{style};
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
     PaperOptions options = with_edges(kColumns[k].edges);
     options.goals.max_error = 0;
-    const Result<Trial> trial = study.reach(*field, options);
-    if (!trial) return tl::unexpected(trial.error());
+    SCARP_TRY(const Trial& trial, study.reach(field, options));
     const bool known = k < kPyramidVertices.size();
-    row.push_back(fmt::format("exact with {} ({})", trial->vertices,
-                              known ? fmt::format("{}", kPyramidVertices[k]) : "11 to 12"));
+    row.push_back(
+        fmt::format("exact with {} ({})", trial.vertices, known ? fmt::format("{}", kPyramidVertices[k]) : "11 to 12"));
   }
   return row;
 }
@@ -64,14 +59,12 @@ Result<void> add_synthetic(Study& study) {
   Differences differences;
   for (const SyntheticFigures& figures : kSynthetic) {
     study.note(fmt::format("synthetic fields: {}", figures.style));
-    const auto row = measure_errors(study, figures, differences);
-    if (!row) return tl::unexpected(row.error());
-    rows.push_back(*row);
+    SCARP_TRY(const auto& row, measure_errors(study, figures, differences));
+    rows.push_back(row);
   }
   for (const char* style : {"pyramid", "diagonal-pyramid"}) {
-    const auto row = count_vertices(study, style);
-    if (!row) return tl::unexpected(row.error());
-    rows.push_back(*row);
+    SCARP_TRY(const auto& row, count_vertices(study, style));
+    rows.push_back(row);
   }
   std::vector<std::string> header{fmt::format("field of {0} × {0}", kSide)};
   for (const Column& column : kColumns) header.push_back(column.name);

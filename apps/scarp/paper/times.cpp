@@ -41,10 +41,9 @@ template <class Run>
 Result<double> least(Run run) {
   double best = 0, sum = 0;
   for (int round = 0; round < kLeastRounds || (round < kMostRounds && sum < kSecondsOfRounds); ++round) {
-    const Result<double> seconds = run();
-    if (!seconds) return seconds;
-    sum += *seconds;
-    best = round == 0 ? *seconds : std::min(best, *seconds);
+    SCARP_TRY(const double seconds, run());
+    sum += seconds;
+    best = round == 0 ? seconds : std::min(best, seconds);
   }
   return best;
 }
@@ -80,18 +79,15 @@ Result<void> add_seconds(Study& study) {
     const auto refine = [&](const EdgeRule& edges) {
       return least([&]() -> Result<double> { return study.time(*row.field, row.vertices, with_edges(edges)); });
     };
-    const Result<double> delaunay = refine({});
-    if (!delaunay) return tl::unexpected(delaunay.error());
-    const Result<double> data_dependent = refine(scape_edges(EdgeScore::kSum, 0.5));
-    if (!data_dependent) return tl::unexpected(data_dependent.error());
-    if (row.field->samples() >= 1'000'000 && row.vertices == row.field->share(1))
-      million = std::max(million, *delaunay);
+    SCARP_TRY(const double delaunay, refine({}));
+    SCARP_TRY(const double data_dependent, refine(scape_edges(EdgeScore::kSum, 0.5)));
+    if (row.field->samples() >= 1'000'000 && row.vertices == row.field->share(1)) million = std::max(million, delaunay);
     std::vector<std::string> line{row.field->key,
                                   fmt::format("{}", row.vertices),
-                                  fmt::format("{:.3f}", *delaunay),
-                                  fmt::format("{:.2f}", static_cast<double>(row.field->samples()) / 1e6 / *delaunay),
-                                  fmt::format("{:.3f}", *data_dependent),
-                                  fmt::format("{:.2f}", *data_dependent / *delaunay)};
+                                  fmt::format("{:.3f}", delaunay),
+                                  fmt::format("{:.2f}", static_cast<double>(row.field->samples()) / 1e6 / delaunay),
+                                  fmt::format("{:.3f}", data_dependent),
+                                  fmt::format("{:.2f}", data_dependent / delaunay)};
     if (row.scape != nullptr) line.insert(line.begin() + 2, fmt::format("{:g}", row.scape->seconds));
     cells.push_back(std::move(line));
   }

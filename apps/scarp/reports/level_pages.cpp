@@ -12,9 +12,9 @@ namespace {
 Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
   std::vector<std::vector<std::uint8_t>> files;
   for (const LevelTile& tile : level.tiles) {
-    auto glb = encode_glb(tile.mesh, {.compress = can_compress_glb(), .cell = level.cell, .base_color = tile.image});
-    if (!glb) return glb;
-    files.push_back(std::move(*glb));
+    SCARP_TRY(auto&& glb,
+              encode_glb(tile.mesh, {.compress = can_compress_glb(), .cell = level.cell, .base_color = tile.image}));
+    files.push_back(std::move(glb));
   }
   return join_glbs(files);
 }
@@ -24,9 +24,8 @@ Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
 Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<LevelMesh>& levels) {
   std::vector<PageMesh> meshes;
   for (const LevelMesh& level : levels) {
-    auto glb = encode_level(level);
-    if (!glb) return tl::unexpected(glb.error());
-    meshes.push_back({fmt::format("{}, level {}", path, level.z), level.tile_bytes, std::move(*glb)});
+    SCARP_TRY(auto&& glb, encode_level(level));
+    meshes.push_back({fmt::format("{}, level {}", path, level.z), level.tile_bytes, std::move(glb)});
   }
   return meshes;
 }

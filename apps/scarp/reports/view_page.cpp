@@ -46,8 +46,7 @@ Result<std::vector<float>> copy_samples(const HeightField& field) {
   const std::size_t count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
   if (field.source == nullptr) return std::vector<float>(field.samples, field.samples + count);
   std::vector<float> samples(count);
-  const auto read = field.source->read(0, 0, field.cols, field.rows, samples.data(), field.cols);
-  if (!read) return tl::unexpected(read.error());
+  SCARP_RETURN_IF_ERROR(field.source->read(0, 0, field.cols, field.rows, samples.data(), field.cols));
   return samples;
 }
 
@@ -119,14 +118,13 @@ Result<ViewPage> make_view_page(const std::string& page_template, const std::str
   data["field"] = data["metres"] = data["unit"] = nullptr;
   if (field != nullptr) page.left_out = find_obstacle(*field);
   if (field != nullptr && !page.left_out) {
-    const auto samples = copy_samples(field->view());
-    if (!samples) return tl::unexpected(samples.error());
+    SCARP_TRY(const auto& samples, copy_samples(field->view()));
     Json& raster = data["field"];
     raster["name"] = base_name(field->info.path);
     raster["cols"] = field->cols;
     raster["rows"] = field->rows;
     raster["affine"] = field->frame.affine;
-    add_samples(*samples, raster);
+    add_samples(samples, raster);
     data["metres"] = find_metres(*field);
     data["unit"] = short_unit(field->info.unit);
   }

@@ -32,9 +32,7 @@ Result<std::shared_ptr<const OpenedSet>> open_once(const std::string& path, cons
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (fd >= 0) opened->file = std::make_shared<OpenFile>(fd);
   }
-  auto reader = open_tile_set(path);
-  if (!reader) return tl::unexpected(reader.error());
-  opened->reader = std::move(*reader);
+  SCARP_TRY(opened->reader, open_tile_set(path));
   return opened;
 }
 
@@ -67,11 +65,10 @@ const std::vector<std::uint8_t>& OpenedSet::page(const std::function<std::vector
 }
 
 Result<std::unique_ptr<ServedSet>> ServedSet::open(const std::string& path) {
-  auto opened = open_whole(path);
-  if (!opened) return tl::unexpected(opened.error());
+  SCARP_TRY(auto&& opened, open_whole(path));
   std::unique_ptr<ServedSet> set(new ServedSet);
   set->path_ = path;
-  set->opened_ = std::move(*opened);
+  set->opened_ = std::move(opened);
   return set;
 }
 

@@ -105,11 +105,10 @@ TileAnswers::TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name)
 }
 
 Result<std::unique_ptr<TileAnswers>> TileAnswers::open(const std::string& path) {
-  auto set = ServedSet::open(path);
-  if (!set) return tl::unexpected(set.error());
+  SCARP_TRY(auto&& set, ServedSet::open(path));
   std::unique_ptr<TileAnswers> answers(new TileAnswers);
-  answers->is_file_ = (*set)->now()->file != nullptr;
-  answers->set_ = std::move(*set);
+  answers->is_file_ = set->now()->file != nullptr;
+  answers->set_ = std::move(set);
   std::string whole = path;
   while (whole.size() > 1 && whole.back() == '/') whole.pop_back();
   answers->name_ = base_name(whole);

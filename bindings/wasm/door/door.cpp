@@ -67,9 +67,7 @@ Result<HeightField> take_field(const Field& given) {
     field.frame.kind = Frame::Kind::kSource;
     return field;
   }
-  auto frame = frame_of_degrees(affine, field.cols, field.rows);
-  if (!frame) return tl::unexpected(frame.error());
-  field.frame = std::move(*frame);
+  SCARP_TRY(field.frame, frame_of_degrees(affine, field.cols, field.rows));
   return field;
 }
 

@@ -35,13 +35,12 @@ SCARP_EXPORT(scarp_simplify_points) WholeMesh* scarp_simplify_points(const Point
     options.float32_positions = given_points->doubles == 0;
     options.run.threads = 1;
     if (given_points->has_progress != 0) options.run.progress = ask_javascript();
-    auto made = scarp::simplify_points(points, options);
-    if (!made) return tl::unexpected(made.error());
+    SCARP_TRY(auto&& made, scarp::simplify_points(points, options));
     auto whole = std::make_unique<WholeMesh>();
-    whole->report = describe(made->simplified.measurement);
-    whole->report.stop = static_cast<double>(made->simplified.stop);
+    whole->report = describe(made.simplified.measurement);
+    whole->report.stop = static_cast<double>(made.simplified.stop);
     whole->report.effort = 0;
-    whole->mesh = std::move(made->simplified.mesh);
+    whole->mesh = std::move(made.simplified.mesh);
     return whole;
   });
 }

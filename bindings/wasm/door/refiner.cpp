@@ -9,11 +9,9 @@ using scarp::Result;
 
 SCARP_EXPORT(scarp_refiner_create) Refiner* scarp_refiner_create(const Field* given) {
   return give<Refiner>([&]() -> Result<std::unique_ptr<Refiner>> {
-    const auto field = take_field(*given);
-    if (!field) return tl::unexpected(field.error());
-    auto refiner = Refiner::create(*field);
-    if (!refiner) return tl::unexpected(refiner.error());
-    return std::make_unique<Refiner>(std::move(*refiner));
+    SCARP_TRY(const auto& field, take_field(*given));
+    SCARP_TRY(auto&& refiner, Refiner::create(field));
+    return std::make_unique<Refiner>(std::move(refiner));
   });
 }
 /// Inserts until the max error is at most `max_error`, or there are `max_vertices` (0: any number), or `most` were

@@ -71,17 +71,15 @@ using scarp::Result;
 
 SCARP_EXPORT(scarp_simplify) WholeMesh* scarp_simplify(const Field* given_field, const Options* asked) {
   return give<WholeMesh>([&]() -> Result<std::unique_ptr<WholeMesh>> {
-    const auto field = take_field(*given_field);
-    if (!field) return tl::unexpected(field.error());
-    const auto samples = static_cast<std::size_t>(field->cols) * static_cast<std::size_t>(field->rows);
-    auto made = scarp::simplify(*field, take_options(*asked, samples));
-    if (!made) return tl::unexpected(made.error());
+    SCARP_TRY(const auto& field, take_field(*given_field));
+    const auto samples = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+    SCARP_TRY(auto&& made, scarp::simplify(field, take_options(*asked, samples)));
     auto whole = std::make_unique<WholeMesh>();
-    whole->report = describe(made->measurement);
-    whole->report.stop = static_cast<double>(made->stop);
-    whole->report.effort = static_cast<double>(made->effort) - static_cast<double>(scarp::Effort::kFast);
-    whole->mesh = std::move(made->mesh);
-    const std::array<double, 6>& affine = field->frame.affine;
+    whole->report = describe(made.measurement);
+    whole->report.stop = static_cast<double>(made.stop);
+    whole->report.effort = static_cast<double>(made.effort) - static_cast<double>(scarp::Effort::kFast);
+    whole->mesh = std::move(made.mesh);
+    const std::array<double, 6>& affine = field.frame.affine;
     if (affine[2] == 0 && affine[4] == 0) {
       whole->cell[0] = affine[1];
       whole->cell[1] = affine[5];
@@ -95,18 +93,16 @@ SCARP_EXPORT(scarp_measure)
 std::int32_t scarp_measure(const Field* given_field, const double* origin, const double* positions, double vertices,
                            const std::uint32_t* corners, double triangles, Report* out) {
   return guarded<std::int32_t>(0, [&]() -> Result<std::int32_t> {
-    const auto field = take_field(*given_field);
-    if (!field) return tl::unexpected(field.error());
+    SCARP_TRY(const auto& field, take_field(*given_field));
     scarp::Mesh mesh;
     std::copy_n(origin, 3, mesh.origin.begin());
     mesh.positions.assign(positions, positions + 3 * static_cast<std::size_t>(vertices));
     mesh.triangles.assign(corners, corners + 3 * static_cast<std::size_t>(triangles));
     scarp::MeasureOptions options;
     options.run.threads = 1;
-    const auto measured = scarp::measure(*field, mesh, options);
-    if (!measured) return tl::unexpected(measured.error());
-    *out = describe(*measured);
-    out->is_sound = measured->is_sound() ? 1 : 0;
+    SCARP_TRY(const auto& measured, scarp::measure(field, mesh, options));
+    *out = describe(measured);
+    out->is_sound = measured.is_sound() ? 1 : 0;
     return 1;
   });
 }

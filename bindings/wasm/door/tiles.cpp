@@ -65,18 +65,18 @@ struct TileView {
 namespace {
 
 Result<SourceFacts> find_facts(const HeightField& field, const RasterPlace& place) {
-  const auto covered = degrees_covered(field, place.affine, place.to_degrees.get());
-  if (!covered) return tl::unexpected(covered.error());
+  SCARP_TRY(const auto& covered, degrees_covered(field, place.affine, place.to_degrees.get()));
   const HeightRange range = height_range(field);
   if (range.valid == 0) return fail(ErrorKind::kInput, "none of the samples is a height");
   const double cell_x = std::hypot(place.affine[1], place.affine[4]);
   const double cell_y = std::hypot(place.affine[2], place.affine[5]);
   if (place.to_degrees == nullptr) {
-    const auto metres = metres_of_unit((covered->south + covered->north) / 2);
-    return SourceFacts{*covered, std::sqrt(cell_x * metres[0] * cell_y * metres[1]), range.min, range.max,
+    const auto metres = metres_of_unit((covered.south + covered.north) / 2);
+    return SourceFacts{covered, std::sqrt(cell_x * metres[0] * cell_y * metres[1]), range.min, range.max,
                        std::sqrt(cell_x * cell_y)};
   }
-  return SourceFacts{*covered, std::sqrt(cell_x * cell_y), range.min, range.max, 0};  // metres of the map, as in the program
+  // Metres of the map, as in the program.
+  return SourceFacts{covered, std::sqrt(cell_x * cell_y), range.min, range.max, 0};
 }
 
 }  // namespace
@@ -88,19 +88,17 @@ using scarp::Result;
 SCARP_EXPORT(scarp_tiler_create)
 Tiler* scarp_tiler_create(const Field* given_field, const TilerSettings* asked) {
   return give<Tiler>([&]() -> Result<std::unique_ptr<Tiler>> {
-    auto field = take_field(*given_field);
-    if (!field) return tl::unexpected(field.error());
-    if (field->cols < 2 || field->rows < 2)
+    SCARP_TRY(auto&& field, take_field(*given_field));
+    if (field.cols < 2 || field.rows < 2)
       return scarp::fail(scarp::ErrorKind::kInput, "tiles need at least 2 x 2 samples");
     auto tiler = std::make_unique<Tiler>();
-    tiler->field = std::move(*field);
+    tiler->field = std::move(field);
     scarp::RasterPlace place{affine_of(*given_field)};
     if (asked->is_mercator != 0) {
       place.from_degrees = std::make_shared<MercatorOfDegrees>();
       place.to_degrees = std::make_shared<DegreesOfMercator>();
     }
-    const auto facts = find_facts(tiler->field, place);
-    if (!facts) return tl::unexpected(facts.error());
+    SCARP_TRY(const auto& facts, find_facts(tiler->field, place));
     scarp::PyramidSettings settings;
     settings.cells = static_cast<int>(asked->cells);
     settings.max_zoom = static_cast<int>(asked->max_zoom);
@@ -108,12 +106,8 @@ Tiler* scarp_tiler_create(const Field* given_field, const TilerSettings* asked) 
     settings.quality = asked->quality;
     settings.effort = static_cast<scarp::Effort>(asked->effort);
     settings.background = static_cast<float>(asked->background);
-    auto plan = scarp::plan_pyramid(*facts, settings);
-    if (!plan) return tl::unexpected(plan.error());
-    tiler->plan = std::move(*plan);
-    auto nodes = scarp::make_node_source(tiler->field, place);
-    if (!nodes) return tl::unexpected(nodes.error());
-    tiler->nodes = std::move(*nodes);
+    SCARP_TRY(tiler->plan, scarp::plan_pyramid(facts, settings));
+    SCARP_TRY(tiler->nodes, scarp::make_node_source(tiler->field, place));
     return tiler;
   });
 }
@@ -130,27 +124,25 @@ Bytes* scarp_tiler_tile(const Tiler* tiler, double z, double x, double y, TileVi
                          "there is no such tile: z goes from 0 to maxZoom, x from 0 to 2^(z + 1) - 1, "
                          "and y from 0 to 2^z - 1, from the south");
     const auto make = id.z < plan.block_level ? scarp::make_unproven_tile : scarp::make_tile;
-    const auto tile = make(plan, id, *tiler->nodes);
-    if (!tile) return tl::unexpected(tile.error());
+    SCARP_TRY(const auto& tile, make(plan, id, *tiler->nodes));
     auto made = std::make_unique<Bytes>();
-    made->bytes = scarp::encode_quantized_mesh(*tile, plan.ellipsoid, plan.grid);
+    made->bytes = scarp::encode_quantized_mesh(tile, plan.ellipsoid, plan.grid);
     *out = {address_of(made->bytes.data()),
             static_cast<double>(made->bytes.size()),
-            static_cast<double>(tile->triangles.size() / 3),
-            static_cast<double>(tile->u.size()),
-            tile->node_error,
-            tile->bound(),
-            tile->source_error};
+            static_cast<double>(tile.triangles.size() / 3),
+            static_cast<double>(tile.u.size()),
+            tile.node_error,
+            tile.bound(),
+            tile.source_error};
     return made;
   });
 }
 /// The tiles that have heights, and those that clients need to reach them: pairs of column and row, as uint32.
 SCARP_EXPORT(scarp_tiler_list) Bytes* scarp_tiler_list(const Tiler* tiler, double level, TileView* out) {
   return give<Bytes>([&]() -> Result<std::unique_ptr<Bytes>> {
-    const auto lists = scarp::find_tiles(tiler->plan, tiler->nodes.get(), {.threads = 1});
-    if (!lists) return tl::unexpected(lists.error());
+    SCARP_TRY(const auto& lists, scarp::find_tiles(tiler->plan, tiler->nodes.get(), {.threads = 1}));
     std::vector<std::uint32_t> pairs;
-    for (const std::uint64_t tile : lists->at(static_cast<std::size_t>(level))) {
+    for (const std::uint64_t tile : lists.at(static_cast<std::size_t>(level))) {
       pairs.push_back(static_cast<std::uint32_t>(tile));
       pairs.push_back(static_cast<std::uint32_t>(tile >> 32));
     }

@@ -16,7 +16,7 @@ class CutSource final : public SampleSource {
   CutSource(const SampleSource& source, std::shared_ptr<const CutRows> cut) : source_(source), cut_(std::move(cut)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto copied = source_.read(col, row, cols, rows, out, stride); !copied) return copied;
+    SCARP_RETURN_IF_ERROR(source_.read(col, row, cols, rows, out, stride));
     cut_->mask_beyond(col, row, cols, rows, out, stride);
     return {};
   }

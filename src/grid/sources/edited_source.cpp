@@ -13,7 +13,7 @@ class EditedSource final : public SampleSource {
       : source_(std::move(source)), edits_(std::move(edits)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto copied = source_->read(col, row, cols, rows, out, stride); !copied) return copied;
+    SCARP_RETURN_IF_ERROR(source_->read(col, row, cols, rows, out, stride));
     for (int y = 0; y < rows; ++y) {
       auto edit = std::lower_bound(edits_.begin(), edits_.end(), std::pair(row + y, col),
                                    [](const SampleEdit& e, const auto& at) { return std::pair(e.row, e.col) < at; });

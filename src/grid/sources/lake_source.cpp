@@ -14,7 +14,7 @@ class LevelSource final : public SampleSource {
       : source_(std::move(source)), runs_(std::move(runs)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto copied = source_->read(col, row, cols, rows, out, stride); !copied) return copied;
+    SCARP_RETURN_IF_ERROR(source_->read(col, row, cols, rows, out, stride));
     for (int y = 0; y < rows; ++y) {
       auto run = std::partition_point(runs_.begin(), runs_.end(), [at = row + y, col](const LevelRun& before) {
         return before.samples.row < at || (before.samples.row == at && before.samples.end <= col);

@@ -273,7 +273,7 @@ Result<Frame> earth_frame(const Georeference& geo, const std::string& wanted, Ra
                                                short_name(geo.crs), is_tangent ? "earth-centred coordinates" : wanted));
   }
   const Axes axes = axes_of(*way, geo);
-  if (auto verified = verify(*way, axes, geo, info.path); !verified) return tl::unexpected(verified.error());
+  SCARP_RETURN_IF_ERROR(verify(*way, axes, geo, info.path));
   warn_of_heights(geo, is_applied, info);
   way->settle(axes, is_tangent);
   const auto [x, y] = geo.centre();

@@ -166,7 +166,7 @@ Result<Frame> projected_frame(const Georeference& geo, const std::string& wanted
     return fail(ErrorKind::kUsage, fmt::format("{}: there is no way from {} to {}; choose another CRS", info.path,
                                                short_name(geo.crs), short_name(target)));
   }
-  if (auto verified = verify_transform(frame, geo, info.path); !verified) return tl::unexpected(verified.error());
+  SCARP_RETURN_IF_ERROR(verify_transform(frame, geo, info.path));
   return frame;
 }
 
@@ -243,8 +243,7 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
     return frame;
   }
   const std::string way = info.format == "memory" ? "" : translate_command("-a_srs EPSG:CODE", info.path);
-  if (auto verified = verify_degrees(geo.crs, geo.centre(), info.path, way); !verified)
-    return tl::unexpected(verified.error());
+  SCARP_RETURN_IF_ERROR(verify_degrees(geo.crs, geo.centre(), info.path, way));
   if (wanted == "grid") return grid_or_cells(info.path, geo.cols, geo.rows, options);
   if (options.cell_size) {
     return fail(ErrorKind::kUsage, info.path +

@@ -113,11 +113,9 @@ Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int col
 
 Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster) {
   const gdal::MemoryFile file("tif");
-  auto tiff = create_geotiff(file.name(), raster.cols, raster.rows, raster.like);
-  if (!tiff) return tl::unexpected(tiff.error());
-  if (auto written = (*tiff)->write(0, raster.rows, raster.samples.data()); !written)
-    return tl::unexpected(written.error());
-  if (auto closed = (*tiff)->close(); !closed) return tl::unexpected(closed.error());
+  SCARP_TRY(auto&& tiff, create_geotiff(file.name(), raster.cols, raster.rows, raster.like));
+  SCARP_RETURN_IF_ERROR(tiff->write(0, raster.rows, raster.samples.data()));
+  SCARP_RETURN_IF_ERROR(tiff->close());
   std::vector<std::uint8_t> bytes = file.bytes();
   if (bytes.empty()) return refuse_geotiff("GDAL has written nothing");
   return bytes;

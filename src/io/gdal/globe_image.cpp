@@ -29,9 +29,8 @@ std::pair<int, int> pixels_within(double start, double step, int side, double fr
 
 /// A copy that needs `image` no longer.
 Result<Dataset> arrange(Session& session, GDALDatasetH image, const std::string& path) {
-  const auto arranged = arrange_bands(session, image, path, true);
-  if (!arranged) return tl::unexpected(arranged.error());
-  return open_virtual(session, arranged->get(), path);
+  SCARP_TRY(const auto& arranged, arrange_bands(session, image, path, true));
+  return open_virtual(session, arranged.get(), path);
 }
 
 class WarpedImage final : public GlobeImage {
@@ -64,17 +63,16 @@ class WarpedImage final : public GlobeImage {
   Result<std::optional<Picture>> read(const DegreeBox& box, int side,
                                       const std::array<std::uint8_t, 3>& ground) const override try {
     Session session(is_remote(path_));
-    auto image = take(session);
-    if (!image) return tl::unexpected(image.error());
+    SCARP_TRY(auto&& image, take(session));
     Picture picture{side, side, {}};
     for (int k = 0; k < side * side; ++k) picture.rgb.insert(picture.rgb.end(), ground.begin(), ground.end());
     bool has_colour = false;
     for (const double turn : {0.0, -360.0, 360.0}) {
-      const auto laid = lay(session, image->get(), {box.west + turn, box.south, box.east + turn, box.north}, picture);
-      if (!laid) return tl::unexpected(laid.error());
-      has_colour |= *laid;
+      SCARP_TRY(const auto& laid,
+                lay(session, image.get(), {box.west + turn, box.south, box.east + turn, box.north}, picture));
+      has_colour |= laid;
     }
-    keep(std::move(*image));
+    keep(std::move(image));
     if (!has_colour) return std::optional<Picture>();
     return std::optional(std::move(picture));
   } catch (...) {
@@ -92,9 +90,8 @@ class WarpedImage final : public GlobeImage {
         return image;
       }
     }
-    auto opened = open_raster(session, path_);
-    if (!opened) return tl::unexpected(opened.error());
-    return arrange(session, opened->get(), path_);
+    SCARP_TRY(auto&& opened, open_raster(session, path_));
+    return arrange(session, opened.get(), path_);
   }
 
   /// Onto the picture of the box; whether there is a colour.
@@ -109,18 +106,17 @@ class WarpedImage final : public GlobeImage {
     const Dataset target = make_target(place, degrees_, width, height);
     if (!target) return fail(ErrorKind::kInput, fmt::format("{}: {}", path_, session.reason()));
     session.clear();
-    if (auto warped = warp(session, image, target.get(), path_, {}); !warped) return tl::unexpected(warped.error());
-    const auto pixels = take_pixels(session, target.get(), path_);
-    if (!pixels) return tl::unexpected(pixels.error());
+    SCARP_RETURN_IF_ERROR(warp(session, image, target.get(), path_, {}));
+    SCARP_TRY(const auto& pixels, take_pixels(session, target.get(), path_));
     bool has_colour = false;
     for (int row = 0; row < height; ++row) {
       for (int col = 0; col < width; ++col) {
         const auto from =
             static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(col);
-        if (pixels->alpha[from] == 0) continue;
+        if (pixels.alpha[from] == 0) continue;
         const auto to =
             static_cast<std::size_t>(row + top) * static_cast<std::size_t>(side) + static_cast<std::size_t>(col + left);
-        std::copy_n(&pixels->picture.rgb[3 * from], 3, &picture.rgb[3 * to]);
+        std::copy_n(&pixels.picture.rgb[3 * from], 3, &picture.rgb[3 * to]);
         has_colour = true;
       }
     }
@@ -137,25 +133,22 @@ class WarpedImage final : public GlobeImage {
 
 Result<std::shared_ptr<const GlobeImage>> open(const std::string& path, const Geodetic& ellipsoid) {
   Session session(is_remote(path));
-  auto image = open_raster(session, path);
-  if (!image) return tl::unexpected(image.error());
-  const auto geo = read_georeference(image->get(), path);
-  if (!geo) return tl::unexpected(geo.error());
-  if (!geo->located || !geo->crs)
+  SCARP_TRY(auto&& image, open_raster(session, path));
+  SCARP_TRY(const auto& geo, read_georeference(image.get(), path));
+  if (!geo.located || !geo.crs)
     return fail(ErrorKind::kInput,
                 fmt::format("{} does not say where on the globe it lies: give it a position and a CRS ({})", path,
                             translate_command("-a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH", path)));
-  const double radius = OSRGetSemiMajor(geo->crs.get(), nullptr);
+  const double radius = OSRGetSemiMajor(geo.crs.get(), nullptr);
   if (!(std::abs(radius / ellipsoid.semi_major - 1) <= kSamePlanet))
     return fail(ErrorKind::kInput, fmt::format("{} lies on a planet of {:.0f} m, and the tiles on one of {:.0f} m",
                                                path, radius, ellipsoid.semi_major));
   const bool is_earth = ellipsoid.semi_major == Geodetic{}.semi_major;
-  const Crs own(is_earth ? nullptr : OSRCloneGeogCS(geo->crs.get()));
+  const Crs own(is_earth ? nullptr : OSRCloneGeogCS(geo.crs.get()));
   auto opened = std::make_shared<WarpedImage>(path, is_earth ? find_crs("EPSG:4326") : copy_crs(own.get()));
-  if (auto found = opened->find_place(*geo); !found) return tl::unexpected(found.error());
-  auto arranged = arrange(session, image->get(), path);
-  if (!arranged) return tl::unexpected(arranged.error());
-  opened->keep(std::move(*arranged));
+  SCARP_RETURN_IF_ERROR(opened->find_place(geo));
+  SCARP_TRY(auto&& arranged, arrange(session, image.get(), path));
+  opened->keep(std::move(arranged));
   return opened;
 }
 

@@ -154,11 +154,10 @@ Result<void> find_zero(const RasterInfo& info, const Datum& datum, const std::st
       globe.vertical = "a surface that nobody names, taken for the ellipsoid";
       return {};
     case Vertical::kGeoid: {
-      auto zero = read_geoid(datum, globe);
-      if (!zero) return tl::unexpected(zero.error());
+      SCARP_TRY(auto&& zero, read_geoid(datum, globe));
       globe.vertical = fmt::format("the surface in {}", CPLGetFilename(datum.geoid.c_str()));
-      globe.zero = std::move(zero->heights);
-      globe.zero_reach = zero->reach;
+      globe.zero = std::move(zero.heights);
+      globe.zero_reach = zero.reach;
       return {};
     }
     case Vertical::kAuto:
@@ -202,7 +201,7 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
         fmt::format("{} does not say where on the globe it lies: give it a position and a CRS ({}), or take --grid "
                     "local",
                     path, translate_command("-a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH", path)));
-  if (auto metres = check_metres(info, path); !metres) return tl::unexpected(metres.error());
+  SCARP_RETURN_IF_ERROR(check_metres(info, path));
   RasterOnGlobe globe;
   const Degrees degrees = choose_degrees(source, datum.ellipsoid);
   globe.ellipsoid = degrees.ellipsoid;
@@ -227,7 +226,7 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
                               path, warp_command("-t_srs '+proj=longlat +datum=WGS84 +lon_wrap=180'", path)));
   }
 
-  if (auto found = find_zero(info, datum, path, globe); !found) return tl::unexpected(found.error());
+  SCARP_RETURN_IF_ERROR(find_zero(info, datum, path, globe));
   return globe;
 }
 

@@ -257,13 +257,11 @@ Result<Dataset> join_tiles(Session& session, std::span<const Tile> tiles, std::o
     return fail(ErrorKind::kInput, fmt::format("{} and {} more lie too far apart for one mosaic: name fewer of them",
                                                path, tiles.size() - 1));
   }
-  const auto first = open_raster(session, path);
-  if (!first) return tl::unexpected(first.error());
-  auto joined = open_xml(session, writer.write(), path);
-  if (!joined) return joined;
-  repeat_said(first->get(), joined->get());
+  SCARP_TRY(const auto& first, open_raster(session, path));
+  SCARP_TRY(auto&& joined, open_xml(session, writer.write(), path));
+  repeat_said(first.get(), joined.get());
   for (std::size_t k = 0; k < writer.bands().size(); ++k) {
-    GDALRasterBandH band = GDALGetRasterBand(joined->get(), static_cast<int>(k) + 1);
+    GDALRasterBandH band = GDALGetRasterBand(joined.get(), static_cast<int>(k) + 1);
     GDALSetMetadataItem(band, "PIXELTYPE", nullptr, "IMAGE_STRUCTURE");
     if (writer.bands()[k].is_decoded) {
       GDALSetRasterScale(band, 1);
@@ -272,7 +270,7 @@ Result<Dataset> join_tiles(Session& session, std::span<const Tile> tiles, std::o
     const auto says = std::find_if(tiles.begin(), tiles.end(), [&](const Tile& t) { return !t.bands[k].unit.empty(); });
     if (says != tiles.end()) GDALSetRasterUnitType(band, says->bands[k].unit.c_str());
   }
-  return open_virtual(session, joined->get(), path);
+  return open_virtual(session, joined.get(), path);
 }
 
 }  // namespace scarp::gdal

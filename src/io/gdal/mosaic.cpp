@@ -41,9 +41,8 @@ std::string edit_command(const std::string& options, const std::string& path) {
 }
 
 Result<Tile> look_at(Session& session, const std::string& path) {
-  const auto dataset = open_raster(session, path);
-  if (!dataset) return tl::unexpected(dataset.error());
-  GDALDatasetH raster = dataset->get();
+  SCARP_TRY(const auto& dataset, open_raster(session, path));
+  GDALDatasetH raster = dataset.get();
   Tile tile = describe_raster(raster, path);
   tile.gap = find_wide_gap(raster);
   if (GDALGetGeoTransform(raster, tile.gt.data()) != CE_None) {
@@ -391,17 +390,15 @@ Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& pa
                             std::string& words) {
   std::vector<Tile> tiles;
   for (const std::string& path : paths) {
-    auto tile = look_at(session, path);
-    if (!tile) return tl::unexpected(tile.error());
-    tiles.push_back(std::move(*tile));
+    SCARP_TRY(auto&& tile, look_at(session, path));
+    tiles.push_back(std::move(tile));
     const std::string difference = find_difference(tiles.front(), tiles.back());
     if (!difference.empty()) return fail(ErrorKind::kInput, fmt::format("{} {}", path, difference));
   }
   split_at_gaps(tiles);
-  const auto is_moved = place_tiles(tiles);
-  if (!is_moved) return tl::unexpected(is_moved.error());
+  SCARP_TRY(const auto& is_moved, place_tiles(tiles));
   if (paths.size() > 1) words = fmt::format("mosaic of {} rasters", paths.size());
-  if (*is_moved) words += fmt::format("{}both ends of x side by side", words.empty() ? "" : ", ");
+  if (is_moved) words += fmt::format("{}both ends of x side by side", words.empty() ? "" : ", ");
   return join_tiles(session, tiles, nodata);
 }
 

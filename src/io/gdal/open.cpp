@@ -241,19 +241,15 @@ GDALDriverH identify_driver(const std::string& vsi, unsigned kind) {
 }
 
 Result<Dataset> open_raster(Session& session, const std::string& path) {
-  const auto name = readable_name(path);
-  if (!name) return tl::unexpected(name.error());
-  const auto grid = find_text_grid(path);
-  if (!grid) return tl::unexpected(grid.error());
-  const std::string vsi = grid->empty() ? vsi_path(*name) : *grid;
+  SCARP_TRY(const auto& name, readable_name(path));
+  SCARP_TRY(const auto& grid, find_text_grid(path));
+  const std::string vsi = grid.empty() ? vsi_path(name) : grid;
   session.clear();
   Dataset dataset = open_quietly(vsi, GDAL_OF_RASTER);
   if (!dataset && ends_with(vsi, ".zip")) {
     VSIStatBufL status{};
     if (VSIStatL(vsi.c_str(), &status) == 0) {
-      auto inside = open_in_zip(session, path, vsi);
-      if (!inside) return inside;
-      dataset = std::move(*inside);
+      SCARP_TRY(dataset, open_in_zip(session, path, vsi));
     }
   }
   if (!dataset) return explain(session, path, vsi);
@@ -263,7 +259,7 @@ Result<Dataset> open_raster(Session& session, const std::string& path) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: holds {} rasters; name one of them: {}", path, parts.size(), join(parts, 4)));
   }
-  if (auto verified = verify_axes(dataset.get(), path); !verified) return tl::unexpected(verified.error());
+  SCARP_RETURN_IF_ERROR(verify_axes(dataset.get(), path));
   if (is_misread_png(dataset.get())) {
     return fail(
         ErrorKind::kInput,

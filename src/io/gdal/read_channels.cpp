@@ -57,18 +57,17 @@ Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, Read
   BandsPlan plan;
   for (int k = first; k <= last; ++k) {
     options.band = k;
-    auto band = plan_band(dataset, path, options, info);
-    if (!band) return tl::unexpected(band.error());
-    if (GDALGetRasterColorInterpretation(band->band) == GCI_AlphaBand) {
+    SCARP_TRY(auto&& band, plan_band(dataset, path, options, info));
+    if (GDALGetRasterColorInterpretation(band.band) == GCI_AlphaBand) {
       return fail(ErrorKind::kInput,
                   fmt::format("{}: band {} is transparency (alpha), which is no channel; leave it out "
                               "first ({})",
                               path, k, choose(k)));
     }
-    plan.palettes.push_back(palette_of(band->band));
+    plan.palettes.push_back(palette_of(band.band));
     plan.channels += plan.palettes.back().empty() ? 1 : 3;
-    plan.is_8bit &= band->type == GDT_Byte && !band->signed_byte && band->scale == 1 && band->offset == 0;
-    plan.bands.push_back(*band);
+    plan.is_8bit &= band.type == GDT_Byte && !band.signed_byte && band.scale == 1 && band.offset == 0;
+    plan.bands.push_back(band);
   }
   if (plan.channels > kMaxChannels) {
     return fail(ErrorKind::kInput,
@@ -141,45 +140,38 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
   }
   Session session(is_remote(path));
   OwnedChannels channels;
-  auto dataset = open_view(session, path, options.view, true, channels.info.view);
-  if (!dataset) return tl::unexpected(dataset.error());
+  SCARP_TRY(auto&& dataset, open_view(session, path, options.view, true, channels.info.view));
   channels.info.path = path;
-  channels.info.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
-  auto plan = plan_bands(dataset->get(), path, options, all_bands, channels.info);
-  if (!plan) return tl::unexpected(plan.error());
-  auto geo = read_georeference(dataset->get(), path);
-  if (!geo) return tl::unexpected(geo.error());
-  describe_georeference(*geo, channels.info);
-  auto fits = check_raster_size(path, static_cast<std::uint64_t>(geo->cols), static_cast<std::uint64_t>(geo->rows),
-                                options, plan->channels);
-  if (!fits) return tl::unexpected(fits.error());
-  auto frame = choose_frame(*geo, options, channels.info);
-  if (!frame) return tl::unexpected(frame.error());
-  channels.frame = std::move(*frame);
-  channels.cols = geo->cols;
-  channels.rows = geo->rows;
-  channels.is_8bit = plan->is_8bit;
-  channels.is_color = plan->is_color;
+  channels.info.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
+  SCARP_TRY(auto&& plan, plan_bands(dataset.get(), path, options, all_bands, channels.info));
+  SCARP_TRY(auto&& geo, read_georeference(dataset.get(), path));
+  describe_georeference(geo, channels.info);
+  SCARP_RETURN_IF_ERROR(check_raster_size(path, static_cast<std::uint64_t>(geo.cols),
+                                          static_cast<std::uint64_t>(geo.rows), options, plan.channels));
+  SCARP_TRY(channels.frame, choose_frame(geo, options, channels.info));
+  channels.cols = geo.cols;
+  channels.rows = geo.rows;
+  channels.is_8bit = plan.is_8bit;
+  channels.is_color = plan.is_color;
 
-  std::vector<OwnedHeightField> fields(plan->bands.size());
+  std::vector<OwnedHeightField> fields(plan.bands.size());
   for (OwnedHeightField& field : fields) {
-    field.cols = geo->cols;
-    field.rows = geo->rows;
+    field.cols = geo.cols;
+    field.rows = geo.rows;
     field.info.path = path;
-    if (auto allocated = allocate_samples(path, field); !allocated) return tl::unexpected(allocated.error());
+    SCARP_RETURN_IF_ERROR(allocate_samples(path, field));
   }
   std::uint64_t infinities = 0;
-  auto samples = read_bands(session, plan->bands, options, fields, infinities);
-  if (!samples) return tl::unexpected(samples.error());
+  SCARP_RETURN_IF_ERROR(read_bands(session, plan.bands, options, fields, infinities));
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (plan->palettes[k].empty()) {
+    if (plan.palettes[k].empty()) {
       channels.bands.push_back(std::move(fields[k].samples));
-    } else if (auto applied = apply_palette(plan->palettes[k], fields[k], channels.bands); !applied) {
-      return tl::unexpected(applied.error());
+    } else {
+      SCARP_RETURN_IF_ERROR(apply_palette(plan.palettes[k], fields[k], channels.bands));
     }
   }
   for (const std::string& warning : session.warnings()) channels.info.warnings.push_back("GDAL: " + warning);
-  if (auto finished = finish_channels(channels, infinities); !finished) return tl::unexpected(finished.error());
+  SCARP_RETURN_IF_ERROR(finish_channels(channels, infinities));
   return channels;
 }
 

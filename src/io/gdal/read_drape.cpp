@@ -54,20 +54,18 @@ void lay_on_white(WarpedPixels warped, Drape& drape) {
 
 Result<Drape> read(const std::string& path, const RasterInfo& raster, int cols, int rows, int size, const Run& run) {
   Session session(is_remote(path));
-  auto image = open_raster(session, path);
-  if (!image) return tl::unexpected(image.error());
-  const auto geo = read_georeference(image->get(), path);
-  if (!geo) return tl::unexpected(geo.error());
+  SCARP_TRY(auto&& image, open_raster(session, path));
+  SCARP_TRY(const auto& geo, read_georeference(image.get(), path));
   // An image with as many pixels as the raster has samples is most likely made from it, and has lost its place.
-  const bool is_twin = !geo->located && geo->cols == cols && geo->rows == rows;
-  if (geo->located != raster.has_georeference && !is_twin) {
+  const bool is_twin = !geo.located && geo.cols == cols && geo.rows == rows;
+  if (geo.located != raster.has_georeference && !is_twin) {
     return fail(
         ErrorKind::kInput,
         fmt::format(
             "{} has {}, and the raster has {}: give {} a place first ({}){}", path,
-            geo->located ? "a place" : "no place", geo->located ? "none" : "one", geo->located ? "the raster" : "it",
-            translate_command("-a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH", geo->located ? raster.path : path),
-            geo->located ? "" : fmt::format(", or an image of {} x {} pixels", cols, rows)));
+            geo.located ? "a place" : "no place", geo.located ? "none" : "one", geo.located ? "the raster" : "it",
+            translate_command("-a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH", geo.located ? raster.path : path),
+            geo.located ? "" : fmt::format(", or an image of {} x {} pixels", cols, rows)));
   }
   Drape drape;
   if (is_twin && raster.has_georeference)
@@ -75,34 +73,31 @@ Result<Drape> read(const std::string& path, const RasterInfo& raster, int cols, 
         fmt::format("{} has no place, and as many pixels as the raster has samples: each is laid "
                     "on its sample",
                     path));
-  auto arranged = arrange_bands(session, image->get(), path, geo->located);
-  if (!arranged) return tl::unexpected(arranged.error());
+  SCARP_TRY(auto&& arranged, arrange_bands(session, image.get(), path, geo.located));
   Transform6 place{0, kNowhere, 0, 0, 0, kNowhere};
   Crs crs;
-  if (geo->located) {
+  if (geo.located) {
     place = raster.geotransform;
     for (const std::size_t k : {1, 4}) place[k] *= cols;
     for (const std::size_t k : {2, 5}) place[k] *= rows;
     if (!raster.crs.empty()) crs = find_crs(raster.crs);
-    if (!geo->crs != !crs) {
+    if (!geo.crs != !crs) {
       drape.warnings.push_back(fmt::format("{} has {} CRS, and the raster has {}: they are taken for the same", path,
                                            crs ? "no" : "a", crs ? "one" : "none"));
-      if (!crs) crs = copy_crs(geo->crs.get());
-      if (!geo->crs) GDALSetSpatialRef(arranged->get(), crs.get());
+      if (!crs) crs = copy_crs(geo.crs.get());
+      if (!geo.crs) GDALSetSpatialRef(arranged.get(), crs.get());
     }
   }
   const auto off_raster = [&] { return fail(ErrorKind::kInput, path + ": does not lie on the raster"); };
-  const auto pixels = count_pixels(arranged->get(), place, crs);
+  const auto pixels = count_pixels(arranged.get(), place, crs);
   if (!pixels) return off_raster();
   const auto [width, height] = choose_size(*pixels, size);
   const Dataset target = make_target(place, crs, width, height);
   if (!target) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, session.reason()));
   session.clear();
-  if (auto warped = warp(session, arranged->get(), target.get(), path, run.progress); !warped)
-    return tl::unexpected(warped.error());
-  auto pixels_there = take_pixels(session, target.get(), path);
-  if (!pixels_there) return tl::unexpected(pixels_there.error());
-  lay_on_white(std::move(*pixels_there), drape);
+  SCARP_RETURN_IF_ERROR(warp(session, arranged.get(), target.get(), path, run.progress));
+  SCARP_TRY(auto&& pixels_there, take_pixels(session, target.get(), path));
+  lay_on_white(std::move(pixels_there), drape);
   if (drape.covered == 0) return off_raster();
   if (drape.covered < 1) {
     drape.warnings.push_back(fmt::format("{} covers {:.1f} % of the raster: the rest is white", path,

@@ -42,13 +42,11 @@ Result<OpenedLayer> open(Session& session, const std::string& path) {
   const bool may_name_layer = colon != std::string::npos && colon > 0 && colon + 1 < path.size();
   const std::string file = may_name_layer ? path.substr(0, colon) : std::string();
   if (may_name_layer && !exists(path) && exists(file)) {
-    auto dataset = open_vector(session, file, kWhat, kExpected);
-    if (!dataset) return tl::unexpected(dataset.error());
-    return OpenedLayer{std::move(*dataset), file, path.substr(colon + 1)};
+    SCARP_TRY(auto&& dataset, open_vector(session, file, kWhat, kExpected));
+    return OpenedLayer{std::move(dataset), file, path.substr(colon + 1)};
   }
-  auto dataset = open_vector(session, path, kWhat, kExpected);
-  if (!dataset) return tl::unexpected(dataset.error());
-  return OpenedLayer{std::move(*dataset), path, {}};
+  SCARP_TRY(auto&& dataset, open_vector(session, path, kWhat, kExpected));
+  return OpenedLayer{std::move(dataset), path, {}};
 }
 
 bool may_be_lines(OGRLayerH layer) {
@@ -92,7 +90,7 @@ class LineCollector {
     }
     height_.reset();
     if (height_field_) {
-      if (auto read = read_height(feature); !read) return read;
+      SCARP_RETURN_IF_ERROR(read_height(feature));
     }
     if (OGR_GT_IsNonLinear(OGR_G_GetGeometryType(geometry)) == 0 && OGR_G_HasCurveGeometry(geometry, 0) == 0)
       return add_geometry(geometry);
@@ -147,8 +145,7 @@ class LineCollector {
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i) {
       OGRGeometryH part = OGR_G_GetGeometryRef(geometry, i);
       const LineRole role = i == 0 ? LineRole::kOuter : LineRole::kHole;
-      auto added = is_polygon ? add_line(part, role) : add_geometry(part);
-      if (!added) return added;
+      SCARP_RETURN_IF_ERROR(is_polygon ? add_line(part, role) : add_geometry(part));
       // if the outer ring has no extent, its holes have none either
       if (is_polygon && (set_.lines.empty() || set_.lines.back().polygon != set_.polygons)) return {};
     }
@@ -279,32 +276,27 @@ void convert_heights(OGRLayerH layer, std::optional<int> height_field, double un
 
 Result<LineSet> read(const std::string& path, const ReadLinesOptions& options, double unit_in_metres) {
   Session session(is_remote(path));
-  const auto opened = open(session, path);
-  if (!opened) return tl::unexpected(opened.error());
-  const auto layer = find_layer(*opened);
-  if (!layer) return tl::unexpected(layer.error());
+  SCARP_TRY(const auto& opened, open(session, path));
+  SCARP_TRY(const auto& layer, find_layer(opened));
   std::optional<int> height_field;
   if (!options.z_field.empty()) {
-    const auto field = find_field(*layer, opened->path, options.z_field);
-    if (!field) return tl::unexpected(field.error());
-    height_field = *field;
+    SCARP_TRY(height_field, find_field(layer, opened.path, options.z_field));
   }
 
   LineSet set;
-  set.path = opened->path;
-  set.layer = OGR_L_GetName(*layer);
-  set.format = GDALGetDriverShortName(GDALGetDatasetDriver(opened->dataset.get()));
+  set.path = opened.path;
+  set.layer = OGR_L_GetName(layer);
+  set.format = GDALGetDriverShortName(GDALGetDatasetDriver(opened.dataset.get()));
   LineCollector collector(height_field, options.ignore_z, set);
-  const auto collected = each_feature(session, *layer, set.path, options.progress,
-                                      [&](OGRFeatureH feature) { return collector.add(feature); });
-  if (!collected) return tl::unexpected(collected.error());
+  SCARP_RETURN_IF_ERROR(each_feature(session, layer, set.path, options.progress,
+                                     [&](OGRFeatureH feature) { return collector.add(feature); }));
   if (set.lines.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no lines or polygons", set.path, set.layer));
   collector.warn();
-  if (unit_in_metres > 0 && !options.ignore_z) convert_heights(*layer, height_field, unit_in_metres, set);
-  const Crs crs = layer_crs(*layer);
+  if (unit_in_metres > 0 && !options.ignore_z) convert_heights(layer, height_field, unit_in_metres, set);
+  const Crs crs = layer_crs(layer);
   set.crs = crs_name(crs);
-  if (auto placed = place(crs, options.crs, set); !placed) return tl::unexpected(placed.error());
+  SCARP_RETURN_IF_ERROR(place(crs, options.crs, set));
   for (const std::string& warning : session.warnings()) set.warnings.push_back("GDAL: " + warning);
   return set;
 }

@@ -124,10 +124,9 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
     points.heights.unit = unit_named_in(name_of(index));
   };
   if (!wanted.empty()) {
-    const auto index = find_field(layer, path, wanted);
-    if (!index) return tl::unexpected(index.error());
-    take(*index);
-    return *index;
+    SCARP_TRY(const auto& index, find_field(layer, path, wanted));
+    take(index);
+    return index;
   }
   const ThirdCoordinates third = look_at_third_coordinates(layer);
   points.columns = "height: third coordinate";
@@ -174,9 +173,7 @@ class PointCollector {
     }
     std::optional<double> height;
     if (height_field_) {
-      auto read = read_height(feature);
-      if (!read) return tl::unexpected(read.error());
-      height = *read;
+      SCARP_TRY(height, read_height(feature));
     }
     if (OGR_GT_IsNonLinear(OGR_G_GetGeometryType(geometry)) == 0 && OGR_G_HasCurveGeometry(geometry, 0) == 0)
       return add_geometry(geometry, height);
@@ -217,8 +214,7 @@ class PointCollector {
     const OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
     if (type == wkbMultiPoint || type == wkbMultiLineString || type == wkbGeometryCollection) {
       for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i) {
-        const auto added = add_geometry(OGR_G_GetGeometryRef(geometry, i), height);
-        if (!added) return added;
+        SCARP_RETURN_IF_ERROR(add_geometry(OGR_G_GetGeometryRef(geometry, i), height));
       }
       return {};
     }
@@ -245,7 +241,7 @@ class PointCollector {
     const auto first = static_cast<std::uint32_t>(points_.size());
     for (int i = 0; i < OGR_G_GetPointCount(geometry); ++i) {
       const auto here = static_cast<std::uint32_t>(points_.size());
-      if (auto added = add_point(geometry, i, height); !added) return added;
+      SCARP_RETURN_IF_ERROR(add_point(geometry, i, height));
       if (points_.size() == here) continue;  // omitted
       const bool is_repeated = !line.points.empty() && is_same(here, line.points.back()),
                  is_closed = !is_repeated && here > first && is_same(here, first);
@@ -299,7 +295,7 @@ class PointCollector {
 Result<void> make_local(const Crs& crs, PointSet& points) {
   const auto [x, y] = middle_of(points);
   const std::string way = fmt::format("ogr2ogr -a_srs EPSG:CODE {} {}", new_file(".gpkg"), file_word(points.path));
-  if (auto verified = verify_degrees(crs, {x, y}, points.path, way); !verified) return verified;
+  SCARP_RETURN_IF_ERROR(verify_degrees(crs, {x, y}, points.path, way));
   MetresPerRadian metres{1, 1};
   if (OSRIsGeographic(crs.get()) != 0) {
     OGRErr error = OGRERR_NONE;
@@ -379,26 +375,22 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
     return fail(ErrorKind::kUsage,
                 path + ": --columns names the columns of a text, and this is none: --z-field names an attribute");
   Session session(is_remote(path));
-  const auto dataset =
-      open_vector(session, path, "points", "neither text of columns nor vector data that GDAL can read");
-  if (!dataset) return tl::unexpected(dataset.error());
-  const auto layer = find_layer(dataset->get(), path, options.layer);
-  if (!layer) return tl::unexpected(layer.error());
+  SCARP_TRY(const auto& dataset,
+            open_vector(session, path, "points", "neither text of columns nor vector data that GDAL can read"));
+  SCARP_TRY(const auto& layer, find_layer(dataset.get(), path, options.layer));
   PointSet points;
   points.path = path;
-  const auto height_field = find_height_field(*layer, options.z_field, points);
-  if (!height_field) return tl::unexpected(height_field.error());
+  SCARP_TRY(const auto& height_field, find_height_field(layer, options.z_field, points));
 
-  points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
-  PointCollector collector(path, *height_field, options.nodata, points);
-  const auto collected = each_feature(session, *layer, path, options.progress,
-                                      [&](OGRFeatureH feature) { return collector.add(feature); });
-  if (!collected) return tl::unexpected(collected.error());
+  points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
+  PointCollector collector(path, height_field, options.nodata, points);
+  SCARP_RETURN_IF_ERROR(each_feature(session, layer, path, options.progress,
+                                     [&](OGRFeatureH feature) { return collector.add(feature); }));
   if (points.size() == 0 && points.without_height > 0)
     return fail(ErrorKind::kInput, path + ": no point has a height other than that of --nodata");
   if (points.size() == 0)
     return fail(ErrorKind::kInput,
-                fmt::format("{}: the layer {} holds no points or lines", path, OGR_L_GetName(*layer)));
+                fmt::format("{}: the layer {} holds no points or lines", path, OGR_L_GetName(layer)));
   if (collector.without_geometry() > 0)
     points.warnings.push_back(
         collector.without_geometry() == 1
@@ -409,11 +401,10 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
                                   ? fmt::format("1 line of {} is a single point, and counts as one", path)
                                   : fmt::format("{} lines of {} are a single point each, and count as points",
                                                 collector.without_extent(), path));
-  const Crs crs = layer_crs(*layer);
-  if (auto placed = place(crs, options, points); !placed) return tl::unexpected(placed.error());
-  const SpaceCrs in_space = space_crs_of(declared_layer_crs(*layer));
-  if (auto settled = settle_point_heights(options, in_space.unit, points); !settled)
-    return tl::unexpected(settled.error());
+  const Crs crs = layer_crs(layer);
+  SCARP_RETURN_IF_ERROR(place(crs, options, points));
+  const SpaceCrs in_space = space_crs_of(declared_layer_crs(layer));
+  SCARP_RETURN_IF_ERROR(settle_point_heights(options, in_space.unit, points));
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);
   return points;
 }
@@ -430,10 +421,9 @@ Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptio
 Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points) {
   gdal::Session session;
   const bool is_unnamed = points.crs.empty() && points.is_geographic;
-  const auto crs = gdal::find_crs_of(points.path, is_unnamed ? "EPSG:4326" : points.crs);
-  if (!crs) return tl::unexpected(crs.error());
-  if (auto placed = gdal::place(gdal::copy_crs(crs->get()), options, points); !placed) return tl::unexpected(placed.error());
-  return gdal::space_crs_of(*crs).unit;
+  SCARP_TRY(const auto& crs, gdal::find_crs_of(points.path, is_unnamed ? "EPSG:4326" : points.crs));
+  SCARP_RETURN_IF_ERROR(gdal::place(gdal::copy_crs(crs.get()), options, points));
+  return gdal::space_crs_of(crs).unit;
 }
 
 bool opens_as_raster(const std::string& path) {

@@ -54,9 +54,7 @@ void warn_of_depths(const Plan& plan, const ReadOptions& options, RasterInfo& in
 Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
   Plan plan;
   Means means;
-  auto dataset = open_view(session, path, options.view, false, plan.info.view, &means, options.nodata);
-  if (!dataset) return tl::unexpected(dataset.error());
-  plan.dataset = std::move(*dataset);
+  SCARP_TRY(plan.dataset, open_view(session, path, options.view, false, plan.info.view, &means, options.nodata));
   plan.info.path = path;
   const bool is_text = GDALGetMetadataItem(plan.dataset.get(), kTextGridKey, nullptr) != nullptr;
   if (const char* warnings = GDALGetMetadataItem(plan.dataset.get(), kTextWarningsKey, nullptr)) {
@@ -65,11 +63,10 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
   }
   plan.info.format = is_text ? "XYZ" : GDALGetDriverShortName(GDALGetDatasetDriver(plan.dataset.get()));
   if (options.decode == Decode::kNone) {
-    auto band = plan_band(plan.dataset.get(), path, options, plan.info);
-    if (!band) return tl::unexpected(band.error());
-    plan.band = *band;
-    plan.info.scale = band->scale;
-    plan.info.offset = band->offset;
+    SCARP_TRY(auto&& band, plan_band(plan.dataset.get(), path, options, plan.info));
+    plan.band = band;
+    plan.info.scale = band.scale;
+    plan.info.offset = band.offset;
     plan.band.means = means;
     if (means.have_holes) {
       plan.band.nodata = std::numeric_limits<double>::quiet_NaN();
@@ -77,20 +74,19 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
     }
     warn_of_colours(plan.dataset.get(), plan.band, options.as_values, plan.info);
   } else {
-    if (auto packed = verify_packed(plan.dataset.get(), path); !packed) return tl::unexpected(packed.error());
+    SCARP_RETURN_IF_ERROR(verify_packed(plan.dataset.get(), path));
     plan.info.sample_type = options.decode == Decode::kTerrarium ? "Byte (terrarium)" : "Byte (mapbox)";
     plan.info.nodata = options.nodata;
     plan.info.unit.assign(1, 'm');
   }
-  auto geo = read_georeference(plan.dataset.get(), path);
-  if (!geo) return tl::unexpected(geo.error());
-  describe_georeference(*geo, plan.info);
-  if (!geo->located && GDALGetGCPCount(plan.dataset.get()) > 0) {
+  SCARP_TRY(auto&& geo, read_georeference(plan.dataset.get(), path));
+  describe_georeference(geo, plan.info);
+  if (!geo.located && GDALGetGCPCount(plan.dataset.get()) > 0) {
     plan.info.warnings.push_back(
         fmt::format("the raster is placed by ground control points, which are not used: rectify it first ({})",
                     warp_command("", path)));
   }
-  plan.georeference = std::move(*geo);
+  plan.georeference = std::move(geo);
   return plan;
 }
 
@@ -141,26 +137,22 @@ struct OpenedRaster {
 
 /// `options` become those that the samples are read with.
 Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions& options) {
-  auto plan = plan_raster(session, path, options);
-  if (!plan) return tl::unexpected(plan.error());
-  const Georeference& geo = plan->georeference;
+  SCARP_TRY(auto&& plan, plan_raster(session, path, options));
+  const Georeference& geo = plan.georeference;
   const auto cols = static_cast<std::uint64_t>(geo.cols), rows = static_cast<std::uint64_t>(geo.rows);
-  if (auto fits = check_raster_sides(path, cols, rows); !fits) return tl::unexpected(fits.error());
-  auto frame = choose_frame(geo, options, plan->info);
-  if (!frame) return tl::unexpected(frame.error());
-  auto settled = settle_heights(options, *frame, plan->info, geo.in_space.unit);
-  if (!settled) return tl::unexpected(settled.error());
-  options = std::move(*settled);
+  SCARP_RETURN_IF_ERROR(check_raster_sides(path, cols, rows));
+  SCARP_TRY(auto&& frame, choose_frame(geo, options, plan.info));
+  SCARP_TRY(options, settle_heights(options, frame, plan.info, geo.in_space.unit));
   // The band's values are decoded with the file's scale and this one at once, so that every way of reading knows it.
-  plan->band.scale *= options.z_scale;
-  plan->band.offset = options.z_scale * plan->band.offset + options.z_offset;
-  if (options.heights_in != HeightsIn::kMetres) warn_of_units(*frame, plan->info);  // else x and y are the caller's
+  plan.band.scale *= options.z_scale;
+  plan.band.offset = options.z_scale * plan.band.offset + options.z_offset;
+  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, plan.info);  // else x and y are the caller's
   OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
-  opened.field.frame = std::move(*frame);
-  opened.field.info = std::move(plan->info);
-  opened.plan = std::move(*plan);
+  opened.field.frame = std::move(frame);
+  opened.field.info = std::move(plan.info);
+  opened.plan = std::move(plan);
   return opened;
 }
 
@@ -178,27 +170,24 @@ Result<void> refuse_beyond(const Findings& findings, const std::string& path, co
 Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, const ReadOptions& options) {
   OwnedHeightField& field = opened.field;
   const std::string& path = field.info.path;
-  if (auto allocated = allocate_samples(path, field, options.run.threads); !allocated)
-    return tl::unexpected(allocated.error());
+  SCARP_RETURN_IF_ERROR(allocate_samples(path, field, options.run.threads));
   const auto reader = opened.make_reader(options);
-  const auto found = read_windows(session, opened.first_band(options), *reader, opened.again(options), options, field);
-  if (!found) return tl::unexpected(found.error());
+  SCARP_TRY(const auto& found,
+            read_windows(session, opened.first_band(options), *reader, opened.again(options), options, field));
   add_gdal_warnings(session, field.info);
-  doubt_colours(*found, options.decode, find_loss(opened.plan.dataset.get()), field.info);
-  if (auto done = finish_raster(field, found->infinities, options); !done) return tl::unexpected(done.error());
+  doubt_colours(found, options.decode, find_loss(opened.plan.dataset.get()), field.info);
+  SCARP_RETURN_IF_ERROR(finish_raster(field, found.infinities, options));
   warn_of_depths(opened.plan, options, field.info);
-  if (auto held = refuse_beyond(*found, path, options); !held) return tl::unexpected(held.error());
+  SCARP_RETURN_IF_ERROR(refuse_beyond(found, path, options));
   return std::move(field);
 }
 
 Result<OwnedHeightField> read(const std::string& path, ReadOptions options) {
   Session session(is_remote(path));
-  auto opened = open(session, path, options);
-  if (!opened) return tl::unexpected(opened.error());
-  const auto cols = static_cast<std::uint64_t>(opened->field.cols),
-             rows = static_cast<std::uint64_t>(opened->field.rows);
-  if (auto fits = check_raster_size(path, cols, rows, options); !fits) return tl::unexpected(fits.error());
-  return read_samples(session, std::move(*opened), options);
+  SCARP_TRY(auto&& opened, open(session, path, options));
+  const auto cols = static_cast<std::uint64_t>(opened.field.cols), rows = static_cast<std::uint64_t>(opened.field.rows);
+  SCARP_RETURN_IF_ERROR(check_raster_size(path, cols, rows, options));
+  return read_samples(session, std::move(opened), options);
 }
 
 /// Samples that stay in their file.
@@ -237,12 +226,11 @@ Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& 
     return true;
   };
   const Extent extent{info.path, field.cols, field.rows};
-  if (auto done = for_each_window(session, opened.first_band(options), extent, options.run.progress, look); !done)
-    return done;
+  SCARP_RETURN_IF_ERROR(for_each_window(session, opened.first_band(options), extent, options.run.progress, look));
   set_range(range, info);
   field.sample_rounding = reader.findings().rounding;
   doubt_colours(reader.findings(), options.decode, find_loss(opened.plan.dataset.get()), info);
-  if (auto finished = finish_info(field, reader.findings().infinities, options); !finished) return finished;
+  SCARP_RETURN_IF_ERROR(finish_info(field, reader.findings().infinities, options));
   return refuse_beyond(reader.findings(), info.path, options);
 }
 
@@ -256,8 +244,7 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
   auto reader = opened.make_reader(options);
   const bool may_surprise = options.decode != Decode::kNone || !is_float32(opened.plan.band);
   if (options.with_range || may_surprise || opened.plan.band.means.cells > 1) {
-    auto seen = survey(session, opened, *reader, options, field);
-    if (!seen) return tl::unexpected(seen.error());
+    SCARP_RETURN_IF_ERROR(survey(session, opened, *reader, options, field));
   }
   warn_of_depths(opened.plan, options, field.info);
   add_gdal_warnings(session, field.info);
@@ -267,20 +254,18 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
 
 Result<OwnedHeightField> open_field(const std::string& path, ReadOptions options) {
   Session session(is_remote(path));
-  auto opened = open(session, path, options);
-  if (!opened) return tl::unexpected(opened.error());
-  OwnedHeightField& field = opened->field;
+  SCARP_TRY(auto&& opened, open(session, path, options));
+  OwnedHeightField& field = opened.field;
   const double samples = static_cast<double>(field.cols) * static_cast<double>(field.rows);
   const double memory = 5.0 * static_cast<double>(max_samples(options.run.memory.limit));
-  if (sizeof(float) * samples <= memory) return read_samples(session, std::move(*opened), options);
-  const bool is_coded = options.decode == Decode::kNone && has_codes(opened->plan.band);
-  if (!is_coded || 2 * samples > memory) return keep_in_file(session, std::move(*opened), options);
+  if (sizeof(float) * samples <= memory) return read_samples(session, std::move(opened), options);
+  const bool is_coded = options.decode == Decode::kNone && has_codes(opened.plan.band);
+  if (!is_coded || 2 * samples > memory) return keep_in_file(session, std::move(opened), options);
   std::uint64_t infinities = 0;
-  auto read = read_codes(session, opened->plan.band, options, field, infinities);
-  if (!read) return tl::unexpected(read.error());
+  SCARP_RETURN_IF_ERROR(read_codes(session, opened.plan.band, options, field, infinities));
   add_gdal_warnings(session, field.info);
-  if (auto finished = finish_info(field, infinities, options); !finished) return tl::unexpected(finished.error());
-  warn_of_depths(opened->plan, options, field.info);
+  SCARP_RETURN_IF_ERROR(finish_info(field, infinities, options));
+  warn_of_depths(opened.plan, options, field.info);
   return std::move(field);
 }
 

@@ -280,7 +280,7 @@ Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowRead
         if (done) done = progress.add(plan.stack(i));
         return done.has_value();
       });
-  if (!done) return tl::unexpected(done.error());
+  SCARP_RETURN_IF_ERROR(done);
   field.sample_rounding = findings.rounding;
   return findings;
 }
@@ -326,7 +326,7 @@ Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOption
                           nullptr) == CE_None;
   };
   const Extent extent{field.info.path, field.cols, field.rows};
-  if (auto done = for_each_window(session, plan.band, extent, options.run.progress, read); !done) return done;
+  SCARP_RETURN_IF_ERROR(for_each_window(session, plan.band, extent, options.run.progress, read));
   for (const std::uint16_t code : codes) ++counts[code];
 
   BandReader reader(plan);

@@ -16,9 +16,8 @@
 namespace scarp::gdal {
 
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected) {
-  const auto name = readable_name(path);
-  if (!name) return tl::unexpected(name.error());
-  const std::string vsi = vsi_path(*name);
+  SCARP_TRY(const auto& name, readable_name(path));
+  const std::string vsi = vsi_path(name);
   session.clear();
   if (declares_entities(vsi)) {
     return fail(ErrorKind::kInput,
@@ -78,7 +77,7 @@ Result<void> each_feature(Session& session, OGRLayerH layer, const std::string& 
   OGR_L_ResetReading(layer);
   session.clear();
   while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
-    if (auto added = add(feature.get()); !added) return added;
+    SCARP_RETURN_IF_ERROR(add(feature.get()));
     if (++features % 65536 != 0 || !progress) continue;
     if (!progress({"read", std::min(1.0, static_cast<double>(features) / count), 0, 0}))
       return fail(ErrorKind::kCancelled, "cancelled while reading");

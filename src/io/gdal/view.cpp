@@ -127,8 +127,7 @@ Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::stri
   tile.from_row = part.row;
   tile.cols = cols * part.across;
   tile.rows = rows * part.down;
-  const auto cells = open_xml(session, write_with_nan(tile, nodata), path);
-  if (!cells) return tl::unexpected(cells.error());
+  SCARP_TRY(const auto& cells, open_xml(session, write_with_nan(tile, nodata), path));
   CPLStringList words;
   for (const std::string& word : {std::string("-of"),
                                   std::string("VRT"),
@@ -154,7 +153,7 @@ Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::stri
   const std::unique_ptr<GDALWarpAppOptions, FreeOptions> options(GDALWarpAppOptionsNew(words.List(), nullptr));
   session.clear();
   int failed = 0;
-  GDALDatasetH source = cells->get();
+  GDALDatasetH source = cells.get();
   const Dataset made(GDALWarp("", nullptr, 1, &source, options.get(), &failed));
   if (!made || failed != 0) return finish_view(session, whole, nullptr, path);
   gt[0] += part.col * gt[1];
@@ -193,19 +192,18 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
   std::vector<std::string> given{path};
   given.insert(given.end(), view.more.begin(), view.more.end());
   std::vector<std::string> left_out;
-  const auto paths = expand_folders(session, given, left_out);
-  if (!paths) return tl::unexpected(paths.error());
-  const bool is_mosaic = paths->size() > 1;
-  auto whole = is_mosaic ? open_mosaic(session, *paths, nodata, words) : open_raster(session, paths->front());
-  if (!whole) return whole;
+  SCARP_TRY(const auto& paths, expand_folders(session, given, left_out));
+  const bool is_mosaic = paths.size() > 1;
+  auto whole = is_mosaic ? open_mosaic(session, paths, nodata, words) : open_raster(session, paths.front());
+  SCARP_RETURN_IF_ERROR(whole);
   if (!is_mosaic && find_wide_gap(whole->get())) {
-    whole = open_mosaic(session, *paths, nodata, words);
-    if (!whole) return whole;
+    whole = open_mosaic(session, paths, nodata, words);
+    SCARP_RETURN_IF_ERROR(whole);
   } else if (const char* nodes = GDALGetMetadataItem(whole->get(), kTextGridKey, nullptr); !is_mosaic && nodes != nullptr) {
     words = fmt::format("raster of {} (--points: as scattered points)", nodes);
   }
   if (!left_out.empty())
-    words += fmt::format("{}, without what Scarp made: {}", is_mosaic ? "" : paths->front(), fmt::join(left_out, ", "));
+    words += fmt::format("{}, without what Scarp made: {}", is_mosaic ? "" : paths.front(), fmt::join(left_out, ", "));
   if (!view.extent && !view.resolution) return whole;
 
   std::array<double, 6> gt{};
@@ -216,11 +214,10 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
   const int cols = GDALGetRasterXSize(whole->get()), rows = GDALGetRasterYSize(whole->get());
   Part part{0, 0, cols, rows, 1, 1};
   if (view.extent) {
-    if (auto has_part = cut(*view.extent, gt, path, part); !has_part) return tl::unexpected(has_part.error());
+    SCARP_RETURN_IF_ERROR(cut(*view.extent, gt, path, part));
   }
   if (view.resolution) {
-    if (auto has_cells = coarsen(*view.resolution, gt, path, part); !has_cells)
-      return tl::unexpected(has_cells.error());
+    SCARP_RETURN_IF_ERROR(coarsen(*view.resolution, gt, path, part));
   }
   const std::string of_part = describe_part(part, cols, rows, gt);
   if (of_part.empty()) return whole;

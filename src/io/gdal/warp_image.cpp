@@ -68,14 +68,13 @@ int on_progress(double share, const char*, void* watched) {
 }  // namespace
 
 Result<Dataset> arrange_bands(Session& session, GDALDatasetH image, const std::string& path, bool located) {
-  auto bands = choose_bands(image, path);
-  if (!bands) return tl::unexpected(bands.error());
+  SCARP_TRY(auto&& bands, choose_bands(image, path));
   Words words{"-q", "-of", "VRT"};
   if (GDALGetRasterColorTable(GDALGetRasterBand(image, 1)) != nullptr && GDALGetRasterCount(image) == 1) {
     words.add("-expand");
     words.add("rgba");
   } else {
-    for (const int band : *bands) {
+    for (const int band : bands) {
       words.add("-b");
       words.add(std::to_string(band));
     }

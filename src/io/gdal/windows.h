@@ -93,7 +93,7 @@ template <class Use>
 Result<void> for_each_slice(const Window& stack, int rows_at_once, Use use) {
   for (int row = 0; row < stack.rows; row += std::min(rows_at_once, stack.rows - row)) {
     const Window window{stack.col, stack.row + row, stack.cols, std::min(rows_at_once, stack.rows - row)};
-    if (auto done = use(window); !done) return done;
+    SCARP_RETURN_IF_ERROR(use(window));
   }
   return {};
 }
@@ -110,7 +110,7 @@ Result<void> for_each_window(Session& session, GDALRasterBandH band, const Exten
       const auto seen = read_or_explain(session, window, raster.path, read);
       return seen ? done.add(window) : seen;
     });
-    if (!all) return all;
+    SCARP_RETURN_IF_ERROR(all);
   }
   return {};
 }

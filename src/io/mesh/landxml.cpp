@@ -252,8 +252,7 @@ class LandXmlReader {
 
 Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh) {
   if (std::string why = find_beyond_int32(mesh, "a LandXML file"); !why.empty()) return refuse_to_write(why);
-  const auto reference = find_reference(mesh);
-  if (!reference) return tl::unexpected(reference.error());
+  SCARP_TRY(const auto& reference, find_reference(mesh));
   std::vector<std::uint8_t> bytes;
   bytes.reserve(mesh.positions.size() * 20 + mesh.triangles.size() * 10);
   auto out = std::back_inserter(bytes);
@@ -261,8 +260,8 @@ Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh) {
                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                  "<LandXML xmlns=\"http://www.landxml.org/schema/LandXML-1.2\" version=\"1.2\" date=\"1970-01-01\" "
                  "time=\"00:00:00\" language=\"English\" readOnly=\"false\">\n{}",
-                 units_element(*reference->unit));
-  if (reference->crs) fmt::format_to(out, "{}", crs_element(*reference->crs));
+                 units_element(*reference.unit));
+  if (reference.crs) fmt::format_to(out, "{}", crs_element(*reference.crs));
   fmt::format_to(out,
                  "  <Application name=\"Scarp\" version=\"{}\"/>\n  <Surfaces>\n    <Surface name=\"terrain\">\n"
                  "      <Definition surfType=\"TIN\">\n        <Pnts>\n",

@@ -351,9 +351,8 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
 
 Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes) {
   if (const Mesh* lent = find_lent_mesh(path)) return *lent;
-  auto bytes = read_file(path);
-  if (!bytes) return tl::unexpected<Error>(bytes.error());
-  return decode_mesh(*bytes, path, axes);
+  SCARP_TRY(auto&& bytes, read_file(path));
+  return decode_mesh(bytes, path, axes);
 }
 
 }  // namespace scarp

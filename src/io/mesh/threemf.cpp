@@ -283,13 +283,11 @@ Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects) try 
 Result<std::vector<std::uint8_t>> encode_one_3mf(const Mesh& mesh) { return encode_3mf({&mesh, 1}); }
 
 Result<Mesh> decode_3mf(std::span<const std::uint8_t> bytes) {
-  const auto zip = ZipReader::open(bytes);
-  if (!zip) return tl::unexpected(zip.error());
-  const std::string part = find_model_part(*zip);
+  SCARP_TRY(const auto& zip, ZipReader::open(bytes));
+  const std::string part = find_model_part(zip);
   if (part.empty()) return refuse_to_read("it is an archive without a 3MF model");
-  const auto model = zip->extract(part);
-  if (!model) return tl::unexpected(model.error());
-  ModelReader reader(*model);
+  SCARP_TRY(const auto& model, zip.extract(part));
+  ModelReader reader(model);
   if (std::string why = reader.read(); !why.empty()) return refuse_to_read(std::move(why));
   return std::move(reader.mesh);
 }

@@ -175,7 +175,7 @@ Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, 
   const std::string straight_option = option_for(rows.columns.size(), columns.at, has_labels),
                     turned_option = option_for(rows.columns.size(), turned, has_labels);
   const std::string options = fmt::format("--columns {} or --columns {}", straight_option, turned_option);
-  if (auto sure = check_places(rows, list, name, columns); !sure) return sure;
+  SCARP_RETURN_IF_ERROR(check_places(rows, list, name, columns));
   constexpr double kHighest = 1e5;  // the highest summit has 29,032 feet
   if (height.low > kHighest || height.high < -kHighest)
     return fail(ErrorKind::kInput,
@@ -275,9 +275,7 @@ Result<PointColumns> find_columns(std::string_view text, const std::string& name
   if (!options.columns.empty()) {
     if (!options.z_field.empty())
       return fail(ErrorKind::kUsage, "--columns and --z-field both name the height: leave one out");
-    const auto at = parse_columns(options.columns, columns.words);
-    if (!at) return tl::unexpected(at.error());
-    columns.at = *at;
+    SCARP_TRY(columns.at, parse_columns(options.columns, columns.words));
     if (columns.has_header) take_names(line, columns.separator, columns);
     take_units(columns);
     return columns;
@@ -297,8 +295,7 @@ Result<PointColumns> find_columns(std::string_view text, const std::string& name
                   fmt::format("{}: line {} names no columns and holds no point: put # in front of all lines up to {} "
                               "that do not ({})",
                               name, lines.number(), last, comment_out_command(name, last)));
-    if (auto read = read_header(line, name, lines.number(), options, columns); !read)
-      return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(read_header(line, name, lines.number(), options, columns));
     warn_of_turned_names(rows, columns);
   } else if (const std::string_view comment = lines.comment(); !comment.empty()) {
     take_names(comment, find_separator(comment), columns);
@@ -313,7 +310,7 @@ Result<PointColumns> find_columns(std::string_view text, const std::string& name
     const std::vector<std::size_t> list = rows.coordinates();
     columns.in_degrees = false;
     if (list.size() >= 3) {
-      if (auto told = tell_apart(rows, list, name, columns); !told) return tl::unexpected(told.error());
+      SCARP_RETURN_IF_ERROR(tell_apart(rows, list, name, columns));
     }
   }
   take_units(columns);

@@ -50,14 +50,13 @@ Result<void> settle_point_heights(const ReadPointsOptions& options, const Height
                : is_projected              ? Frame::Kind::kProjected
                                            : Frame::Kind::kSource;
   frame.unit_in_metres = points.unit_in_metres;
-  const auto settled = settle_heights(wanted, frame, info, vertical);
-  if (!settled) return tl::unexpected(settled.error());
+  SCARP_TRY(const auto& settled, settle_heights(wanted, frame, info, vertical));
   if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, info);
-  if (settled->z_scale != 1 || settled->z_offset != 0) {
-    for (double& z : points.z) z = settled->z_scale * z + settled->z_offset;
+  if (settled.z_scale != 1 || settled.z_offset != 0) {
+    for (double& z : points.z) z = settled.z_scale * z + settled.z_offset;
   }
   points.warnings.insert(points.warnings.end(), info.warnings.begin(), info.warnings.end());
-  if (settled->z_scale != options.z_scale && points.unit_in_metres == 0 && points.crs.empty())
+  if (settled.z_scale != options.z_scale && points.unit_in_metres == 0 && points.crs.empty())
     points.warnings.push_back(fmt::format(
         "x and y have no CRS and stay as they are, while heights become metres: give the points their CRS first ({})",
         is_text_of_columns(points.path)

@@ -212,19 +212,17 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
   std::string_view line;
   if (!lines.next(line))
     return fail(ErrorKind::kInput, name + (bytes.empty() ? ": the file is empty" : ": the file holds no points"));
-  auto columns = find_columns(text, name, options);
-  if (!columns) return tl::unexpected(columns.error());
-  if (auto read = read_lines_of(lines, line, *columns, options, bytes.size(), points); !read)
-    return tl::unexpected(read.error());
+  SCARP_TRY(auto&& columns, find_columns(text, name, options));
+  SCARP_RETURN_IF_ERROR(read_lines_of(lines, line, columns, options, bytes.size(), points));
   if (points.size() == 0 && points.without_height == 0)
     return fail(ErrorKind::kInput, name + ": the file holds a header line and no points");
   if (points.size() == 0) return fail(ErrorKind::kInput, name + ": no point has a height other than that of --nodata");
-  points.warnings = std::move(columns->warnings);
-  points.columns = columns->words;
-  take_units_of(*columns, points);
-  const auto name_at = [&](std::size_t column) { return in_quotes(columns->names[column]); };
-  if (!columns->heights.empty() && options.z_field.empty()) {
-    const std::string chosen = name_at(columns->at[2]), other = columns->names[columns->heights.front()];
+  points.warnings = std::move(columns.warnings);
+  points.columns = columns.words;
+  take_units_of(columns, points);
+  const auto name_at = [&](std::size_t column) { return in_quotes(columns.names[column]); };
+  if (!columns.heights.empty() && options.z_field.empty()) {
+    const std::string chosen = name_at(columns.at[2]), other = columns.names[columns.heights.front()];
     if (are_all_alike(points.z)) {
       ReadPointsOptions with_other = options;
       with_other.z_field = other;
@@ -238,7 +236,7 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
     points.warnings.push_back(fmt::format("{}: the heights are those of the column {}: --z-field {} reads the others",
                                           name, chosen, file_word(other)));
   }
-  if (columns->in_degrees || looks_like_degrees(points))
+  if (columns.in_degrees || looks_like_degrees(points))
     points.warnings.push_back(fmt::format(
         "x and y look like degrees, which do not mix with heights: make a GeoPackage with a CRS of the file "
         "({}) for a local frame in metres",
@@ -246,7 +244,7 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
   if (options.crs == "local" && points.unit_in_metres == 0) return refuse_frame(bytes, name, options);
   if (options.crs == "local" || becomes_local(options, points.unit_in_metres))
     make_local_metres({points.unit_in_metres, points.unit_in_metres}, "the points' own coordinates", points);
-  if (auto settled = settle_point_heights(options, {}, points); !settled) return tl::unexpected(settled.error());
+  SCARP_RETURN_IF_ERROR(settle_point_heights(options, {}, points));
   return points;
 }
 

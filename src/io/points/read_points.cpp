@@ -95,12 +95,11 @@ namespace {
 
 Result<PointSet> read_by_content(const std::string& path, const ReadPointsOptions& options) {
   if (!is_text_of_columns(path)) return read_gdal_points(path, options);
-  const auto bytes = read_file(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const std::string_view head(reinterpret_cast<const char*>(bytes->data()), std::min<std::size_t>(bytes->size(), 4096));
-  if (const std::string kind = describe_kind(path, head, bytes->size(), false); !kind.empty())
+  SCARP_TRY(const auto& bytes, read_file(path));
+  const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4096));
+  if (const std::string kind = describe_kind(path, head, bytes.size(), false); !kind.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
-  return decode_columns(*bytes, path, options);
+  return decode_columns(bytes, path, options);
 }
 
 /// Warns of heights that most likely stand for a missing height. GDAL reads a vertex without a third coordinate as 0,

@@ -125,7 +125,7 @@ Result<void> decode_plain(std::span<const std::uint8_t> bytes, const PgmHeader& 
                               "or damaged",
                               name, k % header.cols, k / header.cols));
     }
-    if (auto put = samples.put(k, *value); !put) return put;
+    SCARP_RETURN_IF_ERROR(samples.put(k, *value));
   }
   if (!text.only_space_left()) {
     return fail(ErrorKind::kInput, name +
@@ -141,7 +141,7 @@ Result<void> decode_raw(std::span<const std::uint8_t> bytes, const PgmHeader& he
   const std::uint8_t* data = bytes.data() + header.samples_at;
   for (std::uint64_t k = 0; k < header.count(); ++k) {
     const std::uint32_t value = wide ? static_cast<std::uint32_t>(data[2 * k] << 8 | data[2 * k + 1]) : data[k];
-    if (auto put = samples.put(k, value); !put) return put;
+    SCARP_RETURN_IF_ERROR(samples.put(k, value));
   }
   const std::uint64_t end = header.samples_at + header.count() * (wide ? 2 : 1);
   for (std::uint64_t k = end; k < bytes.size(); ++k) {
@@ -164,38 +164,34 @@ bool is_pgm(std::span<const std::uint8_t> bytes) {
 
 Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options) {
-  auto header = decode_pgm_header(bytes, name);
-  if (!header) return tl::unexpected(header.error());
-  auto frame = bare_grid_frame(name, "a PGM", static_cast<int>(header->cols), static_cast<int>(header->rows), options);
-  if (!frame) return tl::unexpected(frame.error());
+  SCARP_TRY(auto&& header, decode_pgm_header(bytes, name));
+  SCARP_TRY(auto&& frame,
+            bare_grid_frame(name, "a PGM", static_cast<int>(header.cols), static_cast<int>(header.rows), options));
 
   // The file itself must be long enough before its header's size is believed. A plain sample needs a digit and a space.
-  const std::uint64_t there = bytes.size() - header->samples_at;
-  const std::uint64_t needed = header->plain ? header->count() * 2 - (header->count() > 0 ? 1 : 0)
-                                             : header->count() * (header->maxval > 255 ? 2 : 1);
+  const std::uint64_t there = bytes.size() - header.samples_at;
+  const std::uint64_t needed =
+      header.plain ? header.count() * 2 - (header.count() > 0 ? 1 : 0) : header.count() * (header.maxval > 255 ? 2 : 1);
   if (there < needed) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: truncated: {} x {} samples need at least {} bytes after the header, and {} are there",
-                            name, header->cols, header->rows, needed, there));
+                            name, header.cols, header.rows, needed, there));
   }
-  if (auto fits = check_raster_size(name, header->cols, header->rows, options); !fits)
-    return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_raster_size(name, header.cols, header.rows, options));
 
   OwnedHeightField field;
-  field.cols = static_cast<int>(header->cols);
-  field.rows = static_cast<int>(header->rows);
-  field.frame = std::move(*frame);
-  field.info = describe_pgm(*header, name);
+  field.cols = static_cast<int>(header.cols);
+  field.rows = static_cast<int>(header.rows);
+  field.frame = std::move(frame);
+  field.info = describe_pgm(header, name);
   field.info.nodata = options.nodata;
-  if (auto allocated = allocate_samples(name, field); !allocated) return tl::unexpected(allocated.error());
-  PgmSamples samples(*header, name, options, field.samples.data());
-  auto decoded =
-      header->plain ? decode_plain(bytes, *header, name, samples) : decode_raw(bytes, *header, name, samples);
-  if (!decoded) return tl::unexpected(decoded.error());
-  const auto settled = settle_heights(options, field.frame, field.info);
-  if (!settled) return tl::unexpected(settled.error());
-  scale_values(*settled, field);
-  if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
+  SCARP_RETURN_IF_ERROR(allocate_samples(name, field));
+  PgmSamples samples(header, name, options, field.samples.data());
+  SCARP_RETURN_IF_ERROR(header.plain ? decode_plain(bytes, header, name, samples)
+                                     : decode_raw(bytes, header, name, samples));
+  SCARP_TRY(const auto& settled, settle_heights(options, field.frame, field.info));
+  scale_values(settled, field);
+  SCARP_RETURN_IF_ERROR(finish_raster(field, 0, options));
   return field;
 }
 

@@ -23,11 +23,10 @@ RasterFile::~RasterFile() = default;
 
 Result<RasterFile> RasterFile::create(const std::string& path, int cols, int rows, const RasterInfo* like,
                                       bool overwrite) try {
-  auto staged = StagedFile::begin(path, overwrite, true);
-  if (!staged) return tl::unexpected(staged.error());
-  auto tiff = create_geotiff(staged->name(), cols, rows, like);
+  SCARP_TRY(auto&& staged, StagedFile::begin(path, overwrite, true));
+  auto tiff = create_geotiff(staged.name(), cols, rows, like);
   if (!tiff) return name_path(path, tiff.error());
-  auto impl = std::make_unique<Impl>(Impl{std::move(*staged), std::move(*tiff), cols, rows});
+  auto impl = std::make_unique<Impl>(Impl{std::move(staged), std::move(*tiff), cols, rows});
   impl->held.reserve(static_cast<std::size_t>(cols) * static_cast<std::size_t>(std::min(rows, kRowsOfBlock)));
   return RasterFile(std::move(impl));
 } catch (...) {
@@ -50,7 +49,7 @@ Result<void> RasterFile::add(std::span<const float> row) try {
 
 Result<void> RasterFile::finish() {
   if (auto closed = impl_->tiff->close(); !closed) return name_path(impl_->staged.path(), closed.error());
-  if (auto ended = impl_->staged.end(); !ended) return ended;
+  SCARP_RETURN_IF_ERROR(impl_->staged.end());
   impl_->size = impl_->staged.size();
   return {};
 }

@@ -40,7 +40,7 @@ Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std
 
 Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
                                const ReadOptions& options, std::uint64_t bands) {
-  if (auto checked = check_raster_sides(name, cols, rows); !checked) return checked;
+  SCARP_RETURN_IF_ERROR(check_raster_sides(name, cols, rows));
   const std::uint64_t limit = max_samples(options.run.memory.limit);
   if (cols * rows > limit / bands) {
     return fail(
@@ -149,8 +149,7 @@ Result<Frame> ungeoreferenced_frame(const std::string& name, int cols, int rows,
 
 Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int cols, int rows,
                               const ReadOptions& options) {
-  auto frame = ungeoreferenced_frame(name, cols, rows, options);
-  if (!frame) return frame;
+  SCARP_TRY(auto&& frame, ungeoreferenced_frame(name, cols, rows, options));
   if (options.band != 1)
     return fail(ErrorKind::kInput, fmt::format("{} has 1 band; there is no band {}", name, options.band));
   if (options.decode != Decode::kNone) {

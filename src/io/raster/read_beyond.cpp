@@ -45,11 +45,10 @@ Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& opti
                           {beyond.left, {-1, 0, kWidth, rows}, 0, kWidth},
                           {beyond.right, {cols - 2, 0, kWidth, rows}, kWidth - 1, kWidth}};
   for (const Strip& strip : strips) {
-    auto read = read_cells(path, options, info, strip.cells);
-    if (!read) return tl::unexpected(std::move(read.error()));
-    if (read->samples.empty()) continue;
+    SCARP_TRY(auto&& read, read_cells(path, options, info, strip.cells));
+    if (read.samples.empty()) continue;
     for (int k = 0; k < (strip.step == 1 ? cols : rows); ++k)
-      strip.edge.push_back(read->samples[static_cast<std::size_t>(strip.first + k * strip.step)]);
+      strip.edge.push_back(read.samples[static_cast<std::size_t>(strip.first + k * strip.step)]);
   }
   return beyond;
 }

@@ -27,11 +27,10 @@ enum class Reader { kPgm, kStm, kGdal };
 /// Names that are no local file, and devices, go to GDAL unopened.
 Result<Reader> find_reader(const std::string& path, const RasterView& view) {
   if (!view.is_whole()) return Reader::kGdal;
-  const auto name = readable_name(path);
-  if (!name) return tl::unexpected(name.error());
+  SCARP_TRY(const auto& name, readable_name(path));
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(*name, ignored)) return Reader::kGdal;
-  std::ifstream file(*name, std::ios::binary);
+  if (!std::filesystem::is_regular_file(name, ignored)) return Reader::kGdal;
+  std::ifstream file(name, std::ios::binary);
   std::array<char, 4096> bytes{};
   file.read(bytes.data(), bytes.size());
   const std::span head(reinterpret_cast<const std::uint8_t*>(bytes.data()), static_cast<std::size_t>(file.gcount()));
@@ -60,9 +59,7 @@ Result<void> fill_enclosed(OwnedHeightField& field, int side) {
     return {};
   }
   if (info.has_range && info.valid < static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows)) {
-    const auto voids = count_voids(field.view(), side);
-    if (!voids) return tl::unexpected(voids.error());
-    info.voids = *voids;
+    SCARP_TRY(info.voids, count_voids(field.view(), side));
   }
   field.source = without_small_voids(field.view(), side, field.source);
   return {};
@@ -84,20 +81,17 @@ Result<void> fill_voids(OwnedHeightField& field, const std::string& path, const 
 
 Result<OwnedHeightField> read_as_it_is(const std::string& path, const ReadOptions& options) {
   if (const LentRaster* lent = find_lent_raster(path)) return read_lent_raster(*lent, path, options);
-  const auto reader = find_reader(path, options.view);
-  if (!reader) return tl::unexpected(reader.error());
-  if (*reader == Reader::kGdal) return read_gdal_raster(path, options);
-  auto bytes = read_file(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return *reader == Reader::kPgm ? decode_pgm(*bytes, path, options) : decode_stm(*bytes, path, options);
+  SCARP_TRY(const auto& reader, find_reader(path, options.view));
+  if (reader == Reader::kGdal) return read_gdal_raster(path, options);
+  SCARP_TRY(auto&& bytes, read_file(path));
+  return reader == Reader::kPgm ? decode_pgm(bytes, path, options) : decode_stm(bytes, path, options);
 }
 
 Result<OwnedHeightField> open_as_it_is(const std::string& path, const ReadOptions& options) {
   if (const LentRaster* lent = find_lent_raster(path)) return read_lent_raster(*lent, path, options);
-  const auto reader = find_reader(path, options.view);
-  if (!reader) return tl::unexpected(reader.error());
-  if (*reader == Reader::kGdal) return open_gdal_raster(path, options);
-  if (auto fits = check_whole_file(path, options); !fits) return tl::unexpected(fits.error());
+  SCARP_TRY(const auto& reader, find_reader(path, options.view));
+  if (reader == Reader::kGdal) return open_gdal_raster(path, options);
+  SCARP_RETURN_IF_ERROR(check_whole_file(path, options));
   ReadOptions whole = options;
   whole.run.memory.limit = 0;
   return read_as_it_is(path, whole);
@@ -106,38 +100,34 @@ Result<OwnedHeightField> open_as_it_is(const std::string& path, const ReadOption
 }  // namespace
 
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
-  auto field = open_as_it_is(path, options);
-  if (!field) return field;
-  if (auto filled = fill_voids(*field, path, options); !filled) return tl::unexpected(filled.error());
+  SCARP_TRY(auto&& field, open_as_it_is(path, options));
+  SCARP_RETURN_IF_ERROR(fill_voids(field, path, options));
   return field;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }
 
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
-  auto field = read_as_it_is(path, options);
-  if (!field) return field;
-  if (auto filled = fill_voids(*field, path, options); !filled) return tl::unexpected(filled.error());
+  SCARP_TRY(auto&& field, read_as_it_is(path, options));
+  SCARP_RETURN_IF_ERROR(fill_voids(field, path, options));
   return field;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }
 
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options, bool all_bands) try {
-  const auto reader = find_reader(path, options.view);
-  if (!reader) return tl::unexpected(reader.error());
-  if (*reader == Reader::kGdal) return read_gdal_channels(path, options, all_bands);
+  SCARP_TRY(const auto& reader, find_reader(path, options.view));
+  if (reader == Reader::kGdal) return read_gdal_channels(path, options, all_bands);
   ReadOptions one_band = options;
   if (all_bands) one_band.band = 1;
-  auto field = read_height_field(path, one_band);
-  if (!field) return tl::unexpected(field.error());
+  SCARP_TRY(auto&& field, read_height_field(path, one_band));
   OwnedChannels channels;
-  channels.cols = field->cols;
-  channels.rows = field->rows;
-  channels.is_8bit = field->info.sample_type == "Byte";
-  channels.bands.push_back(std::move(field->samples));
-  channels.frame = std::move(field->frame);
-  channels.info = std::move(field->info);
+  channels.cols = field.cols;
+  channels.rows = field.rows;
+  channels.is_8bit = field.info.sample_type == "Byte";
+  channels.bands.push_back(std::move(field.samples));
+  channels.frame = std::move(field.frame);
+  channels.info = std::move(field.info);
   return channels;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);

@@ -84,9 +84,8 @@ Result<Script> decode_script(std::span<const std::uint8_t> bytes, const std::str
 }
 
 Result<Script> read_script(const std::string& path, int cols, int rows) try {
-  auto bytes = read_file(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return decode_script(*bytes, path, cols, rows);
+  SCARP_TRY(auto&& bytes, read_file(path));
+  return decode_script(bytes, path, cols, rows);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }

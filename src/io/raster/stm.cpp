@@ -72,38 +72,35 @@ bool is_stm(std::span<const std::uint8_t> bytes) {
 
 Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options) {
-  auto header = decode_stm_header(bytes, name);
-  if (!header) return tl::unexpected(header.error());
-  auto frame = bare_grid_frame(name, "an STM", static_cast<int>(header->cols), static_cast<int>(header->rows), options);
-  if (!frame) return tl::unexpected(frame.error());
-  const std::uint64_t count = static_cast<std::uint64_t>(header->cols) * header->rows;
-  const std::uint64_t there = bytes.size() - header->samples_at;
+  SCARP_TRY(auto&& header, decode_stm_header(bytes, name));
+  SCARP_TRY(auto&& frame,
+            bare_grid_frame(name, "an STM", static_cast<int>(header.cols), static_cast<int>(header.rows), options));
+  const std::uint64_t count = static_cast<std::uint64_t>(header.cols) * header.rows;
+  const std::uint64_t there = bytes.size() - header.samples_at;
   if (there != count * 2) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: {} x {} samples need {} bytes after the header, and {} are there: the file is {}",
-                            name, header->cols, header->rows, count * 2, there,
+                            name, header.cols, header.rows, count * 2, there,
                             there < count * 2 ? "truncated" : "not what its header says"));
   }
-  if (auto fits = check_raster_size(name, header->cols, header->rows, options); !fits)
-    return tl::unexpected(fits.error());
+  SCARP_RETURN_IF_ERROR(check_raster_size(name, header.cols, header.rows, options));
 
   const double nodata = options.nodata.value_or(kMissing);
   OwnedHeightField field;
-  field.cols = static_cast<int>(header->cols);
-  field.rows = static_cast<int>(header->rows);
-  field.frame = std::move(*frame);
+  field.cols = static_cast<int>(header.cols);
+  field.rows = static_cast<int>(header.rows);
+  field.frame = std::move(frame);
   field.info = describe_stm(name, nodata);
-  if (auto allocated = allocate_samples(name, field); !allocated) return tl::unexpected(allocated.error());
-  const std::uint8_t* data = bytes.data() + header->samples_at;
-  const std::size_t high = header->big_endian ? 0 : 1;
+  SCARP_RETURN_IF_ERROR(allocate_samples(name, field));
+  const std::uint8_t* data = bytes.data() + header.samples_at;
+  const std::size_t high = header.big_endian ? 0 : 1;
   for (std::uint64_t k = 0; k < count; ++k) {
     const int value = data[2 * k + high] << 8 | data[2 * k + 1 - high];
     field.samples[k] = value == nodata ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
   }
-  const auto settled = settle_heights(options, field.frame, field.info);
-  if (!settled) return tl::unexpected(settled.error());
-  scale_values(*settled, field);
-  if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
+  SCARP_TRY(const auto& settled, settle_heights(options, field.frame, field.info));
+  scale_values(settled, field);
+  SCARP_RETURN_IF_ERROR(finish_raster(field, 0, options));
   return field;
 }
 

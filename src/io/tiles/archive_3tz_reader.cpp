@@ -19,10 +19,9 @@ using Bytes = std::vector<std::uint8_t>;
 class ReaderOf3tz final : public TileSetReader {
  public:
   static Result<std::unique_ptr<TileSetReader>> open(const std::string& path) {
-    auto source = ByteSource::open(path);
-    if (!source) return tl::unexpected(source.error());
-    std::unique_ptr<ReaderOf3tz> reader(new ReaderOf3tz(std::move(*source)));
-    if (auto read = reader->read_directory(); !read) return tl::unexpected(std::move(read.error()));
+    SCARP_TRY(auto&& source, ByteSource::open(path));
+    std::unique_ptr<ReaderOf3tz> reader(new ReaderOf3tz(std::move(source)));
+    SCARP_RETURN_IF_ERROR(reader->read_directory());
     return reader;
   }
 
@@ -36,13 +35,11 @@ class ReaderOf3tz final : public TileSetReader {
   Result<Bytes> read_file(const std::string& name) const override {
     const auto found = std::lower_bound(records_.begin(), records_.end(), name, is_before);
     if (found == records_.end() || found->name != name) return refuse(fmt::format("holds no {}", name));
-    const auto head = source_->read(found->offset, kZipHeaderSize);
-    if (!head) return tl::unexpected(head.error());
-    const std::uint64_t length = zip_header_length(*head);
+    SCARP_TRY(const auto& head, source_->read(found->offset, kZipHeaderSize));
+    const std::uint64_t length = zip_header_length(head);
     if (length == 0) return refuse(fmt::format("is damaged: {} is not where it should be", name));
-    const auto packed = source_->read(found->offset + length, found->packed);
-    if (!packed) return tl::unexpected(packed.error());
-    auto bytes = unpack_zip_entry(*found, *packed);
+    SCARP_TRY(const auto& packed, source_->read(found->offset + length, found->packed));
+    auto bytes = unpack_zip_entry(*found, packed);
     if (!bytes) return refuse(fmt::format("cannot be read: {}", bytes.error().message));
     return bytes;
   }
@@ -89,13 +86,10 @@ class ReaderOf3tz final : public TileSetReader {
 
   Result<void> read_directory() {
     const std::uint64_t size = source_->size(), tail_size = std::min(size, kLongestZipEnd);
-    const auto tail = source_->read(size - tail_size, tail_size);
-    if (!tail) return tl::unexpected(tail.error());
-    const auto directory = find_zip_directory(*tail, size);
+    SCARP_TRY(const auto& tail, source_->read(size - tail_size, tail_size));
+    const auto directory = find_zip_directory(tail, size);
     if (!directory) return refuse(fmt::format("is no .3tz: {}", directory.error().message));
-    auto bytes = source_->read(directory->start, size - directory->start);
-    if (!bytes) return tl::unexpected(bytes.error());
-    directory_ = std::move(*bytes);
+    SCARP_TRY(directory_, source_->read(directory->start, size - directory->start));
     auto records = read_zip_directory(directory_, directory->count);
     if (!records) return refuse(fmt::format("is no .3tz: {}", records.error().message));
     records_ = std::move(*records);

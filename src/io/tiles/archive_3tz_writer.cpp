@@ -32,7 +32,7 @@ class ArchiveOf3tz {
     append_zip_header(header, record);
     append_zip_record(directory_, record);
     index_.push_back({md5_of(name), record.offset});
-    if (auto added = output_.add(header); !added) return added;
+    SCARP_RETURN_IF_ERROR(output_.add(header));
     return output_.add(bytes);
   }
 
@@ -46,10 +46,10 @@ class ArchiveOf3tz {
       store_number(at, place.offset);
     }
     const std::uint64_t count = index_.size() + 1;
-    if (auto added = add(kIndexOf3tz, index); !added) return added;
+    SCARP_RETURN_IF_ERROR(add(kIndexOf3tz, index));
     const std::uint64_t start = output_.position(), size = directory_.size();
     append_zip_end(directory_, count, start, size);
-    if (auto added = output_.add(directory_); !added) return added;
+    SCARP_RETURN_IF_ERROR(output_.add(directory_));
     return output_.flush();
   }
 
@@ -76,14 +76,12 @@ Result<void> write_3tz(TileSpool& spool, TileFormat format, StagedFile& file) {
   spool.sort_files();
   ArchiveOf3tz archive(file);
   for (const TileSpool::File& one : spool.files()) {
-    const auto bytes = spool.read(one);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (auto added = archive.add(one.name, *bytes); !added) return added;
+    SCARP_TRY(const auto& bytes, spool.read(one));
+    SCARP_RETURN_IF_ERROR(archive.add(one.name, bytes));
   }
   for (const TileSpool::Tile& tile : spool.tiles()) {
-    const auto bytes = spool.read(tile);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (auto added = archive.add(tile_name(format, tile.id), *bytes); !added) return added;
+    SCARP_TRY(const auto& bytes, spool.read(tile));
+    SCARP_RETURN_IF_ERROR(archive.add(tile_name(format, tile.id), bytes));
   }
   return archive.finish();
 }

@@ -55,7 +55,7 @@ std::vector<TileId> tiles_below(const PyramidPlan& plan, TileId block, int level
 Result<bool> has_heights(const PyramidPlan& plan, TileId id, const NodeSource& nodes) {
   const NodeWindow window = plan.grid.window_of(id, plan.cells << (plan.max_zoom() - id.z));
   std::vector<float> heights(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows));
-  if (auto read = nodes.read(window, heights); !read) return tl::unexpected(read.error());
+  SCARP_RETURN_IF_ERROR(nodes.read(window, heights));
   return std::any_of(heights.begin(), heights.end(), [](float height) { return !std::isnan(height); });
 }
 
@@ -83,16 +83,14 @@ Result<LevelLook> look_at(const PyramidPlan& plan, const std::vector<TileId>& bl
     const double place = std::fmod(0.6180339887498949 * (k + 1), 1);
     const TileId id = tiles[static_cast<std::size_t>(place * static_cast<double>(tiles.size()))];
     const double start = core_seconds();
-    const Result<bool> is_land = has_heights(plan, id, nodes);
-    if (!is_land) return tl::unexpected(is_land.error());
+    SCARP_TRY(const bool is_land, has_heights(plan, id, nodes));
     const double reading = core_seconds() - start;
     look.reading += reading;
     ++look.looked_at;
-    if (!*is_land) continue;
-    const auto tile = make_kept_tile(plan, id, nodes, encode);
-    if (!tile) return tl::unexpected(tile.error());
+    if (!is_land) continue;
+    SCARP_TRY(const auto& tile, make_kept_tile(plan, id, nodes, encode));
     look.making += std::max(0.0, core_seconds() - start - 2 * reading);
-    look.bytes += static_cast<double>(tile->bytes.size());
+    look.bytes += static_cast<double>(tile.bytes.size());
     ++look.made;
   }
   return look;
@@ -102,8 +100,7 @@ Result<LevelLook> look_at(const PyramidPlan& plan, const std::vector<TileId>& bl
 
 Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples) {
   const PyramidPlan& plan = job.plan;
-  const auto encode = open_tile_encoder(job);
-  if (!encode) return tl::unexpected(encode.error());
+  SCARP_TRY(const auto& encode, open_tile_encoder(job));
   TileEstimate estimate;
   std::vector<TileId> blocks;
   std::vector<double> counts(plan.levels.size(), 0);
@@ -125,13 +122,12 @@ Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes,
     const int wanted = std::max(1, samples / (plan.max_zoom() - z + 1));
     const int count = next * wanted < left ? wanted : static_cast<int>(left / next);
     if (count > 0) {
-      const auto look = look_at(plan, blocks, z, count, nodes, *encode);
-      if (!look) return tl::unexpected(look.error());
-      reading = look->seconds_of_reading() * counts[static_cast<std::size_t>(z)];
-      share = look->share();
-      if (look->made > 0) {
-        making = look->seconds_of_making();
-        size = look->bytes_of_one();
+      SCARP_TRY(const auto& look, look_at(plan, blocks, z, count, nodes, encode));
+      reading = look.seconds_of_reading() * counts[static_cast<std::size_t>(z)];
+      share = look.share();
+      if (look.made > 0) {
+        making = look.seconds_of_making();
+        size = look.bytes_of_one();
       }
     } else {
       making *= kTimeOfLarger;

@@ -37,9 +37,8 @@ class FolderReader final : public TileSetReader {
     return fail(ErrorKind::kInput, fmt::format("{} holds no {}", folder_, name));
   }
   Result<std::vector<std::uint8_t>> read(const std::string& name) const {
-    const auto source = ByteSource::open(folder_ + "/" + name);
-    if (!source) return tl::unexpected(source.error());
-    return (*source)->read(0, (*source)->size());
+    SCARP_TRY(const auto& source, ByteSource::open(folder_ + "/" + name));
+    return source->read(0, source->size());
   }
 
   std::string folder_;

@@ -80,7 +80,7 @@ class FolderWriter final : public TileSetWriter {
     fs::path old;
     if (replaces_) {
       // It may hold more by now.
-      if (auto checked = check_ours(target_); !checked) return checked;
+      SCARP_RETURN_IF_ERROR(check_ours(target_));
       old = folder_.path_of_old();
       fs::rename(target_, old, error);
     }
@@ -119,13 +119,12 @@ Result<std::unique_ptr<TileSetWriter>> create_folder_set(const std::string& path
     if (is_set && !overwrite)
       return fail(ErrorKind::kOutput, fmt::format("{} is there already: give another name, or --overwrite", path));
     if (is_set) {
-      if (auto checked = check_ours(target); !checked) return tl::unexpected(checked.error());
+      SCARP_RETURN_IF_ERROR(check_ours(target));
     }
     replaces = is_set;
   }
-  auto folder = StagedFolder::create_beside(target);
-  if (!folder) return tl::unexpected(folder.error());
-  return std::make_unique<FolderWriter>(std::move(target), std::move(*folder), format, replaces);
+  SCARP_TRY(auto&& folder, StagedFolder::create_beside(target));
+  return std::make_unique<FolderWriter>(std::move(target), std::move(folder), format, replaces);
 }
 
 }  // namespace scarp

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "grid/small_voids.h"
 #include "io/raster/raster_finish.h"
 #include "scarp/commands.h"
-#include "grid/small_voids.h"
 #include "scarp/io.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_waters.h"
@@ -43,15 +43,11 @@ struct GlobeSource {
 /// On the globe.
 Result<void> place_source(GlobeSource& source, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
-  auto globe = place_on_globe(raster.info, raster.cols, raster.rows, datum, raster.info.path);
-  if (!globe) return tl::unexpected(globe.error());
-  source.globe = std::move(*globe);
+  SCARP_TRY(source.globe, place_on_globe(raster.info, raster.cols, raster.rows, datum, raster.info.path));
   const auto covered = degrees_covered(raster, source.globe.place.affine, source.globe.to_degrees.get());
   if (!covered) return fail(covered.error().kind, fmt::format("{}: {}", raster.info.path, covered.error().message));
   source.covered = *covered;
-  auto nodes = make_node_source(raster, source.globe.place);
-  if (!nodes) return tl::unexpected(nodes.error());
-  source.samples = std::move(*nodes);
+  SCARP_TRY(source.samples, make_node_source(raster, source.globe.place));
   if (source.globe.zero) source.raised = make_raised_source(*source.samples, source.globe.zero);
   return {};
 }
@@ -61,9 +57,7 @@ Result<void> fill_source(GlobeSource& source, int side) {
   source.filled = without_small_voids(field, side);
   field.samples = nullptr;
   field.source = source.filled.get();
-  auto nodes = make_node_source(field, source.globe.place);
-  if (!nodes) return tl::unexpected(nodes.error());
-  source.filled_samples = std::move(*nodes);
+  SCARP_TRY(source.filled_samples, make_node_source(field, source.globe.place));
   if (source.globe.zero) source.filled_raised = make_raised_source(*source.filled_samples, source.globe.zero);
   return {};
 }
@@ -71,9 +65,7 @@ Result<void> fill_source(GlobeSource& source, int side) {
 /// On the plane of a local grid.
 Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_size, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
-  auto plane = place_on_plane(raster.info, raster.cols, raster.rows, cell_size, datum);
-  if (!plane) return tl::unexpected(plane.error());
-  source.plane = std::move(*plane);
+  SCARP_TRY(source.plane, place_on_plane(raster.info, raster.cols, raster.rows, cell_size, datum));
   source.globe.vertical = source.plane->vertical;
   source.globe.ellipsoid = source.plane->ellipsoid;
   source.globe.body = source.plane->body;
@@ -92,13 +84,11 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   // The last of a mosaic lies on top.
   const std::string& path = mosaic.back();
   options.view.more.assign(mosaic.rbegin() + 1, mosaic.rend());
-  auto field = open_height_field(path, options);
-  if (!field) return tl::unexpected(field.error());
-  source->field = std::move(*field);
+  SCARP_TRY(source->field, open_height_field(path, options));
   source->field.info.path = mosaic.front();
   if (!grid) grid = grid_for(source->field.info);
-  auto placed = grid == GridKind::kLocal ? lay_source(*source, options.cell_size, datum) : place_source(*source, datum);
-  if (!placed) return tl::unexpected(placed.error());
+  SCARP_RETURN_IF_ERROR(grid == GridKind::kLocal ? lay_source(*source, options.cell_size, datum)
+                                                 : place_source(*source, datum));
   return source;
 }
 
@@ -168,8 +158,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
   std::uint64_t& memory = reading.run.memory.limit;
   if (mosaics.size() > 1 && memory == 0) memory = kBytesPerSample * max_samples(0);
   for (const std::vector<std::string>& mosaic : mosaics) {
-    auto source = open_source(mosaic, reading, datum, grid);
-    if (!source) return tl::unexpected(source.error());
+    SCARP_TRY(auto&& source, open_source(mosaic, reading, datum, grid));
     impl->grid = *grid;
     if (mosaics.size() > 1 && grid == GridKind::kLocal)
       return fail(ErrorKind::kUsage,
@@ -178,19 +167,19 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
                               mosaics[1].front(), mosaics[0].front(),
                               warp_command(file_word(mosaics[0].front()), mosaics[1].front())));
     // Memory that is in use is not available to the sources behind it, down to a little for windows of files.
-    if (mosaics.size() > 1) memory -= std::min((*source)->bytes(), memory - std::min(memory, kLeastMemory));
+    if (mosaics.size() > 1) memory -= std::min(source->bytes(), memory - std::min(memory, kLeastMemory));
     if (mosaics.size() > 1) {
-      const GlobeSource& first = impl->sources.empty() ? **source : *impl->sources.front();
-      if (auto fits = check_stack(first, **source, datum); !fits) return tl::unexpected(fits.error());
+      const GlobeSource& first = impl->sources.empty() ? *source : *impl->sources.front();
+      SCARP_RETURN_IF_ERROR(check_stack(first, *source, datum));
     }
-    impl->sources.push_back(std::move(*source));
+    impl->sources.push_back(std::move(source));
   }
   if (!impl->sources.front()->plane) {
     std::vector<StackedSource> stack;
     for (const auto& source : impl->sources) stack.push_back({&source->nodes(), source->covered});
     for (const auto& source : impl->sources) {
       if (mosaics.size() == 1 || options.void_side == 0) break;
-      if (auto filled = fill_source(*source, options.void_side); !filled) return tl::unexpected(filled.error());
+      SCARP_RETURN_IF_ERROR(fill_source(*source, options.void_side));
       stack.push_back({&source->filled_nodes(), source->covered});
     }
     impl->stack = make_stacked_source(std::move(stack));
@@ -270,12 +259,10 @@ Result<void> find_waters(TileJob& job, GlobeRaster& raster) {
   ReadLinesOptions reading;
   reading.crs = raster.place().degrees;
   reading.ignore_z = true;
-  auto lakes = read_lines(job.waters.lakes, reading);
-  if (!lakes) return tl::unexpected(lakes.error());
-  if (auto closed = check_polygons(lakes->lines, "--water", "--rivers"); !closed) return closed;
-  auto rivers = read_lines(job.waters.rivers, reading);
-  if (!rivers) return tl::unexpected(rivers.error());
-  for (const LineSet* set : {&*lakes, &*rivers})
+  SCARP_TRY(auto&& lakes, read_lines(job.waters.lakes, reading));
+  SCARP_RETURN_IF_ERROR(check_polygons(lakes.lines, "--water", "--rivers"));
+  SCARP_TRY(auto&& rivers, read_lines(job.waters.rivers, reading));
+  for (const LineSet* set : {&lakes, &rivers})
     impl.warnings.insert(impl.warnings.end(), set->warnings.begin(), set->warnings.end());
   for (auto* files : {&job.waters.lakes, &job.waters.rivers}) {
     for (std::string& file : *files) job.files.push_back(stamp_lines(file));
@@ -286,18 +273,17 @@ Result<void> find_waters(TileJob& job, GlobeRaster& raster) {
     covered = {std::min(covered.west, one.west), std::min(covered.south, one.south), std::max(covered.east, one.east),
                std::max(covered.north, one.north)};
   }
-  const std::size_t lines = rivers->lines.size();
-  auto waters = find_tile_waters(job.plan, impl.land(), raster.place().zero, covered,
-                                 {std::move(lakes->lines), std::move(rivers->lines), job.waters.percentile});
-  if (!waters) return tl::unexpected(waters.error());
-  const auto flat = std::count_if(waters->lakes.begin(), waters->lakes.end(),
+  const std::size_t lines = rivers.lines.size();
+  SCARP_TRY(auto&& waters, find_tile_waters(job.plan, impl.land(), raster.place().zero, covered,
+                                            {std::move(lakes.lines), std::move(rivers.lines), job.waters.percentile}));
+  const auto flat = std::count_if(waters.lakes.begin(), waters.lakes.end(),
                                   [](const TileLake& lake) { return !std::isnan(lake.level); });
   if (!job.waters.lakes.empty() && flat == 0)
     impl.warnings.push_back("--water names no lake in the raster: it changes nothing");
-  if (waters->rivers.size() < lines)
+  if (waters.rivers.size() < lines)
     impl.warnings.push_back(fmt::format("--rivers: {} of {} lines are beside the raster or closed: no rivers",
-                                        lines - waters->rivers.size(), lines));
-  job.plan.waters = std::make_shared<const TileWaters>(std::move(*waters));
+                                        lines - waters.rivers.size(), lines));
+  job.plan.waters = std::make_shared<const TileWaters>(std::move(waters));
   raster.add_waters(job.plan);
   return {};
 }

@@ -40,12 +40,11 @@ Result<std::vector<std::uint8_t>> compress_gzip(std::span<const std::uint8_t> by
 }
 
 Result<std::vector<std::uint8_t>> compress_gzip_of_mesh(std::span<const std::uint8_t> bytes) {
-  auto coded = compress(bytes, Z_DEFAULT_COMPRESSION, kMeshMemory, Z_HUFFMAN_ONLY);
-  if (!coded) return coded;
-  const double share = static_cast<double>(coded->size()) / static_cast<double>(bytes.size());
+  SCARP_TRY(auto&& coded, compress(bytes, Z_DEFAULT_COMPRESSION, kMeshMemory, Z_HUFFMAN_ONLY));
+  const double share = static_cast<double>(coded.size()) / static_cast<double>(bytes.size());
   if (bytes.size() > kSmallMesh && share > kRepeats) return coded;
   auto matched = compress(bytes, Z_DEFAULT_COMPRESSION, kMeshMemory, Z_DEFAULT_STRATEGY);
-  if (!matched || matched->size() < coded->size()) return matched;
+  if (!matched || matched->size() < coded.size()) return matched;
   return coded;
 }
 

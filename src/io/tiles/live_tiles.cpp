@@ -85,7 +85,7 @@ class PreparedTiles final : public TileSink {
     auto tile = std::make_shared<LiveTile>();
     tile->bytes.assign(bytes.begin(), bytes.end());
     bounds_.with([&](auto& bounds) { tile->bound = bounds.extract(key_of(id)).mapped(); });
-    if (auto room = take_room(size_of(*tile)); !room) return room;
+    SCARP_RETURN_IF_ERROR(take_room(size_of(*tile)));
     tiles_.with([&](auto& tiles) { tiles[key_of(id)] = std::move(tile); });
     return {};
   }
@@ -154,9 +154,7 @@ Result<std::unique_ptr<LiveTileSet>> LiveTileSet::open(const TileJob& job, const
   const DegreeBox& covered = plan.covered;
   const double per_degree = plan.cells / 180.0 * static_cast<double>(std::uint64_t{1} << plan.max_zoom());
   const double count = (covered.east - covered.west) * (covered.north - covered.south) * per_degree * per_degree;
-  auto tiles = find_tiles(plan, count <= static_cast<double>(look_nodes) ? &nodes : nullptr, run);
-  if (!tiles) return tl::unexpected(tiles.error());
-  impl->tiles = std::move(*tiles);
+  SCARP_TRY(impl->tiles, find_tiles(plan, count <= static_cast<double>(look_nodes) ? &nodes : nullptr, run));
   PyramidReport report;
   report.tiles = impl->tiles;
   LayerFacts facts = job.facts;
@@ -172,9 +170,8 @@ const std::vector<std::vector<std::uint64_t>>& LiveTileSet::tiles() const { retu
 std::vector<std::string> LiveTileSet::files() const { return {"layer.json"}; }
 
 Result<std::vector<std::uint8_t>> LiveTileSet::read_tile(TileId id) const {
-  const auto tile = make(id);
-  if (!tile) return tl::unexpected(tile.error());
-  return (*tile)->bytes;
+  SCARP_TRY(const auto& tile, make(id));
+  return tile->bytes;
 }
 
 Result<std::vector<std::uint8_t>> LiveTileSet::read_file(const std::string& name) const {
@@ -190,11 +187,10 @@ Result<std::shared_ptr<const LiveTile>> LiveTileSet::make(TileId id) const {
   if (auto prepared = impl_->prepared.find(id)) return prepared;
   if (auto kept = impl_->cache.with([&](TileCache& cache) { return cache.find(id); })) return kept;
   const PyramidPlan& plan = impl_->job.plan;
-  auto made = make_kept_tile(plan, id, *impl_->nodes, impl_->encode);
-  if (!made) return tl::unexpected(made.error());
+  SCARP_TRY(auto&& made, make_kept_tile(plan, id, *impl_->nodes, impl_->encode));
   auto tile = std::make_shared<LiveTile>();
-  tile->bytes = std::move(made->bytes);
-  if (id.z >= plan.block_level) tile->bound = made->tile.bound();
+  tile->bytes = std::move(made.bytes);
+  if (id.z >= plan.block_level) tile->bound = made.tile.bound();
   impl_->cache.with([&](TileCache& cache) { cache.add(id, tile); });
   return tile;
 }
@@ -211,10 +207,9 @@ Result<bool> LiveTileSet::prepare(int threads, const std::function<bool()>& is_o
   const auto make_all = [&]() -> Result<void> {
     std::vector<BlockReport> blocks;
     for (const TileId block : find_blocks(plan)) {
-      auto made = make_block(plan, block, nodes, prepared, run, plan.max_zoom() - kFastLevels);
-      if (!made) return tl::unexpected(made.error());
-      if (auto room = prepared.take_room(made->reduced.size()); !room) return room;
-      blocks.push_back(std::move(*made));
+      SCARP_TRY(auto&& made, make_block(plan, block, nodes, prepared, run, plan.max_zoom() - kFastLevels));
+      SCARP_RETURN_IF_ERROR(prepared.take_room(made.reduced.size()));
+      blocks.push_back(std::move(made));
     }
     auto finished = finish_pyramid(plan, std::move(blocks), prepared, run);
     return finished ? Result<void>() : tl::unexpected(finished.error());

@@ -44,10 +44,9 @@ class MbtilesReader final : public TileSetReader {
  public:
   static Result<std::unique_ptr<TileSetReader>> open(const std::string& path) {
     // reports failures in Scarp's words, and gives the size
-    const auto source = ByteSource::open(path);
-    if (!source) return tl::unexpected(source.error());
-    std::unique_ptr<MbtilesReader> reader(new MbtilesReader(path, (*source)->size()));
-    if (auto read = reader->read_contents(); !read) return tl::unexpected(std::move(read.error()));
+    SCARP_TRY(const auto& source, ByteSource::open(path));
+    std::unique_ptr<MbtilesReader> reader(new MbtilesReader(path, source->size()));
+    SCARP_RETURN_IF_ERROR(reader->read_contents());
     return reader;
   }
 
@@ -122,8 +121,8 @@ class MbtilesReader final : public TileSetReader {
     sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_exec(handle, "PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0", nullptr, nullptr, nullptr);
     const Question question(handle, size_);
-    if (auto read = read_metadata(); !read) return read;
-    if (auto read = read_tiles(); !read) return read;
+    SCARP_RETURN_IF_ERROR(read_metadata());
+    SCARP_RETURN_IF_ERROR(read_tiles());
     return read_names();
   }
 

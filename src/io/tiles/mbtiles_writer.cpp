@@ -76,19 +76,17 @@ Result<void> write_mbtiles(TileSpool& spool, TileFormat format, StagedFile& file
     if (!run(insert_metadata)) return refuse();
   }
   for (const TileSpool::File& one : spool.files()) {
-    const auto bytes = spool.read(one);
-    if (!bytes) return tl::unexpected(bytes.error());
+    SCARP_TRY(const auto& bytes, spool.read(one));
     bind_text(insert_file.get(), 1, one.name);
-    bind_blob(insert_file.get(), 2, *bytes);
+    bind_blob(insert_file.get(), 2, bytes);
     if (!run(insert_file)) return refuse();
   }
   for (const TileSpool::Tile& tile : spool.tiles()) {
-    const auto bytes = spool.read(tile);
-    if (!bytes) return tl::unexpected(bytes.error());
+    SCARP_TRY(const auto& bytes, spool.read(tile));
     sqlite3_bind_int64(insert_tile.get(), 1, tile.id.z);
     sqlite3_bind_int64(insert_tile.get(), 2, tile.id.x);
     sqlite3_bind_int64(insert_tile.get(), 3, tile.id.y);
-    bind_blob(insert_tile.get(), 4, *bytes);
+    bind_blob(insert_tile.get(), 4, bytes);
     if (!run(insert_tile)) return refuse();
   }
   if (sqlite3_exec(handle, kIndices, nullptr, nullptr, nullptr) != SQLITE_OK) return refuse();

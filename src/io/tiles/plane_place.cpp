@@ -74,7 +74,7 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
     plane.units = cell_size ? "metre" : "cell";
   }
   if (plane.units == "metre") {
-    if (auto metres = check_metres(info, info.path); !metres) return tl::unexpected(metres.error());
+    SCARP_RETURN_IF_ERROR(check_metres(info, info.path));
   }
   if (grid_for(info) == GridKind::kLocal) {
     if (datum.ellipsoid)
@@ -89,17 +89,16 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
   Datum known = datum;
   if (datum.vertical == Vertical::kAuto && !info.is_ellipsoidal && info.vertical.empty())
     known.vertical = Vertical::kNone;
-  auto globe = place_on_globe(info, cols, rows, known, info.path);
-  if (!globe) return tl::unexpected(globe.error());
-  plane.vertical = globe->vertical;
-  plane.ellipsoid = globe->ellipsoid;
-  plane.body = globe->body;
-  auto on_globe =
-      find_plane_on_globe(info, TileGrid::of_raster(cols, rows, plane.cell_x, plane.cell_y, kAnyCells).local, *globe);
-  if (!on_globe) return tl::unexpected(on_globe.error());
-  plane.warnings = warn_of_distance(*on_globe, plane, cols, rows, info.path);
-  plane.globe = std::move(*on_globe);
-  plane.samples = std::move(*globe);
+  SCARP_TRY(auto&& globe, place_on_globe(info, cols, rows, known, info.path));
+  plane.vertical = globe.vertical;
+  plane.ellipsoid = globe.ellipsoid;
+  plane.body = globe.body;
+  SCARP_TRY(
+      auto&& on_globe,
+      find_plane_on_globe(info, TileGrid::of_raster(cols, rows, plane.cell_x, plane.cell_y, kAnyCells).local, globe));
+  plane.warnings = warn_of_distance(on_globe, plane, cols, rows, info.path);
+  plane.globe = std::move(on_globe);
+  plane.samples = std::move(globe);
   return plane;
 }
 

@@ -21,10 +21,9 @@ using Bytes = std::vector<std::uint8_t>;
 class PmtilesReader final : public TileSetReader {
  public:
   static Result<std::unique_ptr<TileSetReader>> open(const std::string& path) {
-    auto source = ByteSource::open(path);
-    if (!source) return tl::unexpected(source.error());
-    std::unique_ptr<PmtilesReader> reader(new PmtilesReader(std::move(*source)));
-    if (auto read = reader->read_parts(); !read) return tl::unexpected(std::move(read.error()));
+    SCARP_TRY(auto&& source, ByteSource::open(path));
+    std::unique_ptr<PmtilesReader> reader(new PmtilesReader(std::move(source)));
+    SCARP_RETURN_IF_ERROR(reader->read_parts());
     return reader;
   }
 
@@ -100,25 +99,23 @@ class PmtilesReader final : public TileSetReader {
   }
 
   Result<void> read_parts() {
-    const auto head = source_->read(0, std::min<std::uint64_t>(source_->size(), kPmtilesHeaderSize));
-    if (!head) return tl::unexpected(head.error());
-    const auto header = decode_pmtiles_header(*head);
+    SCARP_TRY(const auto& head, source_->read(0, std::min<std::uint64_t>(source_->size(), kPmtilesHeaderSize)));
+    const auto header = decode_pmtiles_header(head);
     if (!header) return refuse(header.error().message);
     header_ = *header;
     for (const PmtilesPart& part : {header_.root, header_.metadata, header_.leaves, header_.tiles}) {
       if (!source_->has(part.offset, part.length)) return refuse("was cut off");
     }
-    if (auto read = read_metadata(); !read) return read;
-    if (auto read = read_directory(header_.root, 0); !read) return read;
+    SCARP_RETURN_IF_ERROR(read_metadata());
+    SCARP_RETURN_IF_ERROR(read_directory(header_.root, 0));
     if (!levels_.sort()) return refuse("is damaged: it has a tile twice");
     return {};
   }
 
   Result<void> read_metadata() {
-    const auto bytes =
-        read_inner(header_.metadata.offset, header_.metadata.length, most_pmtiles_metadata(header_.metadata.length));
-    if (!bytes) return tl::unexpected(bytes.error());
-    const nlohmann::json metadata = nlohmann::json::parse(bytes->begin(), bytes->end(), nullptr, false);
+    SCARP_TRY(const auto& bytes, read_inner(header_.metadata.offset, header_.metadata.length,
+                                            most_pmtiles_metadata(header_.metadata.length)));
+    const nlohmann::json metadata = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
     if (!metadata.is_object()) return refuse("is damaged: its metadata are no JSON");
     const auto text = [&](const char* key) {
       const auto found = metadata.find(key);
@@ -160,9 +157,8 @@ class PmtilesReader final : public TileSetReader {
     constexpr int kMostDepth = 3;
     const auto damaged = [&] { return refuse("is damaged: a directory of it makes no sense"); };
     constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-    const auto bytes = read_inner(part.offset, part.length, kMostBytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto entries = decode_pmtiles_directory(*bytes, most_tiles_ - levels_.count());
+    SCARP_TRY(const auto& bytes, read_inner(part.offset, part.length, kMostBytes));
+    const auto entries = decode_pmtiles_directory(bytes, most_tiles_ - levels_.count());
     if (!entries) return damaged();
     for (const PmtilesEntry& entry : *entries) {
       if (entry.number < next_) return damaged();
@@ -171,7 +167,7 @@ class PmtilesReader final : public TileSetReader {
       if (entry.run == 0) {
         if (depth == kMostDepth) return damaged();
         const std::uint64_t before = levels_.count();
-        if (auto read = read_directory({whole.offset + entry.offset, entry.length}, depth + 1); !read) return read;
+        SCARP_RETURN_IF_ERROR(read_directory({whole.offset + entry.offset, entry.length}, depth + 1));
         if (levels_.count() == before) return damaged();
         continue;
       }

@@ -31,23 +31,19 @@ struct Directories {
 Result<Directories> make_directories(std::span<const PmtilesEntry> entries) {
   constexpr std::size_t kMostTried = 16384, kLeastLeaf = 4096;
   if (entries.size() <= kMostTried) {
-    auto root = compress_gzip(encode_pmtiles_directory(entries));
-    if (!root) return tl::unexpected(root.error());
-    if (root->size() <= kMostRoot) return Directories{std::move(*root), {}};
+    SCARP_TRY(auto&& root, compress_gzip(encode_pmtiles_directory(entries)));
+    if (root.size() <= kMostRoot) return Directories{std::move(root), {}};
   }
   for (std::size_t per_leaf = std::max(kLeastLeaf, entries.size() / 3500);; per_leaf += per_leaf / 5) {
     Directories directories;
     std::vector<PmtilesEntry> root;
     for (std::size_t begin = 0; begin < entries.size(); begin += per_leaf) {
       const auto part = entries.subspan(begin, std::min(per_leaf, entries.size() - begin));
-      const auto leaf = compress_gzip(encode_pmtiles_directory(part));
-      if (!leaf) return tl::unexpected(leaf.error());
-      root.push_back({part[0].number, directories.leaves.size(), static_cast<std::uint32_t>(leaf->size()), 0});
-      directories.leaves.insert(directories.leaves.end(), leaf->begin(), leaf->end());
+      SCARP_TRY(const auto& leaf, compress_gzip(encode_pmtiles_directory(part)));
+      root.push_back({part[0].number, directories.leaves.size(), static_cast<std::uint32_t>(leaf.size()), 0});
+      directories.leaves.insert(directories.leaves.end(), leaf.begin(), leaf.end());
     }
-    auto packed = compress_gzip(encode_pmtiles_directory(root));
-    if (!packed) return tl::unexpected(packed.error());
-    directories.root = std::move(*packed);
+    SCARP_TRY(directories.root, compress_gzip(encode_pmtiles_directory(root)));
     if (directories.root.size() <= kMostRoot) return directories;
   }
 }
@@ -63,14 +59,13 @@ Result<Bytes> make_metadata(const TileSpool& spool, TileFormat format, const Set
                             kMostFiles >> 20, "write a folder, .mbtiles or .3tz"));
   };
   for (const TileSpool::File& file : spool.files()) {
-    const auto bytes = spool.read(file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    size += bytes->size();
+    SCARP_TRY(const auto& bytes, spool.read(file));
+    size += bytes.size();
     if (size > kMostFiles) return too_large();
-    if (Json::accept(bytes->begin(), bytes->end())) {
-      files[file.name] = std::string(bytes->begin(), bytes->end());
+    if (Json::accept(bytes.begin(), bytes.end())) {
+      files[file.name] = std::string(bytes.begin(), bytes.end());
     } else {
-      files[file.name] = Json{{"base64", write_base64(*bytes)}};
+      files[file.name] = Json{{"base64", write_base64(bytes)}};
     }
   }
   const Json metadata{{"name", facts.name},
@@ -104,14 +99,12 @@ Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file
     header.tiles.length += tile.length;
   }
   if (entries.empty()) return fail(ErrorKind::kOutput, fmt::format("{} would hold no tile", file.path()));
-  const auto directories = make_directories(entries);
-  if (!directories) return tl::unexpected(directories.error());
-  const auto metadata = make_metadata(spool, format, facts);
-  if (!metadata) return tl::unexpected(metadata.error());
+  SCARP_TRY(const auto& directories, make_directories(entries));
+  SCARP_TRY(const auto& metadata, make_metadata(spool, format, facts));
 
-  header.root = {kPmtilesHeaderSize, directories->root.size()};
-  header.metadata = {header.root.offset + header.root.length, metadata->size()};
-  header.leaves = {header.metadata.offset + header.metadata.length, directories->leaves.size()};
+  header.root = {kPmtilesHeaderSize, directories.root.size()};
+  header.metadata = {header.root.offset + header.root.length, metadata.size()};
+  header.leaves = {header.metadata.offset + header.metadata.length, directories.leaves.size()};
   header.tiles.offset = header.leaves.offset + header.leaves.length;
   header.tile_count = header.entry_count = header.content_count = entries.size();
   header.tile = spool.all_gzip()  ? PmtilesCompression::kGzip
@@ -124,14 +117,13 @@ Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file
   ChunkedOutput output(file);
   const auto head = encode_pmtiles_header(header);
   for (const std::span<const std::uint8_t> part :
-       {std::span<const std::uint8_t>(head), std::span<const std::uint8_t>(directories->root),
-        std::span<const std::uint8_t>(*metadata), std::span<const std::uint8_t>(directories->leaves)}) {
-    if (auto added = output.add(part); !added) return added;
+       {std::span<const std::uint8_t>(head), std::span<const std::uint8_t>(directories.root),
+        std::span<const std::uint8_t>(metadata), std::span<const std::uint8_t>(directories.leaves)}) {
+    SCARP_RETURN_IF_ERROR(output.add(part));
   }
   for (const TileSpool::Tile& tile : spool.tiles()) {
-    const auto bytes = spool.read(tile);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (auto added = output.add(*bytes); !added) return added;
+    SCARP_TRY(const auto& bytes, spool.read(tile));
+    SCARP_RETURN_IF_ERROR(output.add(bytes));
   }
   return output.flush();
 }

@@ -65,24 +65,21 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
                                const std::function<void(const PartsReport&)>& tell) {
   if (shard.of < 1 || shard.number < 1 || shard.number > shard.of)
     return fail(ErrorKind::kUsage, fmt::format("there is no share {} of {}", shard.number, shard.of));
-  const auto parts = TileParts::open(folder, job);
-  if (!parts) return tl::unexpected(parts.error());
+  SCARP_TRY(const auto& parts, TileParts::open(folder, job));
   const std::vector<TileId> all = find_blocks(job.plan);
   PartsReport report;
   std::vector<TileId> blocks;
   for (const TileId block : share_of(job, all, shard)) {
     if (only && !touches(job.plan.grid, block, *only)) continue;
-    if ((*parts)->has(block))
+    if (parts->has(block))
       ++report.there;
     else
       blocks.push_back(block);
   }
   if (blocks.empty()) return report;
-  const auto encoder = open_tile_encoder(job);
-  if (!encoder) return tl::unexpected(encoder.error());
-  auto writer = PartWriter::create(folder, shard, job);
-  if (!writer) return tl::unexpected(writer.error());
-  report.has_company = (*writer)->has_company();
+  SCARP_TRY(const auto& encoder, open_tile_encoder(job));
+  SCARP_TRY(auto&& writer, PartWriter::create(folder, shard, job));
+  report.has_company = writer->has_company();
   if (report.has_company) std::reverse(blocks.begin(), blocks.end());
   Run part = run;
   std::uint64_t cost = 0, done = 0;
@@ -93,30 +90,28 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
                             static_cast<double>(one) / static_cast<double>(cost));
     done += one;
     // reads the blocks that another process has made of this share meanwhile
-    if (auto looked = (*parts)->look_again(shard); !looked) return tl::unexpected(looked.error());
-    if ((*parts)->has(block)) {
+    SCARP_RETURN_IF_ERROR(parts->look_again(shard));
+    if (parts->has(block)) {
       ++report.there;
       continue;
     }
-    if ((*parts)->has_any(block)) {
-      const auto now = hash_block(job.plan, block, nodes, run.threads);
-      if (!now) return tl::unexpected(now.error());
-      if ((*parts)->has_nodes(block, *now)) {
-        if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
-        if (auto kept = (*writer)->confirm(block, *now); !kept) return tl::unexpected(kept.error());
+    if (parts->has_any(block)) {
+      SCARP_TRY(const auto& now, hash_block(job.plan, block, nodes, run.threads));
+      if (parts->has_nodes(block, now)) {
+        SCARP_RETURN_IF_ERROR(check_rasters(job));
+        SCARP_RETURN_IF_ERROR(writer->confirm(block, now));
         ++report.unchanged;
         continue;
       }
     }
-    BlockSink sink(*encoder);
+    BlockSink sink(encoder);
     const double start = core_seconds();
-    auto made = make_block(job.plan, block, nodes, sink, part);
-    if (!made) return tl::unexpected(made.error());
-    made->core_seconds = core_seconds() - start;
-    made->memory = peak_memory();
+    SCARP_TRY(auto&& made, make_block(job.plan, block, nodes, sink, part));
+    made.core_seconds = core_seconds() - start;
+    made.memory = peak_memory();
     // A block of a raster that changed meanwhile is not kept; those before it are.
-    if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
-    if (auto kept = (*writer)->add(*made, sink.tiles); !kept) return tl::unexpected(kept.error());
+    SCARP_RETURN_IF_ERROR(check_rasters(job));
+    SCARP_RETURN_IF_ERROR(writer->add(made, sink.tiles));
     ++report.blocks;
     report.tiles += sink.tiles.size();
     for (const PackedTile& tile : sink.tiles) report.bytes += tile.bytes.size();
@@ -127,17 +122,15 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
 
 Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder, TileSetWriter& set, const Run& run,
                                    PartsCost* cost) {
-  const auto parts = TileParts::open(folder, job);
-  if (!parts) return tl::unexpected(parts.error());
+  SCARP_TRY(const auto& parts, TileParts::open(folder, job));
   const std::vector<TileId> blocks = find_blocks(job.plan);
-  const auto missing = std::count_if(blocks.begin(), blocks.end(), [&](TileId id) { return !(*parts)->has(id); });
+  const auto missing = std::count_if(blocks.begin(), blocks.end(), [&](TileId id) { return !parts->has(id); });
   if (missing > 0)
     return fail(ErrorKind::kInput, fmt::format("{} of {} blocks are not in {}: make what is missing first "
                                                "(scarp tile run PLAN --parts {})",
                                                missing, blocks.size(), folder, file_word(folder)));
-  auto encoder = open_tile_encoder(job);
-  if (!encoder) return tl::unexpected(encoder.error());
-  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(*encoder));
+  SCARP_TRY(auto&& encoder, open_tile_encoder(job));
+  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(encoder));
   std::vector<BlockReport> made;
   PartsCost taken;
   // Putting the blocks' tiles needs most of the time.
@@ -146,24 +139,22 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
   for (const TileId block : blocks) {
     const double share = kPutting * static_cast<double>(made.size()) / static_cast<double>(blocks.size());
     if (reporter.due() && !reporter.report("tiles", share, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled");
-    auto one =
-        (*parts)->read(block, [&](TileId id, std::span<const std::uint8_t> bytes) { return sink->put(id, bytes); });
-    if (!one) return tl::unexpected(one.error());
-    taken.core_seconds += one->core_seconds;
-    taken.memory = std::max(taken.memory, one->memory);
-    taken.parts += one->reduced.size();
-    for (const LevelSummary& level : one->report.levels) taken.parts += level.bytes;
-    made.push_back(std::move(*one));
+    SCARP_TRY(auto&& one,
+              parts->read(block, [&](TileId id, std::span<const std::uint8_t> bytes) { return sink->put(id, bytes); }));
+    taken.core_seconds += one.core_seconds;
+    taken.memory = std::max(taken.memory, one.memory);
+    taken.parts += one.reduced.size();
+    for (const LevelSummary& level : one.report.levels) taken.parts += level.bytes;
+    made.push_back(std::move(one));
   }
   const double start = core_seconds();
   Run top = run;
   top.progress = part_of(run.progress, kPutting, 1 - kPutting);
-  auto report = finish_pyramid(job.plan, std::move(made), *sink, top);
-  if (!report) return report;
+  SCARP_TRY(auto&& report, finish_pyramid(job.plan, std::move(made), *sink, top));
   taken.core_seconds += core_seconds() - start;
   if (cost != nullptr) *cost = taken;
-  if (auto put = sink->put_files(*report, job.facts); !put) return tl::unexpected(put.error());
-  if (auto finished = set.finish(); !finished) return tl::unexpected(finished.error());
+  SCARP_RETURN_IF_ERROR(sink->put_files(report, job.facts));
+  SCARP_RETURN_IF_ERROR(set.finish());
   return report;
 }
 

@@ -40,8 +40,8 @@ class ArchiveWriter final : public TileSetWriter {
     return spool_->add(name, bytes);
   }
   Result<void> finish() override {
-    if (auto written = archive_->write(*spool_, format_, file_); !written) return written;
-    if (auto ended = file_.end(); !ended) return ended;
+    SCARP_RETURN_IF_ERROR(archive_->write(*spool_, format_, file_));
+    SCARP_RETURN_IF_ERROR(file_.end());
     return file_.take_name(replaces_);
   }
 
@@ -69,15 +69,13 @@ Result<std::unique_ptr<TileSetWriter>> create_archive_set(const Archive& archive
   std::error_code error;
   const bool is_there = std::filesystem::is_regular_file(path, error);
   if (is_there && overwrite) {
-    if (auto checked = check_replaced(archive, path); !checked) return tl::unexpected(checked.error());
+    SCARP_RETURN_IF_ERROR(check_replaced(archive, path));
   }
-  auto file = StagedFile::begin(path, overwrite, true);
-  if (!file) return tl::unexpected(file.error());
-  if (file->is_direct())
+  SCARP_TRY(auto&& file, StagedFile::begin(path, overwrite, true));
+  if (file.is_direct())
     return fail(ErrorKind::kOutput, fmt::format("cannot write {}: a set of tiles goes to a file or a folder", path));
-  auto spool = TileSpool::create_beside(path);
-  if (!spool) return tl::unexpected(spool.error());
-  return std::make_unique<ArchiveWriter>(archive, format, std::move(*spool), std::move(*file), is_there);
+  SCARP_TRY(auto&& spool, TileSpool::create_beside(path));
+  return std::make_unique<ArchiveWriter>(archive, format, std::move(spool), std::move(file), is_there);
 }
 
 Result<void> ChunkedOutput::add(std::span<const std::uint8_t> bytes) {

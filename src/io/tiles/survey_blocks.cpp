@@ -22,7 +22,7 @@ Result<std::uint32_t> survey_block(const PyramidPlan& plan, TileId block, const 
     band.row += first;
     band.rows = std::min(kSurveyRows, window.rows - first);
     heights.resize(static_cast<std::size_t>(band.cols) * static_cast<std::size_t>(band.rows));
-    if (auto read = nodes.read(band, heights); !read) return tl::unexpected(read.error());
+    SCARP_RETURN_IF_ERROR(nodes.read(band, heights));
     count += static_cast<std::uint64_t>(
         std::count_if(heights.begin(), heights.end(), [](float height) { return !std::isnan(height); }));
   }
@@ -54,7 +54,7 @@ Result<void> survey_blocks(TileJob& job, const NodeSource& nodes, const Run& run
           costs[k] = *found[k];
         return result.has_value();
       });
-  if (!result) return result;
+  SCARP_RETURN_IF_ERROR(result);
   job.costs = std::move(costs);
   return {};
 }

@@ -177,13 +177,12 @@ struct TileParts::Impl {
   }
 
   Result<void> look_at(const std::string& name) {
-    auto source = ByteSource::open(name);
-    if (!source) return tl::unexpected(source.error());
+    SCARP_TRY(auto&& source, ByteSource::open(name));
     const auto [known, is_new] = names.insert({name, files.size()});
     if (is_new) files.emplace_back();
     File& file = files[known->second];
-    if (file.source && (*source)->size() <= file.looked_at) return {};
-    file.source = std::move(*source);
+    if (file.source && source->size() <= file.looked_at) return {};
+    file.source = std::move(source);
     return add(known->second);
   }
 
@@ -193,11 +192,10 @@ struct TileParts::Impl {
     const ByteSource& source = *file.source;
     if (source.size() < kFileHead) return {};
     if (file.looked_at == 0) {
-      const auto head = source.read(0, kFileHead);
-      if (!head) return tl::unexpected(head.error());
-      if (std::memcmp(head->data(), kPartMark, 8) != 0)
+      SCARP_TRY(const auto& head, source.read(0, kFileHead));
+      if (std::memcmp(head.data(), kPartMark, 8) != 0)
         return fail(ErrorKind::kInput, fmt::format("{} is no part of a set of tiles: take it away", source.path()));
-      Unpacker unpacker{std::span<const std::uint8_t>(*head).subspan(8)};
+      Unpacker unpacker{std::span<const std::uint8_t>(head).subspan(8)};
       const auto version = unpacker.take<std::uint64_t>(), theirs = unpacker.take<std::uint64_t>();
       if (version != kPartVersion)
         return fail(ErrorKind::kInput, fmt::format("{} was made by another version of scarp: delete it, or give "
@@ -209,14 +207,13 @@ struct TileParts::Impl {
       file.looked_at = kFileHead;
     }
     while (source.has(file.looked_at, kRecordHead + kBlockHead)) {
-      const auto record = source.read(file.looked_at, kRecordHead + kBlockHead);
-      if (!record) return tl::unexpected(record.error());
-      Unpacker facts(*record);
+      SCARP_TRY(const auto& record, source.read(file.looked_at, kRecordHead + kBlockHead));
+      Unpacker facts(record);
       const auto length = facts.take<std::uint64_t>(), crc = facts.take<std::uint64_t>();
       if (length < kBlockHead || !source.has(file.looked_at + kRecordHead, length)) break;
       const Block block = name_of(take_id(facts));
       const auto of_sources = facts.take<std::uint64_t>(), nodes = facts.take<std::uint64_t>();
-      if (length == kBlockHead && crc != crc_of(std::span<const std::uint8_t>(*record).subspan(kRecordHead))) break;
+      if (length == kBlockHead && crc != crc_of(std::span<const std::uint8_t>(record).subspan(kRecordHead))) break;
       if (length > kBlockHead) blocks[block].insert({nodes, {number, file.looked_at + kRecordHead, length, crc}});
       if (of_sources == sources) current[block] = nodes;
       file.looked_at += kRecordHead + length;
@@ -236,7 +233,7 @@ struct TileParts::Impl {
     if (error) return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", folder, error.message()));
     std::sort(paths.begin(), paths.end());
     for (const std::string& path : paths) {
-      if (auto looked = look_at(path); !looked) return looked;
+      SCARP_RETURN_IF_ERROR(look_at(path));
     }
     return {};
   }
@@ -251,7 +248,7 @@ Result<std::unique_ptr<TileParts>> TileParts::open(const std::string& folder, co
   impl->folder = folder;
   impl->settings = settings_key_of(job);
   impl->sources = sources_key_of(job);
-  if (auto looked = impl->look(""); !looked) return tl::unexpected(looked.error());
+  SCARP_RETURN_IF_ERROR(impl->look(""));
   return std::unique_ptr<TileParts>(new TileParts(std::move(impl)));
 }
 
@@ -268,15 +265,14 @@ Result<BlockReport> TileParts::read(
   const Impl::Place* const place = impl_->find(block);
   if (place == nullptr) return fail(ErrorKind::kInput, "a block is not there");
   const ByteSource& source = *impl_->files[place->file].source;
-  const auto bytes = source.read(place->offset, place->length);
-  if (!bytes) return tl::unexpected(bytes.error());
+  SCARP_TRY(const auto& bytes, source.read(place->offset, place->length));
   const auto is_damaged = [&] {
     return fail(
         ErrorKind::kInput,
         fmt::format("{} is damaged: delete it, and make its blocks again (scarp tile run PLAN)", source.path()));
   };
-  if (crc_of(*bytes) != place->crc) return is_damaged();
-  Unpacker unpacker(*bytes);
+  if (crc_of(bytes) != place->crc) return is_damaged();
+  Unpacker unpacker(bytes);
   BlockReport made;
   made.block = take_id(unpacker);
   unpacker.take<std::uint64_t>();
@@ -305,7 +301,7 @@ Result<BlockReport> TileParts::read(
     const auto tile = unpacker.take_bytes();
     if (unpacker.failed() || id.z < 0 || static_cast<std::uint64_t>(id.z) >= levels) return is_damaged();
     made.report.tiles[static_cast<std::size_t>(id.z)].push_back(std::uint64_t{id.y} << 32 | id.x);
-    if (auto kept = put(id, tile); !kept) return tl::unexpected(kept.error());
+    SCARP_RETURN_IF_ERROR(put(id, tile));
   }
   if (unpacker.failed()) return is_damaged();
   for (auto& level : made.report.tiles) std::sort(level.begin(), level.end());
@@ -342,7 +338,7 @@ Result<std::unique_ptr<PartWriter>> PartWriter::create(const std::string& folder
     for (const char letter : std::string_view(kPartMark)) head.add(letter);
     head.add(kPartVersion);
     head.add(settings_key_of(job));
-    if (auto written = writer->append(head.take()); !written) return tl::unexpected(written.error());
+    SCARP_RETURN_IF_ERROR(writer->append(head.take()));
     return writer;
   }
 }
@@ -361,7 +357,7 @@ Result<void> PartWriter::add_record(std::span<const std::uint8_t> payload) {
   head.add(crc_of(payload));
   std::vector<std::uint8_t> record = head.take();
   record.insert(record.end(), payload.begin(), payload.end());
-  if (auto written = append(record); !written) return written;
+  SCARP_RETURN_IF_ERROR(append(record));
   if (fdatasync(fd_) != 0 && errno != EINVAL) return tl::unexpected(cannot_write(path_, errno));
   ++records_;
   return {};

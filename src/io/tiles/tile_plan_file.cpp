@@ -413,11 +413,9 @@ Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::
 }
 
 Result<TileJob> read_tile_job(const std::string& path) {
-  const auto source = ByteSource::open(path);
-  if (!source) return tl::unexpected(source.error());
-  const auto bytes = (*source)->read(0, (*source)->size());
-  if (!bytes) return tl::unexpected(bytes.error());
-  return decode_tile_job(*bytes, path);
+  SCARP_TRY(const auto& source, ByteSource::open(path));
+  SCARP_TRY(const auto& bytes, source->read(0, source->size()));
+  return decode_tile_job(bytes, path);
 }
 
 std::uint64_t key_of(const TileJob& job) {
@@ -451,14 +449,12 @@ std::uint64_t sources_key_of(const TileJob& job) {
 Result<void> add_contents(TileJob& job) {
   const auto add = [](FileStamp& file) -> Result<void> {
     if (file.size == 0) return {};
-    const auto source = ByteSource::open(file.path);
-    if (!source) return tl::unexpected(source.error());
+    SCARP_TRY(const auto& source, ByteSource::open(file.path));
     constexpr std::uint64_t kAtOnce = 1 << 22;
     Fnv name;
-    for (std::uint64_t at = 0; at < (*source)->size(); at += kAtOnce) {
-      const auto bytes = (*source)->read(at, std::min(kAtOnce, (*source)->size() - at));
-      if (!bytes) return tl::unexpected(bytes.error());
-      name.add(*bytes);
+    for (std::uint64_t at = 0; at < source->size(); at += kAtOnce) {
+      SCARP_TRY(const auto& bytes, source->read(at, std::min(kAtOnce, source->size() - at)));
+      name.add(bytes);
     }
     file.content = std::max<std::uint64_t>(name.hash(), 1);
     return {};
@@ -467,7 +463,7 @@ Result<void> add_contents(TileJob& job) {
   if (job.drape) lists.push_back(&job.drape->files);
   for (auto* files : lists) {
     for (FileStamp& file : *files) {
-      if (auto added = add(file); !added) return added;
+      SCARP_RETURN_IF_ERROR(add(file));
     }
   }
   return job.datum.vertical == Vertical::kGeoid ? add(job.geoid) : Result<void>();

@@ -47,7 +47,7 @@ Result<void> check_set_name(const std::string& path) {
 }
 
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite) {
-  if (auto checked = check_set_name(path); !checked) return tl::unexpected(checked.error());
+  SCARP_RETURN_IF_ERROR(check_set_name(path));
   if (const Archive* archive = find_archive(path)) return create_archive_set(*archive, path, format, overwrite);
   return create_folder_set(path, format, overwrite);
 }
@@ -75,19 +75,17 @@ TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
 
 TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
   return [&plan, image = std::move(image), format](const TerrainTile& tile) -> Result<std::vector<std::uint8_t>> {
-    auto texture = make_tile_texture(*image, format, plan, tile.id);
-    if (!texture) return tl::unexpected(texture.error());
+    SCARP_TRY(auto&& texture, make_tile_texture(*image, format, plan, tile.id));
     TileGlbOptions options;
-    options.texture = std::move(*texture);
+    options.texture = std::move(texture);
     return encode_tile_glb(place_on_earth(tile, plan), options);
   };
 }
 
 Result<TileEncoder> open_tile_encoder(const TileJob& job) {
   if (!job.drape) return make_tile_encoder(job.format, job.plan);
-  auto image = open_globe_image(job.drape->path(), job.plan.ellipsoid);
-  if (!image) return tl::unexpected(image.error());
-  return make_draped_encoder(job.plan, std::move(*image), job.drape->format);
+  SCARP_TRY(auto&& image, open_globe_image(job.drape->path(), job.plan.ellipsoid));
+  return make_draped_encoder(job.plan, std::move(image), job.drape->format);
 }
 
 std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,

@@ -31,20 +31,18 @@ Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, Im
   const DegreeBox box{tile.west - more_east, tile.south - more_north, tile.east + more_east, tile.north + more_north};
   std::array<std::uint8_t, 3> ground{};
   for (std::size_t k = 0; k < 3; ++k) ground[k] = srgb_of_linear(kGroundColor[k]);
-  auto picture = image.read(box, side, ground);
-  if (!picture) return tl::unexpected(picture.error());
-  if (!*picture) return std::optional<TileTexture>();
+  SCARP_TRY(auto&& picture, image.read(box, side, ground));
+  if (!picture) return std::optional<TileTexture>();
   // Beyond a pole there is nothing.
   const auto copy_row = [&](int from, int to) {
     const std::ptrdiff_t row = 3 * std::ptrdiff_t{side};
-    const auto begin = (*picture)->rgb.begin();
+    const auto begin = picture->rgb.begin();
     std::copy(begin + from * row, begin + (from + 1) * row, begin + to * row);
   };
   if (box.north > 90) copy_row(1, 0);
   if (box.south < -90) copy_row(side - 2, side - 1);
-  auto bytes = encode_image(**picture, format);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return std::optional(TileTexture{std::move(*bytes), format, side});
+  SCARP_TRY(auto&& bytes, encode_image(*picture, format));
+  return std::optional(TileTexture{std::move(bytes), format, side});
 }
 
 }  // namespace scarp

@@ -277,16 +277,15 @@ TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan&
     : TileSetSink(writer, TileFormat::kGlb, plan, std::move(encoder)) {}
 
 Result<void> TerrainTilesetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
-  const Result<TileFacts> facts = read_tile_facts(bytes);
-  if (!facts) return tl::unexpected(facts.error());
-  facts_[{id.z, id.y, id.x}] = *facts;
+  SCARP_TRY(const TileFacts& facts, read_tile_facts(bytes));
+  facts_[{id.z, id.y, id.x}] = facts;
   return TileSetSink::put(id, bytes);
 }
 
 Result<void> TerrainTilesetSink::put_files(PyramidReport& report, LayerFacts facts) {
   facts.version = version();
   for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {
-    if (auto put = writer().put_file(file.name, file.bytes); !put) return put;
+    SCARP_RETURN_IF_ERROR(writer().put_file(file.name, file.bytes));
   }
   for (std::size_t z = 0; z < report.levels.size(); ++z)
     report.levels[z].bound += lattice_error(plan(), static_cast<int>(z));
