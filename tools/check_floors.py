@@ -53,7 +53,8 @@ ROOMS = {
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
     "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh, places in space"),
     "check": (6, ["base", "grid", "io"], ANY, "finished sets of tiles, judged without knowing how they were made"),
-    "apps": (7, [], ANY, "the command line; knows `include/scarp` only"),
+    "session": (7, ["session"], ANY, "the commands without their terminal"),
+    "apps": (8, [], ANY, "the command line; knows `include/scarp` only"),
 }
 
 # What only some files may include: (pattern of the header, files that may, why).
@@ -72,10 +73,8 @@ RESERVED = [
       r"src/fit/triangle_kernels_vector\.cpp$", r"src/base/(branchless|wasm_vectors-inl)\.h$"],
      "instruction sets are known to src/geom/scan_kernels*, src/measure/judge_kernels_vector.cpp, "
      "src/fit/triangle_kernels_vector.cpp, src/base/branchless.h and src/base/wasm_vectors-inl.h only"),
-    (r"CLI/.*", [r"apps/"], "command lines are known to apps only"),
-    (r"terminal/(signals|progress_display)\.h$", [r"apps/scarp/(main|(terminal|serve|paper)/.*|commands/[a-z_]*_command)\.(h|cpp)$"],
-     "the terminal is known to the program's own files only: all else in apps is in the C library, too"),
-    (r"(format|ranges)$", [r"src/io/gdal/", r"apps/"], "the core builds without std::format and range views"),
+    (r"CLI/.*", [r"src/session/", r"apps/"], "command lines are known to session and apps only"),
+    (r"(format|ranges)$", [r"src/io/gdal/", r"src/session/", r"apps/"], "the core builds without std::format and range views"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -105,7 +104,9 @@ def judge_project_include(path, room, header, tree):
     if room == "apps":
         if (tree / "apps" / path.parts[1] / header).is_file():
             return None
-        return "apps may include scarp/*.h and headers of their own program only"
+        if top == "session" and (tree / "src" / header).is_file():
+            return None
+        return "apps may include scarp/*.h, session/ and headers of their own program only"
     if room == "door":
         return "a public header may include public headers only"
     if top not in ROOMS or "/" not in header or not (tree / "src" / header).is_file():

@@ -3,11 +3,11 @@
 #include <optional>
 
 #include "commands/measure_command.h"
-#include "commands/points_work.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
-#include "options/option_table.h"
+#include "session/table/option_table.h"
+#include "session/work/points_work.h"
 #include "settings.h"
 
 namespace scarp::door {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "door.h"
-#include "options/simplify_plan.h"
 #include "scarp/io.h"
+#include "session/plan/simplify_plan.h"
 #include "settings.h"
 
 struct scarp_raster {

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "commands/points_work.h"
-#include "commands/simplify_work.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
-#include "options/option_table.h"
 #include "scarp/picture.h"
+#include "session/table/option_table.h"
+#include "session/work/points_work.h"
+#include "session/work/simplify_work.h"
 #include "settings.h"
 
 namespace scarp::door {

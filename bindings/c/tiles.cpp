@@ -5,14 +5,14 @@
 #include <memory>
 #include <utility>
 
-#include "commands/tile_work.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
-#include "options/option_table.h"
-#include "reports/report.h"
-#include "reports/tile_report.h"
 #include "scarp/live_tiles.h"
+#include "session/reports/report.h"
+#include "session/reports/tile_report.h"
+#include "session/table/option_table.h"
+#include "session/work/tile_work.h"
 #include "settings.h"
 
 struct scarp_tiles {

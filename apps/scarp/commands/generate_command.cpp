@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "options/option_table.h"
 #include "scarp/generate.h"
-#include "terminal/text.h"
+#include "session/table/option_table.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "reports/report.h"
-#include "terminal/clock.h"
+#include "session/reports/report.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 

@@ -5,15 +5,15 @@
 #include <optional>
 #include <string>
 
-#include "commands/points_work.h"
-#include "inputs/channels.h"
-#include "inputs/companions.h"
-#include "options/cutline_options.h"
-#include "options/memory.h"
-#include "options/options.h"
-#include "reports/measure_report.h"
 #include "scarp/io.h"
 #include "scarp/picture.h"
+#include "session/inputs/channels.h"
+#include "session/inputs/companions.h"
+#include "session/inputs/memory.h"
+#include "session/options/cutline_options.h"
+#include "session/options/values.h"
+#include "session/reports/measure_report.h"
+#include "session/work/points_work.h"
 
 namespace scarp::cli {
 

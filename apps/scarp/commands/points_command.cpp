@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "commands/points_work.h"
-#include "reports/report.h"
-#include "terminal/clock.h"
+#include "session/reports/report.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
+#include "session/work/points_work.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {

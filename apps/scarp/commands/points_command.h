@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "options/simplify_plan.h"
 #include "scarp/points.h"
+#include "session/plan/simplify_plan.h"
 
 namespace CLI {
 class App;

@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "options/memory.h"
-#include "options/option_table.h"
-#include "reports/tile_report.h"
 #include "scarp/live_tiles.h"
 #include "serve/http_server.h"
 #include "serve/preparation.h"
+#include "session/inputs/memory.h"
+#include "session/reports/tile_report.h"
+#include "session/table/option_table.h"
+#include "session/text/text.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {

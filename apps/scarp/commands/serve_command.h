@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "options/tile_options.h"
 #include "serve/tile_answers.h"
+#include "session/plan/tile_plan.h"
 
 namespace scarp::cli {
 

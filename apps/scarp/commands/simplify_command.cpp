@@ -3,14 +3,14 @@
 #include <utility>
 #include <vector>
 
-#include "commands/simplify_work.h"
-#include "options/option_table.h"
-#include "reports/report.h"
-#include "reports/simplify_report.h"
-#include "terminal/clock.h"
+#include "session/reports/report.h"
+#include "session/reports/simplify_report.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
+#include "session/work/simplify_work.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "commands/points_command.h"
-#include "options/simplify_plan.h"
+#include "session/plan/simplify_plan.h"
 
 namespace scarp::cli {
 

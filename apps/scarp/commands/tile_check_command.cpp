@@ -6,12 +6,12 @@
 #include <array>
 #include <optional>
 
-#include "options/option_table.h"
-#include "reports/report.h"
-#include "reports/tile_check_report.h"
-#include "terminal/clock.h"
+#include "session/reports/report.h"
+#include "session/reports/tile_check_report.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
 #include "terminal/progress_display.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {

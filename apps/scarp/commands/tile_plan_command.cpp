@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "commands/slurm_script.h"
-#include "options/option_table.h"
-#include "options/plan_options.h"
-#include "reports/tile_report.h"
 #include "scarp/io.h"
+#include "session/plan/plan_options.h"
+#include "session/reports/tile_report.h"
+#include "session/table/option_table.h"
+#include "session/text/text.h"
+#include "session/work/slurm_script.h"
 #include "terminal/progress_display.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {

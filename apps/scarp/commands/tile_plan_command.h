@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "options/tile_options.h"
+#include "session/plan/tile_plan.h"
 
 namespace scarp::cli {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "options/options.h"
-#include "reports/view_page.h"
+#include "session/options/values.h"
+#include "session/reports/view_page.h"
 
 namespace scarp::cli {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <optional>
 
-#include "reports/level_pages.h"
-#include "terminal/text.h"
+#include "session/reports/level_pages.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -1,0 +1,282 @@
+#include "session/inputs/companions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "scarp/commands.h"
+#include "session/inputs/memory.h"
+#include "session/table/option_table.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// Names the option that named a file: "--tolerance FILE…".
+tl::unexpected<Error> name_option(const char* option, const char* between, Error error) {
+  if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}{}{}", option, between, error.message);
+  return tl::unexpected(std::move(error));
+}
+
+/// The raster's values, on the grid of `raster`, whole or within the limit.
+Result<OwnedHeightField> read_values(const char* option, const std::string& path, const RasterInfo& raster,
+                                     const OwnedHeightField& field, const CompanionRun& run, bool in_windows,
+                                     double scale = 1) {
+  ReadOptions options;
+  options.crs = "grid";
+  options.as_values = true;
+  options.z_scale = scale;
+  options.run.progress = run.progress;
+  Result<OwnedHeightField> values =
+      in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
+  if (!values) return name_option(option, ": ", std::move(values.error()));
+  const Result<void> fits =
+      check_grid(raster, field.cols, field.rows, option, values->info, values->cols, values->rows);
+  if (!fits) return tl::unexpected(fits.error());
+  return values;
+}
+
+/// How many units of the heights are one of a raster that names its own.
+double units_of(const RasterInfo& values, const RasterInfo& heights) {
+  const bool are_known = !values.unit.empty() && values.unit_in_metres > 0 && heights.unit_in_metres > 0;
+  return are_known && values.unit_in_metres != heights.unit_in_metres ? values.unit_in_metres / heights.unit_in_metres
+                                                                      : 1;
+}
+
+void add_warnings(const OwnedHeightField& values, Companions& companions) {
+  companions.warnings.insert(companions.warnings.end(), values.info.warnings.begin(), values.info.warnings.end());
+}
+
+/// A command that brings a raster onto the grid of `raster`.
+std::string suggest_command(const RasterInfo& raster, int cols, int rows, const RasterInfo& other, int other_cols,
+                            int other_rows) {
+  const std::string file = shell_word(other.path);
+  const std::array<double, 6>& g = raster.geotransform;
+  const bool is_upright = g[2] == 0 && g[4] == 0 && g[1] > 0 && g[5] < 0;
+  if (!raster.has_georeference || !other.has_georeference || !is_upright) {
+    return fmt::format("gdal_translate -r bilinear -outsize {} {} {} {}", cols, rows, file, new_file(".tif"));
+  }
+  const std::string crs =
+      raster.crs.empty() || raster.crs == other.crs ? "" : fmt::format("-t_srs {} ", shell_word(raster.crs));
+  const double east = g[0] + g[1] * cols, south = g[3] + g[5] * rows;
+  const std::array<double, 6>& o = other.geotransform;
+  const bool is_covered = crs.empty() && o[2] == 0 && o[4] == 0 && o[1] > 0 && o[5] < 0 && o[0] <= g[0] &&
+                          o[3] >= g[3] && o[0] + o[1] * other_cols >= east && o[3] + o[5] * other_rows <= south;
+  // Elsewhere it has no value: gdalwarp writes 0 else.
+  const char* beyond = is_covered ? "" : "-ot Float32 -dstnodata nan ";
+  return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {}{} {}", crs, g[0], south, east, g[3], cols,
+                     rows, beyond, file, new_file(".tif"));
+}
+
+struct RegionFile {
+  std::string path;  ///< with the layer
+  double tolerance;
+};
+
+Result<RegionFile> parse_region(const std::string& text) {
+  const std::size_t at = text.rfind('=');
+  if (at == std::string::npos || at == 0)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--roi {}: behind the file an error is missing, such as {}=0.2", shell_word(text), text));
+  const Result<double> tolerance =
+      parse_non_negative(fmt::format("--roi {}: the error", shell_word(text)), text.substr(at + 1));
+  if (!tolerance) return tl::unexpected(tolerance.error());
+  return RegionFile{text.substr(0, at), *tolerance};
+}
+
+/// In the order of CompanionArguments::roi.
+Result<std::vector<Region>> read_regions(const CompanionArguments& given, const RasterInfo& raster,
+                                         const ProgressCallback& progress, Companions& companions) {
+  ReadLinesOptions options;
+  options.crs = raster.crs;
+  options.ignore_z = true;
+  options.progress = progress;
+  std::vector<Region> regions;
+  for (const std::string& text : given.roi) {
+    const Result<RegionFile> file = parse_region(text);
+    if (!file) return tl::unexpected(file.error());
+    auto set = read_lines(file->path, options);
+    if (!set) return tl::unexpected(std::move(set.error()));
+    companions.warnings.insert(companions.warnings.end(), set->warnings.begin(), set->warnings.end());
+    regions.push_back({std::move(set->lines), file->tolerance});
+  }
+  return regions;
+}
+
+RegionGrid grid_of(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+                   std::optional<double> bound) {
+  RegionGrid grid{field.cols, field.rows, map_affine(raster, field.rows)};
+  const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0;
+  grid.cell_x = has_metres ? raster.cell_x_m : raster.cell_x;
+  grid.cell_y = has_metres ? raster.cell_y_m : raster.cell_y;
+  grid.beyond = bound;
+  if (given.falloff) grid.falloff = *parse_non_negative("--falloff", *given.falloff);
+  return grid;
+}
+
+void warn_of_missing(const CompanionArguments& given, const std::vector<bool>& found, Companions& companions) {
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k])
+      companions.warnings.push_back(fmt::format("--roi {} lies beside the raster: it changes nothing", given.roi[k]));
+  }
+}
+
+/// Fails if the memory has no room for what is beside heights that have a source.
+Result<void> check_regions(const OwnedHeightField& field, const std::vector<Region>& regions, std::uint64_t memory) {
+  std::uint64_t vertices = 0;
+  for (const Region& region : regions) {
+    for (const Line& line : region.lines) vertices += line.points.size();
+  }
+  constexpr std::uint64_t kBytesPerVertex = 100;
+  return check_room(field, memory, kBytesPerVertex * vertices, "--roi");
+}
+
+/// The tolerances of --tolerance and --roi, in windows where the heights are.
+Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+                             std::optional<double> bound, const CompanionRun& run, Companions& companions) {
+  const bool in_windows = field.source != nullptr;
+  std::optional<OwnedHeightField> values;
+  std::uint64_t bytes = 0;
+  if (given.tolerance) {
+    auto read = read_values("--tolerance", *given.tolerance, raster, field, run, in_windows);
+    if (!read) return tl::unexpected(std::move(read.error()));
+    if (const double scale = units_of(read->info, raster); scale != 1) {
+      read = read_values("--tolerance", *given.tolerance, raster, field, run, in_windows, scale);
+      if (!read) return tl::unexpected(std::move(read.error()));
+    }
+    add_warnings(*read, companions);
+    if (in_windows) bytes = bytes_beside(*read, field, run.memory);
+    values = std::move(*read);
+  }
+  const auto regions = read_regions(given, raster, run.progress, companions);
+  if (!regions) return tl::unexpected(regions.error());
+  if (in_windows && !regions->empty()) {
+    if (auto fits = check_regions(field, *regions, run.memory); !fits) return fits;
+  }
+  auto made = make_tolerances(std::move(values), *regions, grid_of(given, raster, field, bound),
+                              {in_windows, {run.threads, {}, run.progress}});
+  if (!made) return name_option("--tolerance", " ", std::move(made.error()));
+  if (given.tolerance && !made->has_values) {
+    companions.warnings.push_back(fmt::format("--tolerance {} holds no value: it changes nothing", *given.tolerance));
+    if (regions->empty()) return {};
+  }
+  warn_of_missing(given, made->found, companions);
+  companions.bytes += made->bytes + bytes;
+  companions.tolerances = std::move(*made);
+  return in_windows ? check_room(field, run.memory, companions.bytes, given.find_tolerance()) : Result<void>();
+}
+
+/// The weights of --mask, in windows where the heights are.
+Result<void> read_weights(const std::string& path, const RasterInfo& raster, const OwnedHeightField& field,
+                          const CompanionRun& run, Companions& companions) {
+  const bool in_windows = field.source != nullptr;
+  Result<OwnedHeightField> values = read_values("--mask", path, raster, field, run, in_windows);
+  if (!values) return tl::unexpected(std::move(values.error()));
+  add_warnings(*values, companions);
+  if (in_windows) {
+    companions.bytes += bytes_beside(*values, field, run.memory);
+    if (auto fits = check_room(field, run.memory, companions.bytes, "--mask"); !fits) return fits;
+  }
+  Result<OwnedWeights> mask = make_weights(std::move(*values), {in_windows, {run.threads, {}, run.progress}});
+  if (!mask) return name_option("--mask", " ", std::move(mask.error()));
+  companions.mask = std::move(*mask);
+  return {};
+}
+
+/// The steps of --script, which count beside heights that have a source.
+Result<void> read_steps(const std::string& path, const OwnedHeightField& field, const CompanionRun& run,
+                        Companions& companions) {
+  Result<Script> script = read_script(path, field.cols, field.rows);
+  if (!script) return tl::unexpected(std::move(script.error()));
+  companions.script = std::move(*script);
+  if (companions.script.size() == 0)
+    companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", path));
+  if (!field.source) return {};
+  constexpr std::uint64_t kBytesToRead = 100, kBytesPerStep = 24;
+  const std::uint64_t before = companions.bytes, steps = companions.script.size();
+  companions.bytes += kBytesPerStep * steps;
+  return check_room(field, run.memory, before + kBytesToRead * steps, "--script");
+}
+
+}  // namespace
+
+void CompanionArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kMask, mask);
+  add_option(command, OptionId::kTolerance, tolerance);
+  add_option(command, OptionId::kRoi, roi);
+  add_option(command, OptionId::kFalloff, falloff);
+  add_option(command, OptionId::kScript, script);
+}
+
+const char* CompanionArguments::find_tolerance() const {
+  if (tolerance) return "--tolerance";
+  return roi.empty() ? nullptr : "--roi";
+}
+
+Result<void> CompanionArguments::check(const char* bound_option, bool has_bound) const {
+  for (const std::string& text : roi) {
+    if (const auto region = parse_region(text); !region) return tl::unexpected(region.error());
+  }
+  if (mask && !roi.empty())
+    return fail(ErrorKind::kUsage, "--mask cannot be combined with --roi: regions have errors, not weights");
+  if (falloff) {
+    if (const auto distance = parse_non_negative("--falloff", *falloff); !distance)
+      return tl::unexpected(distance.error());
+    if (roi.empty())
+      return fail(ErrorKind::kUsage, "--falloff needs --roi: there is no region that it could be around");
+    if (!has_bound)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--falloff needs {}: the bound of a region grows to that", bound_option));
+  }
+  if (mask && tolerance) {
+    return fail(ErrorKind::kUsage,
+                "--mask cannot be combined with --tolerance: divide the bound by the weights into one tolerance");
+  }
+  return {};
+}
+
+std::string CompanionArguments::canonical() const {
+  std::string command;
+  const std::pair<const char*, const Given*> options[] = {
+      {"--mask", &mask}, {"--tolerance", &tolerance}, {"--script", &script}};
+  for (const auto& [name, file] : options) {
+    if (*file) command += canonical_option(name, base_name(**file));
+  }
+  for (const std::string& text : roi) command += " --roi " + shell_word(base_name(text));
+  return command + canonical_option("--falloff", falloff);
+}
+
+Tolerances Companions::bounds() const {
+  return {tolerances.values, tolerances.source.get(), mask.values, mask.source.get(), script.ignored};
+}
+
+Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
+                                   const OwnedHeightField& field, std::optional<double> bound,
+                                   const CompanionRun& run) {
+  Companions companions;
+  if (given.mask) {
+    if (auto read = read_weights(*given.mask, raster, field, run, companions); !read)
+      return tl::unexpected(read.error());
+  }
+  if (given.find_tolerance() != nullptr) {
+    const Result<void> read = read_tolerances(given, raster, field, bound, run, companions);
+    if (!read) return tl::unexpected(read.error());
+  }
+  if (given.script) {
+    if (auto read = read_steps(*given.script, field, run, companions); !read) return tl::unexpected(read.error());
+  }
+  return companions;
+}
+
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
+                        int other_cols, int other_rows) {
+  const std::optional<std::string> difference = find_grid_difference(raster, cols, rows, other, other_cols, other_rows);
+  if (!difference) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{} {} {}: bring it onto the grid of {} first ({})", option, other.path, *difference,
+                          raster.path, suggest_command(raster, cols, rows, other, other_cols, other_rows)));
+}
+
+}  // namespace scarp::cli

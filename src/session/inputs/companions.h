@@ -1,0 +1,74 @@
+// Rasters and scripts beside INPUT that say, sample by sample, what counts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/io.h"
+#include "scarp/simplify.h"
+#include "scarp/tolerances.h"
+#include "session/options/values.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+struct CompanionArguments {
+  Given mask, tolerance, script, falloff;
+  std::vector<std::string> roi;  ///< FILE[:LAYER]=M
+
+  void add_to(CLI::App& command);
+  /// Refuses what contradicts each other. `bound_option`: the command's own for a bound of all samples; `has_bound`:
+  /// whether it was given.
+  Result<void> check(const char* bound_option, bool has_bound) const;
+  /// The option that gives samples bounds of their own, other than weights; null if there is none.
+  const char* find_tolerance() const;
+  /// Whether samples are given weights or bounds of their own.
+  bool gives_bounds() const { return mask || script || find_tolerance() != nullptr; }
+  std::string canonical() const;
+};
+
+/// What the files hold; empty where none was given.
+struct Companions {
+  OwnedWeights mask;  ///< with a source where the heights have one, as tolerances
+  OwnedTolerances tolerances;
+  Script script;
+  std::vector<std::string> warnings;
+
+  bool has_tolerance() const { return !tolerances.values.empty() || tolerances.source; }
+  /// Bytes beside those of heights that have a source.
+  std::uint64_t bytes = 0;
+
+  bool has_weights() const { return !mask.empty() || has_tolerance(); }
+  /// The script takes samples' bounds away; they count in the largest errors all the same.
+  bool ignores_samples() const { return !script.ignored.empty(); }
+  bool inserts_samples() const { return !script.inserted.empty(); }
+  /// What simplify() and judge_mesh() borrow.
+  Tolerances bounds() const;
+};
+
+/// How a run reads them. The rest counts where the heights have a source.
+struct CompanionRun {
+  const ProgressCallback& progress;
+  std::uint64_t memory = 0;  ///< the process's limit; REQUIRED then
+  int threads = 0;           ///< that read windows
+};
+
+/// Reads and checks the files, which must lie on the grid of `raster`.
+/// Mask: values below 0 are refused; if the largest is above 1, all are divided by it; no value means weight 0.
+/// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: the smaller one of their
+/// tolerance and the raster's counts; `bound` is what holds beyond them. `raster`: that of the field, as it was read.
+/// Fails with kUsage if the memory has no room for what is beside heights that have a source.
+Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
+                                   const OwnedHeightField& field, std::optional<double> bound, const CompanionRun& run);
+
+/// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
+                        int other_cols, int other_rows);
+
+}  // namespace scarp::cli

@@ -1,0 +1,80 @@
+// What OUTPUT is: a mesh file, a drawing of the mesh's edges, or the approximation resampled on the grid.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/glb.h"
+#include "scarp/io.h"
+#include "scarp/mesh.h"
+#include "session/options/values.h"
+
+namespace scarp::cli {
+
+enum class OutputKind { kMesh, kSvg, kEps, kDem };
+
+struct OutputFormat {
+  OutputKind kind = OutputKind::kMesh;
+  MeshFormat mesh = MeshFormat::kGlb;            ///< of a kMesh
+  RasterFormat raster = RasterFormat::kGeoTiff;  ///< of a kDem
+
+  /// "glb", "svg", "dem", …
+  const char* name() const;
+  /// "GLB", "SVG", …: for sentences.
+  std::string title() const;
+  /// About what encode_as() takes for a vertex and its two triangles, the file's bytes included.
+  std::uint64_t bytes_per_vertex() const;
+  bool is_mesh() const { return kind == OutputKind::kMesh; }
+  /// Positions are rounded to float32.
+  bool is_float32() const {
+    return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf);
+  }
+  bool is_glb() const { return is_mesh() && mesh == MeshFormat::kGlb; }
+  bool is_2dm() const { return is_mesh() && mesh == MeshFormat::k2dm; }
+  bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
+  bool is_gpkg() const { return is_mesh() && mesh == MeshFormat::kGpkg; }
+  /// Can be a print: its coordinates are millimetres to those who print it.
+  bool holds_prints() const;
+  /// Has a place for normals, uvs and colours.
+  bool holds_attributes() const;
+  /// Where x and y are unless a CRS was asked for.
+  DefaultFrame default_frame() const;
+  /// In which unit its heights are.
+  HeightsIn heights_in() const;
+  /// What it shows does not rely on z being the height.
+  bool holds_space() const;
+  bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
+  /// Has a CRS, and no place for it that all who read the format look at: a .prj file tells it.
+  bool has_projection_beside() const;
+};
+
+/// Whether --up says y.
+Result<bool> parse_up(const Given& up);
+
+/// Whether the mesh is turned y up before it is written, by --up or as those who read the format expect it. Not for
+/// GLB, whose writer does that itself. kUsage if the format knows one axis only, and it is the other.
+Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print);
+
+/// By --of if it was given, else by the output's extension.
+Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
+
+/// kUsage if the format cannot hold a mesh in the CRS, with heights in `unit` (both may be empty): what writing would
+/// find out, before the work is done.
+Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit);
+
+/// In which unit heights are in a mesh file, by its name.
+HeightsIn heights_in(const std::string& mesh_path);
+/// The frame of a mesh file whose frame nobody chose, by its name.
+DefaultFrame default_frame(const std::string& mesh_path);
+/// kUsage if the format is in metres by its specification, and x and y are in units of another length (0: not known).
+Result<void> check_unit_of_frame(const OutputFormat& format, double metres);
+
+/// Makes a solid of the mesh; kUsage if --base is not below its lowest vertex.
+Result<void> close_with_base(Mesh& mesh, double base);
+
+/// The file's bytes. REQUIRES: not a kDem.
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb = {},
+                                            bool doubles = false);
+
+}  // namespace scarp::cli

@@ -1,0 +1,300 @@
+#include "session/options/strategy_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <string_view>
+
+#include "session/reports/report.h"
+#include "session/table/option_table.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Feature::kLocal4},
+                                                     {"local8", Importance::Feature::kLocal8},
+                                                     {"curvature", Importance::Feature::kCurvature},
+                                                     {"distance", Importance::Feature::kDistance}};
+constexpr Choice<Effort> kEfforts[] = {
+    {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}, {"max", Effort::kMax}};
+constexpr Choice<WhyFast> kWhyFast[] = {{"order", WhyFast::kOrder},
+                                        {"strategy", WhyFast::kStrategy},
+                                        {"memory", WhyFast::kMemory},
+                                        {"budget", WhyFast::kBudget}};
+constexpr Choice<Vertices> kVertexWords[] = {{"samples", Vertices::kSamples}, {"free", Vertices::kFree}};
+constexpr Choice<Objective> kObjectives[] = {{"max", Objective::kMax}, {"rms", Objective::kRms}};
+constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
+constexpr Choice<Algorithm> kAlgorithms[] = {
+    {"brute", Algorithm::kBruteForce}, {"local", Algorithm::kLocal}, {"heap", Algorithm::kHeap}};
+constexpr Choice<bool> kEdgeWords[] = {{"delaunay", false}, {"data", true}};
+constexpr Choice<EdgeScore> kScores[] = {{"sum", EdgeScore::kSum},
+                                         {"max", EdgeScore::kMax},
+                                         {"sqerr", EdgeScore::kSquares},
+                                         {"abn", EdgeScore::kNormals},
+                                         {"tight", EdgeScore::kTight}};
+
+/// Cuts `prefix` and `suffix` off the text; false, without change, if it does not have both.
+bool strip(std::string_view& text, std::string_view prefix, std::string_view suffix) {
+  if (text.size() < prefix.size() + suffix.size()) return false;
+  if (text.substr(0, prefix.size()) != prefix || text.substr(text.size() - suffix.size()) != suffix) return false;
+  text.remove_prefix(prefix.size());
+  text.remove_suffix(suffix.size());
+  return true;
+}
+
+Result<Batch> parse_batch(const std::string& text) {
+  Batch batch;
+  if (text == "const") {
+    batch.rule = Batch::Rule::kConstant;
+    return batch;
+  }
+  if (text == "independent") {
+    batch.rule = Batch::Rule::kIndependent;
+    return batch;
+  }
+  if (text.rfind("frac:", 0) != 0) {
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("--batch {} is unknown: choose const, frac:A such as frac:0.9, or independent", shell_word(text)));
+  }
+  const Result<double> fraction = parse_number("--batch frac:", text.substr(5));
+  if (!fraction) return tl::unexpected(fraction.error());
+  if (*fraction <= 0 || *fraction > 1) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--batch {}: the fraction must be above 0 and at most 1", shell_word(text)));
+  }
+  batch.rule = Batch::Rule::kFraction;
+  batch.fraction = *fraction;
+  return batch;
+}
+
+Result<EdgeRule> parse_edges(const StrategyArguments& given) {
+  EdgeRule rule;
+  if (given.edges) {
+    const Result<bool> data = choose("--edges", *given.edges, kEdgeWords);
+    if (!data) return tl::unexpected(data.error());
+    rule.data_dependent = *data;
+  }
+  const std::pair<const char*, const Given*> needing[] = {{"--edge-score", &given.edge_score},
+                                                          {"--shape-threshold", &given.shape_threshold},
+                                                          {"--supersample", &given.supersample}};
+  for (const auto& [name, text] : needing) {
+    if (*text && !rule.data_dependent) {
+      return fail(ErrorKind::kUsage, fmt::format("{} needs --edges data: Delaunay edges ignore the heights", name));
+    }
+  }
+  if (given.edge_score) {
+    const Result<EdgeScore> score = choose("--edge-score", *given.edge_score, kScores);
+    if (!score) return tl::unexpected(score.error());
+    rule.score = *score;
+  }
+  if (given.shape_threshold) {
+    const Result<double> threshold = parse_non_negative("--shape-threshold", *given.shape_threshold);
+    if (!threshold) return tl::unexpected(threshold.error());
+    if (*threshold > 1) {
+      return fail(ErrorKind::kUsage, fmt::format("--shape-threshold {} is above 1: it lies between 0, by the data "
+                                                 "alone, and 1, by the shape alone",
+                                                 shell_word(*given.shape_threshold)));
+    }
+    rule.shape_threshold = *threshold;
+  }
+  if (given.supersample) {
+    const Result<double> supersample = parse_non_negative("--supersample", *given.supersample);
+    if (!supersample) return tl::unexpected(supersample.error());
+    rule.supersample = *supersample;
+  }
+  return rule;
+}
+
+}  // namespace
+
+Result<Importance> parse_importance(const std::string& text) {
+  std::string word = text;
+  word.erase(std::remove_if(word.begin(), word.end(), [](unsigned char c) { return std::isspace(c) != 0; }),
+             word.end());
+  Importance importance;
+  if (word == "global") return importance;
+  std::string_view feature = word;
+  importance.global = strip(feature, "global*", "");
+  if (strip(feature, "sqrt(", "+1)")) {
+    importance.damping = Importance::Damping::kSqrtPlusOne;
+  } else if (strip(feature, "(", "+1)")) {
+    importance.damping = Importance::Damping::kPlusOne;
+  }
+  for (const Choice<Importance::Feature>& choice : kFeatures) {
+    if (feature != choice.name) continue;
+    importance.feature = choice.value;
+    return importance;
+  }
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("--importance {} is unknown: choose global, or local, local8, curvature or distance, alone or as in "
+                  "global*local, global*(local+1), global*sqrt(curvature+1)",
+                  shell_word(text)));
+}
+
+std::string importance_name(const Importance& importance) {
+  if (importance.feature == Importance::Feature::kNoFeature) return "global";
+  std::string name = name_of(importance.feature, kFeatures);
+  if (importance.damping == Importance::Damping::kPlusOne) name = "(" + name + "+1)";
+  if (importance.damping == Importance::Damping::kSqrtPlusOne) name = "sqrt(" + name + "+1)";
+  return importance.global ? "global*" + name : name;
+}
+
+void StrategyArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kEffort, effort);
+  add_option(command, OptionId::kVertices, vertices);
+  add_option(command, OptionId::kMinShape, min_shape);
+  add_option(command, OptionId::kTimeLimit, time_limit);
+  add_option(command, OptionId::kObjective, objective);
+  add_option(command, OptionId::kImportance, importance);
+  add_flag(command, OptionId::kOnePass, one_pass);
+  add_option(command, OptionId::kOrder, order);
+  add_option(command, OptionId::kAlgorithm, algorithm);
+  add_option(command, OptionId::kBatch, batch);
+  add_option(command, OptionId::kEdges, edges);
+  add_option(command, OptionId::kEdgeScore, edge_score);
+  add_option(command, OptionId::kShapeThreshold, shape_threshold);
+  add_option(command, OptionId::kSupersample, supersample);
+}
+
+const char* StrategyArguments::find_strategy() const {
+  if (importance && importance != "global") return "--importance";
+  if (one_pass) return "--one-pass";
+  if (algorithm) return "--algorithm";
+  if (batch) return "--batch";
+  return edges && edges != "delaunay" ? "--edges data" : nullptr;
+}
+
+Result<void> StrategyArguments::parse_into(SimplifyOptions& options, Strategy& strategy) const {
+  if (effort) {
+    const Result<Effort> parsed = choose("--effort", *effort, kEfforts);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.quality.effort = *parsed;
+  }
+  if (vertices) {
+    const Result<Vertices> parsed = choose("--vertices", *vertices, kVertexWords);
+    if (!parsed) return tl::unexpected(parsed.error());
+    if (*parsed == Vertices::kFree && options.quality.effort < Effort::kHigh)
+      return fail(ErrorKind::kUsage,
+                  "--vertices free needs --effort high or max: below that no vertex is moved, and all are samples");
+    options.quality.vertices = *parsed;
+  }
+  if (min_shape) {
+    const Result<double> parsed = parse_non_negative("--min-shape", *min_shape);
+    if (!parsed) return tl::unexpected(parsed.error());
+    if (*parsed > 0.5)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--min-shape {} is above 0.5, the shape of half a sample's square: choose "
+                              "one from 0 to 0.5",
+                              shell_word(*min_shape)));
+    options.quality.min_shape = *parsed;
+  }
+  if (time_limit) {
+    const Result<double> parsed = parse_non_negative("--time-limit", *time_limit);
+    if (!parsed) return tl::unexpected(parsed.error());
+    const auto seconds = std::chrono::duration<double>(std::min(*parsed, 1e9));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(seconds);
+    options.run.is_time_up = [end] { return std::chrono::steady_clock::now() >= end; };
+  }
+  if (objective) {
+    const Result<Objective> parsed = choose("--objective", *objective, kObjectives);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.goals.objective = *parsed;
+  }
+  if (importance) {
+    const Result<Importance> parsed = parse_importance(*importance);
+    if (!parsed) return tl::unexpected(parsed.error());
+    strategy.importance = *parsed;
+  }
+  const Importance::Feature feature = strategy.importance.feature;
+  const bool by_raster = feature != Importance::Feature::kNoFeature && feature != Importance::Feature::kDistance;
+  if (one_pass && (!by_raster || strategy.importance.global)) {
+    return fail(ErrorKind::kUsage,
+                "--one-pass ranks by a feature of the raster, without the mesh: give it "
+                "--importance local, local8 or curvature");
+  }
+  strategy.importance.one_pass = one_pass;
+  if (order) {
+    const Result<Order> parsed = choose("--order", *order, kOrders);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.quality.order = *parsed;
+  }
+  if (algorithm) {
+    const Result<Algorithm> parsed = choose("--algorithm", *algorithm, kAlgorithms);
+    if (!parsed) return tl::unexpected(parsed.error());
+    strategy.algorithm = *parsed;
+  }
+  if (batch) {
+    const Result<Batch> parsed = parse_batch(*batch);
+    if (!parsed) return tl::unexpected(parsed.error());
+    strategy.batch = *parsed;
+    if (one_pass)
+      return fail(ErrorKind::kUsage,
+                  "--one-pass cannot be combined with --batch: one pass ranks all samples once and never looks at the "
+                  "mesh");
+  }
+  const Result<EdgeRule> rule = parse_edges(*this);
+  if (!rule) return tl::unexpected(rule.error());
+  strategy.edges = *rule;
+  return {};
+}
+
+std::string StrategyArguments::canonical() const {
+  return canonical_option("--effort", effort) + canonical_option("--vertices", vertices) +
+         canonical_option("--min-shape", min_shape) + canonical_option("--time-limit", time_limit) +
+         (objective && *objective != "max" ? canonical_option("--objective", objective) : "") + canonical_refinement();
+}
+
+std::string StrategyArguments::canonical_refinement() const {
+  return canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
+         canonical_option("--batch", batch) + canonical_option("--edges", edges) +
+         canonical_option("--edge-score", edge_score) + canonical_option("--shape-threshold", shape_threshold) +
+         canonical_option("--supersample", supersample);
+}
+
+const char* effort_name(Effort effort) { return name_of(effort, kEfforts); }
+const char* order_name(Order order) { return name_of(order, kOrders); }
+
+Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy, const Simplified& simplified) {
+  Json json;
+  json["importance"] = importance_name(strategy.importance);
+  json["one_pass"] = strategy.importance.one_pass;
+  json["effort"] = effort_name(simplified.effort);
+  json["why_fast"] =
+      simplified.why_fast == WhyFast::kNone ? Json(nullptr) : Json(name_of(simplified.why_fast, kWhyFast));
+  json["vertices"] = name_of(simplified.vertices, kVertexWords);
+  json["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
+  json["cut_short"] = simplified.is_cut_short;
+  json["objective"] = name_of(options.goals.objective, kObjectives);
+  json["order"] = order_name(simplified.order);
+  json["algorithm"] =
+      simplified.order == Order::kGreedy ? Json(name_of(strategy.algorithm, kAlgorithms)) : Json(nullptr);
+  switch (strategy.batch.rule) {
+    case Batch::Rule::kSequential:
+      json["batch"] = nullptr;
+      break;
+    case Batch::Rule::kConstant:
+      json["batch"] = "const";
+      break;
+    case Batch::Rule::kFraction:
+      json["batch"] = fmt::format("frac:{}", strategy.batch.fraction);
+      break;
+    case Batch::Rule::kIndependent:
+      json["batch"] = "independent";
+      break;
+  }
+  const EdgeRule& edges = strategy.edges;
+  json["edges"] = name_of(edges.data_dependent, kEdgeWords);
+  if (!edges.data_dependent) return json;
+  json["edge_score"] = name_of(edges.score, kScores);
+  const double by_default = edges.score == EdgeScore::kTight ? 0.1 : 0.5;
+  json["shape_threshold"] = edges.shape_threshold < 0 ? by_default : edges.shape_threshold;
+  json["supersample"] = edges.supersample;
+  return json;
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,27 @@
+// Options that do not go together, by the library's table.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scarp/conflicts.h"
+#include "session/plan/simplify_plan.h"
+#include "session/plan/tile_plan.h"
+
+namespace scarp::cli {
+
+/// Refuses options that do not go together, as far as they tell that before a file is read.
+Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan& plan);
+
+/// The same of all that simplify() would refuse, once the files are read.
+Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options);
+
+/// The same of tiles. Without a grid or a format, which the raster then tells, what is known without.
+Result<void> check_conflicts(const TileArguments& given, std::optional<GridKind> grid,
+                             std::optional<TileFormat> format);
+
+/// The first of the library's settings that does not go with streamed samples, as the options that gave it; nothing if
+/// there is none.
+std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan);
+
+}  // namespace scarp::cli

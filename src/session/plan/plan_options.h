@@ -1,0 +1,26 @@
+// What the processes of a plan of tiles agree on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "scarp/tile_job.h"
+#include "session/options/values.h"
+
+namespace scarp::cli {
+
+/// What the raster may have of a process's memory, unless --memory says otherwise: a share of the blocks needs a part
+/// of it.
+inline constexpr std::uint64_t kShareRasterBytes = 256'000'000;
+
+/// --parts, or else a folder beside the plan: "world.parts" for "world.json".
+inline std::string parts_folder(const std::string& plan, const Given& parts) {
+  return parts ? *parts : std::filesystem::path(plan).replace_extension(".parts").string();
+}
+/// The same of a plan that was read: one that follows another uses the other's.
+inline std::string parts_folder(const std::string& plan, const Given& parts, const TileJob& job) {
+  return !parts && !job.parts.empty() ? job.parts : parts_folder(plan, parts);
+}
+
+}  // namespace scarp::cli

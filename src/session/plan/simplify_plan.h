@@ -1,0 +1,108 @@
+// What `scarp simplify` was asked to do: its options, parsed and checked before any file is read.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/simplify.h"
+#include "session/inputs/channels.h"
+#include "session/inputs/companions.h"
+#include "session/inputs/memory.h"
+#include "session/options/cliff_options.h"
+#include "session/options/cutline_options.h"
+#include "session/options/image_options.h"
+#include "session/options/level_options.h"
+#include "session/options/line_options.h"
+#include "session/options/output_kind.h"
+#include "session/options/ridge_options.h"
+#include "session/options/shape_options.h"
+#include "session/options/solid_options.h"
+#include "session/options/strategy_options.h"
+#include "session/options/values.h"
+#include "session/options/zone_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+enum class NodataPolicy { kHole, kFill, kBackground };
+
+/// The options as they were given.
+struct SimplifyArguments {
+  RasterArguments raster;
+  std::string output;
+  Given max_error, max_triangles, max_points;
+  Given nodata_policy, fill_distance, background, outline_tolerance;
+  Given format, up, base, preview, render, error_raster, html, report, threads;
+  LevelArguments levels;
+  StrategyArguments strategy;
+  CompanionArguments companions;
+  ChannelArguments channels;
+  LineArguments lines;
+  CliffArguments cliff;
+  RidgeArguments ridges;
+  CutlineArguments cut;
+  ZoneArguments zones;
+  ShapeArguments shape;
+  MemoryArguments memory;
+  SolidArguments solid;
+  ImageArguments images;
+  bool normals = false, uvs = false, compress = false, doubles = false;
+  bool overwrite = false, quiet = false, timing = false, json_progress = false;
+
+  void add_to(CLI::App& command);
+};
+
+struct SimplifyPlan {
+  std::string input, output;
+  std::vector<std::string> files_read;  ///< by any option
+  std::vector<PlannedOutput> outputs;
+  OutputFormat format;
+  ReadOptions read;
+  std::optional<ErrorGoal> error_goal;
+  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
+  Strategy strategy;
+  bool by_paper = false;        ///< by simplify_by_paper(), with the strategy
+  std::string strategy_option;  ///< that asks for it
+  CompanionArguments companions;
+  LineArguments lines;
+  CliffArguments cliff;
+  RidgeArguments ridges;
+  CutlineArguments cut;
+  ZoneArguments zones;
+  ChannelPlan channels;
+  ImagePlan images;
+  NodataPolicy policy = NodataPolicy::kHole;
+  double fill_distance = 0;
+  float background = 0;
+  std::optional<double> base;
+  std::optional<PrintOptions> solid;
+  std::optional<Levels> levels;
+  bool levels_in_one = false;
+  std::optional<std::string> preview, render, error_raster, html, report;
+  std::string page_template;  ///< of the page, where `html` asks for one
+  bool compress = false;
+  bool overwrite = false;
+  bool is_y_up = false;                      ///< see choose_y_up()
+  bool doubles = false;                      ///< as positions of a PLY
+  std::optional<std::uint64_t> memory;       ///< what the process may take
+  std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
+  std::vector<std::string> warnings;
+  /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
+  /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).
+  std::string canonical_command;
+
+  /// Of a print in print tiles; else OUTPUT holds them all.
+  bool has_file_per_level() const { return levels && !levels_in_one; }
+  /// The option that puts lines of a file into the mesh; null if there is none.
+  const char* find_lines() const { return lines.find_lines() != nullptr ? lines.find_lines() : zones.find_lines(); }
+  bool has_file_per_tile() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
+};
+
+Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<std::string> files_read);
+
+}  // namespace scarp::cli

@@ -1,0 +1,37 @@
+// What `scarp info` tells of a raster, of points and of a mesh.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "scarp/height_field.h"
+#include "scarp/io.h"
+#include "scarp/mesh.h"
+#include "scarp/points.h"
+#include "scarp/suggest.h"
+#include "session/reports/report.h"
+
+namespace scarp::cli {
+
+/// A mesh file.
+struct MeshFile {
+  std::string path, format;
+  std::uint64_t bytes = 0;
+  Mesh mesh;
+  MeshFileAxes axes;
+};
+
+std::string raster_facts(const OwnedHeightField& field);
+/// The table below the facts.
+std::string suggestion_table(const OwnedHeightField& field, const Suggestions& suggestions);
+/// Without rows where none were asked for.
+Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions, int band,
+                   const std::string& command_line);
+
+std::string points_facts(const PointSet& points);
+Json points_facts_report(const PointSet& points, const std::string& command_line);
+
+std::string mesh_facts(const MeshFile& file);
+Json mesh_facts_report(const MeshFile& file, const std::string& command_line);
+
+}  // namespace scarp::cli

@@ -1,0 +1,34 @@
+#include "session/reports/level_pages.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "scarp/glb.h"
+
+namespace scarp::cli {
+namespace {
+
+Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
+  std::vector<std::vector<std::uint8_t>> files;
+  for (const LevelTile& tile : level.tiles) {
+    auto glb = encode_glb(tile.mesh, {.compress = can_compress_glb(), .cell = level.cell, .base_color = tile.image});
+    if (!glb) return glb;
+    files.push_back(std::move(*glb));
+  }
+  return join_glbs(files);
+}
+
+}  // namespace
+
+Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<LevelMesh>& levels) {
+  std::vector<PageMesh> meshes;
+  for (const LevelMesh& level : levels) {
+    auto glb = encode_level(level);
+    if (!glb) return tl::unexpected(glb.error());
+    meshes.push_back({fmt::format("{}, level {}", path, level.z), level.tile_bytes, std::move(*glb)});
+  }
+  return meshes;
+}
+
+}  // namespace scarp::cli

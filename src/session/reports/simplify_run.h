@@ -1,0 +1,75 @@
+// What a run of `scarp simplify` comes to and tells, on a raster or on points.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/io.h"
+#include "scarp/simplify.h"
+#include "session/plan/projection_file.h"
+#include "session/plan/simplify_plan.h"
+#include "session/reports/solid_report.h"
+#include "session/text/json.h"
+
+namespace scarp::cli {
+
+/// A file of this run, ready to be written: its bytes, or a raster that was written row by row.
+struct ReadyFile {
+  std::string path;
+  const char* kind;
+  std::vector<std::uint8_t> bytes;
+  std::shared_ptr<RasterFile> raster = nullptr;
+
+  std::uint64_t size() const { return raster ? raster->size() : bytes.size(); }
+};
+
+ReadyFile ready(const ProjectionFile& file);
+
+struct SimplifyRun {
+  std::optional<double> asked;  ///< max error in z units
+  Simplified simplified;
+  std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
+  std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
+  std::optional<Print> print;                             ///< with --solid
+  std::vector<ProjectionFile> projections;                ///< beside OUTPUT, or each level
+  std::vector<std::string> warnings;
+  bool was_ended = false;  ///< a run that is cut short, by who waited for it
+  double seconds_read = 0, seconds_write = 0, seconds_total = 0;
+};
+
+/// Counts the terrain's vertices and triangles, then closes it into a solid where that was asked for.
+Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run);
+/// Writes into the mesh who made it, how, and in which frame; `crs_option` is what measure() needs as --crs, or empty.
+void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
+                const std::string& crs_option, Mesh& mesh);
+/// The mesh as it is written: y up, if that was asked for.
+void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh);
+
+/// The "goal", "passes", "seconds" and "outputs" of the report; "solid", where there is one.
+Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run);
+Json describe_passes(const SimplifyRun& run);
+Json describe_seconds(const SimplifyRun& run);
+Json describe_outputs(const std::vector<ReadyFile>& files);
+void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run);
+/// The file of each print tile, or one that holds them all.
+std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print);
+
+/// A line of the summary, and those that every summary has.
+std::string summary_line(const char* name, const std::string& value);
+std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& files);
+std::string solid_line(const SimplifyPlan& plan, const SimplifyRun& run);
+std::string seconds_line(const SimplifyRun& run);
+
+/// The lines of --timing: a table of the passes, reading first and writing last.
+std::string timing_lines(const SimplifyRun& run);
+
+/// What was asked for, beside the error that was reached: " (asked 0.5)", " (asked 0.5, not reached)"; "" for nothing.
+/// `exceptions`: what it does not hold for.
+std::string describe_asked(const SimplifyRun& run, const char* exceptions = "");
+/// The last line of the summary: which goal ended the run. `exact`: said where nothing was lost; null: something was.
+std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const char* exact);
+
+}  // namespace scarp::cli

@@ -1,0 +1,342 @@
+#include "session/work/points_work.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "session/inputs/mesh_place.h"
+#include "session/reports/points_report.h"
+#include "session/reports/report.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// Points have no use for many of the command's options; silence would be a lie.
+Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
+  constexpr std::array<std::string_view, 26> kMeant{
+      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",     "--up",
+      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",    "--double",
+      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",   "--compress", "--columns",
+      "--nodata",        "--z-scale",       "--z-offset",    "--z-unit",     "--boundary"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
+    if (option->count() > 0 && !is_meant)
+      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, and {} holds points: leave it out", name,
+                                                 shell_word(base_name(path))));
+  }
+  return {};
+}
+
+/// `as`: how a raster would be read.
+Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const ReadOptions& as,
+                      const ProgressCallback& progress) {
+  if (path.empty()) return fail(ErrorKind::kUsage, "the name of the points is empty");
+  for (const auto& [name, value] : {std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field},
+                                    std::pair{"--columns", &arguments.columns}}) {
+    if (*value && (*value)->empty()) return fail(ErrorKind::kUsage, fmt::format("{} is empty: leave it out", name));
+  }
+  return read_points(path, {.layer = arguments.layer.value_or(""),
+                            .z_field = arguments.z_field.value_or(""),
+                            .crs = as.crs,
+                            .progress = progress,
+                            .columns = arguments.columns.value_or(""),
+                            .nodata = as.nodata,
+                            .z_scale = as.z_scale,
+                            .z_offset = as.z_offset,
+                            .z_unit = as.z_unit,
+                            .heights_in = as.heights_in,
+                            .default_frame = as.default_frame});
+}
+
+/// As --crs; empty: local for degrees, else the points' own.
+std::string crs_option(const SimplifyPlan& plan) {
+  if (!plan.read.crs.empty()) return plan.read.crs;
+  return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
+}
+
+std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
+  return plan.canonical_command + (arguments.points ? " --points" : "") +
+         canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
+         canonical_option("--z-field", arguments.z_field) + canonical_option("--columns", arguments.columns) +
+         canonical_option("--boundary", arguments.boundary);
+}
+
+void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
+  for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
+}
+
+/// How far a mesh was moved from the source's coordinates, if it says so, and that nothing else was done to it.
+std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
+  const auto said = mesh.metadata.find("to_source");
+  if (said == mesh.metadata.end()) return std::nullopt;
+  const Json affine = Json::parse(said->second, nullptr, false);
+  if (!affine.is_array() || affine.size() != 6 || !affine[0].is_number() || !affine[3].is_number()) return std::nullopt;
+  if (affine[1] != 1 || affine[2] != 0 || affine[4] != 0 || affine[5] != 1) return std::nullopt;
+  return std::array{affine[0].get<double>(), affine[3].get<double>()};
+}
+
+/// How the points of such a mesh are read, unless `given` says otherwise.
+Result<ReadOptions> remember_reading(const RasterArguments& given, const Mesh& mesh, const std::string& path) {
+  const auto find = [&](const char* key) {
+    const auto entry = mesh.metadata.find(key);
+    return entry == mesh.metadata.end() ? Given() : Given(entry->second);
+  };
+  RasterArguments asked = given;
+  if (find("duplicates")) asked = remember_options(given, mesh);  // what a raster was scaled by is its own
+  asked.cell_size = given.cell_size;
+  if (!given.crs) asked.crs = find("crs_option");
+  if (!given.crs && asked.crs == Given("local") && way_to_source(mesh)) asked.crs = "source";
+  if (!given.nodata) asked.nodata = find("nodata");
+  auto options = asked.parse();
+  if (!options) return options;
+  options->heights_in = find("unit") == Given("m") ? HeightsIn::kMetres : heights_in(path);
+  options->default_frame = default_frame(path) == DefaultFrame::kLocal ? DefaultFrame::kLocal : DefaultFrame::kMetric;
+  return options;
+}
+
+/// Puts a mesh in a local frame back to where the points lie: by what it says of itself, or, where a format has no
+/// place for that, where they do not meet otherwise.
+void put_back(const PointSet& points, Mesh& mesh) {
+  if (const auto way = way_to_source(mesh)) return move(1, *way, mesh);
+  if (points.is_local || mesh.metadata.contains("frame")) return;
+  Mesh moved = mesh;
+  move(1, local_origin(points), moved);
+  const Extent extent = extent_of(points);
+  if (extent.overlap(extent_of(moved)) > extent.overlap(extent_of(mesh))) mesh.origin = moved.origin;
+}
+
+void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+  Mesh& mesh = outcome.simplified.mesh;
+  // The judge puts the mesh back and reads the points in their own coordinates.
+  add_origin(canonical_command(plan, arguments), outcome.frame(), outcome.centre ? "" : outcome.points.crs,
+             outcome.centre ? "source" : crs_option(plan), mesh);
+  if (outcome.centre) {
+    const auto [x, y] = *outcome.centre;
+    mesh.metadata["origin"] = Json(*outcome.centre).dump();
+    if (!outcome.points.crs.empty()) mesh.metadata["origin_crs"] = outcome.points.crs;
+    mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
+  }
+  mesh.metadata["duplicates"] = policy_name(outcome.policy);
+  if (arguments.columns) mesh.metadata["columns"] = *arguments.columns;
+  if (arguments.boundary) mesh.metadata["boundary"] = *arguments.boundary;
+  if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
+  const RasterInfo& heights = outcome.points.heights;
+  if (heights.z_scale != 1) mesh.metadata["z_scale"] = Json(heights.z_scale).dump();
+  if (heights.z_offset != 0) mesh.metadata["z_offset"] = Json(heights.z_offset).dump();
+  if (!heights.unit.empty()) mesh.metadata["unit"] = heights.unit;
+  const Measurement& measured = outcome.simplified.measurement;
+  const Json error{{"asked", or_null(outcome.asked)},
+                   {"max_error", measured.max_error},
+                   {"rmse", measured.rmse},
+                   {"samples", measured.samples}};
+  mesh.metadata["error"] = error.dump();
+}
+
+/// A frame that the mesh file names and the points cannot have.
+Error explain_frame(Error error, const std::string& crs, const std::string& mesh, const std::string& path) {
+  if (error.kind != ErrorKind::kUsage || error.message.find(crs) == std::string::npos) return error;
+  if (crs != "grid") {
+    error.message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh);
+    return error;
+  }
+  error.message = fmt::format(
+      "{} says of itself that its coordinates are the columns and rows of a raster ('grid'), which the points of {} do "
+      "not have: judge it by its raster, or say with --crs source that x and y of the points count the same",
+      mesh, path);
+  return error;
+}
+
+/// Library errors about the points themselves do not know the file.
+Error with_path(Error error, const std::string& path) {
+  if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
+    error.message = fmt::format("{}: {}", path, error.message);
+  return error;
+}
+
+/// Warns where the convex hull bridges bays or has slivers.
+void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
+  if (fit.boundary_length == 0) return;
+  outcome.suggested_boundary = fmt::format("concave:{:.6g}", fit.boundary_length);
+  outcome.warnings.push_back(fmt::format(
+      "{}: --boundary {} ends the mesh at the points instead (--boundary hull: no warning)",
+      fit.slivers == 0
+          ? fmt::format("{} of the mesh lies across bays of the convex hull, where no points are",
+                        format_share(fit.bridged, 1))
+          : fmt::format("the points end along nearly straight lines, where the convex hull makes {} steeper "
+                        "than 80 degrees",
+                        format_plural(fit.slivers, "sliver")),
+      outcome.suggested_boundary));
+}
+
+}  // namespace
+
+Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& given, const PointsArguments& arguments,
+                              const Runner& runner, SimplifyPlan& plan, PointsOutcome& outcome) {
+  const Clock::time_point start = Clock::now();
+  if (auto meant = refuse_raster_options(command, given.raster.path()); !meant) return meant;
+  if (!given.max_error && !given.max_triangles && !given.max_points)
+    return fail(ErrorKind::kUsage,
+                "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
+                "with -t or -p");
+  Result<SimplifyPlan> planned = plan_simplify(given, files_read(command));
+  if (!planned) return tl::unexpected(std::move(planned.error()));
+  plan = std::move(*planned);
+  if (runner.on_plan) runner.on_plan(plan.read);
+  if (plan.format.kind == OutputKind::kDem)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
+                            "such as .glb or .ply",
+                            given.output, shell_word(base_name(given.raster.path()))));
+  const auto policy = parse_policy(arguments.duplicates);
+  if (!policy) return tl::unexpected(policy.error());
+  const auto boundary_length = parse_boundary(arguments.boundary);
+  if (!boundary_length) return tl::unexpected(boundary_length.error());
+
+  outcome.policy = *policy;
+  outcome.boundary = arguments.boundary.value_or("hull");
+  ReadOptions as = plan.read;
+  as.crs = crs_option(plan);
+  Result<PointSet> points = read(given.raster.path(), arguments, as, runner.progress);
+  if (!points) return tl::unexpected(std::move(points.error()));
+  if (points->is_local && plan.read.crs.empty()) plan.read.crs = "local";
+  if (auto fits = check_unit_of_frame(plan.format, points->unit_in_metres); !fits) return fits;
+  outcome.points = std::move(*points);
+  if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
+                            "beyond any budget; ask for an error with -e",
+                            given.max_triangles ? "--max-triangles" : "--max-points",
+                            shell_word(base_name(given.raster.path()))));
+  if (!outcome.points.lines.empty() && *boundary_length)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--boundary {} cannot be combined with lines, and {} holds them: they may cross what it "
+                            "takes away; leave it out",
+                            *arguments.boundary, shell_word(base_name(given.raster.path()))));
+  if (auto checked = check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit); !checked)
+    return checked;
+  if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
+    outcome.centre = local_origin(outcome.points);
+  auto projections = plan_projection_files(plan, outcome.points.crs);
+  if (!projections) return tl::unexpected(std::move(projections.error()));
+  outcome.projections = std::move(*projections);
+  outcome.warnings = plan.warnings;
+  outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
+  const HeightRange heights = height_range(outcome.points);
+  if (plan.error_goal) {
+    if (auto fits = refuse_print("--max-error", *plan.error_goal); !fits) return fits;
+    if (auto fits = settle_goal("--max-error", outcome.points.heights, *plan.error_goal, outcome.warnings); !fits)
+      return fits;
+  }
+  if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
+  outcome.seconds_read = seconds_since(start);
+
+  PointOptions options;
+  options.max_error = outcome.asked;
+  options.max_triangles = plan.simplify.goals.max_triangles;
+  options.max_vertices = plan.simplify.goals.max_vertices;
+  options.float32_positions = plan.format.is_float32();  // points do not lie where float32 is exact
+  options.duplicates = outcome.policy;
+  options.boundary_length = *boundary_length;
+  options.run.threads = plan.simplify.run.threads;
+  options.run.progress = runner.progress;
+  Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
+  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path()));
+  outcome.simplified = std::move(simplified->simplified);
+  outcome.duplicates = simplified->duplicates;
+  outcome.on_hull = simplified->on_hull;
+  outcome.lattice_step = simplified->lattice_step;
+  outcome.flat = simplified->flat;
+  outcome.loose = simplified->loose;
+  if (!arguments.boundary) suggest_boundary(simplified->hull_fit, outcome);
+  if (outcome.loose > 0)
+    outcome.warnings.push_back(
+        fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
+                    "cross them",
+                    format_plural(outcome.loose, "piece")));
+  // The engine proves its own result; a mesh whose proof does not hold is never written.
+  const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
+  const auto broken = find_broken(outcome.points, outcome.simplified.measurement,
+                                  has_bound ? *outcome.asked : outcome.simplified.measurement.max_error);
+  if (broken)
+    return fail(ErrorKind::kPromise,
+                "the mesh does not keep its promise and was not written; this is a bug in Scarp: " + *broken);
+  return {};
+}
+
+Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+  if (auto finished = finish_mesh(plan, outcome); !finished) return finished;
+  if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
+  add_metadata(plan, arguments, outcome);
+  return {};
+}
+
+Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments& given,
+                          const PointsArguments& arguments, const Runner& runner, JudgedPoints& judged) {
+  const Clock::time_point start = Clock::now();
+  if (auto meant = refuse_raster_options(command, given.input.path()); !meant) return meant;
+  const Result<int> threads = parse_threads(given.threads);
+  if (!threads) return tl::unexpected(threads.error());
+  std::optional<ErrorGoal> goal;
+  if (given.fail_above) {
+    Result<ErrorGoal> parsed = parse_error_goal("--fail-above", *given.fail_above);
+    if (!parsed) return tl::unexpected(std::move(parsed.error()));
+    if (auto fits = refuse_print("--fail-above", *parsed); !fits) return fits;
+    goal = std::move(*parsed);
+  }
+  Result<Mesh> mesh = read_mesh(given.mesh);
+  if (!mesh) return tl::unexpected(std::move(mesh.error()));
+  judged.mesh = std::move(*mesh);
+  // What was asked of the mesh holds for its judge, unless it is told otherwise.
+  const auto remembered = [&](const Given& option, const char* key) -> Given {
+    const auto entry = judged.mesh.metadata.find(key);
+    return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
+  };
+  const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
+  if (!policy) return tl::unexpected(policy.error());
+  judged.policy = *policy;
+  const auto boundary_length = parse_boundary(remembered(arguments.boundary, "boundary"));
+  if (!boundary_length) return tl::unexpected(boundary_length.error());
+  PointsArguments asked = arguments;
+  asked.columns = remembered(arguments.columns, "columns");
+  const std::string path = given.input.path();
+  const auto as = remember_reading(given.input, judged.mesh, given.mesh);
+  if (!as) return tl::unexpected(as.error());
+  Result<PointSet> points = read(path, asked, *as, runner.progress);
+  if (!points && !given.input.crs && !as->crs.empty())
+    return tl::unexpected(explain_frame(std::move(points.error()), as->crs, given.mesh, path));
+  if (!points) return tl::unexpected(std::move(points.error()));
+  judged.points = std::move(*points);
+  if (!given.input.crs) put_back(judged.points, judged.mesh);
+  if (goal) {
+    if (auto fits = settle_goal("--fail-above", judged.points.heights, *goal, judged.points.warnings); !fits)
+      return fits;
+    const HeightRange heights = height_range(judged.points);
+    judged.fail_above = goal->absolute(heights.max - heights.min);
+  }
+  judged.seconds_read = seconds_since(start);
+
+  const Clock::time_point measure_start = Clock::now();
+  MeasureOptions options;
+  options.run.threads = *threads;
+  options.run.progress = runner.progress;
+  options.inlets = boundary_length->has_value();
+  Result<Measurement> measured = measure_points(judged.points, judged.mesh, judged.policy, options);
+  if (!measured) return tl::unexpected(std::move(measured.error()));
+  judged.measured = std::move(*measured);
+  judged.seconds_measure = seconds_since(measure_start);
+  if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
+  if (judged.measured.samples == 0)
+    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), path);
+  return {};
+}
+
+}  // namespace scarp::cli

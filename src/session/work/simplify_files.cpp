@@ -1,0 +1,302 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include "scarp/picture.h"
+#include "session/reports/level_report.h"
+#include "session/reports/pictures.h"
+#include "session/reports/report.h"
+#include "session/reports/simplify_outcome.h"
+#include "session/reports/view_page.h"
+
+namespace scarp::cli {
+namespace {
+
+/// What measure needs as --crs.
+std::string crs_option(const SimplifyPlan& plan, const Frame& frame) {
+  if (!plan.read.crs.empty()) return plan.read.crs;
+  if (frame.kind == Frame::Kind::kGrid) return "grid";
+  return frame.kind == Frame::Kind::kLocal ? "local" : "source";
+}
+
+void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
+  const Measurement& measured = outcome.simplified.measurement;
+  const Frame& frame = outcome.field.frame;
+  add_origin(plan.canonical_command, frame.description, frame.crs, crs_option(plan, frame), outcome.simplified.mesh);
+  std::map<std::string, std::string>& metadata = outcome.simplified.mesh.metadata;
+  if (const auto place = place_in_source(frame, outcome.as_read, outcome.field.rows)) {
+    metadata["origin"] = Json(place->origin()).dump();
+    if (!place->crs.empty()) metadata["origin_crs"] = place->crs;
+    metadata["to_source"] = Json(place->to_source).dump();
+  }
+  if (frame.space) metadata["to_earth"] = Json(frame.space->to_earth()).dump();
+  if (outcome.as_read.z_scale != 1) metadata["z_scale"] = Json(outcome.as_read.z_scale).dump();
+  if (plan.read.z_offset != 0) metadata["z_offset"] = Json(plan.read.z_offset).dump();
+  if (plan.read.cell_size) metadata["cell_size"] = Json(*plan.read.cell_size).dump();
+  if (!outcome.as_read.unit.empty()) metadata["unit"] = outcome.as_read.unit;
+  Json error;
+  error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
+  if (!plan.channels.image) error["max_error"] = measured.max_error;
+  if (outcome.print) error["max_error"] = outcome.print->max_error;
+  if (outcome.field.sample_rounding > 0) error["sample_rounding"] = outcome.field.sample_rounding;
+  if (!plan.channels.image) error["rmse"] = measured.rmse;
+  error["samples"] = measured.samples;
+  if (!outcome.channels.empty()) error["combined_max_error"] = outcome.simplified.combined_max_error;
+  if (outcome.companions.has_weights()) {
+    error["weighted_max_error"] = outcome.simplified.weighted_max_error;
+  }
+  if (outcome.simplified.ignored > 0) error["ignored"] = outcome.simplified.ignored;
+  if (outcome.bounded) error["bounded_max_error"] = outcome.bounded->value;
+  metadata["error"] = error.dump();
+}
+
+Result<void> add_picture(const std::string& path, const Picture& picture, std::vector<ReadyFile>& files) {
+  Result<std::vector<std::uint8_t>> png = encode_png(picture);
+  if (!png) return tl::unexpected(std::move(png.error()));
+  files.push_back({path, "png", std::move(*png)});
+  return {};
+}
+
+/// The approximation in its colours, which is then compared with the image; or as a hillshade.
+Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
+  const Picture rendered = draw_gouraud(outcome.field, outcome.simplified.mesh);
+  if (!outcome.channels.empty()) outcome.psnr = find_psnr(rendered, draw_channels(outcome.channels.bands));
+  return add_picture(*plan.render, rendered, files);
+}
+
+Result<void> add_preview(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  const int side = picture_side(outcome.field, memory_of(plan, outcome), mesh.vertex_count());
+  const Result<Picture> picture = draw_preview(outcome.field, mesh, preview_options(outcome, side));
+  if (!picture) return tl::unexpected(picture.error());
+  return add_picture(*plan.preview, *picture, files);
+}
+
+/// Writes rows as `make` hands them out.
+Result<std::shared_ptr<RasterFile>> write_rows(
+    const SimplifyPlan& plan, const std::string& path, const Outcome& outcome,
+    const std::function<Result<void>(const std::function<void(int row, std::span<const float> values)>& on_row)>&
+        make) {
+  auto raster = RasterFile::create(path, outcome.field.cols, outcome.field.rows, &outcome.as_read, plan.overwrite);
+  if (!raster) return tl::unexpected(raster.error());
+  Result<void> written;
+  const auto made = make([&](int, std::span<const float> values) {
+    if (written) written = raster->add(values);
+  });
+  if (!made) return tl::unexpected(made.error());
+  if (written) written = raster->finish();
+  if (!written) return tl::unexpected(written.error());
+  return std::make_shared<RasterFile>(std::move(*raster));
+}
+
+/// Judges the heights once more, and writes each row as it comes.
+Result<void> add_streamed_errors(const SimplifyPlan& plan, JudgeOptions options, const Outcome& outcome,
+                                 std::vector<ReadyFile>& files) {
+  auto raster = write_rows(plan, *plan.error_raster, outcome, [&](const auto& on_row) -> Result<void> {
+    options.on_row = on_row;
+    const auto judged = judge_mesh(outcome.field.view(), outcome.simplified.mesh, options);
+    return judged ? Result<void>() : tl::unexpected(judged.error());
+  });
+  if (!raster) return tl::unexpected(raster.error());
+  files.push_back({*plan.error_raster, "tif", {}, std::move(*raster)});
+  return {};
+}
+
+/// Signed errors of the heights; of an image, the norms over its bands.
+Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& progress, const Outcome& outcome,
+                              std::vector<ReadyFile>& files) {
+  JudgeOptions options;
+  options.norm = plan.channels.norm;
+  options.weigh = false;
+  options.topology = false;
+  options.cutline = outcome.cut.judged();
+  options.run.threads = plan.simplify.run.threads;
+  options.run.progress = progress;
+  if (outcome.field.source) return add_streamed_errors(plan, options, outcome, files);
+  options.keep_errors = true;
+  Result<Judgement> judged =
+      judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
+  if (!judged) return tl::unexpected(std::move(judged.error()));
+  const std::vector<float> errors =
+      take_error_raster(std::move(*judged), plan.channels.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  Result<std::vector<std::uint8_t>> tiff =
+      encode_raster({errors, outcome.field.cols, outcome.field.rows, &outcome.as_read}, RasterFormat::kGeoTiff);
+  if (!tiff) return tl::unexpected(std::move(tiff.error()));
+  files.push_back({*plan.error_raster, "tif", std::move(*tiff)});
+  return {};
+}
+
+/// The print tiles, with the terrain's metadata.
+std::vector<Mesh> named_solids(const SimplifyPlan& plan, const Outcome& outcome) {
+  std::vector<Mesh> solids;
+  const bool is_whole = outcome.print->tiles.size() == 1 && outcome.print->empty_tiles == 0;
+  for (const PrintTile& tile : outcome.print->tiles) {
+    solids.push_back(tile.mesh);
+    solids.back().metadata.insert(outcome.simplified.mesh.metadata.begin(), outcome.simplified.mesh.metadata.end());
+    turn_as_planned(plan, solids.back());
+    solids.back().metadata["name"] = is_whole ? "terrain" : fmt::format("r{}-c{}", tile.row, tile.column);
+  }
+  return solids;
+}
+
+/// A file for each print tile; the first file is OUTPUT's, whose place the first of them takes.
+Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
+  const std::vector<std::string> paths = print_paths(plan, *outcome.print);
+  const std::vector<Mesh> solids = named_solids(plan, outcome);
+  std::vector<ReadyFile> tiles;
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    Result<std::vector<std::uint8_t>> bytes = encode_mesh(solids[k], plan.format.mesh, plan.doubles);
+    if (!bytes) return tl::unexpected(std::move(bytes.error()));
+    tiles.push_back({paths[k], plan.format.name(), std::move(*bytes)});
+  }
+  files.erase(files.begin());
+  files.insert(files.begin(), std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
+  return {};
+}
+
+/// The approximation on the raster's grid.
+Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Outcome& outcome) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.run.threads);
+  if (!heights) return tl::unexpected(heights.error());
+  return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
+}
+
+/// Whether OUTPUT is made from the samples as well as from the mesh.
+bool reads_samples(const SimplifyPlan& plan) {
+  return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value() || plan.html.has_value();
+}
+
+/// Fills in OUTPUT.
+Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, ReadyFile& file) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  const bool is_dem = plan.format.kind == OutputKind::kDem;
+  if (is_dem && outcome.field.source) {
+    auto raster = write_rows(plan, plan.output, outcome, [&](const auto& on_row) {
+      return resample_rows(outcome.field, mesh, on_row, plan.simplify.run.threads);
+    });
+    if (!raster) return tl::unexpected(raster.error());
+    file.raster = std::move(*raster);
+    return {};
+  }
+  const auto glb = glb_options(plan, outcome);
+  if (!glb) return tl::unexpected(glb.error());
+  const bool has_zones = plan.zones.find_lines() != nullptr;
+  Result<std::vector<std::uint8_t>> bytes = outcome.print ? encode_3mf(named_solids(plan, outcome))
+                                            : is_dem      ? encode_dem(plan, outcome)
+                                            : has_zones   ? encode_2dm(mesh, outcome.zones)
+                                                          : encode_as(plan.format, mesh, *glb, plan.doubles);
+  if (!bytes) return tl::unexpected(std::move(bytes.error()));
+  file.bytes = std::move(*bytes);
+  return {};
+}
+
+/// In place of OUTPUT, which holds the finest level: all of them, in a file each or in one.
+Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
+  std::vector<ReadyFile> levels{std::move(files.front())};
+  for (Level& level : outcome.coarser) {
+    const auto encoded = with_level(outcome, level, [&]() -> Result<void> {
+      add_metadata(plan, outcome);
+      turn_as_planned(plan, outcome.simplified.mesh);
+      levels.push_back({plan.output, plan.format.name(), {}});
+      return encode_output(plan, outcome, levels.back());
+    });
+    if (!encoded) return encoded;
+  }
+  files.erase(files.begin());
+  if (plan.levels_in_one) {
+    std::vector<std::vector<std::uint8_t>> all;
+    for (ReadyFile& level : levels) all.push_back(std::move(level.bytes));
+    auto joined = join_glb_levels(all, plan.levels->ratio);
+    if (!joined) return tl::unexpected(std::move(joined.error()));
+    levels = {{plan.output, plan.format.name(), std::move(*joined)}};
+  } else {
+    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].path = level_path(plan.output, static_cast<int>(k));
+  }
+  files.insert(files.begin(), std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end()));
+  return {};
+}
+
+/// Shows the GLB files of this run, or the mesh as one.
+Result<void> add_page(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
+  std::vector<PageMesh> meshes;
+  for (const ReadyFile& file : files) {
+    if (std::string_view(file.kind) == "glb") meshes.push_back({file.path, file.size(), file.bytes});
+  }
+  if (meshes.empty()) {
+    Mesh mesh = outcome.simplified.mesh;
+    if (is_y_up(mesh)) undo_y_up(mesh);
+    auto glb = encode_mesh(mesh, MeshFormat::kGlb);
+    if (!glb) return tl::unexpected(std::move(glb.error()));
+    meshes.push_back({plan.output, files.front().size(), std::move(*glb)});
+  }
+  auto page = make_view_page(plan.page_template, meshes.front().path, meshes, &outcome.field);
+  if (!page) return tl::unexpected(std::move(page.error()));
+  if (page->left_out) outcome.warnings.push_back(*page->left_out);
+  files.push_back({*plan.html, "html", std::move(page->html)});
+  return {};
+}
+
+}  // namespace
+
+Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome) {
+  const std::array<double, 6>& affine = outcome.field.frame.affine;
+  GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}, .threads = plan.simplify.run.threads};
+  if (plan.images.drape) {
+    auto bytes = encode_image(outcome.drape, plan.images.drape_format);
+    if (!bytes) return tl::unexpected(bytes.error());
+    glb.base_color = {std::move(*bytes), mime_type_of(plan.images.drape_format)};
+  }
+  if (plan.images.normal_map) {
+    const auto normals = draw_normal_map(outcome.field, *plan.images.normal_map);
+    if (!normals) return tl::unexpected(normals.error());
+    auto bytes = encode_png(*normals);
+    if (!bytes) return tl::unexpected(bytes.error());
+    glb.normal_map = {std::move(*bytes), "image/png"};
+  }
+  return glb;
+}
+
+Result<void> complete_mesh(const SimplifyPlan& plan, Outcome& outcome) {
+  if (auto finished = finish_mesh(plan, outcome); !finished) return finished;
+  add_metadata(plan, outcome);
+  return {};
+}
+
+Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
+                                            Outcome& outcome) {
+  std::vector<ReadyFile> files{{plan.output, plan.format.name(), {}}};
+  // Pictures and errors show the terrain, before it is closed into a solid.
+  Mesh& mesh = outcome.simplified.mesh;
+  if (!outcome.channels.empty()) color_by_channels(mesh, outcome.channels.bands);
+  Result<void> added;
+  if (plan.preview) added = add_preview(plan, outcome, files);
+  if (added && plan.render) added = add_render(plan, outcome, files);
+  if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
+  if (added) added = complete_mesh(plan, outcome);
+  if (!added) return tl::unexpected(std::move(added.error()));
+  if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
+    if (auto encoded = encode_print_tiles(plan, outcome, files); !encoded)
+      return tl::unexpected(std::move(encoded.error()));
+    return files;
+  }
+  if (plan.zones.find_lines() != nullptr) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
+  turn_as_planned(plan, mesh);
+  // They may take more memory than the mesh and its file.
+  if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
+  if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
+  if (plan.levels) {
+    if (auto encoded = encode_levels(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));
+  }
+  if (plan.html) {
+    if (auto page = add_page(plan, outcome, files); !page) return tl::unexpected(std::move(page.error()));
+  }
+  for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
+  return files;
+}
+
+}  // namespace scarp::cli

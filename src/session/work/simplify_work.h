@@ -1,0 +1,12 @@
+// scarp simplify without its terminal: from a plan to a mesh that keeps its promise, in memory.
+#pragma once
+
+#include "session/reports/simplify_outcome.h"
+#include "session/work/runner.h"
+
+namespace scarp::cli {
+
+/// Reads the inputs, simplifies, and checks the promise. Warnings go to `plan` and `outcome`.
+Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome);
+
+}  // namespace scarp::cli
