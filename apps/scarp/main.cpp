@@ -27,6 +27,7 @@
 #include "scarp/version.h"
 #include "session/table/help.h"
 #include "session/table/missing_value.h"
+#include "session/table/option_table.h"
 #include "session/table/unknown_words.h"
 #include "session/text/text.h"
 #include "terminal/signals.h"

@@ -9,10 +9,10 @@
 #include "scarp/glb.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
+#include "scarp/simplify.h"
 #include "scarp_c.h"
 #include "session/options/output_kind.h"
 #include "session/options/values.h"
-#include "session/reports/simplify_outcome.h"
 
 struct scarp_bytes {
   std::vector<std::uint8_t> bytes;

@@ -5,7 +5,9 @@
 
 #include "door.h"
 #include "scarp/io.h"
-#include "session/plan/simplify_plan.h"
+#include "session/options/simplify_options.h"
+#include "session/options/values.h"
+#include "session/table/option_table.h"
 #include "settings.h"
 
 struct scarp_raster {

@@ -9,9 +9,14 @@
 #include "inputs.h"
 #include "mesh.h"
 #include "scarp/live_tiles.h"
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
+#include "session/plan/tile_plan.h"
 #include "session/reports/report.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
+#include "session/text/json.h"
+#include "session/text/tile_counts.h"
 #include "session/work/tile_work.h"
 #include "settings.h"
 
@@ -72,7 +77,7 @@ scarp_status open_tiles(const std::string& input, const scarp_options& asked, sc
   if (auto parsed = words.parse({input}, "-", asked); !parsed) return report(parsed.error());
   if (words.given.format && *words.given.format != "qm")
     return report(ErrorKind::kUsage, "tiles that are made as they are asked for are quantized-mesh: leave of out");
-  auto opened = words.given.open(words.run.progress);
+  auto opened = cli::open_tiles(words.given, words.run.progress);
   if (!opened) return report(opened.error());
   auto set = LiveTileSet::open(opened->job, opened->raster->nodes(), kCacheBytes, words.run);
   if (!set) return report(set.error());

@@ -9,7 +9,10 @@
 #include <utility>
 
 #include "scarp/generate.h"
+#include "scarp/io.h"
+#include "session/plan/outputs.h"
 #include "session/table/option_table.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -10,7 +10,9 @@
 #include "session/inputs/heightmap.h"
 #include "session/inputs/nodata_warnings.h"
 #include "session/reports/info_report.h"
+#include "session/reports/report.h"
 #include "session/table/option_table.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
 #include "terminal/progress_display.h"
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "session/options/raster_options.h"
 #include "session/options/values.h"
 
 namespace scarp::cli {

@@ -8,6 +8,7 @@
 
 #include "paper/study.h"
 #include "scarp/version.h"
+#include "session/plan/outputs.h"
 #include "session/table/option_table.h"
 #include "session/text/text.h"
 #include "terminal/signals.h"

@@ -11,9 +11,10 @@
 #include "scarp/live_tiles.h"
 #include "serve/http_server.h"
 #include "serve/preparation.h"
-#include "session/inputs/memory.h"
+#include "session/options/memory_options.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
@@ -97,7 +98,7 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
     if (!opened) return tl::unexpected(opened.error());
     served.job = std::move(*opened);
   } else {
-    auto opened = tiles_.open(display.callback(), *memory / 2);
+    auto opened = open_tiles(tiles_, display.callback(), *memory / 2);
     if (!opened) return tl::unexpected(opened.error());
     served.job = std::move(*opened);
   }

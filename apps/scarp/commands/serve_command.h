@@ -6,6 +6,8 @@
 #include <string>
 
 #include "serve/tile_answers.h"
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
 #include "session/plan/tile_plan.h"
 
 namespace scarp::cli {

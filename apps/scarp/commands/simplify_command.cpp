@@ -3,11 +3,18 @@
 #include <utility>
 #include <vector>
 
+#include "session/plan/simplify_plan.h"
 #include "session/reports/report.h"
+#include "session/reports/simplify_outcome.h"
 #include "session/reports/simplify_report.h"
+#include "session/reports/simplify_run.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
+#include "session/text/json.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
+#include "session/work/runner.h"
+#include "session/work/simplify_files.h"
 #include "session/work/simplify_work.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"

@@ -10,6 +10,8 @@
 #include "session/reports/tile_check_report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
+#include "session/text/json.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
 #include "terminal/progress_display.h"
 
@@ -72,7 +74,7 @@ Result<OpenedJob> TileCheckCommand::open_source(const TileSetReader& set, const 
   if (of_set.is_flat()) tiles.format = "3dtiles";
   const std::string said = find_vertical(set);
   if (!said.empty() && !tiles.vertical && !tiles.geoid) tiles.vertical = said;
-  return tiles.open(progress, kSourceBytes);
+  return open_tiles(tiles, progress, kSourceBytes);
 }
 
 Result<void> TileCheckCommand::run(const std::string& command_line) const {

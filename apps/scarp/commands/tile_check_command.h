@@ -5,6 +5,8 @@
 #include <string>
 
 #include "scarp/tile_check.h"
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
 #include "session/plan/tile_plan.h"
 
 namespace scarp::cli {

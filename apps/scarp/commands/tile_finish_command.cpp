@@ -5,12 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include "session/plan/plan_options.h"
+#include "session/plan/outputs.h"
+#include "session/plan/tile_parts.h"
 #include "session/reports/report.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
+#include "session/text/json.h"
 #include "session/text/text.h"
+#include "session/text/tile_counts.h"
 #include "session/work/counted_set.h"
 #include "session/work/tile_work.h"
 #include "terminal/progress_display.h"

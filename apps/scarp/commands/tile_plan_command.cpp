@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "scarp/io.h"
-#include "session/plan/plan_options.h"
+#include "session/plan/outputs.h"
+#include "session/plan/tile_parts.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
 #include "session/text/text.h"
@@ -77,7 +78,7 @@ Result<OpenedJob> TilePlanCommand::open(const ProgressCallback& progress) const 
   constexpr Choice<bool> kHashes[] = {{"stamp", false}, {"content", true}};
   const Result<bool> reads_all = choose("--hash", hash_.value_or("stamp"), kHashes);
   if (!reads_all) return tl::unexpected(reads_all.error());
-  Result<OpenedJob> opened = changed_since_ ? follow(progress) : tiles_.open(progress);
+  Result<OpenedJob> opened = changed_since_ ? follow(progress) : open_tiles(tiles_, progress);
   if (opened && *reads_all) {
     if (auto added = add_contents(opened->job); !added) return tl::unexpected(added.error());
   }
@@ -95,7 +96,7 @@ Result<OpenedJob> TilePlanCommand::follow(const ProgressCallback& progress) cons
   }
   const Result<TileJob> earlier = read_tile_job(*changed_since_);
   if (!earlier) return tl::unexpected(earlier.error());
-  auto opened = tiles_.follow(*earlier, progress);
+  auto opened = follow_tiles(tiles_, *earlier, progress);
   if (!opened) return opened;
   std::error_code error;
   opened->job.parts =

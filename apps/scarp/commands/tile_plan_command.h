@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
 #include "session/plan/tile_plan.h"
 
 namespace scarp::cli {

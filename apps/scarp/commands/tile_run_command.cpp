@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "scarp/tile_job.h"
-#include "session/inputs/memory.h"
-#include "session/plan/plan_options.h"
+#include "session/options/memory_options.h"
+#include "session/options/tile_options.h"
+#include "session/plan/tile_parts.h"
 #include "session/plan/tile_plan.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
 #include "session/text/text.h"
+#include "session/text/tile_counts.h"
 #include "terminal/progress_display.h"
 
 namespace scarp::cli {

@@ -15,8 +15,11 @@
 #include "scarp/solid.h"
 #include "session/inputs/mesh_place.h"
 #include "session/options/output_kind.h"
+#include "session/plan/outputs.h"
+#include "session/plan/page_template.h"
 #include "session/reports/level_pages.h"
 #include "session/table/option_table.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

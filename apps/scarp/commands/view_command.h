@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "session/options/raster_options.h"
 #include "session/options/values.h"
 #include "session/reports/view_page.h"
 

@@ -6,7 +6,9 @@
 #include <array>
 #include <optional>
 
+#include "session/plan/page_template.h"
 #include "session/reports/level_pages.h"
+#include "session/reports/view_page.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

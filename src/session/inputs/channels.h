@@ -1,7 +1,6 @@
 // Textures and images: further values at the samples, which count as errors beside the heights or in their place.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,34 +8,9 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/strategy.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "session/options/channel_options.h"
 
 namespace scarp::cli {
-
-/// What the options say.
-struct ChannelPlan {
-  bool image = false;                 ///< INPUT itself is the image; the heights are 0
-  std::vector<std::string> textures;  ///< files beside INPUT, in the order given
-  double texture_weight = 0.5;        ///< 0: heights only … 1: textures only
-  Norm norm = Norm::kSum;
-  std::vector<double> weights;  ///< of the channels; empty: all alike
-
-  bool has_channels() const { return image || !textures.empty(); }
-};
-
-struct ChannelArguments {
-  bool image = false;
-  std::vector<std::string> textures;
-  Given texture_weight, norm, weights;
-
-  void add_to(CLI::App& command);
-  Result<ChannelPlan> parse(const RasterArguments& raster) const;
-  std::string canonical() const;
-};
 
 /// The channels of a run.
 struct Channels {
@@ -69,8 +43,5 @@ struct Image {
   Channels channels;
 };
 Result<Image> read_image(const ChannelPlan& plan, const std::string& path, const ReadOptions& options, bool one_band);
-
-/// "l1", "l2" or "linf".
-const char* norm_name(Norm norm);
 
 }  // namespace scarp::cli

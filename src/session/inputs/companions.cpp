@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 
 #include "scarp/commands.h"
 #include "session/inputs/memory.h"
-#include "session/table/option_table.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -68,22 +66,6 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
   const char* beyond = is_covered ? "" : "-ot Float32 -dstnodata nan ";
   return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {}{} {}", crs, g[0], south, east, g[3], cols,
                      rows, beyond, file, new_file(".tif"));
-}
-
-struct RegionFile {
-  std::string path;  ///< with the layer
-  double tolerance;
-};
-
-Result<RegionFile> parse_region(const std::string& text) {
-  const std::size_t at = text.rfind('=');
-  if (at == std::string::npos || at == 0)
-    return fail(ErrorKind::kUsage,
-                fmt::format("--roi {}: behind the file an error is missing, such as {}=0.2", shell_word(text), text));
-  const Result<double> tolerance =
-      parse_non_negative(fmt::format("--roi {}: the error", shell_word(text)), text.substr(at + 1));
-  if (!tolerance) return tl::unexpected(tolerance.error());
-  return RegionFile{text.substr(0, at), *tolerance};
 }
 
 /// In the order of CompanionArguments::roi.
@@ -201,52 +183,6 @@ Result<void> read_steps(const std::string& path, const OwnedHeightField& field, 
 }
 
 }  // namespace
-
-void CompanionArguments::add_to(CLI::App& command) {
-  add_option(command, OptionId::kMask, mask);
-  add_option(command, OptionId::kTolerance, tolerance);
-  add_option(command, OptionId::kRoi, roi);
-  add_option(command, OptionId::kFalloff, falloff);
-  add_option(command, OptionId::kScript, script);
-}
-
-const char* CompanionArguments::find_tolerance() const {
-  if (tolerance) return "--tolerance";
-  return roi.empty() ? nullptr : "--roi";
-}
-
-Result<void> CompanionArguments::check(const char* bound_option, bool has_bound) const {
-  for (const std::string& text : roi) {
-    if (const auto region = parse_region(text); !region) return tl::unexpected(region.error());
-  }
-  if (mask && !roi.empty())
-    return fail(ErrorKind::kUsage, "--mask cannot be combined with --roi: regions have errors, not weights");
-  if (falloff) {
-    if (const auto distance = parse_non_negative("--falloff", *falloff); !distance)
-      return tl::unexpected(distance.error());
-    if (roi.empty())
-      return fail(ErrorKind::kUsage, "--falloff needs --roi: there is no region that it could be around");
-    if (!has_bound)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("--falloff needs {}: the bound of a region grows to that", bound_option));
-  }
-  if (mask && tolerance) {
-    return fail(ErrorKind::kUsage,
-                "--mask cannot be combined with --tolerance: divide the bound by the weights into one tolerance");
-  }
-  return {};
-}
-
-std::string CompanionArguments::canonical() const {
-  std::string command;
-  const std::pair<const char*, const Given*> options[] = {
-      {"--mask", &mask}, {"--tolerance", &tolerance}, {"--script", &script}};
-  for (const auto& [name, file] : options) {
-    if (*file) command += canonical_option(name, base_name(**file));
-  }
-  for (const std::string& text : roi) command += " --roi " + shell_word(base_name(text));
-  return command + canonical_option("--falloff", falloff);
-}
 
 Tolerances Companions::bounds() const {
   return {tolerances.values, tolerances.source.get(), mask.values, mask.source.get(), script.ignored};

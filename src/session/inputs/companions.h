@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,28 +9,9 @@
 #include "scarp/io.h"
 #include "scarp/simplify.h"
 #include "scarp/tolerances.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "session/options/companion_options.h"
 
 namespace scarp::cli {
-
-struct CompanionArguments {
-  Given mask, tolerance, script, falloff;
-  std::vector<std::string> roi;  ///< FILE[:LAYER]=M
-
-  void add_to(CLI::App& command);
-  /// Refuses what contradicts each other. `bound_option`: the command's own for a bound of all samples; `has_bound`:
-  /// whether it was given.
-  Result<void> check(const char* bound_option, bool has_bound) const;
-  /// The option that gives samples bounds of their own, other than weights; null if there is none.
-  const char* find_tolerance() const;
-  /// Whether samples are given weights or bounds of their own.
-  bool gives_bounds() const { return mask || script || find_tolerance() != nullptr; }
-  std::string canonical() const;
-};
 
 /// What the files hold; empty where none was given.
 struct Companions {

@@ -1,4 +1,4 @@
-// --memory: a raster larger than memory.
+// Rasters larger than memory.
 #pragma once
 
 #include <cstdint>
@@ -6,29 +6,14 @@
 #include <string>
 
 #include "scarp/io.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "session/options/memory_options.h"
 
 namespace scarp::cli {
-
-struct MemoryArguments {
-  Given memory;
-
-  void add_to(CLI::App& command);
-  /// Bytes that the process may take; nothing if not given.
-  Result<std::optional<std::uint64_t>> parse() const;
-};
 
 /// Bytes that the process may take, 0 for any, and those that it has taken.
 struct MemoryShare {
   std::uint64_t limit = 0, taken = 0;
 };
-
-/// "1G", "1.5 GiB", "800M" as bytes: k, M, G, T are powers of 1000, Ki, Mi, Gi, Ti of 1024; a B may follow.
-Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text);
 
 /// What GDAL loads to read a file of lines or polygons.
 inline constexpr std::uint64_t kVectorBytes = 6'000'000;

@@ -10,7 +10,6 @@
 
 #include "scarp/io.h"
 #include "scarp/lines.h"
-#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/points.h"
-#include "session/options/values.h"
+#include "session/options/raster_options.h"
 
 namespace scarp::cli {
 

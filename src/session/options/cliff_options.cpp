@@ -2,13 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
-#include "session/inputs/memory.h"
-#include "session/reports/report.h"
-#include "session/reports/simplify_run.h"
 #include "session/table/option_table.h"
-#include "session/text/text.h"
 
 namespace scarp::cli {
 
@@ -27,29 +21,6 @@ Result<void> CliffArguments::check(bool has_error) const {
 std::optional<WallGoals> CliffArguments::goals() const {
   if (!height) return std::nullopt;
   return WallGoals{*parse_non_negative("--cliff", *height)};
-}
-
-Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs) {
-  if (!cliffs) return nullptr;
-  return Json{{"height", *parse_non_negative("--cliff", *given.height)},
-              {"walls", cliffs->wall_count},
-              {"lines", cliffs->lines.size()},
-              {"line_vertices", cliffs->vertices}};
-}
-
-std::string cliffs_line(const std::optional<Cliffs>& cliffs) {
-  if (!cliffs) return "";
-  return summary_line("cliffs",
-                      fmt::format("{} ({})", format_plural(cliffs->wall_count, "wall"),
-                                  cliffs->vertices == 1 ? "1 vertex" : format_count(cliffs->vertices) + " vertices"));
-}
-
-void warn_of_missing_walls(const CliffArguments& given, const std::optional<Cliffs>& cliffs,
-                           std::vector<std::string>& warnings) {
-  if (!cliffs || cliffs->wall_count > 0) return;
-  warnings.push_back(fmt::format(
-      "--cliff {}: no wall was found; give the least height of one, the difference of two neighbouring samples",
-      *given.height));
 }
 
 }  // namespace scarp::cli

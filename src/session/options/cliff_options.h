@@ -6,7 +6,6 @@
 
 #include "scarp/features.h"
 #include "session/options/values.h"
-#include "session/text/json.h"
 
 namespace CLI {
 class App;
@@ -24,13 +23,5 @@ struct CliffArguments {
   /// Nothing without --cliff.
   std::optional<WallGoals> goals() const;
 };
-
-/// The "cliffs" object of a report; null without --cliff.
-Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs);
-/// Of the summary; empty without --cliff.
-std::string cliffs_line(const std::optional<Cliffs>& cliffs);
-/// Warns where walls were asked for and none was found.
-void warn_of_missing_walls(const CliffArguments& given, const std::optional<Cliffs>& cliffs,
-                           std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

@@ -75,7 +75,8 @@ Result<ImageFormat> parse_image_format(const Given& name) {
   if (named == "jpeg") return ImageFormat::kJpeg;
   if (named == "png") return ImageFormat::kPng;
   if (named == "webp") return ImageFormat::kWebp;
-  return fail(ErrorKind::kUsage, fmt::format("--drape-format {} is unknown: choose jpeg, png or webp", shell_word(named)));
+  return fail(ErrorKind::kUsage,
+              fmt::format("--drape-format {} is unknown: choose jpeg, png or webp", shell_word(named)));
 }
 
 const char* mime_type_of(ImageFormat format) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "session/table/option_table.h"
-#include "session/text/text.h"
+#include "session/text/paths.h"
 
 namespace scarp::cli {
 

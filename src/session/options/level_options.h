@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "scarp/levels.h"
 #include "session/options/output_kind.h"

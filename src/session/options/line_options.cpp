@@ -2,14 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "scarp/commands.h"
-#include "scarp/raster_lines.h"
-#include "session/reports/report.h"
-#include "session/reports/simplify_run.h"
 #include "session/table/option_table.h"
 #include "session/text/text.h"
 
@@ -21,21 +13,7 @@ constexpr Choice<LineConflict> kConflicts[] = {{"error", LineConflict::kError},
                                                {"mean", LineConflict::kMean},
                                                {"highest", LineConflict::kHighest}};
 
-double largest_edit(const std::vector<SampleEdit>& edits) {
-  double largest = 0;
-  for (const SampleEdit& edit : edits) largest = std::max(largest, std::abs(double{edit.after} - double{edit.before}));
-  return largest;
-}
-
 }  // namespace
-
-Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
-                                     std::vector<std::string>& warnings) {
-  auto set = read_lines(files, options);
-  if (!set) return tl::unexpected(std::move(set.error()));
-  warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
-  return std::move(set->lines);
-}
 
 void LineArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kBreaklines, breaklines);
@@ -88,15 +66,9 @@ Result<void> LineArguments::check() const {
   return rule ? Result<void>() : tl::unexpected(rule.error());
 }
 
-Result<void> check_frame_of_lines(const char* lines, const Frame& frame, const std::string& crs_option,
-                                  const std::string& input) {
-  if (lines == nullptr || frame.is_affine()) return {};
-  const std::string crs = shell_word(crs_option);
-  return fail(
-      ErrorKind::kUsage,
-      fmt::format("{} cannot be combined with --crs {}: lines are inserted where the grid is regular, and in that "
-                  "CRS it is bent. Leave --crs out, or bend the raster first ({})",
-                  lines, crs, warp_command("-t_srs " + crs, input)));
+std::optional<LineConflict> LineArguments::conflict_rule() const {
+  if (!conflict) return std::nullopt;
+  return *choose("--line-conflict", *conflict, kConflicts);
 }
 
 std::string LineArguments::canonical() const {
@@ -108,76 +80,6 @@ std::string LineArguments::canonical() const {
   text += canonical_option("--water-percentile", percentile) + canonical_option("--detect-flats", flats);
   for (const std::string& file : rivers) text += " --rivers " + shell_word(base_name(file));
   return text;
-}
-
-Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, const ProgressCallback& progress,
-                                            std::vector<std::string>& warnings) const {
-  LineConstraints constraints;
-  constraints.affine = map_affine(raster, rows);
-  if (conflict) constraints.conflict = *choose("--line-conflict", *conflict, kConflicts);
-  ReadLinesOptions options;
-  options.crs = raster.crs;
-  options.z_field = z_field.value_or("");
-  options.ignore_z = are_soft;
-  options.progress = progress;
-  auto set = read_lines(breaklines, options, raster);
-  if (!set) return tl::unexpected(std::move(set.error()));
-  warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
-  constraints.lines = std::move(set->lines);
-  // Their heights are the file's, as the raster's are.
-  for (Line& each : constraints.lines) {
-    for (auto& point : each.points) point[2] = raster.z_scale * point[2] + raster.z_offset;
-  }
-  return constraints;
-}
-
-Json describe_lines(const LineArguments& given, const Simplified& simplified) {
-  if (given.breaklines.empty()) return nullptr;
-  const FarthestLine& farthest = simplified.farthest_line;
-  return Json{{"files", given.breaklines},
-              {"lines", simplified.features.given_lines()},
-              {"laid", simplified.lines_inserted},
-              {"edited_samples", simplified.edits.size()},
-              {"largest_edit", largest_edit(simplified.edits)},
-              {"farthest", farthest.distance},
-              {"farthest_line", farthest.name},
-              {"farthest_is_at_zero", farthest.is_at_zero}};
-}
-
-void warn_of_far_lines(const Simplified& simplified, double error, std::vector<std::string>& warnings) {
-  constexpr double kMostErrors = 10;
-  const FarthestLine& line = simplified.farthest_line;
-  // Zeros seldom are heights, so that they need not lie far from the raster.
-  if (line.distance > (line.is_at_zero ? 1 : kMostErrors) * error) {
-    warnings.push_back(fmt::format(
-        "--breaklines: {} lies up to {} from the raster{}: {}--soft-breaklines takes the "
-        "heights of lines from the raster",
-        line.name, format_number(line.distance), line.is_at_zero ? ", and all its heights are 0" : "",
-        line.is_at_zero ? "--breakline-z names an attribute with heights, and " : "if its heights are wrong, "));
-  }
-  const std::vector<River>& rivers = simplified.features.rivers;
-  const auto deepest = std::max_element(rivers.begin(), rivers.end(),
-                                        [](const River& a, const River& b) { return a.deepest_cut < b.deepest_cut; });
-  if (deepest != rivers.end() && deepest->deepest_cut > kMostErrors * error) {
-    warnings.push_back(
-        fmt::format("--rivers: {} runs up to {} below the raster, for it crosses higher ground: draw it "
-                    "along the valley, or give its file to --breaklines, with --soft-breaklines, which "
-                    "cuts nothing",
-                    deepest->name, format_number(deepest->deepest_cut)));
-  }
-}
-
-std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits) {
-  if (lines == 0) return "";
-  std::string text = format_plural(lines, "line");
-  if (inserted != lines) {
-    text = fmt::format("{} of {}, the {} beside the raster", inserted == 0 ? "none" : format_count(inserted), text,
-                       lines - inserted == 1 ? "other lies" : "others lie");
-  }
-  if (!edits.empty())
-    text += fmt::format("; {} given their heights (changed by at most {}); errors are relative to the changed raster",
-                        format_plural(edits.size(), "sample"), format_number(largest_edit(edits)));
-  return summary_line("breaklines", text);
 }
 
 }  // namespace scarp::cli

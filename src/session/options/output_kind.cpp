@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "scarp/picture.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -136,15 +137,6 @@ DefaultFrame default_frame(const std::string& mesh_path) {
   return format ? row_of(*format).frame : DefaultFrame::kMetric;
 }
 
-Result<void> check_unit_of_frame(const OutputFormat& format, double metres) {
-  if (format.heights_in() != HeightsIn::kMetres || metres == 0 || metres == 1) return {};
-  return fail(
-      ErrorKind::kUsage,
-      fmt::format("{} is in metres by its specification, and x and y in the CRS of --crs are in units of {:.10g} m: "
-                  "leave --crs out, for metres around the raster's centre, or choose a CRS in metres",
-                  format.title(), metres));
-}
-
 bool OutputFormat::has_projection_beside() const {
   return is_mesh() && (mesh == MeshFormat::k2dm || mesh == MeshFormat::kDxf || mesh == MeshFormat::kTin ||
                        mesh == MeshFormat::kLandXml);
@@ -192,33 +184,6 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
       fmt::format("cannot tell the format from {}: use .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, "
                   ".gpkg, .3mf, .svg, .eps, .tif or .pgm, or --of FORMAT{}",
                   shell_word(output), extension == ".gltf" ? "; glTF is written as .glb" : ""));
-}
-
-Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {
-  if (!format.is_landxml() && !format.is_gpkg()) return {};  // all others hold any CRS, or none
-  Mesh sample;
-  sample.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  sample.triangles = {0, 1, 2};
-  if (!crs.empty()) sample.metadata["crs"] = crs;
-  if (!unit.empty()) sample.metadata["unit"] = unit;
-  auto bytes = encode_mesh(sample, format.mesh);
-  if (!bytes) return fail(ErrorKind::kUsage, std::move(bytes.error().message));
-  return {};
-}
-
-Result<void> close_with_base(Mesh& mesh, double base) {
-  if (add_base(mesh, base)) return {};
-  double lowest = mesh.vertex(0)[2];
-  for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
-  return fail(ErrorKind::kUsage,
-              fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", base, lowest));
-}
-
-Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb,
-                                            bool doubles) {
-  if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
-  if (format.kind == OutputKind::kEps) return encode_eps(mesh);
-  return format.is_glb() ? encode_glb(mesh, glb) : encode_mesh(mesh, format.mesh, doubles);
 }
 
 }  // namespace scarp::cli

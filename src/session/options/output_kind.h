@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "scarp/glb.h"
 #include "scarp/io.h"
@@ -59,22 +58,9 @@ Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_pr
 /// By --of if it was given, else by the output's extension.
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
 
-/// kUsage if the format cannot hold a mesh in the CRS, with heights in `unit` (both may be empty): what writing would
-/// find out, before the work is done.
-Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit);
-
 /// In which unit heights are in a mesh file, by its name.
 HeightsIn heights_in(const std::string& mesh_path);
 /// The frame of a mesh file whose frame nobody chose, by its name.
 DefaultFrame default_frame(const std::string& mesh_path);
-/// kUsage if the format is in metres by its specification, and x and y are in units of another length (0: not known).
-Result<void> check_unit_of_frame(const OutputFormat& format, double metres);
-
-/// Makes a solid of the mesh; kUsage if --base is not below its lowest vertex.
-Result<void> close_with_base(Mesh& mesh, double base);
-
-/// The file's bytes. REQUIRES: not a kDem.
-Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb = {},
-                                            bool doubles = false);
 
 }  // namespace scarp::cli

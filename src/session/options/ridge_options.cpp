@@ -2,13 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
-#include "session/inputs/memory.h"
-#include "session/reports/report.h"
-#include "session/reports/simplify_run.h"
 #include "session/table/option_table.h"
-#include "session/text/text.h"
 
 namespace scarp::cli {
 
@@ -35,31 +29,6 @@ std::string RidgeArguments::canonical() const {
 std::optional<RidgeGoals> RidgeArguments::goals() const {
   if (!height) return std::nullopt;
   return RidgeGoals{*parse_non_negative("--ridges", *height), are_kept};
-}
-
-Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges) {
-  if (!ridges) return nullptr;
-  return Json{{"height", *parse_non_negative("--ridges", *given.height)},
-              {"kept", given.are_kept},
-              {"ridges", ridges->ridges.size()},
-              {"valleys", ridges->valleys.size()},
-              {"line_vertices", ridges->vertices}};
-}
-
-std::string ridges_line(const std::optional<Ridges>& ridges) {
-  if (!ridges) return "";
-  return summary_line("ridges",
-                      fmt::format("{}, {}, {} vertices in all", format_plural(ridges->ridges.size(), "ridge"),
-                                  format_plural(ridges->valleys.size(), "valley"), format_count(ridges->vertices)));
-}
-
-void warn_of_missing_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges,
-                            std::vector<std::string>& warnings) {
-  if (!ridges || !ridges->ridges.empty() || !ridges->valleys.empty()) return;
-  warnings.push_back(
-      fmt::format("--ridges {}: no ridge or valley was found; give how far the land falls or rises from one on both "
-                  "sides, at least",
-                  *given.height));
 }
 
 }  // namespace scarp::cli

@@ -6,7 +6,6 @@
 
 #include "scarp/features.h"
 #include "session/options/values.h"
-#include "session/text/json.h"
 
 namespace CLI {
 class App;
@@ -25,13 +24,5 @@ struct RidgeArguments {
   /// Nothing without --ridges.
   std::optional<RidgeGoals> goals() const;
 };
-
-/// The "ridges" object of a report; null without --ridges.
-Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges);
-/// Of the summary; empty without --ridges.
-std::string ridges_line(const std::optional<Ridges>& ridges);
-/// Warns where ridges were asked for and none was found.
-void warn_of_missing_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges,
-                            std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

@@ -2,14 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <tuple>
-#include <utility>
 
-#include "session/reports/report.h"
-#include "session/reports/simplify_run.h"
 #include "session/table/option_table.h"
 #include "session/text/text.h"
 
@@ -22,31 +17,6 @@ Result<std::optional<double>> parse_above_zero(const char* option, const Given& 
   if (!value) return tl::unexpected(value.error());
   if (!(*value > 0)) return fail(ErrorKind::kUsage, fmt::format("{} {} is not above 0", option, shell_word(*text)));
   return *value;
-}
-
-/// Those counts that are not 0: "3 in sharp corners, 2 elsewhere".
-std::string list_counts(std::initializer_list<std::pair<std::uint64_t, const char*>> counts) {
-  std::string list;
-  for (const auto& [count, where] : counts) {
-    if (count > 0) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", format_count(count), where);
-  }
-  return list;
-}
-
-/// Why angles are too small.
-std::string describe_below(const ShapeReport& shape) {
-  return list_counts({{shape.forced, "in sharp corners of lines or outline"},
-                      {shape.below_beside_lines, "where lines or outline leave no room"},
-                      {shape.below - shape.forced - shape.below_beside_lines, "where vertices would be too close"}});
-}
-
-/// Why edges are too short.
-std::string describe_shorter(const ShapeGoals& goals, const ShapeReport& shape) {
-  const char* elsewhere = goals.min_angle > 0 ? "for the max error or angles" : "for the max error";
-  if (goals.grade)
-    elsewhere = goals.min_angle > 0 ? "for the max error, grade or angles" : "for the max error or grade";
-  return list_counts(
-      {{shape.shorter_beside_lines, "at lines or outline"}, {shape.shorter - shape.shorter_beside_lines, elsewhere}});
 }
 
 }  // namespace
@@ -97,55 +67,6 @@ const char* ShapeArguments::find_goal() const {
 std::string ShapeArguments::canonical() const {
   return canonical_option("--min-angle", min_angle) + canonical_option("--max-edge", max_edge) +
          canonical_option("--grade", grade) + canonical_option("--min-edge", min_edge);
-}
-
-Json describe_shape(const ShapeGoals& goals, const Simplified& simplified) {
-  if (!simplified.shape) return nullptr;
-  const ShapeReport& shape = *simplified.shape;
-  return Json{{"asked_angle", goals.min_angle},
-              {"asked_edge", or_null(goals.max_edge)},
-              {"asked_grade", or_null(goals.grade)},
-              {"asked_min_edge", or_null(goals.min_edge)},
-              {"min_angle", shape.min_angle},
-              {"below", shape.below},
-              {"forced", shape.forced},
-              {"below_beside_lines", shape.below_beside_lines},
-              {"shorter", shape.shorter},
-              {"shorter_beside_lines", shape.shorter_beside_lines},
-              {"shortest_edge", shape.shortest_edge},
-              {"longest_edge", shape.longest_edge},
-              {"histogram", shape.histogram}};
-}
-
-std::string shape_line(const ShapeGoals& goals, const Simplified& simplified) {
-  if (!simplified.shape) return "";
-  const ShapeReport& shape = *simplified.shape;
-  std::string text = fmt::format("smallest angle {} degrees", format_number(shape.min_angle));
-  if (goals.min_angle > 0) text += fmt::format(" (asked {})", format_number(goals.min_angle));
-  if (shape.below > 0)
-    text += fmt::format(", {} below ({})", format_plural(shape.below, "triangle"), describe_below(shape));
-  text += fmt::format("; edges {} to {}", format_number(shape.shortest_edge), format_number(shape.longest_edge));
-  if (shape.shorter > 0)
-    text += fmt::format(", {} shorter than {} ({})", format_count(shape.shorter), format_number(*goals.min_edge),
-                        describe_shorter(goals, shape));
-  return summary_line("shape", text);
-}
-
-void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::vector<std::string>& warnings) {
-  if (!simplified.shape) return;
-  const ShapeReport& shape = *simplified.shape;
-  if (shape.below > 0)
-    warnings.push_back(fmt::format(
-        "--min-angle {}: smaller angles are left in {}, down to {} degrees ({}); lines, the outline and the "
-        "max error come first, so simpler lines or a larger max error leave fewer",
-        format_number(goals.min_angle), format_plural(shape.below, "triangle"), format_number(shape.min_angle),
-        describe_below(shape)));
-  if (shape.shorter > 0)
-    warnings.push_back(fmt::format(
-        "--min-edge {}: {} left shorter, down to {} ({}); all other goals come first, so simpler lines or a "
-        "larger max error leave fewer",
-        format_number(*goals.min_edge), format_plural(shape.shorter, "edge"), format_number(shape.shortest_edge),
-        describe_shorter(goals, shape)));
 }
 
 }  // namespace scarp::cli

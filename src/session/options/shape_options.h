@@ -2,12 +2,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "scarp/shape.h"
 #include "scarp/simplify.h"
 #include "session/options/values.h"
-#include "session/text/json.h"
 
 namespace CLI {
 class App;
@@ -25,12 +23,5 @@ struct ShapeArguments {
   /// The options for the canonical command.
   std::string canonical() const;
 };
-
-/// The "shape" object of a report; null where nothing was asked.
-Json describe_shape(const ShapeGoals& goals, const Simplified& simplified);
-/// Of the summary; empty where nothing was asked.
-std::string shape_line(const ShapeGoals& goals, const Simplified& simplified);
-/// Of the goals that yielded to others, in numbers.
-void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

@@ -1,5 +1,9 @@
-// The options of `scarp simplify`.
-#include "session/plan/simplify_plan.h"
+#include "session/options/simplify_options.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "session/table/option_table.h"
 
 namespace scarp::cli {
@@ -44,6 +48,31 @@ void SimplifyArguments::add_to(CLI::App& command) {
   add_flag(command, OptionId::kQuiet, quiet);
   add_flag(command, OptionId::kTiming, timing);
   add_flag(command, OptionId::kJsonProgress, json_progress);
+}
+
+std::string SimplifyArguments::canonical() const {
+  std::string command = "scarp simplify";
+  for (const std::string& path : raster.paths) command += " " + shell_word(base_name(path));
+  command += " OUTPUT" + canonical_option("--max-error", max_error) +
+             canonical_option("--max-triangles", max_triangles) + canonical_option("--max-points", max_points) +
+             raster.canonical();
+  const std::pair<const char*, const Given*> options[] = {
+      {"--nodata-policy", &nodata_policy},
+      {"--fill-distance", &fill_distance},
+      {"--background", &background},
+      {"--outline-tolerance", &outline_tolerance},
+      {"--base", &base},
+      {"--up", &up},
+  };
+  for (const auto& [name, value] : options) {
+    command += canonical_option(name, *value);
+  }
+  command += solid.canonical() + levels.canonical();
+  command += companions.canonical() + lines.canonical() + cliff.canonical() + ridges.canonical() + cut.canonical() +
+             zones.canonical() + shape.canonical() + channels.canonical() + strategy.canonical();
+  if (strategy.asks_for_greedy()) command += " --order greedy";
+  return command + (normals ? " --normals" : "") + (uvs ? " --uvs" : "") + (doubles ? " --double" : "") +
+         (compress ? " --compress" : "") + images.canonical();
 }
 
 }  // namespace scarp::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "session/table/option_table.h"
+#include "session/text/paths.h"
 
 namespace scarp::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <string_view>
 
-#include "session/reports/report.h"
+#include "session/options/strategy_words.h"
 #include "session/table/option_table.h"
 #include "session/text/text.h"
 
@@ -20,21 +20,7 @@ constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Featu
                                                      {"distance", Importance::Feature::kDistance}};
 constexpr Choice<Effort> kEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}, {"max", Effort::kMax}};
-constexpr Choice<WhyFast> kWhyFast[] = {{"order", WhyFast::kOrder},
-                                        {"strategy", WhyFast::kStrategy},
-                                        {"memory", WhyFast::kMemory},
-                                        {"budget", WhyFast::kBudget}};
-constexpr Choice<Vertices> kVertexWords[] = {{"samples", Vertices::kSamples}, {"free", Vertices::kFree}};
-constexpr Choice<Objective> kObjectives[] = {{"max", Objective::kMax}, {"rms", Objective::kRms}};
 constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
-constexpr Choice<Algorithm> kAlgorithms[] = {
-    {"brute", Algorithm::kBruteForce}, {"local", Algorithm::kLocal}, {"heap", Algorithm::kHeap}};
-constexpr Choice<bool> kEdgeWords[] = {{"delaunay", false}, {"data", true}};
-constexpr Choice<EdgeScore> kScores[] = {{"sum", EdgeScore::kSum},
-                                         {"max", EdgeScore::kMax},
-                                         {"sqerr", EdgeScore::kSquares},
-                                         {"abn", EdgeScore::kNormals},
-                                         {"tight", EdgeScore::kTight}};
 
 /// Cuts `prefix` and `suffix` off the text; false, without change, if it does not have both.
 bool strip(std::string_view& text, std::string_view prefix, std::string_view suffix) {
@@ -258,43 +244,5 @@ std::string StrategyArguments::canonical_refinement() const {
 
 const char* effort_name(Effort effort) { return name_of(effort, kEfforts); }
 const char* order_name(Order order) { return name_of(order, kOrders); }
-
-Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy, const Simplified& simplified) {
-  Json json;
-  json["importance"] = importance_name(strategy.importance);
-  json["one_pass"] = strategy.importance.one_pass;
-  json["effort"] = effort_name(simplified.effort);
-  json["why_fast"] =
-      simplified.why_fast == WhyFast::kNone ? Json(nullptr) : Json(name_of(simplified.why_fast, kWhyFast));
-  json["vertices"] = name_of(simplified.vertices, kVertexWords);
-  json["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
-  json["cut_short"] = simplified.is_cut_short;
-  json["objective"] = name_of(options.goals.objective, kObjectives);
-  json["order"] = order_name(simplified.order);
-  json["algorithm"] =
-      simplified.order == Order::kGreedy ? Json(name_of(strategy.algorithm, kAlgorithms)) : Json(nullptr);
-  switch (strategy.batch.rule) {
-    case Batch::Rule::kSequential:
-      json["batch"] = nullptr;
-      break;
-    case Batch::Rule::kConstant:
-      json["batch"] = "const";
-      break;
-    case Batch::Rule::kFraction:
-      json["batch"] = fmt::format("frac:{}", strategy.batch.fraction);
-      break;
-    case Batch::Rule::kIndependent:
-      json["batch"] = "independent";
-      break;
-  }
-  const EdgeRule& edges = strategy.edges;
-  json["edges"] = name_of(edges.data_dependent, kEdgeWords);
-  if (!edges.data_dependent) return json;
-  json["edge_score"] = name_of(edges.score, kScores);
-  const double by_default = edges.score == EdgeScore::kTight ? 0.1 : 0.5;
-  json["shape_threshold"] = edges.shape_threshold < 0 ? by_default : edges.shape_threshold;
-  json["supersample"] = edges.supersample;
-  return json;
-}
 
 }  // namespace scarp::cli

@@ -5,7 +5,6 @@
 
 #include "scarp/paper.h"
 #include "session/options/values.h"
-#include "session/text/json.h"
 
 namespace CLI {
 class App;
@@ -39,8 +38,5 @@ std::string importance_name(const Importance& importance);
 /// As the options name them.
 const char* effort_name(Effort effort);
 const char* order_name(Order order);
-
-/// The "strategy" object of a report, without masks, channels and scripts.
-Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy, const Simplified& simplified);
 
 }  // namespace scarp::cli

@@ -5,8 +5,9 @@
 #include <string>
 
 #include "scarp/conflicts.h"
+#include "session/options/simplify_options.h"
+#include "session/options/tile_options.h"
 #include "session/plan/simplify_plan.h"
-#include "session/plan/tile_plan.h"
 
 namespace scarp::cli {
 

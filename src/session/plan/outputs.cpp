@@ -1,10 +1,10 @@
-// Checks of output files before any work is done: nobody should wait an hour to learn that a folder does not exist.
+#include "session/plan/outputs.h"
+
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -12,8 +12,8 @@
 #include <map>
 #include <system_error>
 
-#include "session/options/values.h"
-#include "session/text/text.h"
+#include "scarp/io.h"
+#include "session/text/paths.h"
 
 namespace scarp::cli {
 namespace {
@@ -143,18 +143,6 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
   return {};
 }
 
-std::string lower_extension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
-bool names_tile_set(const std::string& path) {
-  std::error_code error;
-  const std::string ending = lower_extension(path);
-  return ending == ".pmtiles" || ending == ".mbtiles" || ending == ".3tz" || fs::is_directory(path, error);
-}
-
 Result<void> check_png_name(const PlannedOutput& output) {
   if (names_device(output.path) || lower_extension(output.path) == ".png") return {};
   return fail(ErrorKind::kUsage,
@@ -167,7 +155,5 @@ Result<void> check_tiff_name(const PlannedOutput& output) {
   return fail(ErrorKind::kUsage,
               fmt::format("{} {} does not end in .tif: it is written as GeoTIFF", output.option, output.path));
 }
-
-bool is_stdout(const std::string& path) { return path == "-" || path == "/dev/stdout"; }
 
 }  // namespace scarp::cli

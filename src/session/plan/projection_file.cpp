@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scarp/io.h"
+#include "session/text/paths.h"
 
 namespace scarp::cli {
 namespace {
@@ -57,7 +58,8 @@ Result<std::optional<ProjectionFile>> plan_file(const SimplifyPlan& plan, const 
   std::error_code error;
   const bool is_there = fs::exists(file.path, error);
   if (is_there && text_of(file.path) == file.text) return std::nullopt;
-  if (auto checked = check_outputs({{"the .prj file of OUTPUT,", file.path}}, plan.files_read, plan.overwrite); !checked)
+  if (auto checked = check_outputs({{"the .prj file of OUTPUT,", file.path}}, plan.files_read, plan.overwrite);
+      !checked)
     return tl::unexpected(checked.error());
   const std::string owner = is_there ? find_owner(plan, file.path) : "";
   if (!owner.empty()) {

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "session/plan/conflicts.h"
-#include "session/reports/view_page.h"
+#include "session/plan/page_template.h"
+#include "session/text/paths.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -433,32 +434,6 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-std::string canonical_command(const SimplifyArguments& given) {
-  std::string command = "scarp simplify";
-  for (const std::string& path : given.raster.paths) command += " " + shell_word(base_name(path));
-  command += " OUTPUT" + canonical_option("--max-error", given.max_error) +
-             canonical_option("--max-triangles", given.max_triangles) +
-             canonical_option("--max-points", given.max_points) + given.raster.canonical();
-  const std::pair<const char*, const Given*> options[] = {
-      {"--nodata-policy", &given.nodata_policy},
-      {"--fill-distance", &given.fill_distance},
-      {"--background", &given.background},
-      {"--outline-tolerance", &given.outline_tolerance},
-      {"--base", &given.base},
-      {"--up", &given.up},
-  };
-  for (const auto& [name, value] : options) {
-    command += canonical_option(name, *value);
-  }
-  command += given.solid.canonical() + given.levels.canonical();
-  command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() +
-             given.ridges.canonical() + given.cut.canonical() + given.zones.canonical() + given.shape.canonical() +
-             given.channels.canonical() + given.strategy.canonical();
-  if (given.strategy.asks_for_greedy()) command += " --order greedy";
-  return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "") +
-         (given.doubles ? " --double" : "") + (given.compress ? " --compress" : "") + given.images.canonical();
-}
-
 }  // namespace
 
 Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<std::string> files_read) {
@@ -472,7 +447,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<s
   plan.html = given.html;
   plan.report = given.report;
   plan.overwrite = given.overwrite;
-  plan.canonical_command = canonical_command(given);
+  plan.canonical_command = given.canonical();
 
   const Result<ReadOptions> read = given.raster.parse();
   if (!read) return tl::unexpected(read.error());

@@ -7,55 +7,22 @@
 #include <vector>
 
 #include "scarp/simplify.h"
-#include "session/inputs/channels.h"
-#include "session/inputs/companions.h"
-#include "session/inputs/memory.h"
+#include "session/options/channel_options.h"
 #include "session/options/cliff_options.h"
+#include "session/options/companion_options.h"
 #include "session/options/cutline_options.h"
+#include "session/options/error_goal.h"
 #include "session/options/image_options.h"
-#include "session/options/level_options.h"
 #include "session/options/line_options.h"
 #include "session/options/output_kind.h"
 #include "session/options/ridge_options.h"
-#include "session/options/shape_options.h"
-#include "session/options/solid_options.h"
-#include "session/options/strategy_options.h"
-#include "session/options/values.h"
+#include "session/options/simplify_options.h"
 #include "session/options/zone_options.h"
-
-namespace CLI {
-class App;
-}
+#include "session/plan/outputs.h"
 
 namespace scarp::cli {
 
 enum class NodataPolicy { kHole, kFill, kBackground };
-
-/// The options as they were given.
-struct SimplifyArguments {
-  RasterArguments raster;
-  std::string output;
-  Given max_error, max_triangles, max_points;
-  Given nodata_policy, fill_distance, background, outline_tolerance;
-  Given format, up, base, preview, render, error_raster, html, report, threads;
-  LevelArguments levels;
-  StrategyArguments strategy;
-  CompanionArguments companions;
-  ChannelArguments channels;
-  LineArguments lines;
-  CliffArguments cliff;
-  RidgeArguments ridges;
-  CutlineArguments cut;
-  ZoneArguments zones;
-  ShapeArguments shape;
-  MemoryArguments memory;
-  SolidArguments solid;
-  ImageArguments images;
-  bool normals = false, uvs = false, compress = false, doubles = false;
-  bool overwrite = false, quiet = false, timing = false, json_progress = false;
-
-  void add_to(CLI::App& command);
-};
 
 struct SimplifyPlan {
   std::string input, output;
@@ -92,9 +59,7 @@ struct SimplifyPlan {
   std::optional<std::uint64_t> memory;       ///< what the process may take
   std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
   std::vector<std::string> warnings;
-  /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
-  /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).
-  std::string canonical_command;
+  std::string canonical_command;  ///< see SimplifyArguments::canonical()
 
   /// Of a print in print tiles; else OUTPUT holds them all.
   bool has_file_per_level() const { return levels && !levels_in_one; }

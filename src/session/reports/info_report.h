@@ -10,6 +10,7 @@
 #include "scarp/points.h"
 #include "scarp/suggest.h"
 #include "session/reports/report.h"
+#include "session/text/json.h"
 
 namespace scarp::cli {
 

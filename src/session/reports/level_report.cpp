@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <utility>
-
 #include "session/options/level_options.h"
 #include "session/reports/report.h"
 #include "session/text/text.h"
@@ -29,16 +26,6 @@ std::vector<LevelNumbers> list_levels(const Outcome& outcome) {
 }
 
 }  // namespace
-
-Result<Simplified> simplify_as_levels(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
-  Result<std::vector<Simplified>> levels = simplify_levels(outcome.view(), options, *plan.levels);
-  if (!levels) return tl::unexpected(std::move(levels.error()));
-  for (std::size_t k = 1; k < levels->size(); ++k) {
-    const double times = std::pow(plan.levels->ratio, static_cast<double>(k));
-    outcome.coarser.push_back({times * options.goals.max_error.value_or(0), std::move((*levels)[k])});
-  }
-  return std::move(levels->front());
-}
 
 Json describe_levels(const SimplifyPlan& plan, const Outcome& outcome) {
   if (!plan.levels) return nullptr;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scarp/version.h"
+#include "session/reports/feature_report.h"
 #include "session/reports/place.h"
 #include "session/reports/report.h"
 #include "session/reports/verdict.h"

@@ -10,8 +10,9 @@
 #include "scarp/mesh.h"
 #include "session/inputs/channels.h"
 #include "session/inputs/companions.h"
+#include "session/options/channel_options.h"
 #include "session/options/cutline_options.h"
-#include "session/options/values.h"
+#include "session/options/error_goal.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {

@@ -3,22 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
-#include <utility>
 
 #include "scarp/version.h"
+#include "session/options/points_options.h"
 #include "session/reports/report.h"
 #include "session/reports/verdict.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {
-
-constexpr std::pair<const char*, DuplicatePolicy> kPolicies[] = {{"first", DuplicatePolicy::kFirst},
-                                                                 {"last", DuplicatePolicy::kLast},
-                                                                 {"highest", DuplicatePolicy::kHighest},
-                                                                 {"lowest", DuplicatePolicy::kLowest},
-                                                                 {"mean", DuplicatePolicy::kMean}};
 
 std::string describe_place(const PointSet& points, const Measurement& measured) {
   if (measured.max_error_at[0] < 0) return "no point";
@@ -28,18 +21,10 @@ std::string describe_place(const PointSet& points, const Measurement& measured) 
 
 Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
   const HeightRange heights = height_range(points);
-  return Json{{"path", points.path},
-              {"format", points.format},
-              {"points", points.size()},
-              {"lines", points.lines.size()},
-              {"duplicates", duplicates},
-              {"duplicate_policy", policy_name(policy)},
-              {"min", heights.min},
-              {"max", heights.max},
-              {"crs", points.crs},
-              {"unit", points.heights.unit},
-              {"columns", points.columns},
-              {"without_height", points.without_height}};
+  return Json{{"path", points.path},          {"format", points.format},   {"points", points.size()},
+              {"lines", points.lines.size()}, {"duplicates", duplicates},  {"duplicate_policy", policy_name(policy)},
+              {"min", heights.min},           {"max", heights.max},        {"crs", points.crs},
+              {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height}};
 }
 
 Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
@@ -54,35 +39,6 @@ void add_point_measurement(Json& report, const PointSet& points, const Measureme
 }
 
 }  // namespace
-
-const char* policy_name(DuplicatePolicy policy) {
-  for (const auto& [name, value] : kPolicies) {
-    if (value == policy) return name;
-  }
-  return "first";
-}
-
-Result<DuplicatePolicy> parse_policy(const Given& text) {
-  if (!text) return DuplicatePolicy::kFirst;
-  for (const auto& [name, value] : kPolicies) {
-    if (*text == name) return value;
-  }
-  return fail(ErrorKind::kUsage, fmt::format("--duplicates {} is unknown: choose first, last, highest, lowest or mean",
-                                             shell_word(*text)));
-}
-
-Result<std::optional<double>> parse_boundary(const Given& text) {
-  constexpr std::string_view kConcave = "concave:";
-  if (!text || *text == "hull") return std::optional<double>();
-  if (text->starts_with(kConcave)) {
-    const Result<double> length = parse_number("--boundary", text->substr(kConcave.size()));
-    if (length && *length > 0) return *length;
-  }
-  return fail(ErrorKind::kUsage,
-              fmt::format("--boundary {} is neither hull nor concave:LENGTH, such as concave:50: LENGTH is a number "
-                          "above 0 in the unit of x and y",
-                          shell_word(*text)));
-}
 
 std::string without_height(const PointSet& points) {
   return points.without_height == 0

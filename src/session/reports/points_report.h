@@ -8,15 +8,11 @@
 
 #include "scarp/height_field.h"
 #include "scarp/points.h"
+#include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_run.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {
-
-Result<DuplicatePolicy> parse_policy(const Given& text);
-const char* policy_name(DuplicatePolicy policy);
-/// The LENGTH of --boundary concave:LENGTH; nothing for the convex hull.
-Result<std::optional<double>> parse_boundary(const Given& text);
 
 /// " (12 without a height left out)", or nothing.
 std::string without_height(const PointSet& points);

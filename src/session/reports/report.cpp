@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scarp/io.h"
-#include "session/options/values.h"
+#include "session/text/paths.h"
 
 namespace scarp::cli {
 namespace {

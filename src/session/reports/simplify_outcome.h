@@ -11,8 +11,7 @@
 #include "scarp/judge.h"
 #include "session/inputs/channels.h"
 #include "session/inputs/companions.h"
-#include "session/inputs/memory.h"
-#include "session/options/cutline_options.h"
+#include "session/inputs/zones.h"
 #include "session/reports/simplify_run.h"
 
 namespace scarp::cli {
@@ -55,18 +54,5 @@ struct GoalError {
   bool is_rounded = false;  ///< to float32, by which it may exceed the bound
 };
 GoalError find_goal_error(const Outcome& outcome);
-
-/// What the process may take, and has taken beside the mesh; of no limit: zeros.
-MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);
-
-/// Compression, and the images that a GLB file holds.
-Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome);
-/// Closes the mesh into a solid where that was asked for, and writes into it who made it and where it lies.
-Result<void> complete_mesh(const SimplifyPlan& plan, Outcome& outcome);
-
-/// Every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for. The field's samples
-/// are given back before OUTPUT is encoded, unless it is made from them.
-Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
-                                            Outcome& outcome);
 
 }  // namespace scarp::cli

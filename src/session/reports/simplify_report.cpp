@@ -8,10 +8,12 @@
 
 #include "scarp/lines.h"
 #include "scarp/version.h"
-#include "session/inputs/waters.h"
+#include "session/reports/feature_report.h"
 #include "session/reports/level_report.h"
 #include "session/reports/place.h"
 #include "session/reports/report.h"
+#include "session/reports/shape_report.h"
+#include "session/reports/strategy_report.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_outcome.h"
+#include "session/reports/simplify_run.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {

@@ -4,6 +4,7 @@
 
 #include "scarp/version.h"
 #include "session/reports/report.h"
+#include "session/reports/solid_report.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -20,30 +21,6 @@ std::vector<Pass> list_passes(const SimplifyRun& run) {
 }  // namespace
 
 ReadyFile ready(const ProjectionFile& file) { return {file.path, "prj", {file.text.begin(), file.text.end()}}; }
-
-Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {
-  Mesh& mesh = run.simplified.mesh;
-  run.vertices = mesh.vertex_count();
-  run.triangles = mesh.triangle_count();
-  if (!plan.base) return {};
-  if (auto closed = close_with_base(mesh, *plan.base); !closed) return closed;
-  run.solid_vertices = mesh.vertex_count();
-  run.solid_triangles = mesh.triangle_count();
-  return {};
-}
-
-void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
-                const std::string& crs_option, Mesh& mesh) {
-  mesh.metadata["generator"] = fmt::format("Scarp {}", version());
-  mesh.metadata["command"] = command;
-  mesh.metadata["frame"] = frame;
-  if (!crs.empty()) mesh.metadata["crs"] = crs;
-  if (!crs_option.empty()) mesh.metadata["crs_option"] = crs_option;
-}
-
-void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh) {
-  if (plan.is_y_up) turn_y_up(mesh);
-}
 
 Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run) {
   Json goal;
@@ -99,10 +76,6 @@ std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& prin
   return paths;
 }
 
-std::string summary_line(const char* name, const std::string& value) {
-  return fmt::format("  {:<14}{}\n", name, value);
-}
-
 std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& files) {
   std::string text;
   for (const ReadyFile& file : files)
@@ -149,10 +122,9 @@ std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const
   const auto name_end = [&]() -> std::string {
     switch (run.simplified.stop) {
       case StopReason::kMaxError:
-        return run.simplified.is_cut_short
-                   ? fmt::format("Reached the error goal, when {} ended the effort",
-                                 run.was_ended ? "the interrupt" : "the time limit")
-                   : "Reached the error goal";
+        return run.simplified.is_cut_short ? fmt::format("Reached the error goal, when {} ended the effort",
+                                                         run.was_ended ? "the interrupt" : "the time limit")
+                                           : "Reached the error goal";
       case StopReason::kMaxTriangles:
         return fmt::format("Reached the triangle budget of {}",
                            format_count(plan.simplify.goals.max_triangles.value_or(0)));

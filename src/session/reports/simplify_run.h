@@ -11,7 +11,6 @@
 #include "scarp/simplify.h"
 #include "session/plan/projection_file.h"
 #include "session/plan/simplify_plan.h"
-#include "session/reports/solid_report.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {
@@ -40,14 +39,6 @@ struct SimplifyRun {
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
 };
 
-/// Counts the terrain's vertices and triangles, then closes it into a solid where that was asked for.
-Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run);
-/// Writes into the mesh who made it, how, and in which frame; `crs_option` is what measure() needs as --crs, or empty.
-void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
-                const std::string& crs_option, Mesh& mesh);
-/// The mesh as it is written: y up, if that was asked for.
-void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh);
-
 /// The "goal", "passes", "seconds" and "outputs" of the report; "solid", where there is one.
 Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run);
 Json describe_passes(const SimplifyRun& run);
@@ -57,8 +48,7 @@ void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run);
 /// The file of each print tile, or one that holds them all.
 std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print);
 
-/// A line of the summary, and those that every summary has.
-std::string summary_line(const char* name, const std::string& value);
+/// Lines that every summary has.
 std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& files);
 std::string solid_line(const SimplifyPlan& plan, const SimplifyRun& run);
 std::string seconds_line(const SimplifyRun& run);

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "session/reports/report.h"
-#include "session/reports/simplify_run.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -40,23 +38,6 @@ Json describe_facts(const Mesh& mesh, const SolidFacts& facts) {
 }
 
 }  // namespace
-
-Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightField& field,
-                                         const SimplifyOptions& options) {
-  if (plan.is_split() && !field.frame.is_affine()) {
-    return fail(
-        ErrorKind::kUsage,
-        "--split cuts along rows and columns of the raster, which --crs bends here: leave it out, or choose local "
-        "or source");
-  }
-  Result<PrintedTerrain> printed = simplify_for_print(field, plan, options);
-  if (printed) return printed;
-  Error error = std::move(printed.error());
-  if (error.message.starts_with("base=")) error.message.insert(0, "--solid ");
-  constexpr std::string_view kPrintTiles = "print tiles:";
-  if (error.message.starts_with(kPrintTiles)) error.message.replace(0, kPrintTiles.size(), "--split:");
-  return tl::unexpected(std::move(error));
-}
 
 Json describe_print(const PrintOptions& plan, const Print& print, const std::vector<std::string>& paths) {
   Json solid{{"base", print.base},

@@ -1,4 +1,4 @@
-// Making a print of a terrain, and telling of it.
+// A print of a terrain: in the report and in the summary.
 #pragma once
 
 #include <string>
@@ -8,10 +8,6 @@
 #include "session/text/json.h"
 
 namespace scarp::cli {
-
-/// simplify_for_print(), with the names of options in its complaints.
-Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightField& field,
-                                         const SimplifyOptions& options);
 
 /// The "solid" object of the report; `paths` has the file of each print tile, or one for all.
 Json describe_print(const PrintOptions& plan, const Print& print, const std::vector<std::string>& paths);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -12,6 +11,7 @@
 
 #include "scarp/io.h"
 #include "scarp/version.h"
+#include "session/plan/page_template.h"
 #include "session/reports/pictures.h"
 #include "session/text/json.h"
 #include "session/text/text.h"
@@ -22,7 +22,6 @@ namespace {
 /// Above this a page takes longer to open than one waits for it.
 constexpr std::uint64_t kMostSamples = 1 << 24;
 constexpr std::int16_t kVoid = std::numeric_limits<std::int16_t>::min();
-constexpr std::string_view kPlaceOfData = "<!--SCARP-DATA-->";
 
 std::string encode_base64(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -91,21 +90,6 @@ std::optional<std::string> find_obstacle(const OwnedHeightField& field) {
 }
 
 }  // namespace
-
-Result<std::string> read_page_template() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::string path = (program.parent_path().parent_path() / "share" / "scarp" / "viewer.html").string();
-  const auto bytes = read_file(path);
-  if (!bytes) {
-    return fail(ErrorKind::kInput,
-                fmt::format("the viewer's page {} is not there: 'make viewer' in Scarp's sources builds it", path));
-  }
-  std::string page(bytes->begin(), bytes->end());
-  if (page.find(kPlaceOfData) == std::string::npos)
-    return fail(ErrorKind::kInput, fmt::format("{} has no place for a mesh: 'make viewer' builds it anew", path));
-  return page;
-}
 
 Result<ViewPage> make_view_page(const std::string& page_template, const std::string& path,
                                 const std::vector<PageMesh>& meshes, const OwnedHeightField* field) {

@@ -23,10 +23,6 @@ struct ViewPage {
   std::optional<std::string> left_out;
 };
 
-/// What the page is made from, which `make viewer` builds: share/scarp/viewer.html beside the program's folder. Fails
-/// with kInput where it is not there.
-Result<std::string> read_page_template();
-
 /// `path` is what the meshes are of, which the page is named after. `field` may be null. Fails with kInput for samples
 /// that cannot be read.
 Result<ViewPage> make_view_page(const std::string& page_template, const std::string& path,

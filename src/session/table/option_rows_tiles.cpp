@@ -113,8 +113,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "WHERE",
      .choices = "nodes samples",
      .by_default = "nodes",
-     .help = "Where the max error holds. nodes: at the tiles' nodes. samples: at the samples of the raster, too, each at "
-             "its own place; nodes are then twice as dense, --cells 256 unless given.",
+     .help =
+         "Where the max error holds. nodes: at the tiles' nodes. samples: at the samples of the raster, too, each at "
+         "its own place; nodes are then twice as dense, --cells 256 unless given.",
      .brief = "Where the max error holds: at nodes, or at the raster's samples, too"},
     {.id = kMaxTileBytes,
      .name = "--max-tile-bytes",
@@ -135,8 +136,9 @@ constexpr OptionRow kTileRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. Each "
-             "level has them to within its own nodes.",
+     .help =
+         "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. Each "
+         "level has them to within its own nodes.",
      .brief = "Lines that become edges of the tiles' meshes"},
     {.id = kCells,
      .name = "--cells",
@@ -205,8 +207,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "V",
      .unit = "metres above the ellipsoid",
      .by_default = "0",
-     .help = "Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says. With a "
-             "local grid that of nodata alone, by default the raster's lowest.",
+     .help =
+         "Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says. With a "
+         "local grid that of nodata alone, by default the raster's lowest.",
      .brief = "Height of nodata and of the globe around, above the ellipsoid"},
     {.id = kPlan,
      .name = "PLAN",

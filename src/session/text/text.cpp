@@ -76,6 +76,10 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
+std::string summary_line(const char* name, const std::string& value) {
+  return fmt::format("  {:<14}{}\n", name, value);
+}
+
 void print_to_stderr(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);

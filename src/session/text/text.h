@@ -28,6 +28,9 @@ std::string base_name(const std::string& path);
 /// The word as a POSIX shell would need it: quoted where it holds more than letters, digits and plain punctuation.
 std::string shell_word(const std::string& word);
 
+/// A line of a summary.
+std::string summary_line(const char* name, const std::string& value);
+
 /// Writes `text` to stderr. Where that fails there is nobody to tell: it is ignored.
 void print_to_stderr(std::string_view text);
 /// `scarp: SENTENCE` on stderr, in one line whatever the message holds.

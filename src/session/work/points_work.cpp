@@ -2,39 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "session/inputs/mesh_place.h"
-#include "session/reports/points_report.h"
+#include "session/options/error_goal.h"
 #include "session/reports/report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
 #include "session/text/text.h"
+#include "session/work/mesh_output.h"
 
 namespace scarp::cli {
 namespace {
-
-/// Points have no use for many of the command's options; silence would be a lie.
-Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
-  constexpr std::array<std::string_view, 26> kMeant{
-      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",     "--up",
-      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",    "--double",
-      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",   "--compress", "--columns",
-      "--nodata",        "--z-scale",       "--z-offset",    "--z-unit",     "--boundary"};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
-    if (option->count() > 0 && !is_meant)
-      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, and {} holds points: leave it out", name,
-                                                 shell_word(base_name(path))));
-  }
-  return {};
-}
 
 /// `as`: how a raster would be read.
 Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const ReadOptions& as,
@@ -61,13 +41,6 @@ Result<PointSet> read(const std::string& path, const PointsArguments& arguments,
 std::string crs_option(const SimplifyPlan& plan) {
   if (!plan.read.crs.empty()) return plan.read.crs;
   return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
-}
-
-std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
-  return plan.canonical_command + (arguments.points ? " --points" : "") +
-         canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
-         canonical_option("--z-field", arguments.z_field) + canonical_option("--columns", arguments.columns) +
-         canonical_option("--boundary", arguments.boundary);
 }
 
 void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
@@ -117,7 +90,7 @@ void put_back(const PointSet& points, Mesh& mesh) {
 void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
   Mesh& mesh = outcome.simplified.mesh;
   // The judge puts the mesh back and reads the points in their own coordinates.
-  add_origin(canonical_command(plan, arguments), outcome.frame(), outcome.centre ? "" : outcome.points.crs,
+  add_origin(plan.canonical_command + arguments.canonical(), outcome.frame(), outcome.centre ? "" : outcome.points.crs,
              outcome.centre ? "source" : crs_option(plan), mesh);
   if (outcome.centre) {
     const auto [x, y] = *outcome.centre;
@@ -279,10 +252,10 @@ Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& argu
   return {};
 }
 
-Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments& given,
-                          const PointsArguments& arguments, const Runner& runner, JudgedPoints& judged) {
+Result<void> judge_points(const CLI::App& command, const MeasureArguments& given, const Runner& runner,
+                          JudgedPoints& judged) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(command, given.input.path()); !meant) return meant;
+  if (auto meant = refuse_raster_options(command, given.raster.path()); !meant) return meant;
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   std::optional<ErrorGoal> goal;
@@ -300,22 +273,22 @@ Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments&
     const auto entry = judged.mesh.metadata.find(key);
     return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
   };
-  const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
+  const auto policy = parse_policy(remembered(given.points.duplicates, "duplicates"));
   if (!policy) return tl::unexpected(policy.error());
   judged.policy = *policy;
-  const auto boundary_length = parse_boundary(remembered(arguments.boundary, "boundary"));
+  const auto boundary_length = parse_boundary(remembered(given.points.boundary, "boundary"));
   if (!boundary_length) return tl::unexpected(boundary_length.error());
-  PointsArguments asked = arguments;
-  asked.columns = remembered(arguments.columns, "columns");
-  const std::string path = given.input.path();
-  const auto as = remember_reading(given.input, judged.mesh, given.mesh);
+  PointsArguments asked = given.points;
+  asked.columns = remembered(given.points.columns, "columns");
+  const std::string path = given.raster.path();
+  const auto as = remember_reading(given.raster, judged.mesh, given.mesh);
   if (!as) return tl::unexpected(as.error());
   Result<PointSet> points = read(path, asked, *as, runner.progress);
-  if (!points && !given.input.crs && !as->crs.empty())
+  if (!points && !given.raster.crs && !as->crs.empty())
     return tl::unexpected(explain_frame(std::move(points.error()), as->crs, given.mesh, path));
   if (!points) return tl::unexpected(std::move(points.error()));
   judged.points = std::move(*points);
-  if (!given.input.crs) put_back(judged.points, judged.mesh);
+  if (!given.raster.crs) put_back(judged.points, judged.mesh);
   if (goal) {
     if (auto fits = settle_goal("--fail-above", judged.points.heights, *goal, judged.points.warnings); !fits)
       return fits;

@@ -1,9 +1,16 @@
 // simplify and measure of points without their terminal.
 #pragma once
 
-#include "commands/points_command.h"
+#include "session/options/measure_options.h"
+#include "session/options/points_options.h"
+#include "session/options/simplify_options.h"
+#include "session/plan/simplify_plan.h"
 #include "session/reports/points_report.h"
 #include "session/work/runner.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 
@@ -14,7 +21,7 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
 Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome);
 
 /// Reads the mesh and the points, and judges the one by the other.
-Result<void> judge_points(const CLI::App& command, const MeasurePointsArguments& given,
-                          const PointsArguments& arguments, const Runner& runner, JudgedPoints& judged);
+Result<void> judge_points(const CLI::App& command, const MeasureArguments& given, const Runner& runner,
+                          JudgedPoints& judged);
 
 }  // namespace scarp::cli

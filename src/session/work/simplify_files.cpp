@@ -1,17 +1,21 @@
+#include "session/work/simplify_files.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
 #include <iterator>
 #include <memory>
 #include <utility>
 
 #include "scarp/picture.h"
-#include "session/reports/level_report.h"
+#include "session/inputs/memory.h"
+#include "session/inputs/zones.h"
 #include "session/reports/pictures.h"
 #include "session/reports/report.h"
-#include "session/reports/simplify_outcome.h"
 #include "session/reports/view_page.h"
+#include "session/work/mesh_output.h"
+#include "session/work/simplify_work.h"
+#include "session/work/with_level.h"
 
 namespace scarp::cli {
 namespace {

@@ -9,17 +9,22 @@
 
 #include "scarp/drape.h"
 #include "scarp/edits.h"
+#include "session/inputs/cutline.h"
 #include "session/inputs/heightmap.h"
+#include "session/inputs/lines.h"
 #include "session/inputs/nodata_warnings.h"
 #include "session/inputs/waters.h"
-#include "session/options/shape_options.h"
+#include "session/inputs/zones.h"
+#include "session/options/error_goal.h"
 #include "session/plan/conflicts.h"
-#include "session/reports/level_report.h"
+#include "session/reports/feature_report.h"
 #include "session/reports/report.h"
-#include "session/reports/simplify_outcome.h"
+#include "session/reports/shape_report.h"
 #include "session/reports/verdict.h"
 #include "session/text/clock.h"
 #include "session/text/text.h"
+#include "session/work/mesh_output.h"
+#include "session/work/with_level.h"
 
 namespace scarp::cli {
 namespace {
@@ -106,11 +111,11 @@ Result<void> read_draped_image(const SimplifyPlan& plan, const ProgressCallback&
 Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   Features& features = outcome.features;
   std::vector<std::string>& warnings = outcome.companions.warnings;
-  Result<LineConstraints> lines = plan.lines.read(outcome.as_read, outcome.field.rows, progress, warnings);
+  Result<LineConstraints> lines = read_breaklines(plan.lines, outcome.as_read, outcome.field.rows, progress, warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   features.breaklines = std::move(*lines);
   Result<ZonePlan> zones =
-      plan.zones.read(outcome.as_read, outcome.field.rows, progress, features.breaklines, warnings);
+      read_zones(plan.zones, outcome.as_read, outcome.field.rows, progress, features.breaklines, warnings);
   if (!zones) return tl::unexpected(std::move(zones.error()));
   outcome.zone_plan = std::move(*zones);
   const auto waters = read_waters(plan.lines, progress, memory_of(plan, outcome), outcome.field, features, warnings);
@@ -248,6 +253,35 @@ Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan
 bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
   const bool is_long = options.quality.effort == Effort::kHigh || options.quality.effort == Effort::kMax;
   return is_long && !options.goals.max_triangles && !options.goals.max_vertices && options.run.memory.limit == 0;
+}
+
+/// Simplifies all levels. The finest is what is returned, the others are the outcome's.
+Result<Simplified> simplify_as_levels(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
+  Result<std::vector<Simplified>> levels = simplify_levels(outcome.view(), options, *plan.levels);
+  if (!levels) return tl::unexpected(std::move(levels.error()));
+  for (std::size_t k = 1; k < levels->size(); ++k) {
+    const double times = std::pow(plan.levels->ratio, static_cast<double>(k));
+    outcome.coarser.push_back({times * options.goals.max_error.value_or(0), std::move((*levels)[k])});
+  }
+  return std::move(levels->front());
+}
+
+/// simplify_for_print(), with the names of options in its complaints.
+Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightField& field,
+                                         const SimplifyOptions& options) {
+  if (plan.is_split() && !field.frame.is_affine()) {
+    return fail(
+        ErrorKind::kUsage,
+        "--split cuts along rows and columns of the raster, which --crs bends here: leave it out, or choose local "
+        "or source");
+  }
+  Result<PrintedTerrain> printed = simplify_for_print(field, plan, options);
+  if (printed) return printed;
+  Error error = std::move(printed.error());
+  if (error.message.starts_with("base=")) error.message.insert(0, "--solid ");
+  constexpr std::string_view kPrintTiles = "print tiles:";
+  if (error.message.starts_with(kPrintTiles)) error.message.replace(0, kPrintTiles.size(), "--split:");
+  return tl::unexpected(std::move(error));
 }
 
 /// A print is made with its mesh.

@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "session/options/values.h"
 #include "session/reports/tile_report.h"
+#include "session/text/paths.h"
 #include "session/work/counted_set.h"
 
 namespace scarp::cli {
@@ -22,7 +22,7 @@ Result<void> check_container(const TileJob& job, const std::string& output) {
 Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts) {
   if (auto named = check_set_name(output); !named) return tl::unexpected(named.error());
-  auto opened = tiles.open(run.progress);
+  auto opened = open_tiles(tiles, run.progress);
   if (!opened) return tl::unexpected(opened.error());
   const TileJob& job = opened->job;
   if (auto fits = check_container(job, output); !fits) return tl::unexpected(fits.error());

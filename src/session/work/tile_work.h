@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "session/options/tile_options.h"
 #include "session/plan/tile_plan.h"
 #include "session/text/tile_counts.h"
 

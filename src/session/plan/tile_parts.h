@@ -1,4 +1,4 @@
-// What the processes of a plan of tiles agree on.
+// What the processes of a plan of tiles agree on: where parts lie, and how much memory a share has.
 #pragma once
 
 #include <cstdint>
