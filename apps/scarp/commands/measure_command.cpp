@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "session/reports/measure_report.h"
-#include "session/reports/report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
+#include "session/text/json_text.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
 #include "session/work/measure_work.h"

@@ -10,7 +10,7 @@
 #include "session/reports/report.h"
 #include "session/reports/simplify_run.h"
 #include "session/text/clock.h"
-#include "session/text/json.h"
+#include "session/text/json_text.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
 #include "session/work/mesh_output.h"

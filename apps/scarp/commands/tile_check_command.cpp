@@ -6,11 +6,10 @@
 #include <array>
 #include <optional>
 
-#include "session/reports/report.h"
 #include "session/reports/tile_check_report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
-#include "session/text/json.h"
+#include "session/text/json_text.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
 #include "terminal/progress_display.h"

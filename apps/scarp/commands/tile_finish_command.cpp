@@ -11,7 +11,7 @@
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
-#include "session/text/json.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 #include "session/text/tile_counts.h"
 #include "session/work/counted_set.h"

@@ -9,7 +9,7 @@
 
 #include "session/inputs/zones.h"
 #include "session/options/values.h"
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

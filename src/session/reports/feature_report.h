@@ -9,6 +9,7 @@
 #include "scarp/features.h"
 #include "scarp/simplify.h"
 #include "scarp/zones.h"
+#include "session/inputs/cutline.h"
 #include "session/options/cliff_options.h"
 #include "session/options/cutline_options.h"
 #include "session/options/line_options.h"

@@ -14,6 +14,8 @@
 #include "scarp/version.h"
 #include "session/reports/place.h"
 #include "session/reports/points_report.h"
+#include "session/reports/report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -9,7 +9,6 @@
 #include "scarp/mesh.h"
 #include "scarp/points.h"
 #include "scarp/suggest.h"
-#include "session/reports/report.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "session/options/level_options.h"
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

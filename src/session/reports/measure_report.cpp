@@ -10,6 +10,7 @@
 #include "session/reports/place.h"
 #include "session/reports/report.h"
 #include "session/reports/verdict.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -10,6 +10,7 @@
 #include "scarp/mesh.h"
 #include "session/inputs/channels.h"
 #include "session/inputs/companions.h"
+#include "session/inputs/cutline.h"
 #include "session/options/channel_options.h"
 #include "session/options/cutline_options.h"
 #include "session/options/error_goal.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "scarp/io.h"
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 
 namespace scarp::cli {
 

@@ -8,6 +8,7 @@
 #include "session/options/points_options.h"
 #include "session/reports/report.h"
 #include "session/reports/verdict.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

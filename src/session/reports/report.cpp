@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scarp/io.h"
+#include "session/text/json_text.h"
 #include "session/text/paths.h"
 
 namespace scarp::cli {
@@ -171,10 +172,6 @@ Json describe_channels(const std::vector<std::string>& names, const std::vector<
   }
   return channels;
 }
-
-Json finite_or_word(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
-
-std::string to_text(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Result<void> write_report(const Json& report, const std::string& path, bool overwrite, const std::string& mesh) {
   const std::string text = to_text(report);

@@ -1,7 +1,6 @@
 // Reports as JSON. simplify, measure and info give the same things the same names; docs/cli.md lists them.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,12 +13,6 @@
 #include "session/text/json.h"
 
 namespace scarp::cli {
-
-/// The value, or JSON's null.
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 /// " m", " m (ft in the file)", or nothing: behind a height.
 std::string heights_unit(const RasterInfo& info);
@@ -44,10 +37,6 @@ void add_bounded(Json& report, const LargestError& bounded);
 /// The "channels" list: each channel's name, scale, max_error … p999 and samples, in its own units.
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured);
-/// A finite number, or what stands for it: "inf".
-Json finite_or_word(double value);
-/// The report as text, two spaces a level, with a newline at the end. Bytes that are not UTF-8 become U+FFFD.
-std::string to_text(const Json& report);
 /// Writes the report of a mesh that has its name already; where that fails the sentence says so.
 Result<void> write_report(const Json& report, const std::string& path, bool overwrite, const std::string& mesh);
 

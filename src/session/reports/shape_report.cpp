@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -11,6 +11,7 @@
 #include "scarp/judge.h"
 #include "session/inputs/channels.h"
 #include "session/inputs/companions.h"
+#include "session/inputs/cutline.h"
 #include "session/inputs/zones.h"
 #include "session/reports/simplify_run.h"
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "scarp/version.h"
-#include "session/reports/report.h"
 #include "session/reports/solid_report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

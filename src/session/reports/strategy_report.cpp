@@ -5,7 +5,7 @@
 #include "session/options/strategy_options.h"
 #include "session/options/strategy_words.h"
 #include "session/options/values.h"
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 
 namespace scarp::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

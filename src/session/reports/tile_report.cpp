@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "scarp/tile_waters.h"
-#include "session/reports/report.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -13,7 +13,7 @@
 #include "scarp/version.h"
 #include "session/plan/page_template.h"
 #include "session/reports/pictures.h"
-#include "session/text/json.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -14,7 +14,6 @@
 #include "session/options/output_kind.h"
 #include "session/plan/outputs.h"
 #include "session/reports/pictures.h"
-#include "session/reports/report.h"
 #include "session/text/clock.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"

@@ -7,9 +7,9 @@
 
 #include "session/inputs/mesh_place.h"
 #include "session/options/error_goal.h"
-#include "session/reports/report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
+#include "session/text/json_text.h"
 #include "session/text/text.h"
 #include "session/work/mesh_output.h"
 

@@ -18,7 +18,6 @@
 #include "session/options/error_goal.h"
 #include "session/plan/conflicts.h"
 #include "session/reports/feature_report.h"
-#include "session/reports/report.h"
 #include "session/reports/shape_report.h"
 #include "session/reports/verdict.h"
 #include "session/text/clock.h"
