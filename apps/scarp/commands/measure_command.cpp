@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "commands/points_command.h"
 #include "session/reports/measure_report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"
