@@ -16,6 +16,7 @@ MAX_LINES = 600
 # room: (floor, rooms it may include, public headers it may include, what it holds).
 # Rooms on one floor are strangers: none includes another.
 ANY = None
+SESSION = [f"session/{room}" for room in ("text", "table", "options", "inputs", "plan", "reports", "work")]
 ROOMS = {
     "door": (0, [], ANY, "`include/scarp`: the public headers, each a manual"),
     "base": (0, [], ["alike", "result", "progress", "version"], "lattice points, exact integers, arrays, threads, memory budget, progress"),
@@ -53,7 +54,15 @@ ROOMS = {
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
     "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh, places in space"),
     "check": (6, ["base", "grid", "io"], ANY, "finished sets of tiles, judged without knowing how they were made"),
-    "apps": (7, [], ANY, "the command line; knows `include/scarp` only"),
+    "session/text": (7, [], ["result"], "numbers and sentences for people: text, names of files, clocks, the type of reports"),
+    "session/table": (8, ["session/text"], ["alike", "conflicts", "result", "version"], "the table of options, and what is made of it: help, proposals for unknown words"),
+    "session/options": (9, ["session/text", "session/table"], ANY, "the arguments of each command: registered, parsed, spelled canonically"),
+    "session/inputs": (10, ["session/text", "session/options"], ANY, "the files that options name, read: channels, companions, lines, waters, zones"),
+    "session/plan": (10, ["session/text", "session/table", "session/options"], ANY, "what a command will do, decided before its work: plans, conflicts, outputs"),
+    "session/reports": (11, ["session/text", "session/options", "session/inputs", "session/plan"], ANY, "what a run came to, as JSON, lines of a summary and warnings"),
+    "session/work": (12, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
+                     "the commands without their terminal: simplify, measure, points, tiles"),
+    "apps": (13, SESSION, ANY, "the program: commands in a terminal, the server of tiles, the paper's figures"),
 }
 
 # Headers that only some files may include: (pattern of the header, files that may, why).
@@ -72,10 +81,8 @@ RESERVED = [
       r"src/fit/triangle_kernels_vector\.cpp$", r"src/base/(branchless|wasm_vectors-inl)\.h$"],
      "instruction sets are known to src/geom/scan_kernels*, src/measure/judge_kernels_vector.cpp, "
      "src/fit/triangle_kernels_vector.cpp, src/base/branchless.h and src/base/wasm_vectors-inl.h only"),
-    (r"CLI/.*", [r"apps/"], "command lines are known to apps only"),
-    (r"terminal/(signals|progress_display)\.h$", [r"apps/scarp/(main|(terminal|serve|paper)/.*|commands/[a-z_]*_command)\.(h|cpp)$"],
-     "the terminal is known to the program's own files only: all else in apps is in the C library, too"),
-    (r"(format|ranges)$", [r"src/io/gdal/", r"apps/"], "the core builds without std::format and range views"),
+    (r"CLI/.*", [r"src/session/(table|options)/", r"apps/"], "command lines are known to src/session/table, src/session/options and apps only"),
+    (r"(format|ranges)$", [r"src/io/gdal/", r"src/session/", r"apps/"], "the core builds without std::format and range views"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -88,14 +95,21 @@ def room_of(path):
         return "door"
     if parts[0] == "apps":
         return "apps"
-    return parts[1] if len(parts) > 2 else "loose"
+    return room_of_header("/".join(parts[1:]))
+
+
+def room_of_header(header):
+    """The room of a header as `#include "header"` names it; "loose" where it lies in none."""
+    parts = header.split("/")
+    depth = 2 if parts[0] == "session" else 1
+    return "/".join(parts[:depth]) if len(parts) > depth else "loose"
 
 
 def judge_project_include(path, room, header, tree):
     """The fault of `#include "header"` in this file, or None."""
     floor, may_include, public, _ = ROOMS[room]
-    top = header.split("/")[0]
-    if top == "scarp":
+    top = room_of_header(header)
+    if header.startswith("scarp/"):
         name = pathlib.PurePath(header).stem
         if not (tree / "include" / header).is_file():
             return f"there is no include/{header}"
@@ -105,10 +119,12 @@ def judge_project_include(path, room, header, tree):
     if room == "apps":
         if (tree / "apps" / path.parts[1] / header).is_file():
             return None
-        return "apps may include scarp/*.h and headers of their own program only"
+        if top in may_include and (tree / "src" / header).is_file():
+            return None
+        return "apps may include scarp/*.h, session/ and headers of their own program only"
     if room == "door":
         return "a public header may include public headers only"
-    if top not in ROOMS or "/" not in header or not (tree / "src" / header).is_file():
+    if top not in ROOMS or not (tree / "src" / header).is_file():
         return f"there is no src/{header}"
     if top == room or top in may_include:
         return None
@@ -146,7 +162,7 @@ def judge_file(path, tree):
             continue
         quoted, header = match.group(1) == '"', match.group(2)
         wrong = judge_reserved(path, header)
-        if not wrong and (quoted or header.split("/")[0] in ROOMS or header.startswith("scarp/")):
+        if not wrong and (quoted or room_of_header(header) in ROOMS or header.startswith("scarp/")):
             wrong = judge_project_include(path, room, header, tree)
         if wrong:
             yield f"{path}:{number}: includes {header}: {wrong}"

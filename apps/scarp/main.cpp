@@ -24,12 +24,13 @@
 #include "commands/tile_plan_command.h"
 #include "commands/tile_run_command.h"
 #include "commands/view_command.h"
-#include "options/help.h"
-#include "options/missing_value.h"
-#include "options/unknown_words.h"
 #include "scarp/version.h"
+#include "session/table/help.h"
+#include "session/table/missing_value.h"
+#include "session/table/option_table.h"
+#include "session/table/unknown_words.h"
+#include "session/text/text.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace {
 

@@ -7,12 +7,12 @@
 #include <limits>
 #include <map>
 
-#include "options/option_table.h"
 #include "scarp/version.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
+#include "session/text/time_left.h"
 #include "settings.h"
-#include "terminal/clock.h"
-#include "terminal/text.h"
-#include "terminal/time_left.h"
 
 namespace scarp::door {
 namespace {

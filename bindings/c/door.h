@@ -11,7 +11,7 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp_c.h"
-#include "terminal/tile_counts.h"
+#include "session/text/tile_counts.h"
 
 namespace scarp::door {
 

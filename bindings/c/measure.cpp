@@ -2,12 +2,16 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "commands/measure_command.h"
-#include "commands/points_work.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
-#include "options/option_table.h"
+#include "session/options/measure_options.h"
+#include "session/reports/measure_report.h"
+#include "session/reports/points_report.h"
+#include "session/table/option_table.h"
+#include "session/work/measure_work.h"
+#include "session/work/points_work.h"
+#include "session/work/runner.h"
 #include "settings.h"
 
 namespace scarp::door {
@@ -29,20 +33,23 @@ scarp_status judge(const std::string& input, std::optional<bool> are_points, con
                    const scarp_options& asked, scarp_report* out) {
   const Lent lent(kMeshName, mesh);
   CLI::App program;
-  cli::MeasureCommand command(program);
+  CLI::App* const command = cli::add_command(program, cli::kMeasure);
+  cli::MeasureArguments given;
+  given.add_to(*command);
   std::vector<std::string> beside;
   if (are_points.value_or(false)) beside.emplace_back("--points");
   if (auto parsed = parse_options(program, cli::kMeasure, {"measure", input, kMeshName}, asked, beside); !parsed)
     return report(parsed.error());
   const cli::Runner runner{progress_of(asked)};
-  if (are_points.value_or(command.are_points())) {
+  if (are_points.value_or(given.are_points())) {
     cli::JudgedPoints judged;
-    if (auto done = command.judge_points_inputs(runner, judged); !done) return report(done.error());
+    if (auto done = cli::judge_points(*command, given, runner, judged); !done) return report(done.error());
     return finish(judged.measured, judged.measured.over_tolerance, judged.seconds_measure, judged.broken, out);
   }
   cli::Judged judged;
-  cli::MeasureCommand::StreamedErrors errors;
-  if (auto done = command.judge_inputs(runner, judged, errors); !done) return report(done.error());
+  cli::StreamedErrors errors;
+  if (auto done = cli::judge_inputs(given, cli::files_read(*command), runner, judged, errors); !done)
+    return report(done.error());
   const std::uint64_t over = judged.judgement.weighted ? judged.judgement.weighted->over : 0;
   return finish(judged.judgement.heights, over, judged.seconds_measure, judged.broken, out);
 }

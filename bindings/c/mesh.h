@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "options/options.h"
-#include "options/output_kind.h"
-#include "reports/simplify_outcome.h"
 #include "scarp/glb.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
+#include "scarp/simplify.h"
 #include "scarp_c.h"
+#include "session/options/output_kind.h"
+#include "session/options/values.h"
 
 struct scarp_bytes {
   std::vector<std::uint8_t> bytes;

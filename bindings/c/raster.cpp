@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "door.h"
-#include "options/simplify_plan.h"
 #include "scarp/io.h"
+#include "session/options/simplify_options.h"
+#include "session/options/values.h"
+#include "session/table/option_table.h"
 #include "settings.h"
 
 struct scarp_raster {

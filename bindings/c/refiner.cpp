@@ -5,12 +5,12 @@
 #include <memory>
 #include <utility>
 
-#include "commands/simplify_run.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
 #include "scarp/simplify.h"
-#include "terminal/clock.h"
+#include "session/text/clock.h"
+#include "session/work/mesh_output.h"
 
 struct scarp_refiner {
   scarp::OwnedHeightField field;  ///< whose samples are the caller's, but where they had to be cleaned

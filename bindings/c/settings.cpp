@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "door.h"
-#include "options/unknown_words.h"
+#include "session/table/unknown_words.h"
 
 namespace scarp::door {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "options/option_table.h"
 #include "scarp/result.h"
 #include "scarp_c.h"
+#include "session/table/option_table.h"
 
 struct scarp_settings {
   /// Names as the program has them ("--max-error"), in the order in which they were set.

@@ -7,13 +7,22 @@
 #include <utility>
 #include <vector>
 
-#include "commands/points_work.h"
-#include "commands/simplify_work.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
-#include "options/option_table.h"
 #include "scarp/picture.h"
+#include "session/options/output_kind.h"
+#include "session/options/points_options.h"
+#include "session/options/simplify_options.h"
+#include "session/plan/simplify_plan.h"
+#include "session/reports/points_report.h"
+#include "session/reports/simplify_outcome.h"
+#include "session/reports/simplify_run.h"
+#include "session/table/option_table.h"
+#include "session/work/points_work.h"
+#include "session/work/runner.h"
+#include "session/work/simplify_files.h"
+#include "session/work/simplify_work.h"
 #include "settings.h"
 
 namespace scarp::door {

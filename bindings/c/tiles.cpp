@@ -5,14 +5,18 @@
 #include <memory>
 #include <utility>
 
-#include "commands/tile_work.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
-#include "options/option_table.h"
-#include "reports/report.h"
-#include "reports/tile_report.h"
 #include "scarp/live_tiles.h"
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
+#include "session/plan/tile_plan.h"
+#include "session/reports/tile_report.h"
+#include "session/table/option_table.h"
+#include "session/text/json_text.h"
+#include "session/text/tile_counts.h"
+#include "session/work/tile_work.h"
 #include "settings.h"
 
 struct scarp_tiles {
@@ -70,7 +74,7 @@ scarp_status open_tiles(const std::string& input, const scarp_options& asked, sc
   if (auto parsed = words.parse({input}, "-", asked); !parsed) return report(parsed.error());
   if (words.given.format && *words.given.format != "qm")
     return report(ErrorKind::kUsage, "tiles that are made as they are asked for are quantized-mesh: leave of out");
-  auto opened = words.given.open(words.run.progress);
+  auto opened = cli::open_tiles(words.given, words.run.progress);
   if (!opened) return report(opened.error());
   auto set = LiveTileSet::open(opened->job, opened->raster->nodes(), kCacheBytes, words.run);
   if (!set) return report(set.error());

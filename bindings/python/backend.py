@@ -23,7 +23,7 @@ import zipfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Libraries that Scarp links and few machines have. All else belongs to the system.
 BUNDLED = ("libfmt", "libhwy", "libmeshoptimizer", "libsqlite3")
-SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "src", "include", "apps", "bindings/c", "data/egm96.bin")
+SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "src", "include", "bindings/c", "data/egm96.bin")
 LIBRARY = {"win32": "scarp_c.dll", "darwin": "libscarp_c.dylib"}.get(sys.platform, "libscarp_c.so")
 OLDEST_TIME = (1980, 1, 1, 0, 0, 0)
 

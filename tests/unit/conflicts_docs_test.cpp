@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "options/field_options.h"
 #include "scarp/conflicts.h"
+#include "session/table/field_options.h"
 #include "source_dir.h"
 
 namespace scarp::conflicts_docs_test {

@@ -8,9 +8,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "options/option_table.h"
 #include "scarp/generate.h"
-#include "terminal/text.h"
+#include "scarp/io.h"
+#include "session/plan/outputs.h"
+#include "session/table/option_table.h"
+#include "session/text/paths.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -1,9 +1,9 @@
 #include "commands/help_command.h"
 
-#include "options/help.h"
-#include "options/option_table.h"
-#include "options/unknown_words.h"
-#include "terminal/text.h"
+#include "session/table/help.h"
+#include "session/table/option_table.h"
+#include "session/table/unknown_words.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 

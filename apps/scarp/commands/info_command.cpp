@@ -7,12 +7,14 @@
 #include <fstream>
 #include <utility>
 
-#include "inputs/heightmap.h"
-#include "inputs/nodata_warnings.h"
-#include "options/option_table.h"
-#include "reports/info_report.h"
+#include "session/inputs/heightmap.h"
+#include "session/inputs/nodata_warnings.h"
+#include "session/reports/info_report.h"
+#include "session/table/option_table.h"
+#include "session/text/json_text.h"
+#include "session/text/paths.h"
+#include "session/text/text.h"
 #include "terminal/progress_display.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -4,7 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "options/options.h"
+#include "session/options/raster_options.h"
+#include "session/options/values.h"
 
 namespace scarp::cli {
 

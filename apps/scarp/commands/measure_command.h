@@ -2,18 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 
-#include "commands/points_work.h"
-#include "inputs/channels.h"
-#include "inputs/companions.h"
-#include "options/cutline_options.h"
-#include "options/memory.h"
-#include "options/options.h"
-#include "reports/measure_report.h"
-#include "scarp/io.h"
-#include "scarp/picture.h"
+#include "scarp/result.h"
+#include "session/options/measure_options.h"
 
 namespace scarp::cli {
 
@@ -28,40 +20,9 @@ class MeasureCommand {
   /// `command_line` is what the user typed, for the report.
   Result<void> run(const std::string& command_line) const;
 
-  /// Handles the errors of streamed samples, row by row.
-  struct StreamedErrors {
-    std::optional<ErrorMap> map = std::nullopt;
-    std::optional<RasterFile> raster = std::nullopt;
-  };
-  /// run() on a raster, as far as it needs no terminal: reads both and judges.
-  Result<void> judge_inputs(const Runner& runner, Judged& judged, StreamedErrors& errors) const;
-  /// True if the input is points; then this is the same.
-  bool are_points() const { return points_.are_meant(raster_.path()); }
-  Result<void> judge_points_inputs(const Runner& runner, JudgedPoints& judged) const;
-
  private:
-  ErrorMapOptions map_options(const Judged& judged, int max_side) const;
-  MeasurePointsArguments points_arguments() const;
-  Result<void> check_order() const;
-  Result<void> check_outputs_of_run() const;
-  Result<void> read_inputs(const ProgressCallback& progress, Judged& judged) const;
-  Result<void> read_field(const ReadOptions& options, Judged& judged) const;
-  /// The first option that was given and needs all samples in memory; nothing if there is none.
-  std::optional<std::string> find_need_of_samples() const;
-  Result<StreamedErrors> begin_errors(const Judged& judged) const;
-  Result<Judgement> judge(const ProgressCallback& progress, const Judged& judged, StreamedErrors& errors) const;
-  Result<void> write_files(const Judged& judged, StreamedErrors& errors) const;
-
   CLI::App* command_;
-  RasterArguments raster_;
-  PointsArguments points_;
-  std::string mesh_;
-  CompanionArguments companions_;
-  CutlineArguments cut_;
-  ChannelArguments channels_;
-  MemoryArguments memory_;
-  Given up_, map_, error_raster_, fail_above_, threads_;
-  bool json_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;
+  MeasureArguments given_;
 };
 
 }  // namespace scarp::cli

@@ -6,11 +6,12 @@
 #include <span>
 #include <utility>
 
-#include "options/option_table.h"
 #include "paper/study.h"
 #include "scarp/version.h"
+#include "session/plan/outputs.h"
+#include "session/table/option_table.h"
+#include "session/text/text.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {

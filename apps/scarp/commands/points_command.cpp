@@ -4,12 +4,19 @@
 #include <utility>
 #include <vector>
 
-#include "commands/points_work.h"
-#include "reports/report.h"
-#include "terminal/clock.h"
+#include "session/plan/projection_file.h"
+#include "session/plan/simplify_plan.h"
+#include "session/reports/points_report.h"
+#include "session/reports/report.h"
+#include "session/reports/simplify_run.h"
+#include "session/text/clock.h"
+#include "session/text/json_text.h"
+#include "session/text/paths.h"
+#include "session/text/text.h"
+#include "session/work/mesh_output.h"
+#include "session/work/points_work.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
@@ -56,12 +63,12 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   return {};
 }
 
-Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArguments& given,
-                                const PointsArguments& arguments, const std::string& command_line) {
+Result<void> run_measure_points(const CLI::App& command, const MeasureArguments& given,
+                                const std::string& command_line) {
   const Clock::time_point start = Clock::now();
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
   JudgedPoints judged;
-  SCARP_RETURN_IF_ERROR(judge_points(command, given, arguments, {display.callback()}, judged));
+  SCARP_RETURN_IF_ERROR(judge_points(command, given, {display.callback()}, judged));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   display.finish();
   judged.seconds_total = seconds_since(start);

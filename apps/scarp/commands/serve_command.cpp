@@ -8,15 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "options/memory.h"
-#include "options/option_table.h"
-#include "reports/tile_report.h"
 #include "scarp/live_tiles.h"
 #include "serve/http_server.h"
 #include "serve/preparation.h"
+#include "session/options/memory_options.h"
+#include "session/reports/tile_report.h"
+#include "session/table/option_table.h"
+#include "session/text/paths.h"
+#include "session/text/text.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
@@ -91,7 +92,7 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
     SCARP_TRY(auto&& job, read_tile_job(path));
     SCARP_TRY(served.job, open_job(std::move(job), memory / 2, threads));
   } else {
-    SCARP_TRY(served.job, tiles_.open(display.callback(), memory / 2));
+    SCARP_TRY(served.job, open_tiles(tiles_, display.callback(), *memory / 2));
   }
   Run run;
   run.threads = threads;

@@ -5,8 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "options/tile_options.h"
 #include "serve/tile_answers.h"
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
+#include "session/plan/tile_plan.h"
 
 namespace scarp::cli {
 

@@ -3,14 +3,21 @@
 #include <utility>
 #include <vector>
 
-#include "commands/simplify_work.h"
-#include "options/option_table.h"
-#include "reports/report.h"
-#include "reports/simplify_report.h"
-#include "terminal/clock.h"
+#include "session/plan/simplify_plan.h"
+#include "session/reports/report.h"
+#include "session/reports/simplify_outcome.h"
+#include "session/reports/simplify_report.h"
+#include "session/reports/simplify_run.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/json_text.h"
+#include "session/text/paths.h"
+#include "session/text/text.h"
+#include "session/work/runner.h"
+#include "session/work/simplify_files.h"
+#include "session/work/simplify_work.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "commands/points_command.h"
-#include "options/simplify_plan.h"
+#include "session/options/points_options.h"
+#include "session/options/simplify_options.h"
 
 namespace scarp::cli {
 

@@ -6,12 +6,13 @@
 #include <array>
 #include <optional>
 
-#include "options/option_table.h"
-#include "reports/report.h"
-#include "reports/tile_check_report.h"
-#include "terminal/clock.h"
+#include "session/reports/tile_check_report.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/json_text.h"
+#include "session/text/paths.h"
+#include "session/text/text.h"
 #include "terminal/progress_display.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
@@ -71,7 +72,7 @@ Result<OpenedJob> TileCheckCommand::open_source(const TileSetReader& set, const 
   if (of_set.is_flat()) tiles.format = "3dtiles";
   const std::string said = find_vertical(set);
   if (!said.empty() && !tiles.vertical && !tiles.geoid) tiles.vertical = said;
-  return tiles.open(progress, kSourceBytes);
+  return open_tiles(tiles, progress, kSourceBytes);
 }
 
 Result<void> TileCheckCommand::run(const std::string& command_line) const {

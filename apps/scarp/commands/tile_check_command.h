@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "options/tile_options.h"
 #include "scarp/tile_check.h"
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
+#include "session/plan/tile_plan.h"
 
 namespace scarp::cli {
 

@@ -5,15 +5,18 @@
 #include <utility>
 #include <vector>
 
-#include "commands/counted_set.h"
-#include "commands/tile_work.h"
-#include "options/option_table.h"
-#include "options/plan_options.h"
-#include "reports/report.h"
-#include "reports/tile_report.h"
-#include "terminal/clock.h"
+#include "session/plan/outputs.h"
+#include "session/plan/tile_parts.h"
+#include "session/reports/report.h"
+#include "session/reports/tile_report.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/json_text.h"
+#include "session/text/text.h"
+#include "session/text/tile_counts.h"
+#include "session/work/counted_set.h"
+#include "session/work/tile_work.h"
 #include "terminal/progress_display.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 

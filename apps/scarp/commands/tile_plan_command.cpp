@@ -9,13 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "commands/slurm_script.h"
-#include "options/option_table.h"
-#include "options/plan_options.h"
-#include "reports/tile_report.h"
 #include "scarp/io.h"
+#include "session/plan/outputs.h"
+#include "session/plan/tile_parts.h"
+#include "session/reports/tile_report.h"
+#include "session/table/option_table.h"
+#include "session/text/text.h"
+#include "session/work/slurm_script.h"
 #include "terminal/progress_display.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
@@ -76,7 +77,7 @@ TilePlanCommand::TilePlanCommand(CLI::App& program) : command_(add_command(progr
 Result<OpenedJob> TilePlanCommand::open(const ProgressCallback& progress) const {
   constexpr Choice<bool> kHashes[] = {{"stamp", false}, {"content", true}};
   SCARP_TRY(const bool reads_all, choose("--hash", hash_.value_or("stamp"), kHashes));
-  Result<OpenedJob> opened = changed_since_ ? follow(progress) : tiles_.open(progress);
+  Result<OpenedJob> opened = changed_since_ ? follow(progress) : open_tiles(tiles_, progress);
   if (opened && reads_all) {
     SCARP_RETURN_IF_ERROR(add_contents(opened->job));
   }
@@ -92,8 +93,10 @@ Result<OpenedJob> TilePlanCommand::follow(const ProgressCallback& progress) cons
       return fail(ErrorKind::kUsage,
                   fmt::format("{} does not go with --changed-since: {} has decided it", name, *changed_since_));
   }
-  SCARP_TRY(const TileJob& earlier, read_tile_job(*changed_since_));
-  SCARP_TRY(auto&& opened, tiles_.follow(earlier, progress));
+  const Result<TileJob> earlier = read_tile_job(*changed_since_);
+  SCARP_RETURN_IF_ERROR(earlier);
+  auto opened = follow_tiles(tiles_, *earlier, progress);
+  SCARP_RETURN_IF_ERROR(opened);
   std::error_code error;
   opened.job.parts =
       std::filesystem::absolute(parts_folder(*changed_since_, {}, earlier), error).lexically_normal().string();

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "options/tile_options.h"
+#include "session/options/tile_options.h"
+#include "session/options/values.h"
+#include "session/plan/tile_plan.h"
 
 namespace scarp::cli {
 

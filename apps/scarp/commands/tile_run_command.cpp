@@ -4,14 +4,16 @@
 
 #include <utility>
 
-#include "options/memory.h"
-#include "options/option_table.h"
-#include "options/plan_options.h"
-#include "options/tile_options.h"
 #include "scarp/tile_job.h"
-#include "terminal/clock.h"
+#include "session/options/memory_options.h"
+#include "session/options/tile_options.h"
+#include "session/plan/tile_parts.h"
+#include "session/plan/tile_plan.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
+#include "session/text/tile_counts.h"
 #include "terminal/progress_display.h"
-#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {

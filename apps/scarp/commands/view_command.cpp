@@ -9,15 +9,18 @@
 #include <string_view>
 #include <utility>
 
-#include "inputs/mesh_place.h"
-#include "options/option_table.h"
-#include "options/output_kind.h"
-#include "reports/level_pages.h"
 #include "scarp/io.h"
 #include "scarp/measure.h"
 #include "scarp/points.h"
 #include "scarp/solid.h"
-#include "terminal/text.h"
+#include "session/inputs/mesh_place.h"
+#include "session/options/output_kind.h"
+#include "session/plan/outputs.h"
+#include "session/plan/page_template.h"
+#include "session/reports/level_pages.h"
+#include "session/table/option_table.h"
+#include "session/text/paths.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

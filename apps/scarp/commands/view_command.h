@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "options/options.h"
-#include "reports/view_page.h"
+#include "session/options/raster_options.h"
+#include "session/options/values.h"
+#include "session/reports/view_page.h"
 
 namespace scarp::cli {
 

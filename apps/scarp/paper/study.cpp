@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "scarp/measure.h"
+#include "session/text/text.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
 
 namespace scarp::paper {
 namespace {

@@ -22,8 +22,8 @@
 
 #include "serve/answer_queue.h"
 #include "serve/request_parser.h"
-#include "terminal/clock.h"
-#include "terminal/text.h"
+#include "session/text/clock.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "terminal/text.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

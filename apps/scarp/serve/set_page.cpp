@@ -6,8 +6,10 @@
 #include <array>
 #include <optional>
 
-#include "reports/level_pages.h"
-#include "terminal/text.h"
+#include "session/plan/page_template.h"
+#include "session/reports/level_pages.h"
+#include "session/reports/view_page.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

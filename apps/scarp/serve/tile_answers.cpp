@@ -12,7 +12,7 @@
 #include "scarp/gzip.h"
 #include "serve/media_types.h"
 #include "serve/set_page.h"
-#include "terminal/text.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "session/text/text.h"
+#include "session/text/time_left.h"
 #include "terminal/signals.h"
-#include "terminal/text.h"
-#include "terminal/time_left.h"
 
 namespace scarp::cli {
 namespace {

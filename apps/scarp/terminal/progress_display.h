@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scarp/progress.h"
-#include "terminal/tile_counts.h"
+#include "session/text/tile_counts.h"
 
 namespace scarp::cli {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "scarp/io.h"
-#include "terminal/text.h"
+#include "session/text/text.h"
 
 namespace scarp::cli {
 namespace {

@@ -1,0 +1,48 @@
+// Textures and images: further values at the samples, which count as errors in addition to the heights or in their
+// place.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scarp/goals.h"
+#include "scarp/height_field.h"
+#include "scarp/io.h"
+#include "scarp/strategy.h"
+#include "session/options/channel_options.h"
+
+namespace scarp::cli {
+
+/// The channels of a run.
+struct Channels {
+  OwnedChannels bands;
+  std::vector<std::string> names;  ///< "red", "band 4", …
+  std::vector<double> scales;      ///< Channel::scale of each band
+  double height_scale = 1;
+  double relief = 0;     ///< reference of a percentage, with --image: the largest range of a band, 255 if all are bytes
+  double magnitude = 0;  ///< largest norm of the scaled values, at most: what the judge's rounding is relative to
+
+  std::size_t count() const { return bands.bands.size(); }
+  bool empty() const { return bands.bands.empty(); }
+  /// True if 8-bit colours, or grey, hold all of the data.
+  bool are_colors() const { return bands.is_8bit && (count() == 1 || (count() == 3 && bands.is_color)); }
+  /// Gives `field`, on the same grid, these channels. They must stay alive.
+  void attach_to(HeightField& field) const;
+};
+
+/// The textures of the plan, which must lie on the grid of `heights` and have a value wherever it has. The error of a
+/// sample is then the norm of |height error| and of w/(1 − w) · relief · |error| / range of each channel, all channels
+/// together counting once.
+Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& heights,
+                               const ProgressCallback& progress);
+
+/// An image as a height field of zeros, nodata where a band has no value, and its bands as channels. The error of a
+/// sample is the norm of weight · |error| of each band, in grey levels; bands that are not bytes are brought to the
+/// largest range of any of them.
+struct Image {
+  OwnedHeightField field;
+  Channels channels;
+};
+Result<Image> read_image(const ChannelPlan& plan, const std::string& path, const ReadOptions& options, bool one_band);
+
+}  // namespace scarp::cli

@@ -1,0 +1,206 @@
+#include "session/inputs/companions.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+#include "scarp/commands.h"
+#include "session/inputs/memory.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// Names the option that named a file: "--tolerance FILE…".
+tl::unexpected<Error> name_option(const char* option, const char* between, Error error) {
+  if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}{}{}", option, between, error.message);
+  return tl::unexpected(std::move(error));
+}
+
+/// The raster's values, on the grid of `raster`, whole or within the limit.
+Result<OwnedHeightField> read_values(const char* option, const std::string& path, const RasterInfo& raster,
+                                     const OwnedHeightField& field, const CompanionRun& run, bool in_windows,
+                                     double scale = 1) {
+  ReadOptions options;
+  options.crs = "grid";
+  options.as_values = true;
+  options.z_scale = scale;
+  options.run.progress = run.progress;
+  Result<OwnedHeightField> values =
+      in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
+  if (!values) return name_option(option, ": ", std::move(values.error()));
+  SCARP_RETURN_IF_ERROR(check_grid(raster, field.cols, field.rows, option, values->info, values->cols, values->rows));
+  return values;
+}
+
+/// How many units of the heights are one of a raster that names its own.
+double units_of(const RasterInfo& values, const RasterInfo& heights) {
+  const bool are_known = !values.unit.empty() && values.unit_in_metres > 0 && heights.unit_in_metres > 0;
+  return are_known && values.unit_in_metres != heights.unit_in_metres ? values.unit_in_metres / heights.unit_in_metres
+                                                                      : 1;
+}
+
+void add_warnings(const OwnedHeightField& values, Companions& companions) {
+  companions.warnings.insert(companions.warnings.end(), values.info.warnings.begin(), values.info.warnings.end());
+}
+
+/// A command that brings a raster onto the grid of `raster`.
+std::string suggest_command(const RasterInfo& raster, int cols, int rows, const RasterInfo& other, int other_cols,
+                            int other_rows) {
+  const std::string file = shell_word(other.path);
+  const std::array<double, 6>& g = raster.geotransform;
+  const bool is_upright = g[2] == 0 && g[4] == 0 && g[1] > 0 && g[5] < 0;
+  if (!raster.has_georeference || !other.has_georeference || !is_upright) {
+    return fmt::format("gdal_translate -r bilinear -outsize {} {} {} {}", cols, rows, file, new_file(".tif"));
+  }
+  const std::string crs =
+      raster.crs.empty() || raster.crs == other.crs ? "" : fmt::format("-t_srs {} ", shell_word(raster.crs));
+  const double east = g[0] + g[1] * cols, south = g[3] + g[5] * rows;
+  const std::array<double, 6>& o = other.geotransform;
+  const bool is_covered = crs.empty() && o[2] == 0 && o[4] == 0 && o[1] > 0 && o[5] < 0 && o[0] <= g[0] &&
+                          o[3] >= g[3] && o[0] + o[1] * other_cols >= east && o[3] + o[5] * other_rows <= south;
+  // Elsewhere it has no value: gdalwarp writes 0 else.
+  const char* beyond = is_covered ? "" : "-ot Float32 -dstnodata nan ";
+  return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {}{} {}", crs, g[0], south, east, g[3], cols,
+                     rows, beyond, file, new_file(".tif"));
+}
+
+/// In the order of CompanionArguments::roi.
+Result<std::vector<Region>> read_regions(const CompanionArguments& given, const RasterInfo& raster,
+                                         const ProgressCallback& progress, Companions& companions) {
+  ReadLinesOptions options;
+  options.crs = raster.crs;
+  options.ignore_z = true;
+  options.progress = progress;
+  std::vector<Region> regions;
+  for (const std::string& text : given.roi) {
+    SCARP_TRY(const RegionFile& file, parse_region(text));
+    SCARP_TRY(auto&& set, read_lines(file.path, options));
+    companions.warnings.insert(companions.warnings.end(), set.warnings.begin(), set.warnings.end());
+    regions.push_back({std::move(set.lines), file.tolerance});
+  }
+  return regions;
+}
+
+RegionGrid grid_of(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+                   std::optional<double> bound) {
+  RegionGrid grid{field.cols, field.rows, map_affine(raster, field.rows)};
+  const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0;
+  grid.cell_x = has_metres ? raster.cell_x_m : raster.cell_x;
+  grid.cell_y = has_metres ? raster.cell_y_m : raster.cell_y;
+  grid.beyond = bound;
+  if (given.falloff) grid.falloff = *parse_non_negative("--falloff", *given.falloff);
+  return grid;
+}
+
+void warn_of_missing(const CompanionArguments& given, const std::vector<bool>& found, Companions& companions) {
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k])
+      companions.warnings.push_back(fmt::format("--roi {} lies beside the raster: it changes nothing", given.roi[k]));
+  }
+}
+
+/// Fails if the memory has no room for the regions in addition to heights that have a source.
+Result<void> check_regions(const OwnedHeightField& field, const std::vector<Region>& regions, std::uint64_t memory) {
+  std::uint64_t vertices = 0;
+  for (const Region& region : regions) {
+    for (const Line& line : region.lines) vertices += line.points.size();
+  }
+  constexpr std::uint64_t kBytesPerVertex = 100;
+  return check_room(field, memory, kBytesPerVertex * vertices, "--roi");
+}
+
+/// The tolerances of --tolerance and --roi, in windows where the heights are.
+Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+                             std::optional<double> bound, const CompanionRun& run, Companions& companions) {
+  const bool in_windows = field.source != nullptr;
+  std::optional<OwnedHeightField> values;
+  std::uint64_t bytes = 0;
+  if (given.tolerance) {
+    SCARP_TRY(auto&& read, read_values("--tolerance", *given.tolerance, raster, field, run, in_windows));
+    if (const double scale = units_of(read.info, raster); scale != 1) {
+      SCARP_TRY(read, read_values("--tolerance", *given.tolerance, raster, field, run, in_windows, scale));
+    }
+    add_warnings(read, companions);
+    if (in_windows) bytes = bytes_beside(read, field, run.memory);
+    values = std::move(read);
+  }
+  SCARP_TRY(const auto& regions, read_regions(given, raster, run.progress, companions));
+  if (in_windows && !regions.empty()) {
+    SCARP_RETURN_IF_ERROR(check_regions(field, regions, run.memory));
+  }
+  auto made = make_tolerances(std::move(values), regions, grid_of(given, raster, field, bound),
+                              {in_windows, {run.threads, {}, run.progress}});
+  if (!made) return name_option("--tolerance", " ", std::move(made.error()));
+  if (given.tolerance && !made->has_values) {
+    companions.warnings.push_back(fmt::format("--tolerance {} holds no value: it changes nothing", *given.tolerance));
+    if (regions.empty()) return {};
+  }
+  warn_of_missing(given, made->found, companions);
+  companions.bytes += made->bytes + bytes;
+  companions.tolerances = std::move(*made);
+  return in_windows ? check_room(field, run.memory, companions.bytes, given.find_tolerance()) : Result<void>();
+}
+
+/// The weights of --mask, in windows where the heights are.
+Result<void> read_weights(const std::string& path, const RasterInfo& raster, const OwnedHeightField& field,
+                          const CompanionRun& run, Companions& companions) {
+  const bool in_windows = field.source != nullptr;
+  SCARP_TRY(OwnedHeightField values, read_values("--mask", path, raster, field, run, in_windows));
+  add_warnings(values, companions);
+  if (in_windows) {
+    companions.bytes += bytes_beside(values, field, run.memory);
+    SCARP_RETURN_IF_ERROR(check_room(field, run.memory, companions.bytes, "--mask"));
+  }
+  Result<OwnedWeights> mask = make_weights(std::move(values), {in_windows, {run.threads, {}, run.progress}});
+  if (!mask) return name_option("--mask", " ", std::move(mask.error()));
+  companions.mask = std::move(*mask);
+  return {};
+}
+
+/// Reads the steps of --script, which count in addition to heights that have a source.
+Result<void> read_steps(const std::string& path, const OwnedHeightField& field, const CompanionRun& run,
+                        Companions& companions) {
+  SCARP_TRY(companions.script, read_script(path, field.cols, field.rows));
+  if (companions.script.size() == 0)
+    companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", path));
+  if (!field.source) return {};
+  constexpr std::uint64_t kBytesToRead = 100, kBytesPerStep = 24;
+  const std::uint64_t before = companions.bytes, steps = companions.script.size();
+  companions.bytes += kBytesPerStep * steps;
+  return check_room(field, run.memory, before + kBytesToRead * steps, "--script");
+}
+
+}  // namespace
+
+Tolerances Companions::bounds() const {
+  return {tolerances.values, tolerances.source.get(), mask.values, mask.source.get(), script.ignored};
+}
+
+Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
+                                   const OwnedHeightField& field, std::optional<double> bound,
+                                   const CompanionRun& run) {
+  Companions companions;
+  if (given.mask) {
+    SCARP_RETURN_IF_ERROR(read_weights(*given.mask, raster, field, run, companions));
+  }
+  if (given.find_tolerance() != nullptr) {
+    SCARP_RETURN_IF_ERROR(read_tolerances(given, raster, field, bound, run, companions));
+  }
+  if (given.script) {
+    SCARP_RETURN_IF_ERROR(read_steps(*given.script, field, run, companions));
+  }
+  return companions;
+}
+
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
+                        int other_cols, int other_rows) {
+  const std::optional<std::string> difference = find_grid_difference(raster, cols, rows, other, other_cols, other_rows);
+  if (!difference) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{} {} {}: bring it onto the grid of {} first ({})", option, other.path, *difference,
+                          raster.path, suggest_command(raster, cols, rows, other, other_cols, other_rows)));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,70 @@
+#include "session/inputs/cutline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "session/inputs/lines.h"
+#include "session/options/values.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+std::uint64_t count_polygons(const std::vector<Line>& rings) {
+  return static_cast<std::uint64_t>(
+      std::count_if(rings.begin(), rings.end(), [](const Line& ring) { return ring.role == LineRole::kOuter; }));
+}
+
+/// Lengths of the CRS' units along x and y: metres where they are known.
+std::array<double, 2> unit_of(const RasterInfo& raster) {
+  const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0 && raster.cell_x > 0 && raster.cell_y > 0;
+  if (!has_metres) return {1, 1};
+  return {raster.cell_x_m / raster.cell_x, raster.cell_y_m / raster.cell_y};
+}
+
+}  // namespace
+
+Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, const ProgressCallback& progress,
+                     OwnedHeightField& field, std::vector<std::string>& warnings) {
+  Cut cut;
+  if (given.files.empty()) return cut;
+  ReadLinesOptions options;
+  options.crs = raster.crs;
+  options.ignore_z = true;
+  options.progress = progress;
+  SCARP_TRY(auto&& lines, read_files(given.files, options, warnings));
+  SCARP_TRY(auto&& rings, close_rings(std::move(lines)));
+  cut.polygons = count_polygons(rings);
+  cut.cutline.affine = map_affine(raster, field.rows);
+  cut.cutline.rings = std::move(rings);
+  if (given.inset) {
+    const std::array<double, 2> unit = unit_of(raster);
+    const double sample = std::min(raster.cell_x * unit[0], raster.cell_y * unit[1]);
+    auto moved = inset_polygons(cut.cutline.rings, *parse_number("--inset", *given.inset), unit, sample);
+    if (!moved) {
+      moved.error().message = fmt::format("--inset {}: {}", shell_word(*given.inset), moved.error().message);
+      return tl::unexpected(std::move(moved.error()));
+    }
+    if (moved->empty())
+      return fail(ErrorKind::kInput, fmt::format("--inset {}: nothing of the polygons is left, they are not that wide",
+                                                 shell_word(*given.inset)));
+    cut.cutline.rings = std::move(*moved);
+  }
+  if (!given.mask_outside) return cut;
+  SCARP_TRY(const auto& left, mask_outside(field, cut.cutline, progress));
+  cut.masked = left.lost;
+  cut.bytes = left.bytes;
+  cut.cutline.rings = {};
+  const bool is_empty = left.kept == 0;
+  if (is_empty || (cut.masked > 0 && !left.has_surface))
+    return fail(ErrorKind::kInput,
+                fmt::format("--cutline {} --mask-outside: no {} of {} lies in the polygons{}",
+                            shell_word(given.files.front()), is_empty ? "height" : "cell with three heights",
+                            raster.path, is_empty ? "" : ": leave --mask-outside out to cut through cells"));
+  return cut;
+}
+
+}  // namespace scarp::cli

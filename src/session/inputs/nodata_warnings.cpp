@@ -1,0 +1,44 @@
+#include "session/inputs/nodata_warnings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scarp/commands.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// The remedy. --nodata names one value, in place of the one that counts already (NaN always does).
+std::string remedy_of(const std::string& value, const std::string& kept, const RasterInfo& info) {
+  if (kept.empty()) return "give --nodata " + value;
+  const char* placeless = info.has_georeference ? "" : "-to SRC_METHOD=NO_GEOTRANSFORM -to DST_METHOD=NO_GEOTRANSFORM ";
+  return fmt::format(
+      "--nodata takes one value, and gdalwarp -srcnodata {} -dstnodata {} {}{} {} makes one value of both", value, kept,
+      placeless, file_word(info.path), new_file(".tif"));
+}
+
+}  // namespace
+
+std::vector<std::string> warn_of_undeclared_nodata(const RasterInfo& info, const HeightField& field) {
+  const auto samples = static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
+  std::vector<std::string> sentences;
+  const bool has_kept = info.valid < samples && info.nodata && std::isfinite(*info.nodata);
+  std::string kept = has_kept ? fmt::format("{}", *info.nodata) : "";
+  for (const UndeclaredNodata& nodata : info.undeclared_nodata) {
+    // Text as short as it can be without becoming another float32.
+    const std::string height = fmt::format("{}", static_cast<float>(nodata.of.height));
+    const std::string value = fmt::format("{}", static_cast<float>(nodata.value));
+    const std::string remedy = remedy_of(value, kept, info);
+    if (kept.empty()) kept = value;
+    sentences.push_back(
+        fmt::format("{} exactly {}, far {} all others ({} to {}): if {} nodata, {}",
+                    nodata.of.samples == 1 ? "1 sample is" : format_count(nodata.of.samples) + " samples are", height,
+                    nodata.is_high ? "above" : "below", format_number(nodata.min), format_number(nodata.max),
+                    nodata.of.samples == 1 ? "it means" : "they mean", remedy));
+  }
+  return sentences;
+}
+
+}  // namespace scarp::cli

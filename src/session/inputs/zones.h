@@ -1,0 +1,34 @@
+// Materials by polygon and node strings along lines: their files, and what of a mesh they hold.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/features.h"
+#include "scarp/io.h"
+#include "scarp/zones.h"
+#include "session/options/zone_options.h"
+
+namespace scarp::cli {
+
+/// The material outside of all polygons.
+inline constexpr std::uint32_t kElsewhere = 1;
+
+/// Polygons and lines as they were read, which are also breaklines of the mesh.
+struct ZonePlan {
+  std::vector<Zone> zones;
+  std::vector<Line> strings;
+  std::array<double, 6> affine{};  ///< from samples to their coordinates
+};
+
+/// Reads the files, and adds their lines to the breaklines of a mesh, without heights.
+Result<ZonePlan> read_zones(const ZoneArguments& given, const RasterInfo& raster, int rows,
+                            const ProgressCallback& progress, LineConstraints& breaklines,
+                            std::vector<std::string>& warnings);
+
+/// The zones of a mesh in the frame.
+MeshZones find_zones(const ZonePlan& plan, const Frame& frame, const Mesh& mesh);
+
+}  // namespace scarp::cli

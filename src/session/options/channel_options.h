@@ -1,0 +1,41 @@
+// Textures and images next to the heights or in their place, as options name them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scarp/goals.h"
+#include "session/options/raster_options.h"
+#include "session/options/values.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+/// The textures that the options ask for.
+struct ChannelPlan {
+  bool image = false;                 ///< INPUT itself is the image; the heights are 0
+  std::vector<std::string> textures;  ///< files in addition to INPUT, in the order given
+  double texture_weight = 0.5;        ///< 0: heights only … 1: textures only
+  Norm norm = Norm::kSum;
+  std::vector<double> weights;  ///< weights of the channels; empty: all alike
+
+  bool has_channels() const { return image || !textures.empty(); }
+};
+
+struct ChannelArguments {
+  bool image = false;
+  std::vector<std::string> textures;
+  Given texture_weight, norm, weights;
+
+  void add_to(CLI::App& command);
+  Result<ChannelPlan> parse(const RasterArguments& raster) const;
+  std::string canonical() const;
+};
+
+/// "l1", "l2" or "linf".
+const char* norm_name(Norm norm);
+
+}  // namespace scarp::cli

@@ -1,0 +1,32 @@
+// --memory, and sizes of memory.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scarp/result.h"
+#include "session/options/values.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+struct MemoryArguments {
+  Given memory;
+
+  void add_to(CLI::App& command);
+  /// Limit of the process in bytes; nothing if not given.
+  Result<std::optional<std::uint64_t>> parse() const;
+};
+
+/// The code, GDAL's included, and what it always needs.
+inline constexpr std::uint64_t kProgramBytes = 72'000'000;
+
+/// "1G", "1.5 GiB", "800M" as bytes: k, M, G, T are powers of 1000, Ki, Mi, Gi, Ti of 1024; a B may follow.
+Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text);
+
+}  // namespace scarp::cli

@@ -1,0 +1,37 @@
+// The report of `scarp info` on a raster, on points and on a mesh.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "scarp/height_field.h"
+#include "scarp/io.h"
+#include "scarp/mesh.h"
+#include "scarp/points.h"
+#include "scarp/suggest.h"
+#include "session/text/json.h"
+
+namespace scarp::cli {
+
+/// A mesh file.
+struct MeshFile {
+  std::string path, format;
+  std::uint64_t bytes = 0;
+  Mesh mesh;
+  MeshFileAxes axes;
+};
+
+std::string raster_facts(const OwnedHeightField& field);
+/// The table below the facts.
+std::string suggestion_table(const OwnedHeightField& field, const Suggestions& suggestions);
+/// Without rows where none were asked for.
+Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions, int band,
+                   const std::string& command_line);
+
+std::string points_facts(const PointSet& points);
+Json points_facts_report(const PointSet& points, const std::string& command_line);
+
+std::string mesh_facts(const MeshFile& file);
+Json mesh_facts_report(const MeshFile& file, const std::string& command_line);
+
+}  // namespace scarp::cli

@@ -1,0 +1,19 @@
+// Levels of a set of tiles for the viewer's page.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/tile_set_mesh.h"
+#include "session/reports/view_page.h"
+
+namespace scarp::cli {
+
+/// Limit of tiles as they are kept: above this a page opens too slowly.
+inline constexpr std::uint64_t kMostTileBytes = 8'000'000;
+
+/// A mesh for each level, of which `path` is the set. Fails as encode_glb() does.
+Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<LevelMesh>& levels);
+
+}  // namespace scarp::cli

@@ -1,0 +1,17 @@
+// The levels of a run: in the report and in the summary.
+#pragma once
+
+#include <string>
+
+#include "session/plan/simplify_plan.h"
+#include "session/reports/simplify_outcome.h"
+#include "session/text/json.h"
+
+namespace scarp::cli {
+
+/// The "levels" of the report, the finest first; null without --lods.
+Json describe_levels(const SimplifyPlan& plan, const Outcome& outcome);
+/// Lines of the summary; empty without --lods.
+std::string levels_lines(const Outcome& outcome);
+
+}  // namespace scarp::cli

@@ -1,0 +1,191 @@
+#include "session/reports/points_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scarp/version.h"
+#include "session/options/points_options.h"
+#include "session/reports/report.h"
+#include "session/reports/verdict.h"
+#include "session/text/json_text.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+std::string describe_place(const PointSet& points, const Measurement& measured) {
+  if (measured.max_error_at[0] < 0) return "no point";
+  const auto i = static_cast<std::size_t>(measured.max_error_at[0]);
+  return fmt::format("{:.12g}, {:.12g}", points.x[i], points.y[i]);
+}
+
+Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
+  const HeightRange heights = height_range(points);
+  return Json{{"path", points.path},          {"format", points.format},   {"points", points.size()},
+              {"lines", points.lines.size()}, {"duplicates", duplicates},  {"duplicate_policy", policy_name(policy)},
+              {"min", heights.min},           {"max", heights.max},        {"crs", points.crs},
+              {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height}};
+}
+
+Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
+
+void add_point_measurement(Json& report, const PointSet& points, const Measurement& measured) {
+  add_errors(report, measured, 0);
+  add_coverage(report, measured);
+  Json at = nullptr;
+  if (const auto i = static_cast<std::size_t>(measured.max_error_at[0]); measured.max_error_at[0] >= 0)
+    at = Json::array({points.x[i], points.y[i]});
+  report["max_error_at"] = at;
+}
+
+}  // namespace
+
+std::string without_height(const PointSet& points) {
+  return points.without_height == 0
+             ? ""
+             : fmt::format(" ({} without a height left out)", format_count(points.without_height));
+}
+
+HeightRange height_range(const PointSet& points) {
+  const auto [least, most] = std::minmax_element(points.z.begin(), points.z.end());
+  return {points.size(), *least, *most};
+}
+
+std::optional<std::string> find_broken(const PointSet& points, const Measurement& measured, double bound) {
+  if (!(measured.max_error <= bound + judging_allowance(bound, height_range(points))))
+    return fmt::format("max error {:.10g} at {} exceeds {:.10g}", measured.max_error, describe_place(points, measured),
+                       bound);
+  if (measured.uncovered > 0)
+    return fmt::format("{} covered by no triangle",
+                       measured.uncovered == 1 ? "1 point is" : format_count(measured.uncovered) + " points are");
+  if (!measured.is_sound()) return "the mesh is not sound: " + list_faults(measured);
+  return std::nullopt;
+}
+
+std::string PointsOutcome::frame() const {
+  if (!centre) return points.description;
+  return fmt::format("local: offsets from {:.12g}, {:.12g} of {}", (*centre)[0], (*centre)[1], points.description);
+}
+
+Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files,
+                 const std::string& command_line) {
+  Json report;
+  report["scarp"] = version();
+  report["command"] = command_line;
+  report["input"] = describe_points(outcome.points, outcome.policy, outcome.duplicates);
+  report["input"]["on_hull"] = outcome.on_hull;
+  report["input"]["lattice_step"] = outcome.lattice_step;
+  report["input"]["boundary"] = outcome.boundary;
+  report["input"]["suggested_boundary"] =
+      or_null(outcome.suggested_boundary.empty() ? Given() : Given(outcome.suggested_boundary));
+  report["frame"] = describe_frame(outcome.points);
+  if (outcome.centre) {
+    report["frame"] = Json{{"crs", ""},
+                           {"description", outcome.frame()},
+                           {"origin", *outcome.centre},
+                           {"origin_crs", or_null(outcome.points.crs.empty() ? Given() : Given(outcome.points.crs))}};
+  }
+  report["goal"] = describe_goal(plan, outcome);
+  report["strategy"] = Json{{"effort", "fast"}, {"why_fast", "points"}};
+  report["stopped_by"] = stop_name(outcome.simplified.stop);
+  report["vertices"] = outcome.vertices;
+  report["triangles"] = outcome.triangles;
+  if (!outcome.points.lines.empty()) {
+    report["flat_triangles"] = outcome.flat;
+    report["loose_pieces"] = outcome.loose;
+  }
+  add_point_measurement(report, outcome.points, outcome.simplified.measurement);
+  add_solid(report, plan, outcome);
+  report["seconds"] = describe_seconds(outcome);
+  report["outputs"] = describe_outputs(files);
+  report["warnings"] = outcome.warnings;
+  return report;
+}
+
+std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files) {
+  const Measurement& measured = outcome.simplified.measurement;
+  const HeightRange heights = height_range(outcome.points);
+  std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
+  text += summary_line(
+      "points", fmt::format("{}{}, heights {} to {}", format_count(outcome.points.size()),
+                            without_height(outcome.points), format_number(heights.min), format_number(heights.max)));
+  if (!outcome.points.columns.empty()) text += summary_line("read as", outcome.points.columns);
+  if (!outcome.points.lines.empty())
+    text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");
+  text += summary_line("duplicates", outcome.duplicates == 0
+                                         ? "none"
+                                         : fmt::format("{}, the {} of each place counts",
+                                                       format_count(outcome.duplicates), policy_name(outcome.policy)));
+  text += summary_line("lattice step", format_number(outcome.lattice_step));
+  text += files_lines(plan, files);
+  text += summary_line("vertices", fmt::format("{}, {} of the points, {} on the hull", format_count(outcome.vertices),
+                                               format_share(static_cast<double>(outcome.vertices),
+                                                            static_cast<double>(outcome.points.size())),
+                                               format_count(outcome.on_hull)));
+  const std::string flats =
+      fmt::format(", {} ({}) flat between points of equal height", format_count(outcome.flat),
+                  format_share(static_cast<double>(outcome.flat), static_cast<double>(outcome.triangles)));
+  text += summary_line("triangles", format_count(outcome.triangles) + (outcome.points.lines.empty() ? "" : flats));
+  text += solid_line(plan, outcome);
+  text += summary_line("effort", "fast (scattered points are only refined)");
+  text += summary_line("frame", outcome.frame());
+  text += summary_line("max error", fmt::format("{} at {}{}", format_number(measured.max_error),
+                                                describe_place(outcome.points, measured), describe_asked(outcome)));
+  text += summary_line("RMSE", format_number(measured.rmse));
+  text += summary_line("judged", format_plural(measured.samples, "point") + ", none uncovered");
+  return text + seconds_line(outcome) +
+         describe_end(plan, outcome, measured.max_error == 0 ? "Reproduced every point" : nullptr);
+}
+
+Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line) {
+  Json report;
+  report["scarp"] = version();
+  report["command"] = command_line;
+  report["input"] = describe_points(judged.points, judged.policy, judged.duplicates());
+  report["frame"] = describe_frame(judged.points);
+  report["mesh"] = Json{{"path", mesh_path}, {"metadata", judged.mesh.metadata}};
+  report["vertices"] = judged.measured.vertices;
+  report["triangles"] = judged.measured.triangles;
+  add_point_measurement(report, judged.points, judged.measured);
+  report["fail_above"] = or_null(judged.fail_above);
+  report["passed"] = judged.fail_above || judged.broken ? Json(!judged.broken) : Json(nullptr);
+  report["seconds"] =
+      Json{{"read", judged.seconds_read}, {"measure", judged.seconds_measure}, {"total", judged.seconds_total}};
+  report["warnings"] = judged.points.warnings;
+  return report;
+}
+
+std::string make_table(const JudgedPoints& judged, const std::string& mesh_path) {
+  const Measurement& m = judged.measured;
+  const auto line = [](const char* name, const std::string& value) { return fmt::format("  {:<20}{}\n", name, value); };
+  std::string text = fmt::format("{} judged by {}, {}\n", base_name(mesh_path), base_name(judged.points.path),
+                                 format_plural(judged.points.size(), "point"));
+  if (m.samples == 0) {
+    text += line("max error", "none: no point is covered");
+  } else {
+    text += line("max error", fmt::format("{} at {}", format_number(m.max_error), describe_place(judged.points, m)));
+    text += line("RMSE", format_number(m.rmse));
+    text += line("mean error", format_number(m.mean_error));
+    text += line("mean |error|", format_number(m.mean_abs_error));
+    text += line("P50, P95", fmt::format("{}, {}", format_number(m.p50), format_number(m.p95)));
+    text += line("P99, P99.9", fmt::format("{}, {}", format_number(m.p99), format_number(m.p999)));
+  }
+  text += line("points judged", format_count(m.samples));
+  text += line("points uncovered", format_count(m.uncovered));
+  text += line("duplicates",
+               fmt::format("{} left out ({})", format_count(judged.duplicates()), policy_name(judged.policy)));
+  text += line("vertices", format_count(m.vertices));
+  text += line("triangles", format_count(m.triangles));
+  text += line("smallest angle",
+               fmt::format("{:.3g} degrees; of each triangle P1 {:.3g}, P5 {:.3g}, P50 {:.3g}", m.min_angle,
+                           m.angle_percentiles[0], m.angle_percentiles[1], m.angle_percentiles[2]));
+  const std::string faults = list_faults(m);
+  text += line("topology", faults.empty() ? "sound" : faults);
+  if (judged.fail_above) {
+    text += line("verdict", fmt::format("{} {}", judged.broken ? "FAILS" : "keeps", format_number(*judged.fail_above)));
+  }
+  return text;
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,60 @@
+// The results of simplify and measure for scattered points, and their report.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/points.h"
+#include "session/plan/simplify_plan.h"
+#include "session/reports/simplify_run.h"
+#include "session/text/json.h"
+
+namespace scarp::cli {
+
+/// " (12 without a height left out)", or nothing.
+std::string without_height(const PointSet& points);
+HeightRange height_range(const PointSet& points);
+
+/// Like find_broken_promise(), with a point's place.
+std::optional<std::string> find_broken(const PointSet& points, const Measurement& measured, double bound);
+
+/// The result of simplify for points.
+struct PointsOutcome : SimplifyRun {
+  PointSet points;
+  DuplicatePolicy policy = DuplicatePolicy::kFirst;
+  std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
+  double lattice_step = 0;
+  std::string boundary = "hull";                ///< value of --boundary
+  std::string suggested_boundary;               ///< empty: none
+  std::optional<std::array<double, 2>> centre;  ///< centre of the local frame, where the mesh has one and the points
+                                                ///< have not
+
+  /// The frame of the mesh's x and y.
+  std::string frame() const;
+};
+
+Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files,
+                 const std::string& command_line);
+/// The lines on standard output.
+std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files);
+
+/// The result of measure.
+struct JudgedPoints {
+  PointSet points;
+  DuplicatePolicy policy = DuplicatePolicy::kFirst;
+  Mesh mesh;
+  Measurement measured;
+  std::optional<double> fail_above;
+  std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
+  double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
+
+  std::uint64_t duplicates() const { return points.size() - measured.samples - measured.uncovered; }
+};
+
+Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line);
+std::string make_table(const JudgedPoints& judged, const std::string& mesh_path);
+
+}  // namespace scarp::cli

@@ -1,0 +1,140 @@
+// Options for the goals of a mesh, and for the effort.
+#include "session/table/option_rows.h"
+
+namespace scarp::cli {
+namespace {
+
+using enum OptionId;
+using enum OptionType;
+
+constexpr OptionRow kGoalRows[] = {
+    {.id = kMaxError,
+     .name = "--max-error",
+     .short_name = "-e",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kNumber,
+     .value = "M|P%",
+     .unit = "units of the heights, % of the relief, or m, cm, ft, mm",
+     .range = "at least 0",
+     .help = "No sample is farther than this from the mesh, measured vertically. M is in the units of the heights, "
+             "P% (0.5%) is a share of the relief. 1m, 50cm and 3ft name the unit; 0.1mm is an error on the print of "
+             "--solid size=. 0 reproduces every sample.",
+     .brief = "No sample is farther than this from the mesh; 0.5%: of the relief"},
+    {.id = kMaxTriangles,
+     .name = "--max-triangles",
+     .short_name = "-t",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kCount,
+     .value = "N",
+     .unit = "triangles",
+     .range = "at least 1",
+     .help = "At most this many triangles. 50k, 2M and 1e5 will do.",
+     .brief = "At most this many triangles, such as 50k"},
+    {.id = kMaxPoints,
+     .name = "--max-points",
+     .short_name = "-p",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kCount,
+     .value = "N",
+     .unit = "vertices",
+     .range = "at least 1",
+     .help = "At most this many vertices.",
+     .brief = "At most this many vertices"},
+    {.id = kObjective,
+     .name = "--objective",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kChoice,
+     .choices = "max rms",
+     .by_default = "max",
+     .help = "Quantity to minimise under -t or -p: the max error or the RMSE. With rms no sample is off by more than "
+             "-e, or than what --effort fast reaches. Needs --effort normal or more."},
+
+    {.id = kFailAbove,
+     .name = "--fail-above",
+     .commands = kMeasure,
+     .group = OptionGroup::kVerdict,
+     .type = kNumber,
+     .value = "E|P%",
+     .unit = "units of the heights, % of the relief, or m, cm, ft",
+     .range = "at least 0",
+     .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. E and "
+             "P% are as for --max-error of simplify. Errors are in the units of the heights: weighted with --mask, "
+             "combined with --texture and --image.",
+     .brief = "Exit code 3 if an error is above this, or the mesh is not sound"},
+
+    {.id = kEffort,
+     .name = "--effort",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kChoice,
+     .value = "LEVEL",
+     .choices = "fast normal high max",
+     .by_default = "normal; fast with strategies, --order greedy, or too little --memory",
+     .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the "
+             "triangles of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, "
+             "9.6 and 50 times that of --order greedy. With -t or -p: a smaller error instead.",
+     .brief = "fast, normal, high or max: fewer triangles for more time"},
+    {.id = kVertices,
+     .name = "--vertices",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kChoice,
+     .choices = "free samples",
+     .by_default = "free where possible",
+     .help = "Positions of vertices for high and max. free: between samples too. samples: only on them; with high "
+             "0.41 of the triangles of fast."},
+    {.id = kMinShape,
+     .name = "--min-shape",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kNumber,
+     .value = "Q",
+     .unit = "height over longest edge",
+     .by_default = "0.1 with free vertices, else 0",
+     .range = "0 to 0.5",
+     .help = "Do not create triangles thinner than this (height over longest edge)."},
+    {.id = kTimeLimit,
+     .name = "--time-limit",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kNumber,
+     .value = "SECONDS",
+     .unit = "seconds",
+     .range = "at least 0",
+     .help = "Stop improving after SECONDS and write the best mesh so far. It still meets the bound, but depends on "
+             "timing; max uses all of the time."},
+
+    {.id = kLods,
+     .name = "--lods",
+     .commands = kSimplify,
+     .group = OptionGroup::kLevels,
+     .type = kText,
+     .value = "N[:RATIO]",
+     .unit = "levels",
+     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error of the first is "
+             "that of -e, of each further one RATIO (2 unless given) times the previous one's. All have one outline, "
+             "that of --lock-border."},
+    {.id = kLodsInOne,
+     .name = "--lods-in-one",
+     .commands = kSimplify,
+     .group = OptionGroup::kLevels,
+     .type = kFlag,
+     .help = "Write all levels to one GLB, as nodes with MSFT_lod."},
+    {.id = kLockBorder,
+     .name = "--lock-border",
+     .commands = kSimplify,
+     .group = OptionGroup::kLevels,
+     .type = kFlag,
+     .help = "Make the mesh at the raster's edge from the samples of the edge alone. Rasters that share a row or "
+             "column of samples then meet exactly, simplified apart with the same -e."},
+};
+
+}  // namespace
+
+std::span<const OptionRow> goal_rows() { return kGoalRows; }
+
+}  // namespace scarp::cli

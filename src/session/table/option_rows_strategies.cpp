@@ -1,0 +1,100 @@
+// The strategies of the 1995 paper: which samples become vertices, and which edges join them.
+#include "session/table/option_rows.h"
+
+namespace scarp::cli {
+namespace {
+
+using enum OptionId;
+using enum OptionType;
+
+constexpr OptionRow kStrategyRows[] = {
+    {.id = kOrder,
+     .name = "--order",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kChoice,
+     .choices = "dominant greedy",
+     .by_default = "dominant with -e alone, else greedy",
+     .help = "Sample that is inserted next. dominant: the worst of its neighbourhood, on all threads. greedy: the "
+             "worst of the whole raster, as in the paper, on one thread."},
+    {.id = kImportance,
+     .name = "--importance",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kText,
+     .value = "FORMULA",
+     .choices = "global local local8 curvature distance global*local global*local8 global*curvature global*distance",
+     .by_default = "global",
+     .help = "Measure of the worst sample: the largest global (error of the mesh), local or local8 "
+             "(difference from the mean of its 4 or 8 neighbours) or curvature. Or a product: global*local, "
+             "'global*(local+1)', 'global*sqrt(curvature+1)'. Distance, from the nearest corner of its triangle, "
+             "attenuates errors near vertices: 'global*sqrt(distance+1)'."},
+    {.id = kOnePass,
+     .name = "--one-pass",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kFlag,
+     .help = "Rank all samples once, by --importance local, local8 or curvature, and insert the best. For -t and -p: "
+             "with -e it inserts nearly everything."},
+    {.id = kAlgorithm,
+     .name = "--algorithm",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kChoice,
+     .choices = "brute local heap",
+     .by_default = "heap",
+     .help = "How the greedy order finds the next sample: the paper's algorithms I, II and III. The mesh is the "
+             "same."},
+    {.id = kBatch,
+     .name = "--batch",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kText,
+     .value = "RULE",
+     .choices = "const frac: independent",
+     .by_default = "one sample at a time",
+     .help = "Insert several samples per pass. const: all that break the bound. frac:A: all of at least A times the "
+             "worst. independent: those in triangles that have not changed."},
+    {.id = kEdges,
+     .name = "--edges",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kChoice,
+     .choices = "delaunay data",
+     .by_default = "delaunay",
+     .help = "Diagonals to keep: those of well-shaped triangles, or those that fit the heights."},
+    {.id = kEdgeScore,
+     .name = "--edge-score",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kChoice,
+     .value = "SCORE",
+     .choices = "sum max sqerr abn tight",
+     .by_default = "sum",
+     .help = "With --edges data: what a diagonal is judged by. sum or max of its triangles' largest errors, sqerr "
+             "(squared errors), abn (angle between normals), tight (fewest triangles at equal error)."},
+    {.id = kShapeThreshold,
+     .name = "--shape-threshold",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kNumber,
+     .value = "Q",
+     .by_default = "0.5, with tight 0.1",
+     .range = "0 to 1",
+     .help = "With --edges data: 0 counts the data alone, 1 the shape alone."},
+    {.id = kSupersample,
+     .name = "--supersample",
+     .commands = kSimplify,
+     .group = OptionGroup::kStrategies,
+     .type = kNumber,
+     .value = "F",
+     .by_default = "0, off",
+     .range = "at least 0",
+     .help = "With --edges data: judge thin triangles on a finer lattice of bilinear heights. 0.8 is moderate."},
+};
+
+}  // namespace
+
+std::span<const OptionRow> strategy_rows() { return kStrategyRows; }
+
+}  // namespace scarp::cli

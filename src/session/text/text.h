@@ -1,0 +1,48 @@
+// Numbers and sentences for people.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/result.h"
+
+namespace scarp::cli {
+
+/// 3122, 27,577, 1,234,567: groups of three from five digits on.
+std::string format_count(std::uint64_t n);
+/// Up to six significant digits, no trailing zeros.
+std::string format_number(double value);
+/// "84,212 bytes" or "1.24 MB (1,240,332 bytes)".
+std::string format_bytes(std::uint64_t bytes);
+/// Seconds with two digits after the point.
+std::string format_seconds(double seconds);
+/// part / whole as a percentage with three significant digits, "0 %" if whole is 0.
+std::string format_share(double part, double whole);
+/// "1 triangle", "2 triangles".
+std::string format_plural(std::uint64_t n, std::string_view noun);
+
+/// The last component of a path or URL, without a URL's query (which may hold a key).
+std::string base_name(const std::string& path);
+/// The word as a POSIX shell would need it: quoted where it holds more than letters, digits and plain punctuation.
+std::string shell_word(const std::string& word);
+
+/// A line of a summary.
+std::string summary_line(const char* name, const std::string& value);
+
+/// Writes `text` to stderr. A failure is ignored, since it cannot be reported.
+void print_to_stderr(std::string_view text);
+/// `scarp: SENTENCE` on stderr, in one line whatever the message holds.
+void print_error(const Error& error);
+/// `scarp: warning: SENTENCE` on stderr, one line each.
+void print_warnings(const std::vector<std::string>& warnings);
+/// Writes `text` to stdout. kOutput if it cannot be written; a reader that has closed its pipe is no error.
+Result<void> print_to_stdout(const std::string& text);
+/// The same for text that only reports files that are written: a caller that has closed stdout does not want it.
+Result<void> print_summary(const std::string& text);
+
+/// The exit code of an error: 1 usage, 2 input, 3 promise, 4 output, 5 cancelled, 70 internal.
+int exit_code(ErrorKind kind);
+
+}  // namespace scarp::cli

@@ -1,0 +1,28 @@
+// scarp measure without its terminal: reads a raster and a mesh, and judges the one by the other.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/io.h"
+#include "scarp/picture.h"
+#include "session/options/measure_options.h"
+#include "session/reports/measure_report.h"
+#include "session/work/runner.h"
+
+namespace scarp::cli {
+
+/// Handles the errors of streamed samples, row by row.
+struct StreamedErrors {
+  std::optional<ErrorMap> map = std::nullopt;
+  std::optional<RasterFile> raster = std::nullopt;
+};
+
+/// Reads raster and mesh, and judges. `files_read`: by any option.
+Result<void> judge_inputs(const MeasureArguments& given, const std::vector<std::string>& files_read,
+                          const Runner& runner, Judged& judged, StreamedErrors& errors);
+/// The files of --map and --error-raster.
+Result<void> write_error_files(const MeasureArguments& given, const Judged& judged, StreamedErrors& streamed);
+
+}  // namespace scarp::cli

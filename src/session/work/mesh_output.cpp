@@ -1,0 +1,74 @@
+#include "session/work/mesh_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "scarp/picture.h"
+#include "scarp/version.h"
+
+namespace scarp::cli {
+
+Result<void> check_unit_of_frame(const OutputFormat& format, double metres) {
+  if (format.heights_in() != HeightsIn::kMetres || metres == 0 || metres == 1) return {};
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} is in metres by its specification, and x and y in the CRS of --crs are in units of {:.10g} m: "
+                  "leave --crs out, for metres around the raster's centre, or choose a CRS in metres",
+                  format.title(), metres));
+}
+
+Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {
+  if (!format.is_landxml() && !format.is_gpkg()) return {};  // all others hold any CRS, or none
+  Mesh sample;
+  sample.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  sample.triangles = {0, 1, 2};
+  if (!crs.empty()) sample.metadata["crs"] = crs;
+  if (!unit.empty()) sample.metadata["unit"] = unit;
+  auto bytes = encode_mesh(sample, format.mesh);
+  if (!bytes) return fail(ErrorKind::kUsage, std::move(bytes.error().message));
+  return {};
+}
+
+Result<void> close_with_base(Mesh& mesh, double base) {
+  if (add_base(mesh, base)) return {};
+  double lowest = mesh.vertex(0)[2];
+  for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
+  return fail(ErrorKind::kUsage,
+              fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", base, lowest));
+}
+
+Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {
+  Mesh& mesh = run.simplified.mesh;
+  run.vertices = mesh.vertex_count();
+  run.triangles = mesh.triangle_count();
+  if (!plan.base) return {};
+  SCARP_RETURN_IF_ERROR(close_with_base(mesh, *plan.base));
+  run.solid_vertices = mesh.vertex_count();
+  run.solid_triangles = mesh.triangle_count();
+  return {};
+}
+
+void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
+                const std::string& crs_option, Mesh& mesh) {
+  mesh.metadata["generator"] = fmt::format("Scarp {}", version());
+  mesh.metadata["command"] = command;
+  mesh.metadata["frame"] = frame;
+  if (!crs.empty()) mesh.metadata["crs"] = crs;
+  if (!crs_option.empty()) mesh.metadata["crs_option"] = crs_option;
+}
+
+void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh) {
+  if (plan.is_y_up) turn_y_up(mesh);
+}
+
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb,
+                                            bool doubles) {
+  if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
+  if (format.kind == OutputKind::kEps) return encode_eps(mesh);
+  return format.is_glb() ? encode_glb(mesh, glb) : encode_mesh(mesh, format.mesh, doubles);
+}
+
+}  // namespace scarp::cli

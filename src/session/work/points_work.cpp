@@ -1,0 +1,296 @@
+#include "session/work/points_work.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "session/inputs/mesh_place.h"
+#include "session/options/error_goal.h"
+#include "session/table/option_table.h"
+#include "session/text/clock.h"
+#include "session/text/json_text.h"
+#include "session/text/text.h"
+#include "session/work/mesh_output.h"
+
+namespace scarp::cli {
+namespace {
+
+/// `as`: how a raster would be read.
+Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const ReadOptions& as,
+                      const ProgressCallback& progress) {
+  if (path.empty()) return fail(ErrorKind::kUsage, "the name of the points is empty");
+  for (const auto& [name, value] : {std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field},
+                                    std::pair{"--columns", &arguments.columns}}) {
+    if (*value && (*value)->empty()) return fail(ErrorKind::kUsage, fmt::format("{} is empty: leave it out", name));
+  }
+  return read_points(path, {.layer = arguments.layer.value_or(""),
+                            .z_field = arguments.z_field.value_or(""),
+                            .crs = as.crs,
+                            .progress = progress,
+                            .columns = arguments.columns.value_or(""),
+                            .nodata = as.nodata,
+                            .z_scale = as.z_scale,
+                            .z_offset = as.z_offset,
+                            .z_unit = as.z_unit,
+                            .heights_in = as.heights_in,
+                            .default_frame = as.default_frame});
+}
+
+/// The value of --crs; empty: local for degrees, else the points' own.
+std::string crs_option(const SimplifyPlan& plan) {
+  if (!plan.read.crs.empty()) return plan.read.crs;
+  return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
+}
+
+void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
+  for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
+}
+
+/// How far a mesh was moved from the source's coordinates, if its metadata hold it, and show no other change.
+std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
+  const auto said = mesh.metadata.find("to_source");
+  if (said == mesh.metadata.end()) return std::nullopt;
+  const Json affine = Json::parse(said->second, nullptr, false);
+  if (!affine.is_array() || affine.size() != 6 || !affine[0].is_number() || !affine[3].is_number()) return std::nullopt;
+  if (affine[1] != 1 || affine[2] != 0 || affine[4] != 0 || affine[5] != 1) return std::nullopt;
+  return std::array{affine[0].get<double>(), affine[3].get<double>()};
+}
+
+/// How the points of such a mesh are read, unless `given` sets them.
+Result<ReadOptions> remember_reading(const RasterArguments& given, const Mesh& mesh, const std::string& path) {
+  const auto find = [&](const char* key) {
+    const auto entry = mesh.metadata.find(key);
+    return entry == mesh.metadata.end() ? Given() : Given(entry->second);
+  };
+  RasterArguments asked = given;
+  if (find("duplicates")) asked = remember_options(given, mesh);  // a raster's own scale
+  asked.cell_size = given.cell_size;
+  if (!given.crs) asked.crs = find("crs_option");
+  if (!given.crs && asked.crs == Given("local") && way_to_source(mesh)) asked.crs = "source";
+  if (!given.nodata) asked.nodata = find("nodata");
+  SCARP_TRY(auto&& options, asked.parse());
+  options.heights_in = find("unit") == Given("m") ? HeightsIn::kMetres : heights_in(path);
+  options.default_frame = default_frame(path) == DefaultFrame::kLocal ? DefaultFrame::kLocal : DefaultFrame::kMetric;
+  return options;
+}
+
+/// Puts a mesh in a local frame back to where the points lie: by its metadata, or, where a format has no place for
+/// them, where they do not meet otherwise.
+void put_back(const PointSet& points, Mesh& mesh) {
+  if (const auto way = way_to_source(mesh)) return move(1, *way, mesh);
+  if (points.is_local || mesh.metadata.contains("frame")) return;
+  Mesh moved = mesh;
+  move(1, local_origin(points), moved);
+  const Extent extent = extent_of(points);
+  if (extent.overlap(extent_of(moved)) > extent.overlap(extent_of(mesh))) mesh.origin = moved.origin;
+}
+
+void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+  Mesh& mesh = outcome.simplified.mesh;
+  // The judge puts the mesh back and reads the points in their own coordinates.
+  add_origin(plan.canonical_command + arguments.canonical(), outcome.frame(), outcome.centre ? "" : outcome.points.crs,
+             outcome.centre ? "source" : crs_option(plan), mesh);
+  if (outcome.centre) {
+    const auto [x, y] = *outcome.centre;
+    mesh.metadata["origin"] = Json(*outcome.centre).dump();
+    if (!outcome.points.crs.empty()) mesh.metadata["origin_crs"] = outcome.points.crs;
+    mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
+  }
+  mesh.metadata["duplicates"] = policy_name(outcome.policy);
+  if (arguments.columns) mesh.metadata["columns"] = *arguments.columns;
+  if (arguments.boundary) mesh.metadata["boundary"] = *arguments.boundary;
+  if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
+  const RasterInfo& heights = outcome.points.heights;
+  if (heights.z_scale != 1) mesh.metadata["z_scale"] = Json(heights.z_scale).dump();
+  if (heights.z_offset != 0) mesh.metadata["z_offset"] = Json(heights.z_offset).dump();
+  if (!heights.unit.empty()) mesh.metadata["unit"] = heights.unit;
+  const Measurement& measured = outcome.simplified.measurement;
+  const Json error{{"asked", or_null(outcome.asked)},
+                   {"max_error", measured.max_error},
+                   {"rmse", measured.rmse},
+                   {"samples", measured.samples}};
+  mesh.metadata["error"] = error.dump();
+}
+
+/// A frame that the mesh file names and the points cannot have.
+Error explain_frame(Error error, const std::string& crs, const std::string& mesh, const std::string& path) {
+  if (error.kind != ErrorKind::kUsage || error.message.find(crs) == std::string::npos) return error;
+  if (crs != "grid") {
+    error.message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh);
+    return error;
+  }
+  error.message = fmt::format(
+      "{} says of itself that its coordinates are the columns and rows of a raster ('grid'), which the points of {} do "
+      "not have: judge it by its raster, or say with --crs source that x and y of the points count the same",
+      mesh, path);
+  return error;
+}
+
+/// Library errors about the points themselves do not know the file.
+Error with_path(Error error, const std::string& path) {
+  if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
+    error.message = fmt::format("{}: {}", path, error.message);
+  return error;
+}
+
+/// Warns where the convex hull bridges bays or has slivers.
+void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
+  if (fit.boundary_length == 0) return;
+  outcome.suggested_boundary = fmt::format("concave:{:.6g}", fit.boundary_length);
+  outcome.warnings.push_back(fmt::format(
+      "{}: --boundary {} ends the mesh at the points instead (--boundary hull: no warning)",
+      fit.slivers == 0
+          ? fmt::format("{} of the mesh lies across bays of the convex hull, where no points are",
+                        format_share(fit.bridged, 1))
+          : fmt::format("the points end along nearly straight lines, where the convex hull makes {} steeper "
+                        "than 80 degrees",
+                        format_plural(fit.slivers, "sliver")),
+      outcome.suggested_boundary));
+}
+
+}  // namespace
+
+Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& given, const PointsArguments& arguments,
+                              const Runner& runner, SimplifyPlan& plan, PointsOutcome& outcome) {
+  const Clock::time_point start = Clock::now();
+  SCARP_RETURN_IF_ERROR(refuse_raster_options(command, given.raster.path()));
+  if (!given.max_error && !given.max_triangles && !given.max_points)
+    return fail(ErrorKind::kUsage,
+                "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
+                "with -t or -p");
+  SCARP_TRY(plan, plan_simplify(given, files_read(command)));
+  if (runner.on_plan) runner.on_plan(plan.read);
+  if (plan.format.kind == OutputKind::kDem)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
+                            "such as .glb or .ply",
+                            given.output, shell_word(base_name(given.raster.path()))));
+  SCARP_TRY(const auto& policy, parse_policy(arguments.duplicates));
+  SCARP_TRY(const auto& boundary_length, parse_boundary(arguments.boundary));
+
+  outcome.policy = policy;
+  outcome.boundary = arguments.boundary.value_or("hull");
+  ReadOptions as = plan.read;
+  as.crs = crs_option(plan);
+  SCARP_TRY(PointSet points, read(given.raster.path(), arguments, as, runner.progress));
+  if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
+  SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
+  outcome.points = std::move(points);
+  if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
+                            "beyond any budget; ask for an error with -e",
+                            given.max_triangles ? "--max-triangles" : "--max-points",
+                            shell_word(base_name(given.raster.path()))));
+  if (!outcome.points.lines.empty() && boundary_length)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--boundary {} cannot be combined with lines, and {} holds them: they may cross what it "
+                            "takes away; leave it out",
+                            *arguments.boundary, shell_word(base_name(given.raster.path()))));
+  SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit));
+  if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
+    outcome.centre = local_origin(outcome.points);
+  SCARP_TRY(outcome.projections, plan_projection_files(plan, outcome.points.crs));
+  outcome.warnings = plan.warnings;
+  outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
+  const HeightRange heights = height_range(outcome.points);
+  if (plan.error_goal) {
+    SCARP_RETURN_IF_ERROR(refuse_print("--max-error", *plan.error_goal));
+    SCARP_RETURN_IF_ERROR(settle_goal("--max-error", outcome.points.heights, *plan.error_goal, outcome.warnings));
+  }
+  if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
+  outcome.seconds_read = seconds_since(start);
+
+  PointOptions options;
+  options.max_error = outcome.asked;
+  options.max_triangles = plan.simplify.goals.max_triangles;
+  options.max_vertices = plan.simplify.goals.max_vertices;
+  options.float32_positions = plan.format.is_float32();  // points do not lie where float32 is exact
+  options.duplicates = outcome.policy;
+  options.boundary_length = boundary_length;
+  options.run.threads = plan.simplify.run.threads;
+  options.run.progress = runner.progress;
+  Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
+  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path()));
+  outcome.simplified = std::move(simplified->simplified);
+  outcome.duplicates = simplified->duplicates;
+  outcome.on_hull = simplified->on_hull;
+  outcome.lattice_step = simplified->lattice_step;
+  outcome.flat = simplified->flat;
+  outcome.loose = simplified->loose;
+  if (!arguments.boundary) suggest_boundary(simplified->hull_fit, outcome);
+  if (outcome.loose > 0)
+    outcome.warnings.push_back(
+        fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
+                    "cross them",
+                    format_plural(outcome.loose, "piece")));
+  // The engine proves its own result; a mesh whose proof does not hold is never written.
+  const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
+  const auto broken = find_broken(outcome.points, outcome.simplified.measurement,
+                                  has_bound ? *outcome.asked : outcome.simplified.measurement.max_error);
+  if (broken)
+    return fail(ErrorKind::kPromise,
+                "the mesh does not keep its promise and was not written; this is a bug in Scarp: " + *broken);
+  return {};
+}
+
+Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+  SCARP_RETURN_IF_ERROR(finish_mesh(plan, outcome));
+  if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
+  add_metadata(plan, arguments, outcome);
+  return {};
+}
+
+Result<void> judge_points(const CLI::App& command, const MeasureArguments& given, const Runner& runner,
+                          JudgedPoints& judged) {
+  const Clock::time_point start = Clock::now();
+  SCARP_RETURN_IF_ERROR(refuse_raster_options(command, given.raster.path()));
+  const Result<int> threads = parse_threads(given.threads);
+  SCARP_RETURN_IF_ERROR(threads);
+  std::optional<ErrorGoal> goal;
+  if (given.fail_above) {
+    SCARP_TRY(ErrorGoal parsed, parse_error_goal("--fail-above", *given.fail_above));
+    SCARP_RETURN_IF_ERROR(refuse_print("--fail-above", parsed));
+    goal = std::move(parsed);
+  }
+  SCARP_TRY(judged.mesh, read_mesh(given.mesh));
+  // The settings of the mesh hold for its judge, unless options set others.
+  const auto remembered = [&](const Given& option, const char* key) -> Given {
+    const auto entry = judged.mesh.metadata.find(key);
+    return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
+  };
+  SCARP_TRY(judged.policy, parse_policy(remembered(given.points.duplicates, "duplicates")));
+  const auto boundary_length = parse_boundary(remembered(given.points.boundary, "boundary"));
+  SCARP_RETURN_IF_ERROR(boundary_length);
+  PointsArguments asked = given.points;
+  asked.columns = remembered(given.points.columns, "columns");
+  const std::string path = given.raster.path();
+  SCARP_TRY(const auto as, remember_reading(given.raster, judged.mesh, given.mesh));
+  Result<PointSet> points = read(path, asked, as, runner.progress);
+  if (!points && !given.raster.crs && !as.crs.empty())
+    return tl::unexpected(explain_frame(std::move(points.error()), as.crs, given.mesh, path));
+  SCARP_RETURN_IF_ERROR(points);
+  judged.points = std::move(*points);
+  if (!given.raster.crs) put_back(judged.points, judged.mesh);
+  if (goal) {
+    SCARP_RETURN_IF_ERROR(settle_goal("--fail-above", judged.points.heights, *goal, judged.points.warnings));
+    const HeightRange heights = height_range(judged.points);
+    judged.fail_above = goal->absolute(heights.max - heights.min);
+  }
+  judged.seconds_read = seconds_since(start);
+
+  const Clock::time_point measure_start = Clock::now();
+  MeasureOptions options;
+  options.run.threads = threads;
+  options.run.progress = runner.progress;
+  options.inlets = boundary_length.has_value();
+  SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
+  judged.seconds_measure = seconds_since(measure_start);
+  if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
+  if (judged.measured.samples == 0)
+    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), path);
+  return {};
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,18 @@
+// scarp simplify without its terminal: from a plan to a mesh that keeps its promise, in memory.
+#pragma once
+
+#include "session/inputs/memory.h"
+#include "session/options/simplify_options.h"
+#include "session/plan/simplify_plan.h"
+#include "session/reports/simplify_outcome.h"
+#include "session/work/runner.h"
+
+namespace scarp::cli {
+
+/// Reads the inputs, simplifies, and checks the promise. Warnings go to `plan` and `outcome`.
+Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome);
+
+/// The limit of the process, and the bytes that it uses in addition to the mesh; of no limit: zeros.
+MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);
+
+}  // namespace scarp::cli

@@ -1,0 +1,26 @@
+// scarp tile without its terminal: from rasters to a finished set.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session/options/tile_options.h"
+#include "session/plan/tile_plan.h"
+#include "session/text/tile_counts.h"
+
+namespace scarp::cli {
+
+struct MadeTiles {
+  OpenedJob opened;
+  PyramidReport report;
+  std::vector<std::string> warnings;
+};
+
+/// Fails with kUsage for a set that the container of that name cannot describe.
+Result<void> check_container(const TileJob& job, const std::string& output);
+
+/// Makes the set under its final name, or nothing. Counts its tiles meanwhile.
+Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
+                             TileCounts& counts);
+
+}  // namespace scarp::cli
