@@ -92,7 +92,7 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
     SCARP_TRY(auto&& job, read_tile_job(path));
     SCARP_TRY(served.job, open_job(std::move(job), memory / 2, threads));
   } else {
-    SCARP_TRY(served.job, open_tiles(tiles_, display.callback(), *memory / 2));
+    SCARP_TRY(served.job, open_tiles(tiles_, display.callback(), memory / 2));
   }
   Run run;
   run.threads = threads;

@@ -93,10 +93,8 @@ Result<OpenedJob> TilePlanCommand::follow(const ProgressCallback& progress) cons
       return fail(ErrorKind::kUsage,
                   fmt::format("{} does not go with --changed-since: {} has decided it", name, *changed_since_));
   }
-  const Result<TileJob> earlier = read_tile_job(*changed_since_);
-  SCARP_RETURN_IF_ERROR(earlier);
-  auto opened = follow_tiles(tiles_, *earlier, progress);
-  SCARP_RETURN_IF_ERROR(opened);
+  SCARP_TRY(const TileJob& earlier, read_tile_job(*changed_since_));
+  SCARP_TRY(auto&& opened, follow_tiles(tiles_, earlier, progress));
   std::error_code error;
   opened.job.parts =
       std::filesystem::absolute(parts_folder(*changed_since_, {}, earlier), error).lexically_normal().string();

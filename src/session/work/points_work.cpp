@@ -246,8 +246,7 @@ Result<void> judge_points(const CLI::App& command, const MeasureArguments& given
                           JudgedPoints& judged) {
   const Clock::time_point start = Clock::now();
   SCARP_RETURN_IF_ERROR(refuse_raster_options(command, given.raster.path()));
-  const Result<int> threads = parse_threads(given.threads);
-  SCARP_RETURN_IF_ERROR(threads);
+  SCARP_TRY(const int threads, parse_threads(given.threads));
   std::optional<ErrorGoal> goal;
   if (given.fail_above) {
     SCARP_TRY(ErrorGoal parsed, parse_error_goal("--fail-above", *given.fail_above));
@@ -261,8 +260,7 @@ Result<void> judge_points(const CLI::App& command, const MeasureArguments& given
     return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
   };
   SCARP_TRY(judged.policy, parse_policy(remembered(given.points.duplicates, "duplicates")));
-  const auto boundary_length = parse_boundary(remembered(given.points.boundary, "boundary"));
-  SCARP_RETURN_IF_ERROR(boundary_length);
+  SCARP_TRY(const auto& boundary_length, parse_boundary(remembered(given.points.boundary, "boundary")));
   PointsArguments asked = given.points;
   asked.columns = remembered(given.points.columns, "columns");
   const std::string path = given.raster.path();
