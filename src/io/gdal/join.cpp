@@ -153,17 +153,19 @@ class Writer {
     return !tells && !leave_no_gap(tiles_);
   }
 
-  std::string write_source(const Tile& tile, const std::string& band, GDALDataType type,
-                           const std::string& more) const {
+  /// `is_inner`: the source is write_with_nan() of the tile.
+  std::string write_source(const Tile& tile, const std::string& band, GDALDataType type, const std::string& more,
+                           bool is_inner = false) const {
     const char* kind = more.empty() ? "SimpleSource" : "ComplexSource";
     return fmt::format(
         "<{0}><SourceFilename relativeToVRT=\"0\">{1}</SourceFilename><SourceBand>{2}</SourceBand>"
         "<SourceProperties RasterXSize=\"{11}\" RasterYSize=\"{13}\" DataType=\"{5}\" BlockXSize=\"{6}\" "
         "BlockYSize=\"{7}\"/><SrcRect xOff=\"{12}\" yOff=\"{14}\" xSize=\"{3}\" ySize=\"{4}\"/><DstRect xOff=\"{8}\" "
         "yOff=\"{9}\" xSize=\"{3}\" ySize=\"{4}\"/>{10}</{0}>",
-        kind, escape(tile.name), band, tile.cols, tile.rows, GDALGetDataTypeName(type), tile.block_cols,
-        tile.block_rows, tile.col - left_, tile.row - top_, more, tile.all_cols, tile.from_col, tile.all_rows,
-        tile.from_row);
+        kind, escape(is_inner ? write_with_nan(tile, asked_) : tile.name), band, tile.cols, tile.rows,
+        GDALGetDataTypeName(type), tile.block_cols, tile.block_rows, tile.col - left_, tile.row - top_, more,
+        is_inner ? tile.cols : tile.all_cols, is_inner ? 0 : tile.from_col, is_inner ? tile.rows : tile.all_rows,
+        is_inner ? 0 : tile.from_row);
   }
 
   std::string write_band(std::size_t k) const {
@@ -176,13 +178,17 @@ class Writer {
       std::string more;
       const auto nodata = nodata_of(band, asked_);
       const double raw = nodata && band.is_signed_byte && *nodata < 0 ? *nodata + 256 : nodata.value_or(0);
-      if (!nodata && joined.nodata && GDALDataTypeIsFloating(band.type)) more += "<NODATA>nan</NODATA>";
-      if (nodata && holds(band.type, raw)) more += fmt::format("<NODATA>{:.17g}</NODATA>", raw);
+      // A source has one nodata value: what is asked for becomes NaN first, so that it and the declared NaN hide
+      // nothing.
+      const bool is_inner =
+          asked_ && !std::isnan(*asked_) && band.nodata && std::isnan(*band.nodata) && tiles_.size() > 1;
+      if (is_inner || (!nodata && joined.nodata && GDALDataTypeIsFloating(band.type))) more += "<NODATA>nan</NODATA>";
+      if (!is_inner && nodata && holds(band.type, raw)) more += fmt::format("<NODATA>{:.17g}</NODATA>", raw);
       if (band.is_alpha) more += "<NODATA>0</NODATA>";  // a tile that shows nothing hides nothing
       if (!band.is_alpha && (has_mask(tile) || (tile.has_alpha() && !nodata)))
         more += "<UseMaskBand>true</UseMaskBand>";
       more += write_values(band, joined);
-      xml += write_source(tile, fmt::format("{}", k + 1), band.type, more);
+      xml += write_source(tile, fmt::format("{}", k + 1), band.type, more, is_inner);
     }
     return xml + "</VRTRasterBand>";
   }
