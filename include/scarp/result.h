@@ -37,12 +37,21 @@ inline tl::unexpected<Error> fail(ErrorKind kind, std::string message) {
   return tl::unexpected<Error>(Error{kind, std::move(message)});
 }
 
-/// The return value of the macros below. Out of line, since they stand in a thousand places.
-[[gnu::noinline]] inline tl::unexpected<Error> forward_error(Error&& error) {
-  return tl::unexpected<Error>(std::move(error));
-}
-[[gnu::noinline]] inline tl::unexpected<Error> forward_error(const Error& error) {
-  return tl::unexpected<Error>(error);
+/// The return value of the macros below: an Error that becomes a Result of any type, by a call, since they stand in a
+/// thousand places.
+template <class E>
+struct ForwardedError {
+  E&& error;
+
+  template <class T>
+  [[gnu::noinline]] operator tl::expected<T, Error>() && {
+    return tl::unexpected<Error>(std::forward<E>(error));
+  }
+};
+
+template <class E>
+ForwardedError<E> forward_error(E&& error) {
+  return {std::forward<E>(error)};
 }
 
 }  // namespace scarp
