@@ -13,7 +13,7 @@ export BUILD JOBS DATA
 .PHONY: build demo viewer site globe qgis python npm dist check test test-full test-rest soak wasm-check bench paper install clean format tidy help
 
 build:
-	@tools/install_packages.sh build
+	@tools/install_packages.sh build run
 	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
 	@cmake --build $(BUILD) -j $(JOBS) --target scarp scarp_program $(C_TARGETS)
 
