@@ -38,15 +38,14 @@ def add_modes(study):
         "the edges of all scores but normals: after the last insertion it flips any edge of the mesh where that lowers the sum of "
         "squared errors and raises no largest error, until none is left. Scape tries flips around each new vertex only.")
     study.page.table(["edges"] + [cell for field in study.fields for cell in (field.key, "against Delaunay")], rows)
-    remarks = []
-    if plain:
-        remarks += [plain.sentence("figures of Delaunay edges and of normals, which are not settled,"),
-                    scored.sentence("figures of settled edges") + " At q 1 settling does nearly all of the work; at q 0 Scape's "
-                    "scan also loses samples on the edges of slivers, while triangles are closed here and lose none."]
     better = sum(run.rmse < delaunay.rmse for run, delaunay in zip(runs["sum, q 0.5"], runs["Delaunay"]))
     best = sum(min(runs[name][k].rmse for name in MODES) == runs["tight"][k].rmse for k in range(len(study.fields)))
-    study.page.list(remarks + [f"The sum at q 0.5 has a smaller RMS than Delaunay on {better} of {len(study.fields)} fields; the tight "
-                               f"rule has the smallest of all on {best}."])
+    study.page.list([
+        plain.sentence("figures of Delaunay edges and of normals, which are not settled,"),
+        scored.sentence("figures of settled edges") + " At q 1 settling does nearly all of the work; at q 0 Scape's scan also loses "
+        "samples on the edges of slivers, while triangles are closed here and lose none.",
+        f"The sum at q 0.5 has a smaller RMS than Delaunay on {better} of {len(study.fields)} fields; the tight rule has the smallest of "
+        f"all on {best}."])
     return runs
 
 
@@ -74,9 +73,8 @@ def add_gains(study, runs):
                      find_saving(study, field, MODES["tight"], delaunay.rmse, tight),
                      *(f"{run.mesh.thin_share():.1f} %" for run in (delaunay, of_sum, pure)),
                      number(of_sum.work["samples_scanned"] / delaunay.work["samples_scanned"])])
-    if study.has_figures:
-        rows.append(["*Scape*", "−{} to −{} %".format(*figures.GAIN_AT_5), "{} to {} %".format(*figures.FEWER), "",
-                     *("{:g} to {:g} %".format(*thin) for thin in figures.THIN), number(figures.DATA_SCANS)])
+    rows.append(["*Scape*", "−{} to −{} %".format(*figures.GAIN_AT_5), "{} to {} %".format(*figures.FEWER), "",
+                 *("{:g} to {:g} %".format(*thin) for thin in figures.THIN), number(figures.DATA_SCANS)])
     study.page.paragraph(
         "What the sum at q 0.5 gains: RMS at 5 % of the samples, vertices saved at the RMS that Delaunay has at 1 % (and what the "
         "tight rule saves). What it costs: triangles with an angle below 5° (at 1 %), samples scanned.")
@@ -106,7 +104,7 @@ def add_times(study):
         rows.append([field.key, *(number(statistics.median(seconds[k] / seconds[0] for seconds in rounds)) for k in (1, 2))])
     study.page.paragraph(
         "*Measured once, on the machine that wrote this page:* time against Delaunay at 1 %, median of three rounds of runs in "
-        "turn" + (" (Scape, sum: {} to {}).".format(*figures.DATA_TIME) if study.has_figures else "."))
+        "turn (Scape, sum: {} to {}).".format(*figures.DATA_TIME))
     study.page.table(["field", "sum, q 0.5", "tight"], rows)
 
 
@@ -125,22 +123,19 @@ def add_sweep(study):
         study.note(f"edge rules: sweep of {field.key}")
         delaunay = study.delaunay(field, field.share(1)).rmse
         runs = [study.program.exactly(field, field.share(1), *rule("sum", q)) for q in thresholds]
-        theirs = study.figure(figures.SWEEP, figures.THREE, field) or [None] * len(thresholds)
+        theirs = study.figure(figures.SWEEP, figures.THREE, field)
         for row, q, run, scape in zip(rows, thresholds, runs, theirs):
             row.append(compare(run.rmse, scape))
             differences.add(f"q {q:g} on {field.key}", run.rmse, scape)
         plot.curve([(q, run.rmse / delaunay) for q, run in zip(thresholds, runs)], "both", colour, field.key)
-        if study.has_figures:
-            scape_delaunay = study.figure(figures.EDGES["Delaunay"], figures.FIELDS, field)
-            plot.curve([(q, scape / scape_delaunay) for q, scape in zip(thresholds, theirs)], "dashes", colour,
-                       f"{field.key}, Scape")
+        scape_delaunay = study.figure(figures.EDGES["Delaunay"], figures.FIELDS, field)
+        plot.curve([(q, scape / scape_delaunay) for q, scape in zip(thresholds, theirs)], "dashes", colour, f"{field.key}, Scape")
     study.page.heading(3, "The threshold of shape")
     study.page.paragraph("RMS of the sum at 1 % of the samples.")
     study.page.table(["q", *(field.key for field in fields)], rows)
     study.plot("sweep", plot)
-    if differences:
-        study.page.list([differences.sentence("figures"), "Settling makes the threshold matter less, most of all near q 1, where "
-                         "Scape's edges are those of the shape alone."])
+    study.page.list([differences.sentence("figures") + " Settling makes the threshold matter less, most of all near q 1, where Scape's "
+                     "edges are those of the shape alone."])
 
 
 def add_supersampling(study):

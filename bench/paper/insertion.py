@@ -45,12 +45,11 @@ def add_illustration(study):
 
 
 def add_memory(study):
-    if study.has_figures:
-        study.page.heading(2, "Memory")
-        study.page.paragraph(
-            f"Scape in a 64-bit build: about {figures.BYTES_MEASURED} bytes a vertex, samples included; counted from its "
-            f"structures with 4-byte pointers: {figures.BYTES_COUNTED}; named for the paper: about {figures.BYTES_OF_PAPER}. "
-            "Scarp's: [Memory](speed/memory.md).")
+    study.page.heading(2, "Memory")
+    study.page.paragraph(
+        f"Scape in a 64-bit build: about {figures.BYTES_MEASURED} bytes a vertex, samples included; counted from its structures with "
+        f"4-byte pointers: {figures.BYTES_COUNTED}; named for the paper: about {figures.BYTES_OF_PAPER}. Scarp's: "
+        "[Memory](speed/memory.md).")
 
 
 def random_points(field, vertices, seed):
@@ -128,20 +127,18 @@ def add_selectors(study):
         "vertices, borders included. Attenuated: the error counts for less near chosen vertices, here by the distance from the "
         "nearest corner of the sample's triangle, in samples; the paper's formula is not known.")
     study.page.table(["selector"] + [cell for field in fields for cell in (f"{field.key} RMS", "max")], rows)
-    remarks = describe_selectors(runs) + [describe_draws(study, fields)]
-    if greedy:
-        remarks += [
-            greedy.sentence("RMS errors of plain global error"),
-            drawn.sentence("RMS errors of uniform and random points") +
-            " The points differ: other random numbers, another rounding of the sub-grid's rows and columns.",
-            ranked.sentence("RMS errors of one pass and of products") +
-            " The border differs: here a pair of opposite neighbours of which one is missing is omitted, so that a plane has no "
-            "local error there either. On crater and ashby Scape's figures for one pass result within about 1 % where such a "
-            "pair counts as 0 (4 neighbours), and where the mean is that of the existing neighbours (8 neighbours)."]
-    if drawn_max and drawn_max.far():
+    remarks = describe_selectors(runs) + [
+        describe_draws(study, fields), greedy.sentence("RMS errors of plain global error"),
+        drawn.sentence("RMS errors of uniform and random points") +
+        " The points differ: other random numbers, another rounding of the sub-grid's rows and columns.",
+        ranked.sentence("RMS errors of one pass and of products") +
+        " The border differs: here a pair of opposite neighbours of which one is missing is omitted, so that a plane has no local "
+        "error there either. On crater and ashby Scape's figures for one pass result within about 1 % where such a pair counts as 0 "
+        "(4 neighbours), and where the mean is that of the existing neighbours (8 neighbours)."]
+    if drawn_max.far():
         remarks.append(f"**Max error of {drawn_max.far()}:** no failure. One peak or gorge, which the points hit or miss, decides "
                        "it, as in the other draws.")
-    if ranked_max and ranked_max.far():
+    if ranked_max.far():
         remarks.append(f"**Max error of {ranked_max.far()}:** no failure. Where whole regions get no vertex, one sample more or "
                        "less at the border decides the worst of them.")
     study.page.list(remarks)
@@ -203,12 +200,12 @@ def add_cost(study):
     rows, remarks, moves, counts = [], [], [], Differences()
     plot = Plot("Samples scanned by Algorithm III", "vertices m", "samples scanned / n", key="upper left")
     for colour, field in enumerate(study.choose(("ntc", "westUS"))):
-        is_compared = study.has_figures and field.key == figures.SCAN_FIELD
+        is_compared = field.key == figures.SCAN_FIELD
         points = []
-        for m in [field.share(percent) for percent in (0.1, 1, 10, 50) if field.share(percent) >= 5]:
+        for percent, millions in zip((0.1, 1, 10, 50), figures.SCANS.values()):
+            m, scape = field.share(percent, 5), millions if is_compared else None
             study.note(f"cost: {field.key}, {m} vertices")
             run = study.delaunay(field, m)
-            scape = figures.SCANS.get(m) if is_compared else None
             counts.add(f"{field.key} at {m} vertices", scans(run) / 1e6, scape)
             moves.append(run.work["queue_moves"] / run.vertices)
             points.append((m, scans(run) / field.samples))
@@ -219,13 +216,11 @@ def add_cost(study):
         plot.curve([(m, line[0] * math.log(m) + line[1]) for m, _ in points], "line", colour, describe_line(*line))
         remarks.append(f"Fitted on {field.key}: samples scanned, without corners, = n ({describe_line(*line)})" +
                        (f"; Scape: n ({describe_line(figures.SCAN_SLOPE, figures.SCAN_OFFSET)})." if is_compared else "."))
-    remarks.append(f"The queue moves {number(min(moves))} to {number(max(moves))} entries a vertex" +
-                   (" (Scape: {} to {} swaps)".format(*figures.SWAPS) if study.has_figures else "") +
-                   ": log m, as a heap should.")
-    if study.has_figures:
-        plot.curve([(m, millions * 1e6 / 1024 ** 2) for m, millions in figures.SCANS.items()], "both", 5, "Scape")
-        remarks.append(counts.sentence("counts of samples") + " Scape skips samples that are vertices, Scarp scans the corners of "
-                       "each triangle: hence the column without them.")
+    plot.curve([(m, millions * 1e6 / 1024 ** 2) for m, millions in figures.SCANS.items()], "both", 5, "Scape")
+    remarks += ["The queue moves {} to {} entries a vertex (Scape: {} to {} swaps): log m, as a heap should.".format(
+                    number(min(moves)), number(max(moves)), *figures.SWAPS),
+                counts.sentence("counts of samples") + " Scape skips samples that are vertices, Scarp scans the corners of each "
+                "triangle: hence the column without them."]
     study.page.heading(2, "The cost of Algorithm III (section 4, page 13)")
     study.page.paragraph("Expected: O((n + m) log m) for n samples and m vertices.")
     study.page.table(["field", "m", "million samples scanned", "without corners", "triangles scanned / m",
@@ -236,8 +231,7 @@ def add_cost(study):
 
 def add_batches(study):
     fields = study.choose(figures.THREE)
-    bounds = [study.figure(figures.BATCH_BOUNDS, figures.THREE, field) or study.delaunay(field, field.share(1)).max_error
-              for field in fields]
+    bounds = figures.BATCH_BOUNDS
     rows, runs, vertices, passes = [], {}, Differences(), Differences()
     for name, options in BATCHES.items():
         study.note(f"batches: {name}")
@@ -266,8 +260,6 @@ def add_batches(study):
     if all(run.vertices > own.vertices for name in thresholds for run, own in zip(runs[name], runs["independent"])):
         remarks.append("Independent candidates need fewer vertices than any threshold on every field: none is stale when it is "
                        "inserted.")
-    if vertices:
-        remarks += [vertices.sentence("counts of vertices"), passes.sentence("counts of passes") +
-                    " With a few dozen passes a single candidate on the limit, or one tie decided otherwise, moves all that "
-                    "follow."]
-    study.page.list(remarks)
+    study.page.list(remarks + [
+        vertices.sentence("counts of vertices"), passes.sentence("counts of passes") +
+        " With a few dozen passes a single candidate on the limit, or one tie decided otherwise, moves all that follow."])

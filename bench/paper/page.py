@@ -73,12 +73,6 @@ class Differences:
         if theirs is not None:
             self.changes[what] = 100 * (ours / theirs - 1)
 
-    def __bool__(self):
-        return bool(self.changes)
-
-    def largest(self):
-        return max(map(abs, self.changes.values()))
-
     def sentence(self, noun):
         least, most = min(self.changes.values()), max(self.changes.values())
         farthest = max(self.changes, key=lambda what: abs(self.changes[what]))

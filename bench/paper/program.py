@@ -105,10 +105,10 @@ class Program:
         raster = json.loads(self.call("info", path, "--json"))["input"]
         return Field(key, str(path), raster["cols"], raster["rows"], raster["min"], raster["max"])
 
-    def generate(self, style, cols, rows, *options, key=None, name=None):
+    def generate(self, style, cols, rows, *options, name=None):
         path = self.folder / (name or f"{style}.tif")
         self.call("generate", style, cols, rows, path, "--overwrite", *options)
-        return self.field(key or style, path)
+        return self.field(style, path)
 
     def simplify(self, raster, *options, mesh=False, scale=1):
         """One run on one thread. `mesh`: reads the mesh, too."""

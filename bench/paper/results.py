@@ -10,45 +10,33 @@ from plots import Plot
 
 SHARES = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
 LEAST_ROUNDS, MOST_ROUNDS, SECONDS_OF_ROUNDS = 3, 25, 0.5  # short runs are disturbed more
-
-
-def list_rows(study):
-    """Fields, numbers of vertices and Scape's rows, if they can be compared."""
-    if study.has_figures:
-        fields = {field.key: field for field in study.fields}
-        return [(fields[row.field], row.vertices, row) for row in figures.reference_rows()]
-    return [(field, field.share(percent, 5), None) for field in study.fields for percent in (1, 10)]
+MILLION_VERTICES = 10486  # 1 % of a million samples
 
 
 def add_results(study):
     rows, triangles, max_error, rmse = [], Differences(), Differences(), Differences()
-    for field, vertices, scape in list_rows(study):
-        study.note(f"results: {field.key}, {vertices} vertices")
-        run = study.delaunay(field, vertices)
-        theirs = (scape.triangles, scape.max_error, scape.rmse) if scape else (None, None, None)
-        ours = (run.triangles, run.max_error, run.rmse)
+    for scape in figures.reference_rows():
+        study.note(f"results: {scape.field}, {scape.vertices} vertices")
+        field = study.find(scape.field)
+        run = study.delaunay(field, scape.vertices)
+        ours, theirs = (run.triangles, run.max_error, run.rmse), (scape.triangles, scape.max_error, scape.rmse)
         for differences, our, their in zip((triangles, max_error, rmse), ours, theirs):
-            differences.add(f"{field.key} at {vertices} vertices", our, their)
+            differences.add(f"{field.key} at {scape.vertices} vertices", our, their)
         rows.append([field.key, run.vertices, *map(compare, ours, theirs), f"{100 * run.max_error / field.relief:.2f} %",
                      f"{100 * run.rmse / field.relief:.2f} %"])
     study.page.heading(2, "Results (section 5, page 22)")
     study.page.paragraph("Delaunay, exactly this many vertices, corners included. Errors over all samples.")
     study.page.table(["field", "m", "triangles", "max error", "RMS", "max / relief", "RMS / relief"], rows)
-    if rmse:
-        study.page.list([rmse.sentence("RMS errors"), triangles.sentence("counts of triangles"),
-                         max_error.sentence("max errors") + " Ties and the first diagonal decide it, and it is not monotone in m, as "
-                                                            "below."])
+    study.page.list([rmse.sentence("RMS errors"), triangles.sentence("counts of triangles"), max_error.sentence("max errors") +
+                     " Ties and the first diagonal decide it, and it is not monotone in m, as below."])
 
 
 def add_other_programs(study):
-    if not study.has_figures:
-        return
-    rows, farthest, seen = [], 0, set()
+    rows, farthest = [], 0
     for key, vertices, program, max_error, rmse in figures.OTHER_PROGRAMS:
-        run = study.delaunay(study.choose((key,))[0], vertices)
-        if key not in seen:
+        run = study.delaunay(study.find(key), vertices)
+        if program == "Scape 1.2":
             rows.append([key, vertices, "Scarp", number(run.max_error), number(run.rmse)])
-        seen.add(key)
         farthest = max(farthest, 100 * abs(run.rmse / rmse - 1))
         rows.append([key, vertices, program, number(max_error), number(rmse)])
     study.page.heading(3, "Other programs")
@@ -66,9 +54,7 @@ def stations(first, last, steps):
 
 
 def add_spikes(study):
-    if not study.has_figures:
-        return
-    rows, differences, crater = [], Differences(), study.choose(("crater",))[0]
+    rows, differences, crater = [], Differences(), study.find("crater")
     for vertices, scape in figures.SPIKES.items():
         run = study.delaunay(crater, vertices)
         rows.append([run.vertices, compare(run.max_error, scape)])
@@ -83,18 +69,18 @@ def add_spikes(study):
 
 def add_error_curves(study):
     study.page.heading(3, "Error against vertices")
-    study.page.paragraph("Circles: Scape's rows above." if study.has_figures else "Greedy insertion, Delaunay.")
+    study.page.paragraph("Circles: Scape's rows above.")
     plots = {"rmse": Plot("RMS error against vertices", "vertices m", "RMS error, % of the relief", log_y=True, key="upper right"),
              "max_error": Plot("Max error against vertices", "vertices m", "max error, % of the relief", log_y=True,
                                key="upper right")}
     for colour, field in enumerate(study.fields):
         study.note(f"error curves: {field.key}")
-        of_field = [(m, row) for other, m, row in list_rows(study) if row and other is field and m <= field.samples / 10 + 1]
+        of_field = [row for row in figures.reference_rows() if row.field == field.key and row.vertices <= field.samples / 10 + 1]
         for error, (name, steps, style) in {"rmse": ("rms_error", 4, "both"), "max_error": ("max_error", 12, "line")}.items():
             runs = [(m, study.delaunay(field, m)) for m in stations(10, field.samples / 10, steps)]
             percent = [(m, 100 * getattr(run, error) / field.relief) for m, run in runs if getattr(run, error) > 0]
             plots[error].curve(percent, style, colour, field.key)
-            plots[error].curve([(m, 100 * getattr(row, error) / field.relief) for m, row in of_field], "points", colour)
+            plots[error].curve([(row.vertices, 100 * getattr(row, error) / field.relief) for row in of_field], "points", colour)
     study.plot("rms_error", plots["rmse"])
     study.plot("max_error", plots["max_error"])
     add_spikes(study)
@@ -108,8 +94,8 @@ def add_edge_curves(study):
     better = count = 0
     for colour, field in enumerate(study.fields):
         study.note(f"edge curves: {field.key}")
-        runs = [(share, field.share(share), study.program.exactly(field, field.share(share), *SUM).rmse,
-                 study.delaunay(field, field.share(share)).rmse) for share in SHARES if field.share(share) >= 5]
+        runs = [(share, field.share(share), study.program.exactly(field, field.share(share, 4), *SUM).rmse,
+                 study.delaunay(field, field.share(share, 4)).rmse) for share in SHARES]
         errors.curve([(m, 100 * ours / field.relief) for _, m, ours, _ in runs], "line", colour, field.key)
         errors.curve([(m, 100 * delaunay / field.relief) for _, m, _, delaunay in runs], "dashes", colour)
         ratios.curve([(share, ours / delaunay) for share, _, ours, delaunay in runs], "both", colour, field.key)
@@ -131,33 +117,32 @@ def describe_machine():
 
 def least_seconds(study, field, vertices, options):
     rounds = []
-    while len(rounds) < LEAST_ROUNDS or (len(rounds) < MOST_ROUNDS and sum(rounds) < SECONDS_OF_ROUNDS):
+    while not rounds or not study.is_fast and (len(rounds) < LEAST_ROUNDS or
+                                               len(rounds) < MOST_ROUNDS and sum(rounds) < SECONDS_OF_ROUNDS):
         rounds.append(study.program.greedy(field, "-p", vertices, *options).seconds)
     return min(rounds)
 
 
 def add_seconds(study):
     machine, rows, million = describe_machine(), [], 0
-    for field, vertices, scape in list_rows(study):
-        study.note(f"seconds: {field.key}, {vertices} vertices")
-        delaunay, data = (least_seconds(study, field, vertices, options) for options in ((), SUM))
-        if field.samples >= 1e6 and vertices == field.share(1):
+    for scape in figures.reference_rows():
+        study.note(f"seconds: {scape.field}, {scape.vertices} vertices")
+        field = study.find(scape.field)
+        delaunay, data = (least_seconds(study, field, scape.vertices, options) for options in ((), SUM))
+        if scape.vertices == MILLION_VERTICES:
             million = max(million, delaunay)
-        rows.append([field.key, vertices, *([f"{scape.seconds:g}"] if scape else []), f"{delaunay:.3f}",
-                     f"{field.samples / 1e6 / delaunay:.2f}", f"{data:.3f}", f"{data / delaunay:.2f}"])
+        rows.append([field.key, scape.vertices, f"{scape.seconds:g}", f"{delaunay:.3f}", f"{field.samples / 1e6 / delaunay:.2f}",
+                     f"{data:.3f}", f"{data / delaunay:.2f}"])
     study.page.heading(3, "Seconds")
     study.page.paragraph(
         f"*Measured once, on the machine that wrote this page ({machine}):* what the program reports of its triangulation, without "
-        f"reading, judging and writing, on one thread, in the greedy order; the least of {LEAST_ROUNDS} to {MOST_ROUNDS} runs." +
-        (" Scape's seconds are another machine's: one core of a cloud Xeon, g++ 12 -O2, the same part of the work."
-         if study.has_figures else ""))
-    study.page.table(["field", "m", *(["Scape, Delaunay, s"] if study.has_figures else []), "Delaunay, s",
-                      "million samples a second", "sum, q 0.5, s", "ratio"], rows)
-    if million:
-        study.page.list([
-            f"The paper's abstract: a field of a million samples \"quite accurately\" in under a minute, on a workstation of 1995. "
-            f"Here 1 % of such a field takes {million:.2f} s.",
-            f"Not verified, for the text is not at hand: {figures.SECONDS_OF_1995} s for a field of 1024 × 1024 and 1 % of its "
-            f"samples, on an SGI Indigo2 (R4400, 150 MHz), that is {figures.SECONDS_OF_1995 / million:.0f} times as long; "
-            "data-dependent edges three to four times as long as Delaunay's (Scape, measured: {} to {}).".format(*figures.DATA_TIME),
-            "The default, the dominant order, is faster ([performance](performance.md))."])
+        f"reading, judging and writing, on one thread, in the greedy order; the least of {LEAST_ROUNDS} to {MOST_ROUNDS} runs. Scape's "
+        "seconds are another machine's: one core of a cloud Xeon, g++ 12 -O2, the same part of the work.")
+    study.page.table(["field", "m", "Scape, Delaunay, s", "Delaunay, s", "million samples a second", "sum, q 0.5, s", "ratio"], rows)
+    study.page.list([
+        f"The paper's abstract: a field of a million samples \"quite accurately\" in under a minute, on a workstation of 1995. Here 1 % "
+        f"of such a field takes {million:.2f} s.",
+        f"Not verified, for the text is not at hand: {figures.SECONDS_OF_1995} s for a field of 1024 × 1024 and 1 % of its samples, on an "
+        f"SGI Indigo2 (R4400, 150 MHz), that is {figures.SECONDS_OF_1995 / million:.0f} times as long; data-dependent edges three to four "
+        "times as long as Delaunay's (Scape, measured: {} to {}).".format(*figures.DATA_TIME),
+        "The default, the dominant order, is faster ([performance](performance.md))."])

@@ -2,7 +2,7 @@
 """Repeats the experiments of the 1995 paper with the scarp program, and writes them as a page with pictures.
 
 usage: bench/paper/run.py SCARP DATA OUT     the paper's fields in DATA: writes OUT/paper.md and OUT/images/paper
-       bench/paper/run.py SCARP --fast OUT   small generated fields, without Scape's figures: for the script's own test
+       bench/paper/run.py SCARP --fast OUT   small generated fields in their place, for the script's own test
 
 SCARP is the program. DATA holds crater, ashby, ozark, ntc and westUS as .stm, .pgm or .tif files, also named
 scape_crater.stm and so on, and for the experiments with colours astronaut.png, kodim05.png, kodim23.png and the pair
@@ -34,14 +34,13 @@ def add_header(study):
     study.page.paragraph(
         f"Written by `make paper` with Scarp {study.program.call('version').split()[1]}, not edited by hand. It repeats the known experiments "
         "of M. Garland and P. S. Heckbert, *Fast Polygonal Approximation of Terrains and Height Fields* (CMU-CS-95-181, 1995): the paper.")
-    if study.has_figures:
-        study.page.paragraph(
-            "In brackets: the figure of Scape 1.2, the paper's own program, on the same fields (`bench/paper/figures.py`), and Scarp's "
-            "difference from it. The fields are the paper's five: Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and "
-            "the western US. Errors are vertical, in metres, over all samples.")
-        study.page.paragraph(
-            "Sections, pages and figures in brackets are the paper's. Only its first pages, with its contents, and the sources of its "
-            "programs were at hand; claims beyond these are marked as not verified.")
+    study.page.paragraph(
+        "In brackets: the figure of Scape 1.2, the paper's own program, on the same fields (`bench/paper/figures.py`), and Scarp's "
+        "difference from it. The fields are the paper's five: Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the "
+        "western US. Errors are vertical, in metres, over all samples.")
+    study.page.paragraph(
+        "Sections, pages and figures in brackets are the paper's. Only its first pages, with its contents, and the sources of its programs "
+        "were at hand; claims beyond these are marked as not verified.")
     study.page.paragraph("Times are marked as measured once; all other numbers are the same on every run and machine.")
     study.page.table(["field", "size", "samples n", "heights"],
                      [[field.key, f"{field.cols} × {field.rows}", field.samples, f"{field.low:g} to {field.high:g}"]

@@ -15,23 +15,19 @@ def find_file(folder, key):
 
 
 class Study:
-    """`data` is the folder with the paper's fields; nothing: small fields stand for them, which Scape's figures are not
-    of."""
+    """`data` is the folder with the paper's fields; nothing: small generated ones, which the figures are not of."""
 
     def __init__(self, program, out, data):
-        self.program, self.data, self.is_fast = program, pathlib.Path(data or "."), data is None
-        self.page, self.has_figures = Page(), not self.is_fast
+        self.program, self.data, self.is_fast, self.page = program, pathlib.Path(data or "."), not data, Page()
+        paths = {key: find_file(self.data, key) if data else program.generate(
+            "fractal", FAST_SIDE, FAST_SIDE, "--seed", seed, name=f"{key}.tif").path
+                 for seed, key in enumerate(figures.FIELDS)}
+        missing = [key for key, path in paths.items() if path is None]
+        if missing:
+            sys.exit(f"{data} has no field {', '.join(missing)}: DATA names the folder with the paper's fields")
+        self.fields = [program.field(key, path) for key, path in paths.items()]
         self.images = pathlib.Path(out) / "images" / "paper"
         self.images.mkdir(parents=True, exist_ok=True)
-        if self.is_fast:
-            self.fields = [program.generate("fractal", FAST_SIDE, FAST_SIDE, "--seed", seed, key=key, name=f"{key}.tif")
-                           for seed, key in enumerate(figures.FIELDS)]
-        else:
-            paths = {key: find_file(self.data, key) for key in figures.FIELDS}
-            missing = [key for key, path in paths.items() if path is None]
-            if missing:
-                raise SystemExit(f"{self.data} has no field {', '.join(missing)}: DATA names the folder with the paper's fields")
-            self.fields = [program.field(key, path) for key, path in paths.items()]
 
     def note(self, what):
         print("paper:", what, file=sys.stderr, flush=True)
@@ -39,11 +35,12 @@ class Study:
     def choose(self, keys):
         return [field for field in self.fields if field.key in keys]
 
+    def find(self, key):
+        return next(field for field in self.fields if field.key == key)
+
     def figure(self, figures_of_keys, keys, field):
-        """Scape's figure for a field, if there is one."""
-        if not self.has_figures or figures_of_keys is None or field.key not in keys:
-            return None
-        return figures_of_keys[keys.index(field.key)]
+        """Scape's figure for a field; nothing where there are none."""
+        return figures_of_keys and figures_of_keys[keys.index(field.key)]
 
     def delaunay(self, field, vertices):
         return self.program.exactly(field, vertices)

@@ -89,7 +89,6 @@ int main(int argc, char** argv) {
   }
   table += fmt::format("\nLargest differences: RMSE {:.2f} %, triangles {:.3f} %.\n", worst_rmse, worst_triangles);
   if (const int code = bench::write_table(argv[2], table); code != 0) return code;
-  const bool kept =
-      worst_rmse <= 100 * bench::kRmseTolerance && worst_triangles <= 100 * bench::kTriangleTolerance;
+  const bool kept = worst_rmse <= 100 * bench::kRmseTolerance && worst_triangles <= 100 * bench::kTriangleTolerance;
   return kept ? 0 : 3;
 }
