@@ -55,7 +55,7 @@ EDGES = {
     "sum, q 0": (8.32, 7.21, 4.78, 5.64, 22.53),
     "sum, q 1": (7.08, 5.71, 3.26, 4.09, 17.36),
 }
-# What the sum at threshold 0.5 gains, in percent: RMS at 5 % of the samples, vertices at equal RMS.
+# The gain of the sum at threshold 0.5, in percent: RMS at 5 % of the samples, vertices at equal RMS.
 GAIN_AT_5, FEWER = (11, 14), (13, 16)
 # Percent of triangles with an angle below 5 degrees: Delaunay, threshold 0.5, threshold 0.
 THIN = ((0.2, 0.9), (0.7, 4.3), (40, 53))
@@ -93,7 +93,7 @@ class Row(NamedTuple):
     triangles: int
     max_error: float
     rmse: float
-    seconds: float  # of one core of a cloud Xeon: the scan and the insertions
+    seconds: float  # the scan and the insertions, by one core of a cloud Xeon
 
 
 def reference_rows():

@@ -1,4 +1,4 @@
-"""A page of Markdown, written from top to bottom, and how its numbers look."""
+"""A page of Markdown, written from top to bottom, and the format of its numbers."""
 
 LINE_WIDTH = 120
 FAR_PERCENT = 45  # from Scape's figure: a sentence next to the table explains it

@@ -20,7 +20,7 @@ EXACT = ("--z-scale", repr(SMALL), "--importance", "global*(local+1)")
 class Mesh:
     positions: numpy.ndarray  # vertices × 3: column, row from below, height
     triangles: numpy.ndarray  # triangles × 3
-    content: bytes  # of the file, without its header
+    content: bytes  # the file without its header
 
     def thin_share(self):
         """Percent of the triangles with an angle below 5 degrees, seen from above."""
@@ -35,7 +35,7 @@ class Mesh:
 class Run:
     report: dict
     mesh: Mesh
-    scale: float = 1  # of the heights, against those of the field
+    scale: float = 1  # the heights per those of the field
 
     def __post_init__(self):
         self.vertices, self.triangles = self.report["vertices"], self.report["triangles"]
