@@ -15,9 +15,9 @@ DELAUNAY = ()
 MODES = {"Delaunay": DELAUNAY, "sum, q 0.5": rule("sum", 0.5), "squares, q 0.5": rule("sqerr", 0.5), "max, q 0.5": rule("max", 0.5),
          "normals, q 0.5": rule("abn", 0.5), "sum, q 0": rule("sum", 0), "sum, q 1": rule("sum", 1), "tight": rule("tight")}
 SUM = MODES["sum, q 0.5"]
-FRACTIONS = (0, 1.6, 0.8, 0.4)  # of supersampling; 0: off. Scape's program calls 0.8 moderate.
-SHOWN_PERCENT = 0.5  # of the samples, in the pictures
-SIDE, BUDGET = 256, 200  # of the synthetic fields
+FRACTIONS = (0, 1.6, 0.8, 0.4)  # supersampling; 0: off. Scape's program calls 0.8 moderate.
+SHOWN_PERCENT = 0.5  # share of the samples in the pictures
+SIDE, BUDGET = 256, 200  # synthetic fields
 COLUMNS = {"Delaunay": DELAUNAY, "sum, q 0.5": SUM, "sum, q 0": rule("sum", 0), "normals, q 0": rule("abn", 0)}
 
 
