@@ -317,6 +317,7 @@ constexpr OptionRow kFileRows[] = {
      .choices = "source local enu grid EPSG:",
      .by_default = "what simplify does by default",
      .help = "Coordinates that a mesh would have: source, local, enu, grid or a CRS such as EPSG:32611."},
+
     {.id = kCrs,
      .name = "--crs",
      .commands = kSimplify,
