@@ -95,7 +95,7 @@ bench:
 paper:
 	@tools/install_packages.sh build paper
 	@$(MAKE) --no-print-directory build
-	@$(BUILD)/bin/scarp paper --data $(DATA) --out bench --overwrite
+	@"$$(command -pv python3 || command -v python3)" bench/paper/run.py $(BUILD)/bin/scarp $(DATA) bench
 
 install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"

@@ -62,7 +62,7 @@ ROOMS = {
     "session/reports": (11, ["session/text", "session/options", "session/inputs", "session/plan"], ANY, "what a run came to, as JSON, lines of a summary and warnings"),
     "session/work": (12, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
                      "the commands without their terminal: simplify, measure, points, tiles"),
-    "apps": (13, SESSION, ANY, "the program: commands in a terminal, the server of tiles, the paper's figures"),
+    "apps": (13, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
 }
 
 # Headers that only some files may include: (pattern of the header, files that may, why).

@@ -15,7 +15,6 @@
 #include "commands/help_command.h"
 #include "commands/info_command.h"
 #include "commands/measure_command.h"
-#include "commands/paper_command.h"
 #include "commands/serve_command.h"
 #include "commands/simplify_command.h"
 #include "commands/tile_check_command.h"
@@ -130,7 +129,6 @@ int run_program(int count, char** words) {
   ServeCommand serve(program);
   InfoCommand info(program);
   GenerateCommand generate(program);
-  PaperCommand paper(program);
   HelpCommand help(program);
   const CLI::App* const version_command = add_command(program, kVersionCommand);
 
@@ -163,7 +161,6 @@ int run_program(int count, char** words) {
                     : serve.is_chosen()       ? serve.run()
                     : info.is_chosen()        ? info.run(command_line)
                     : generate.is_chosen()    ? generate.run()
-                    : paper.is_chosen()       ? paper.run()
                                               : help.run());
 }
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "../../apps/scarp/paper/reference_rows.h"
 #include "files.h"
+#include "reference_rows.h"
 #include "scarp/scarp.h"
 
 namespace {
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   std::string table = kHeader, field_name;
   Run run;
   double worst_rmse = 0, worst_triangles = 0;
-  for (const auto& row : scarp::paper::kReferenceRows) {
+  for (const auto& row : bench::kReferenceRows) {
     if (field_name != row.field) {
       field_name = row.field;
       const std::string file = fmt::format("scape_{}.stm", row.field);
@@ -89,7 +89,6 @@ int main(int argc, char** argv) {
   }
   table += fmt::format("\nLargest differences: RMSE {:.2f} %, triangles {:.3f} %.\n", worst_rmse, worst_triangles);
   if (const int code = bench::write_table(argv[2], table); code != 0) return code;
-  const bool kept =
-      worst_rmse <= 100 * scarp::paper::kRmseTolerance && worst_triangles <= 100 * scarp::paper::kTriangleTolerance;
+  const bool kept = worst_rmse <= 100 * bench::kRmseTolerance && worst_triangles <= 100 * bench::kTriangleTolerance;
   return kept ? 0 : 3;
 }

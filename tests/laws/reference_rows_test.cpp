@@ -1,6 +1,4 @@
 // The engine against the paper's program: 20 runs of Scape 1.2 on its five fields.
-#include "../../apps/scarp/paper/reference_rows.h"
-
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "../../bench/quality/files.h"
+#include "../../bench/quality/reference_rows.h"
 #include "laws/sanitized.h"
 #include "scarp/scarp.h"
 #include "source_dir.h"
@@ -27,7 +26,7 @@ TEST_P(ReferenceRows, HaveScapesErrorAndTriangles) {
   auto refiner = scarp::Refiner::create(*field);
   ASSERT_TRUE(refiner) << refiner.error().message;
   int rows = 0;
-  for (const auto& row : scarp::paper::kReferenceRows) {
+  for (const auto& row : bench::kReferenceRows) {
     if (std::string(row.field) != GetParam()) continue;
     SCOPED_TRACE(row.vertices);
     while (refiner->vertex_count() < row.vertices) ASSERT_TRUE(refiner->insert_worst());
@@ -37,9 +36,9 @@ TEST_P(ReferenceRows, HaveScapesErrorAndTriangles) {
     ASSERT_TRUE(judged) << judged.error().message;
     EXPECT_EQ(judged->vertices, row.vertices);
     EXPECT_EQ(judged->uncovered, 0u);
-    EXPECT_NEAR(judged->rmse, row.rmse, scarp::paper::kRmseTolerance * row.rmse);
+    EXPECT_NEAR(judged->rmse, row.rmse, bench::kRmseTolerance * row.rmse);
     EXPECT_NEAR(static_cast<double>(judged->triangles), static_cast<double>(row.triangles),
-                scarp::paper::kTriangleTolerance * static_cast<double>(row.triangles));
+                bench::kTriangleTolerance * static_cast<double>(row.triangles));
     EXPECT_NEAR(judged->max_error, refiner->max_error(), 1e-6 * row.max_error);
     ++rows;
   }

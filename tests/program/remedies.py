@@ -130,7 +130,7 @@ NAMES = [re.compile(rf"\b(?:{PROGRAMS}) [-{{]|(?:first|again|metres|degrees|CRS|
                     r"[('\s]scarp (?:simplify|info|measure|tile|serve|view|generate) "),
          re.compile(rf"(?:\b(?:{VERBS})|[:;,(]) (?:\{{\}} )?--[a-z]"),
          re.compile(r"--[a-z-]+ (?:[A-Z]+ |\{[^}]*\} )?(?:replaces|makes|takes|overrides|cuts|says|names)\b")]
-LEFT_OUT = re.compile(r"option_rows_|command_table|/help\.cpp|/paper/|cannot be combined|reports/(?!(?:feature|shape|solid)_report)|changes nothing")
+LEFT_OUT = re.compile(r"option_rows_|command_table|/help\.cpp|cannot be combined|reports/(?!(?:feature|shape|solid)_report)|changes nothing")
 
 
 def sentences():

@@ -8,6 +8,7 @@ refuses 1 "no command given: choose simplify" "$scarp"
 refuses 1 "unknown command 'simplfy' (did you mean simplify?)" "$scarp" simplfy "$dem" out.glb
 refuses 1 "unknown command 'simplfy' (did you mean simplify?)" "$scarp" help simplfy
 refuses 1 "did you mean measure?" "$scarp" validate "$dem" out.glb
+refuses 1 "unknown command 'paper': make paper" "$scarp" paper --data . --out bench
 refuses 1 "unknown command 'frobnicate': choose simplify" "$scarp" frobnicate
 refuses 1 "a file comes behind one, as in scarp simplify dem.tif OUTPUT -e 1" "$scarp" dem.tif out.glb
 refuses 1 "option --versoin is unknown (did you mean --version?)" "$scarp" --versoin

@@ -5,7 +5,7 @@ set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 scarp=${SCARP_BUILD:?}/bin/scarp
 python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }
-help=$(for command in "" simplify measure info generate paper; do "$scarp" $command --help-all; done) "$python" - "$source_tree" << 'PYTHON'
+help=$(for command in "" simplify measure info generate; do "$scarp" $command --help-all; done) "$python" - "$source_tree" << 'PYTHON'
 import csv, os, re, sys
 root = sys.argv[1]
 read = lambda name: open(f"{root}/{name}", encoding="utf-8").read()

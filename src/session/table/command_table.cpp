@@ -109,15 +109,6 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp generate fractal 1000 800 hills.tif --seed 7 --range 1200 --size 30\n"
      "  scarp generate D 256 256 step.pgm\n"
      "Exit codes: 0 ok, 1 usage, 4 output, 70 internal error.\n"},
-    {kPaper, "paper", "Repeat the experiments of the 1995 paper", "--data DIR [OPTIONS]",
-     "The paper is Garland & Heckbert, Fast Polygonal Approximation of Terrains and Height Fields.\n"
-     "Plots are drawn by gnuplot (Debian: gnuplot-nox). Rasters with missing samples, or with more than\n"
-     "4 million samples, are omitted. Experiments with colours use astronaut.png, kodim05.png,\n"
-     "kodim23.png and the pair santa_barbara_elev.tif, santa_barbara_aerial.tif where the folder has them.\n"
-     "Examples:\n"
-     "  scarp paper --data scape/Samples --overwrite\n"
-     "  scarp paper --data my_rasters --out my_experiments --no-timing\n"
-     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kHelpCommand, "help", "Explain a command, or print the table of options", "[COMMAND] [OPTIONS]",
      "Examples:\n"
      "  scarp help simplify              the same as scarp simplify --help\n"

@@ -45,8 +45,8 @@ constexpr OptionRow kRunRows[] = {
     {.id = kQuiet,
      .name = "--quiet",
      .short_name = "-q",
-     .commands = kSimplify | kMeasure | kView | kInfo | kGenerate | kPaper | kTile | kTilePlan | kTileRun |
-                 kTileFinish | kTileCheck | kServe,
+     .commands = kSimplify | kMeasure | kView | kInfo | kGenerate | kTile | kTilePlan | kTileRun | kTileFinish |
+                 kTileCheck | kServe,
      .group = OptionGroup::kRun,
      .type = kFlag,
      .help = "Print no summary, no progress and no warnings."},

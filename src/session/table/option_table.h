@@ -122,10 +122,7 @@ enum class OptionId {
   kSeed,
   kRange,
   kSize,
-  kData,
-  kOut,
   kNoSuggest,
-  kNoTiming,
   kQuality,
   kGrid,
   kZoom,
@@ -194,10 +191,10 @@ enum class OptionType {
 
 /// Commands as bits, so that a row can belong to several.
 using Commands = unsigned;
-inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
-                          kVersionCommand = 64, kTile = 128, kServe = 256, kTilePlan = 512, kTileRun = 1024,
-                          kTileFinish = 2048, kTileCheck = 4096, kView = 8192;
-inline constexpr Commands kEveryCommand = 16383;
+inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kHelpCommand = 16,
+                          kVersionCommand = 32, kTile = 64, kServe = 128, kTilePlan = 256, kTileRun = 512,
+                          kTileFinish = 1024, kTileCheck = 2048, kView = 4096;
+inline constexpr Commands kEveryCommand = 8191;
 
 struct OptionRow {
   OptionId id;

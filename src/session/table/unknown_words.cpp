@@ -154,6 +154,9 @@ Error unknown_command(const std::string& word) {
       {"measure", "check validate judge compare verify error diff"},
       {"info", "gdalinfo describe stats show inspect"},
       {"generate", "create make synthesize"}};
+  if (bare(word) == "paper")
+    return {ErrorKind::kUsage,
+            "unknown command 'paper': make paper, in Scarp's source tree, repeats the experiments of the 1995 paper"};
   std::vector<std::string> names;
   for (const CommandRow& row : command_rows()) names.emplace_back(row.name);
   std::vector<std::string> meant;

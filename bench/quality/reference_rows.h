@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace scarp::paper {
+namespace bench {
 
 struct ReferenceRow {
   const char* field;  ///< scape_FIELD.stm
@@ -31,4 +31,4 @@ inline constexpr ReferenceRow kReferenceRows[] = {
 /// Requirements on every row: the max error is omitted, since ties and the first diagonal set it.
 inline constexpr double kRmseTolerance = 0.01, kTriangleTolerance = 0.005;
 
-}  // namespace scarp::paper
+}  // namespace bench
