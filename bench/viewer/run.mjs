@@ -6,7 +6,7 @@
 // slider to the picture of its mesh. Needs playwright-core.
 import os from 'node:os';
 import { pathToFileURL } from 'node:url';
-import { open_page } from '../../tests/js/browser.mjs';
+import { openPage } from '../../tests/js/browser.mjs';
 
 const [file, runs = '5', program] = process.argv.slice(2);
 /// Steps of an eighth of an octave: finer ones continue from the mesh before, a coarser one begins again.
@@ -19,14 +19,14 @@ function watch() {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     return performance.now();
   };
-  const until = is_there => new Promise(done => {
-    const look = () => is_there() ? done(picture()) : setTimeout(look, 1);
+  const until = isThere => new Promise(done => {
+    const look = () => isThere() ? done(picture()) : setTimeout(look, 1);
     look();
   });
   window.bench = {
-    first: until(() => window.scarp_page?.drawn > 0),
+    first: until(() => window.scarpPage?.drawn > 0),
     async drag(step) {
-      const page = window.scarp_page, slider = document.getElementById('error'), { drawn } = page, start = performance.now();
+      const page = window.scarpPage, slider = document.getElementById('error'), { drawn } = page, start = performance.now();
       slider.value = String(step);
       slider.dispatchEvent(new Event('input'));
       return await until(() => page.drawn > drawn && !page.scene.asked && page.shown[0] === page.live.meshes.get(`greedy ${step}`)) - start;
@@ -38,11 +38,11 @@ const median = values => values.sort((a, b) => a - b)[values.length >> 1];
 const took = { first: [], drag: [] };
 let about;
 for (let run = 0; run < Number(runs); ++run) {
-  const { browser, page, errors } = await open_page(pathToFileURL(file).href, { width: 1100, height: 700 }, program);
+  const { browser, page, errors } = await openPage(pathToFileURL(file).href, { width: 1100, height: 700 }, program);
   await page.addInitScript(watch);
   await page.goto(pathToFileURL(file).href);
   took.first.push(await page.evaluate(() => window.bench.first));
-  about = await page.evaluate(() => (({ field, levels }) => `${field.cols}x${field.rows},${levels[0].triangles}`)(window.scarp_page.document));
+  about = await page.evaluate(() => (({ field, levels }) => `${field.cols}x${field.rows},${levels[0].triangles}`)(window.scarpPage.document));
   await page.evaluate(step => window.bench.drag(step), DRAG[0] - 2);  // the engine starts
   for (const step of DRAG) took.drag.push(await page.evaluate(step => window.bench.drag(step), step));
   await browser.close();

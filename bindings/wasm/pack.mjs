@@ -10,7 +10,7 @@ const version = /project\(scarp VERSION ([\d.]+)/.exec(fs.readFileSync(`${root}/
 const staged = path.join(build, 'npm');
 
 /// The worker and what it imports in one script: each file a function, after those that it needs.
-function join_worker() {
+function joinWorker() {
   const files = ['number.js', 'error.js', 'options.js', 'module.js', 'heights.js', 'mesh.js', 'simplify.js', 'hills.js', 'warm.js', 'alive.js', 'worker.js'];
   const parts = files.map(file => {
     const text = fs.readFileSync(`${here}/package/${file}`, 'utf8').replace(/^\s*\/\/.*\n/gm, '');
@@ -28,8 +28,8 @@ for (const [from, to] of [[`${here}/README.md`, 'README.md'], [`${root}/LICENSE`
 // The dev server of vite packs scripts of node_modules anew, elsewhere, without the files next to them; .jsx stays in
 // its place.
 for (const entry of ['index', 'full', 'lite', 'delatin', 'martini', 'loaders']) {
-  const has_default = fs.readFileSync(`${staged}/${entry}.js`, 'utf8').includes('export default');
-  fs.writeFileSync(`${staged}/${entry}.jsx`, `export * from './${entry}.js';\n${has_default ? `export { default } from './${entry}.js';\n` : ''}`);
+  const hasDefault = fs.readFileSync(`${staged}/${entry}.js`, 'utf8').includes('export default');
+  fs.writeFileSync(`${staged}/${entry}.jsx`, `export * from './${entry}.js';\n${hasDefault ? `export { default } from './${entry}.js';\n` : ''}`);
 }
 const imports = ['progress', 'number', 'clock_time_get', 'emscripten_notify_memory_growth', 'environ_get', 'environ_sizes_get', 'proc_exit'];
 for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
@@ -40,7 +40,7 @@ for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
   fs.writeFileSync(path.join(staged, name), bytes);
 }
 const bytes = fs.readFileSync(`${staged}/scarp.wasm`).toString('base64');
-fs.writeFileSync(`${staged}/inline-data.js`, `export const MODULE = ${JSON.stringify(bytes)};\nexport const WORKER = ${JSON.stringify(join_worker())};\n`);
+fs.writeFileSync(`${staged}/inline-data.js`, `export const MODULE = ${JSON.stringify(bytes)};\nexport const WORKER = ${JSON.stringify(joinWorker())};\n`);
 fs.mkdirSync(dist, { recursive: true });
 execFileSync('npm', ['pack', '--silent', '--offline', '--pack-destination', dist], { cwd: staged });
 console.log(path.join(dist, `scarp-${version}.tgz`));

@@ -6,13 +6,13 @@ import { pathToFileURL } from "node:url";
 
 const [sources, engine, error, ...files] = process.argv.slice(2);
 const load = path => import(pathToFileURL(resolve(path)));
-const [{ read_geotiff }, { ready, simplifySync }] = await Promise.all([load(`${sources}/geotiff.js`), load(`${engine}/inline.js`)]);
+const [{ readGeotiff }, { ready, simplifySync }] = await Promise.all([load(`${sources}/geotiff.js`), load(`${engine}/inline.js`)]);
 await ready();
 
 for (const file of files) {
   const bytes = readFileSync(file);
   try {
-    const { cols, rows, samples, frame, unit, notes } = await read_geotiff(file, bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), 2 ** 24);
+    const { cols, rows, samples, frame, unit, notes } = await readGeotiff(file, bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), 2 ** 24);
     const mesh = simplifySync(samples, cols, rows, { maxError: Number(error), effort: "fast" });
     console.log(JSON.stringify({ file, vertices: mesh.vertexCount, triangles: mesh.triangleCount, max_error: mesh.maxError, unit, notes, ...frame.extras }));
   } catch (thrown) {

@@ -3,11 +3,11 @@
 // POINTS.json: a list of [longitude, latitude, height]. Prints JSON: of each level of the set with heights there the largest
 // |height that CesiumJS samples - height|, the page's text, errors of the console, and requests to elsewhere.
 import { readFileSync } from "node:fs";
-import { open_page } from "./browser.mjs";
+import { openPage } from "./browser.mjs";
 
-const [address, points_file, shot, program] = process.argv.slice(2);
-const points = JSON.parse(readFileSync(points_file, "utf8"));
-const { browser, page, errors, elsewhere } = await open_page(address, { width: 900, height: 600 }, program);
+const [address, pointsFile, shot, program] = process.argv.slice(2);
+const points = JSON.parse(readFileSync(pointsFile, "utf8"));
+const { browser, page, errors, elsewhere } = await openPage(address, { width: 900, height: 600 }, program);
 await page.goto(address);
 await page.waitForFunction(() => window.viewer !== undefined);
 const result = await page.evaluate(async points => {

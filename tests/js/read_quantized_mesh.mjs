@@ -11,7 +11,7 @@ const decode = createRequire(import.meta.url)("@here/quantized-mesh-decoder").de
 const [folder, output] = process.argv.slice(2);
 
 /// A list as a count and little-endian numbers.
-function bytes_of(list, Type) {
+function bytesOf(list, Type) {
   return [Uint32Array.of(list.length), Type.from(list)].map(array => Buffer.from(array.buffer));
 }
 
@@ -42,10 +42,10 @@ for (const name of names) {
     header.maxHeight, header.boundingSphereCenterX, header.boundingSphereCenterY, header.boundingSphereCenterZ,
     header.boundingSphereRadius, header.horizonOcclusionPointX, header.horizonOcclusionPointY,
     header.horizonOcclusionPointZ).buffer));
-  out.push(...bytes_of(tile.vertexData, Uint16Array), ...bytes_of(tile.triangleIndices, Uint32Array));
-  for (const edge of ["west", "south", "east", "north"]) out.push(...bytes_of(tile[edge + "Indices"], Uint32Array));
-  out.push(...bytes_of(tile.extensions.vertexNormals ?? [], Uint8Array));
-  out.push(...bytes_of(new Uint8Array(tile.extensions.waterMask ?? []), Uint8Array));
+  out.push(...bytesOf(tile.vertexData, Uint16Array), ...bytesOf(tile.triangleIndices, Uint32Array));
+  for (const edge of ["west", "south", "east", "north"]) out.push(...bytesOf(tile[edge + "Indices"], Uint32Array));
+  out.push(...bytesOf(tile.extensions.vertexNormals ?? [], Uint8Array));
+  out.push(...bytesOf(new Uint8Array(tile.extensions.waterMask ?? []), Uint8Array));
 }
 fs.writeFileSync(output, Buffer.concat(out));
 console.log(names.length);

@@ -12,8 +12,8 @@ const widths = { SCALAR: 1, VEC3: 3 };
 const clockwise = ["left", "top", "right", "bottom"];
 
 function read(file) {
-  const bytes = fs.readFileSync(file), json_size = bytes.readUInt32LE(12);
-  const gltf = JSON.parse(bytes.subarray(20, 20 + json_size)), binary = new Uint8Array(bytes.subarray(28 + json_size));
+  const bytes = fs.readFileSync(file), jsonSize = bytes.readUInt32LE(12);
+  const gltf = JSON.parse(bytes.subarray(20, 20 + jsonSize)), binary = new Uint8Array(bytes.subarray(28 + jsonSize));
   const view = number => {
     const { byteOffset = 0, byteLength, extensions } = gltf.bufferViews[number];
     const packed = extensions?.EXT_meshopt_compression;

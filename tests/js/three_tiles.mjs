@@ -6,8 +6,8 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-const [folder, places_file] = process.argv.slice(2);
-const places = JSON.parse(readFileSync(places_file, "utf8")).map(place => place.map(degrees => degrees * Math.PI / 180));
+const [folder, placesFile] = process.argv.slice(2);
+const places = JSON.parse(readFileSync(placesFile, "utf8")).map(place => place.map(degrees => degrees * Math.PI / 180));
 
 // The parts of a browser that the renderer uses.
 globalThis.self = globalThis.window = globalThis;

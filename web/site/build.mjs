@@ -12,11 +12,11 @@ nav, main { max-width: 60rem; margin: 0 auto; padding: 12px 16px } nav { border-
 a { color: var(--link) } img { max-width: 100%; height: auto } pre, .table { overflow-x: auto } code { font: 14px ui-monospace, "DejaVu Sans Mono", monospace; background: var(--code); padding: 0 3px }
 pre { background: var(--code); padding: 10px 14px } pre code { padding: 0 } table { border-collapse: collapse } th, td { border: 1px solid var(--line); padding: 4px 8px; text-align: left; vertical-align: top }`;
 const list = folder => readdirSync(folder).filter(name => name.endsWith('.md'));
-const made_pages = list(made).map(name => `docs/${name}`);
-const pages = ['README.md', 'CHANGELOG.md', ...made_pages,
+const madePages = list(made).map(name => `docs/${name}`);
+const pages = ['README.md', 'CHANGELOG.md', ...madePages,
   ...['docs', 'docs/cli', 'docs/guide', 'bench', 'bench/quality', 'bench/speed'].flatMap(folder => list(join(source, folder)).map(name => `${folder}/${name}`))];
-const path_of = page => made_pages.includes(page) ? join(made, page.slice('docs/'.length)) : join(source, page);
-const address_of = page => page === 'README.md' ? 'index.html' : page.replace(/\.md$/, '.html');
+const pathOf = page => madePages.includes(page) ? join(made, page.slice('docs/'.length)) : join(source, page);
+const addressOf = page => page === 'README.md' ? 'index.html' : page.replace(/\.md$/, '.html');
 const slug = text => text.toLowerCase().replace(/<[^>]*>/g, '').replace(/&[a-z]+;/g, '').replace(/[^\p{L}\p{N}\s_-]/gu, '').trim().replace(/\s/g, '-');
 const anchors = new Map(), wanted = [], copied = new Set(), missing = [];
 
@@ -24,10 +24,10 @@ const anchors = new Map(), wanted = [], copied = new Set(), missing = [];
 function follow(page, href) {
   if (/^[a-z]+:/.test(href)) return href;
   const [path, anchor] = href.split('#'), target = path === '' ? page : normalize(join(dirname(page), path));
-  const here = dirname(address_of(page)), end = anchor ? `#${anchor}` : '';
+  const here = dirname(addressOf(page)), end = anchor ? `#${anchor}` : '';
   if (pages.includes(target)) {
     if (anchor) wanted.push([page, target, anchor]);
-    return relative(here, address_of(target)) + end;
+    return relative(here, addressOf(target)) + end;
   }
   if (!existsSync(join(source, target))) missing.push(`${page}: ${href} leads nowhere`);
   else if (/\.(png|svg|jpg|cpp|csv)$/.test(target)) {
@@ -37,8 +37,8 @@ function follow(page, href) {
   return null;  // a file of the sources: not on the site
 }
 
-function write_page(page) {
-  const ids = new Map(), address = address_of(page), up = relative(dirname(address), '.') || '.';
+function writePage(page) {
+  const ids = new Map(), address = addressOf(page), up = relative(dirname(address), '.') || '.';
   anchors.set(page, ids);
   const renderer = {
     heading({ tokens, depth }) {
@@ -54,7 +54,7 @@ function write_page(page) {
       return `<img src="${follow(page, href)}" alt="${text}" loading="lazy">`;
     },
   };
-  const text = readFileSync(path_of(page), 'utf8'), body = new Marked({ renderer }).parse(text).replaceAll('<th></th>', '<td></td>').replaceAll('<table>', '<div class="table" tabindex="0"><table>').replaceAll('</table>', '</table></div>');
+  const text = readFileSync(pathOf(page), 'utf8'), body = new Marked({ renderer }).parse(text).replaceAll('<th></th>', '<td></td>').replaceAll('<table>', '<div class="table" tabindex="0"><table>').replaceAll('</table>', '</table></div>');
   const title = /^# (.*)$/m.exec(text)?.[1].replace(/[`*]/g, '') ?? page;
   const links = [['index.html', 'Scarp'], ['try.html', 'Try it with your own file'], ['example.html', 'Example'], ['docs/guide/README.html', 'Guides'], ['docs/cli.html', 'Command line'],
     ['docs/options.html', 'Options'], ['docs/python.html', 'Python']];
@@ -63,7 +63,7 @@ function write_page(page) {
     `<body><nav aria-label="Site">${links.map(([to, name]) => `<a href="${up}/${to}">${name}</a>`).join(' ')}</nav><main>\n${body}</main></body></html>\n`);
 }
 
-for (const page of pages) write_page(page);
+for (const page of pages) writePage(page);
 for (const file of copied) {
   mkdirSync(join(site, dirname(file)), { recursive: true });
   copyFileSync(join(source, file), join(site, file));

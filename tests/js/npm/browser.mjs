@@ -2,14 +2,14 @@
 // a page in this folder or next to it (file:), or from the dev server of vite without a configuration (dev:), reports
 // TOLD.
 import { pathToFileURL } from 'node:url';
-import { open_page } from './open_page.mjs';
+import { openPage } from './open_page.mjs';
 import { serve } from './serve.mjs';
 
 const [program, told, ...bundles] = process.argv.slice(2);
 const server = await serve(process.cwd());
-const { browser, page, errors } = await open_page(server.address, { width: 400, height: 300 }, program);
+const { browser, page, errors } = await openPage(server.address, { width: 400, height: 300 }, program);
 /// The dev server, and a page of it; it packs what the page imports at the first visit. Its cache is not where the package is.
-async function open_dev(page) {
+async function openDev(page) {
   const { createServer } = await import('vite');
   const dev = await createServer({ root: process.cwd(), configFile: false, cacheDir: 'elsewhere', logLevel: 'warn', server: { host: '127.0.0.1' } });
   await dev.listen();
@@ -48,7 +48,7 @@ try {
   }
   errors.length = 0;
   for (const bundle of bundles) {
-    const dev = bundle.startsWith('dev:') ? await open_dev(bundle.slice(4)) : null;
+    const dev = bundle.startsWith('dev:') ? await openDev(bundle.slice(4)) : null;
     const answer = await visit(dev?.address ?? (bundle.startsWith('file:') ? pathToFileURL(bundle.slice(5)).href : `${server.address}/${bundle}`));
     if (dev) await page.goto('about:blank');  // or it misses the server
     await dev?.close();

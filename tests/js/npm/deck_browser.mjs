@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { build } from 'esbuild';
-import { open_page } from './open_page.mjs';
+import { openPage } from './open_page.mjs';
 import { serve } from './serve.mjs';
 
 const [program, shots] = process.argv.slice(2);
@@ -14,7 +14,7 @@ fs.writeFileSync('deck/index.html', '<!doctype html><meta charset="utf-8"><link 
 const server = await serve(process.cwd()), told = {};
 try {
   for (const name of ['ours', 'theirs']) {
-    const { browser, page, errors, elsewhere } = await open_page(server.address, { width: 520, height: 320 }, program);
+    const { browser, page, errors, elsewhere } = await openPage(server.address, { width: 520, height: 320 }, program);
     try {
       await page.goto(`${server.address}/deck/index.html#${name}`);
       await page.waitForFunction(() => window.told !== undefined);

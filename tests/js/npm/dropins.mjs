@@ -40,8 +40,8 @@ test('martini: the same names, fewer triangles, and a bound that holds', () => {
   const [mine, theirs] = [Martini, TheirMartini].map(Kind => new Kind(side).createTile(z).getMesh(8));
   assert.equal(mine.vertices.constructor, theirs.vertices.constructor);
   assert.equal(mine.triangles.constructor, theirs.triangles.constructor);
-  const [of_mine, of_theirs] = [mine, theirs].map(({ vertices, triangles }) => judged(z, side, side, vertices, triangles));
-  assert.ok(of_mine.max <= 8 + 1e-9 && of_mine.uncovered === 0 && of_theirs.max > 8);
+  const [ofMine, ofTheirs] = [mine, theirs].map(({ vertices, triangles }) => judged(z, side, side, vertices, triangles));
+  assert.ok(ofMine.max <= 8 + 1e-9 && ofMine.uncovered === 0 && ofTheirs.max > 8);
   assert.ok(mine.triangles.length < theirs.triangles.length / 2);
   const given = hills(50, 40), tile = new Martini(50, { height: 40 }).createTile(given), before = tile.getMesh(8);
   given.fill(0);

@@ -1,6 +1,6 @@
 // The blocks of the package's README in Chromium, each on a page of its own: readme.mjs CHROMIUM README.
 import fs from 'node:fs';
-import { open_page } from './open_page.mjs';
+import { openPage } from './open_page.mjs';
 import { serve } from './serve.mjs';
 
 const [program, readme] = process.argv.slice(2);
@@ -8,7 +8,7 @@ const blocks = [...fs.readFileSync(readme, 'utf8').matchAll(/^```js\n(.*?)^```$/
 const entries = ['', '/full', '/lite', '/delatin', '/martini'].map(name => [`scarp${name}`, `./node_modules/scarp/${name.slice(1) || 'index'}.js`]);
 const imports = { ...Object.fromEntries(entries), three: './node_modules/three/build/three.module.js', geotiff: './geotiff.js' };
 const server = await serve(process.cwd());
-const { browser, page, errors } = await open_page(server.address, { width: 400, height: 300 }, program);
+const { browser, page, errors } = await openPage(server.address, { width: 400, height: 300 }, program);
 try {
   for (const [k, block] of blocks.entries()) {
     fs.writeFileSync(`readme_${k}.mjs`, `import './readme_prelude.mjs';\n${block}\nwindow.told = 'ran';\n`);

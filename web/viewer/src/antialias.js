@@ -4,7 +4,7 @@ import * as THREE from 'three';
 
 const MANY = 200_000;
 
-function draws_by_software(gl) {
+function drawsBySoftware(gl) {
   const words = gl.getExtension('WEBGL_debug_renderer_info');
   return words !== null && /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(words.UNMASKED_RENDERER_WEBGL));
 }
@@ -12,7 +12,7 @@ function draws_by_software(gl) {
 export class Antialias {
   constructor(renderer) {
     this.renderer = renderer;
-    this.is_slow = draws_by_software(renderer.getContext());
+    this.isSlow = drawsBySoftware(renderer.getContext());
     this.target = new THREE.WebGLRenderTarget(1, 1, { samples: 4 });
     this.target.scissorTest = true;
     this.camera = new THREE.Camera();
@@ -31,8 +31,8 @@ export class Antialias {
   /** Returns the target of viewports, in CSS pixels. */
   begin(triangles) {
     const { renderer, target } = this, ratio = renderer.getPixelRatio();
-    this.is_on = !(this.is_slow && triangles > MANY);
-    if (!this.is_on) return renderer;
+    this.isOn = !(this.isSlow && triangles > MANY);
+    if (!this.isOn) return renderer;
     renderer.setRenderTarget(target);
     const place = area => (...sides) => {
       area.set(...sides.map(side => Math.round(side * ratio)));
@@ -42,7 +42,7 @@ export class Antialias {
   }
 
   end() {
-    if (!this.is_on) return;
+    if (!this.isOn) return;
     const { renderer, target } = this, ratio = renderer.getPixelRatio(), whole = [0, 0, target.width / ratio, target.height / ratio];
     renderer.setRenderTarget(null);
     renderer.setViewport(...whole);

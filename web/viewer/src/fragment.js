@@ -8,11 +8,11 @@ const KEYS = {
 /** Parses as many numbers as the key has, each within its range; else null. */
 function parse(text, ranges) {
   const words = text.split(','), numbers = words.map(Number);
-  const are_right = words.length === ranges.length && ranges.every(({ low, high }, k) => words[k].trim() !== '' && numbers[k] >= low && numbers[k] <= high);
-  return !are_right ? null : numbers.length > 1 ? numbers : numbers[0];
+  const areRight = words.length === ranges.length && ranges.every(({ low, high }, k) => words[k].trim() !== '' && numbers[k] >= low && numbers[k] <= high);
+  return !areRight ? null : numbers.length > 1 ? numbers : numbers[0];
 }
 
-export function read_fragment() {
+export function readFragment() {
   const state = {};
   for (const [key, text] of new URLSearchParams(location.hash.slice(1))) {
     const value = Object.hasOwn(KEYS, key) ? parse(text, KEYS[key]) : null;
@@ -23,11 +23,11 @@ export function read_fragment() {
 
 let timer = 0;
 /** Not at each picture while one turns it: browsers refuse that; nor within a notebook, where the page has no address. */
-export function write_fragment(make_state) {
+export function writeFragment(makeState) {
   if (location.protocol === 'about:') return;
   clearTimeout(timer);
   timer = setTimeout(() => {
-    const words = Object.entries(make_state()).map(([key, value]) => `${key}=${[].concat(value).map(part => Number(part.toPrecision(5))).join(',')}`);
+    const words = Object.entries(makeState()).map(([key, value]) => `${key}=${[].concat(value).map(part => Number(part.toPrecision(5))).join(',')}`);
     history.replaceState(null, '', `#${words.join('&')}`);
   }, 300);
 }

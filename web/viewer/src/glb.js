@@ -1,5 +1,5 @@
 // Reads the meshes of a GLB file: x east, y north, z up, in double precision. Trusts no number in the file.
-import { read_image, surface_of } from './images.js';
+import { readImage, surfaceOf } from './images.js';
 import { Sentence } from './sentence.js';
 
 const COMPONENTS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
@@ -29,7 +29,7 @@ function multiply(a, b) {
   return a.map((_, k) => [0, 1, 2, 3].reduce((sum, j) => sum + a[4 * j + k % 4] * b[(k & ~3) + j], 0));
 }
 
-function matrix_of(node) {
+function matrixOf(node) {
   if (node.matrix) return node.matrix;
   const [x, y, z, w] = node.rotation ?? [0, 0, 0, 1], s = node.scale ?? [1, 1, 1], t = node.translation ?? [0, 0, 0];
   return [(1 - 2 * (y * y + z * z)) * s[0], 2 * (x * y + z * w) * s[0], 2 * (x * z - y * w) * s[0], 0,
@@ -38,7 +38,7 @@ function matrix_of(node) {
 }
 
 /** Normals as a matrix turns them, z up. */
-function turn_normals(m, normals) {
+function turnNormals(m, normals) {
   const column = k => [m[4 * k], m[4 * k + 1], m[4 * k + 2]], cross = (a, b) => [0, 1, 2].map(k => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
   const [a, b, c] = [[1, 2], [2, 0], [0, 1]].map(([j, k]) => cross(column(j), column(k)));
   const out = new Float64Array(normals.length);
@@ -116,7 +116,7 @@ class Reader {
   collect(index, above, level, depth = 0) {
     const node = this.json.nodes?.[index];
     if (!node || depth > 64) throw this.damaged('its nodes form no tree');
-    const matrix = multiply(above, matrix_of(node));
+    const matrix = multiply(above, matrixOf(node));
     for (const primitive of this.json.meshes?.[node.mesh]?.primitives ?? []) {
       if (primitive.extras?.scarp?.skirt) continue;  // a skirt that hangs from a tile's edges is no part of its surface
       if ((primitive.mode ?? 4) !== 4) {
@@ -141,21 +141,21 @@ class Reader {
 
   /** Normals and places in an image, where the primitive has them. A normal map's own normals all point up. */
   surface(primitive, vertices, matrix) {
-    const { texture, places, ground, has_normal_map, is_moved } = surface_of(this.json, primitive), { attributes } = primitive;
-    const of_vertices = (name, size) => {
+    const { texture, places, ground, hasNormalMap, isMoved } = surfaceOf(this.json, primitive), { attributes } = primitive;
+    const ofVertices = (name, size) => {
       const numbers = this.numbers(attributes[name], size);
       if (numbers.length !== size * vertices) throw this.damaged(`${name} is not there for each vertex`);
       return numbers;
     };
-    return { texture, ground, is_moved, uvs: texture === null ? null : of_vertices(places, 2),
-      normals: attributes.NORMAL === undefined || has_normal_map ? null : turn_normals(matrix, of_vertices('NORMAL', 3)) };
+    return { texture, ground, isMoved, uvs: texture === null ? null : ofVertices(places, 2),
+      normals: attributes.NORMAL === undefined || hasNormalMap ? null : turnNormals(matrix, ofVertices('NORMAL', 3)) };
   }
 
   /** The image of a part, if it has one that can be shown. */
-  async image({ texture, is_moved }) {
+  async image({ texture, isMoved }) {
     if (texture === null) return null;
-    const { image = null, why } = is_moved ? { why: 'KHR_texture_transform moves it' }
-      : await (this.images[texture] ??= read_image(this.json, texture, index => this.view(index).bytes));
+    const { image = null, why } = isMoved ? { why: 'KHR_texture_transform moves it' }
+      : await (this.images[texture] ??= readImage(this.json, texture, index => this.view(index).bytes));
     if (why) this.notes.add(`The image of ${this.name} is not shown: ${why}.`);
     return image;
   }
@@ -197,7 +197,7 @@ class Reader {
 /** {levels: [{positions, indices, normals, uvs, sheets}], extras, notes}: normals and uvs may be null, sheets are runs
  * of indices with their image, or the colour of the ground without images; the file's metadata are in `extras`. Throws
  * a Sentence. */
-export async function read_glb(bytes, name) {
+export async function readGlb(bytes, name) {
   const { json, binary } = split(bytes, name), reader = new Reader(json, binary, name);
   await reader.open();
   return { levels: await reader.levels(), extras: json.asset?.extras ?? {}, notes: [...reader.notes] };

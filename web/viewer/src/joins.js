@@ -1,14 +1,14 @@
 // Vertices at one place: files keep them apart where parts, tiles or images meet, the eye does not.
 
 /** The first power of two that holds as many twice. */
-function slots_for(count) {
+function slotsFor(count) {
   return 2 ** Math.ceil(Math.log2(2 * count + 1));
 }
 
 /** For each vertex the first one at its place. `places`: x, y, z in single precision. */
-export function join_places(places) {
+export function joinPlaces(places) {
   const count = places.length / 3, bits = new Int32Array(places.buffer, places.byteOffset, places.length);
-  const mask = slots_for(count) - 1, slots = new Int32Array(mask + 1).fill(-1), firsts = new Uint32Array(count);
+  const mask = slotsFor(count) - 1, slots = new Int32Array(mask + 1).fill(-1), firsts = new Uint32Array(count);
   for (let v = 0; v < count; ++v) {
     const [x, y, z] = [bits[3 * v], bits[3 * v + 1], bits[3 * v + 2]];
     let hash = Math.imul(x, 0x9e3779b1) ^ Math.imul(y, 0x85ebca6b) ^ Math.imul(z, 0xc2b2ae35), at = (hash ^= hash >>> 15) & mask;
@@ -23,17 +23,17 @@ export function join_places(places) {
 }
 
 /** Each edge once, as pairs of vertices. */
-export function list_edges(indices, firsts) {
-  const begins = new Uint32Array(firsts.length + 1), each_side = use => {
+export function listEdges(indices, firsts) {
+  const begins = new Uint32Array(firsts.length + 1), eachSide = use => {
     for (let k = 0; k < indices.length; ++k) {
       const a = firsts[indices[k]], b = firsts[indices[k % 3 === 2 ? k - 2 : k + 1]];
       if (a !== b) use(Math.min(a, b), Math.max(a, b));
     }
   };
-  each_side(low => { ++begins[low + 1]; });
+  eachSide(low => { ++begins[low + 1]; });
   for (let v = 0; v < firsts.length; ++v) begins[v + 1] += begins[v];
   const ends = begins.slice(), highs = new Uint32Array(begins[firsts.length]), seen = new Uint32Array(firsts.length).fill(firsts.length), pairs = new Uint32Array(2 * highs.length);
-  each_side((low, high) => { highs[ends[low]++] = high; });
+  eachSide((low, high) => { highs[ends[low]++] = high; });
   let count = 0;
   for (let low = 0; low < firsts.length; ++low) {
     for (let at = begins[low]; at < ends[low]; ++at) {
@@ -46,8 +46,8 @@ export function list_edges(indices, firsts) {
   return pairs.subarray(0, count);
 }
 
-/** By length, roughly: {pairs, count_from}, the longest first, and how many there are, at least, of a length or more. */
-export function rank_edges(pairs, places) {
+/** By length, roughly: {pairs, countFrom}, the longest first, and how many there are, at least, of a length or more. */
+export function rankEdges(pairs, places) {
   const SHIFT = 21, ranks = 2 ** (31 - SHIFT), count = pairs.length / 2, squares = new Float32Array(count), bits = new Int32Array(squares.buffer);
   const ends = new Uint32Array(ranks + 1), ranked = new Uint32Array(pairs.length);
   for (let k = 0; k < count; ++k) {
@@ -62,11 +62,11 @@ export function rank_edges(pairs, places) {
     ranked[at] = pairs[2 * k];
     ranked[at + 1] = pairs[2 * k + 1];
   }
-  return { pairs: ranked, count_from: length => ends[ranks - (new Int32Array(Float32Array.of(length * length).buffer)[0] >> SHIFT)] };
+  return { pairs: ranked, countFrom: length => ends[ranks - (new Int32Array(Float32Array.of(length * length).buffer)[0] >> SHIFT)] };
 }
 
 /** For each vertex the sum of the normals of all triangles at its place, by their areas. */
-export function sum_normals(places, indices, firsts) {
+export function sumNormals(places, indices, firsts) {
   const sums = new Float64Array(places.length), normals = new Float32Array(places.length);
   for (let k = 0; k < indices.length; k += 3) {
     const [a, b, c] = [3 * firsts[indices[k]], 3 * firsts[indices[k + 1]], 3 * firsts[indices[k + 2]]];

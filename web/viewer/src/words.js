@@ -18,7 +18,7 @@ export function bytes(value) {
   return `${Number((value / unit[1]).toPrecision(3))} ${unit[0]}`;
 }
 
-export function with_unit(value, unit) {
+export function withUnit(value, unit) {
   return unit ? `${number(value)} ${unit}` : number(value);
 }
 
