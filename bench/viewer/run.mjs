@@ -14,22 +14,31 @@ const DRAG = [16, 18, 20, 22, 24, 26, 28, 21, 25];
 
 /// In the page, before its script: `first`, and `drag(step)`.
 function watch() {
-  const picture = () => {  // waits for what was drawn
+  const picture = () => {
+    // waits for what was drawn
     const gl = document.getElementById('canvas').getContext('webgl2');
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     return performance.now();
   };
-  const until = isThere => new Promise(done => {
-    const look = () => isThere() ? done(picture()) : setTimeout(look, 1);
-    look();
-  });
+  const until = isThere =>
+    new Promise(done => {
+      const look = () => (isThere() ? done(picture()) : setTimeout(look, 1));
+      look();
+    });
   window.bench = {
     first: until(() => window.scarpPage?.drawn > 0),
     async drag(step) {
-      const page = window.scarpPage, slider = document.getElementById('error'), { drawn } = page, start = performance.now();
+      const page = window.scarpPage;
+      const slider = document.getElementById('error');
+      const { drawn } = page;
+      const start = performance.now();
       slider.value = String(step);
       slider.dispatchEvent(new Event('input'));
-      return await until(() => page.drawn > drawn && !page.scene.asked && page.shown[0] === page.live.meshes.get(`greedy ${step}`)) - start;
+      return (
+        (await until(
+          () => page.drawn > drawn && !page.scene.asked && page.shown[0] === page.live.meshes.get(`greedy ${step}`),
+        )) - start
+      );
     },
   };
 }
@@ -42,14 +51,25 @@ for (let run = 0; run < Number(runs); ++run) {
   await page.addInitScript(watch);
   await page.goto(pathToFileURL(file).href);
   took.first.push(await page.evaluate(() => window.bench.first));
-  about = await page.evaluate(() => (({ field, levels }) => `${field.cols}x${field.rows},${levels[0].triangles}`)(window.scarpPage.document));
-  await page.evaluate(step => window.bench.drag(step), DRAG[0] - 2);  // the engine starts
+  about = await page.evaluate(() =>
+    (({ field, levels }) => `${field.cols}x${field.rows},${levels[0].triangles}`)(window.scarpPage.document),
+  );
+  await page.evaluate(step => window.bench.drag(step), DRAG[0] - 2); // the engine starts
   for (const step of DRAG) took.drag.push(await page.evaluate(step => window.bench.drag(step), step));
   await browser.close();
   if (errors.length > 0) throw new Error(errors.join('\n'));
 }
 console.log('what,samples,triangles,runs,median_ms,least_ms,most_ms,load');
 for (const [name, times] of Object.entries(took)) {
-  console.log([name === 'first' ? 'first picture' : 'slider', about, times.length, median(times).toFixed(0), Math.min(...times).toFixed(0),
-    Math.max(...times).toFixed(0), os.loadavg()[0].toFixed(1)].join());
+  console.log(
+    [
+      name === 'first' ? 'first picture' : 'slider',
+      about,
+      times.length,
+      median(times).toFixed(0),
+      Math.min(...times).toFixed(0),
+      Math.max(...times).toFixed(0),
+      os.loadavg()[0].toFixed(1),
+    ].join(),
+  );
 }

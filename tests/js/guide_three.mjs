@@ -2,7 +2,7 @@
 //
 // Each page draws as window.draw() does until window.drawn is not 0. Prints JSON: of each the errors of the console, and how
 // much of the picture is not background. Writes SHOTS/three_0.png and so on.
-import { openPage } from "./browser.mjs";
+import { openPage } from './browser.mjs';
 
 const [shots, program, ...addresses] = process.argv.slice(2);
 const answers = [];

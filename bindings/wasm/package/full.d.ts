@@ -48,7 +48,7 @@ export interface LayerJson {
   maxzoom: number;
   extensions: string[];
   /** Rectangles of tiles, level by level. */
-  available: { startX: number, startY: number, endX: number, endY: number }[][];
+  available: { startX: number; startY: number; endX: number; endY: number }[][];
 }
 export interface Tiler extends Disposable {}
 /** Terrain tiles for globes, made as they are asked for, of heights in metres above the ellipsoid. */
@@ -60,6 +60,6 @@ export class Tiler {
   /** Columns and rows of a level's tiles. */
   list(z: number): [number, number][];
   /** The file that clients read first. `tiles`: templates of the tiles' addresses, '{z}/{x}/{y}.terrain' by default. */
-  layerJson(options?: { name?: string, attribution?: string, tiles?: string[] }): LayerJson;
+  layerJson(options?: { name?: string; attribution?: string; tiles?: string[] }): LayerJson;
   free(): void;
 }

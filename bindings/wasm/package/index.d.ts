@@ -4,7 +4,16 @@ declare global {
 }
 
 /** Numbers as the package accepts them, of any realm. */
-export type Numbers = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array | Int32Array | Uint32Array
+export type Numbers =
+  | Float32Array
+  | Float64Array
+  | Int8Array
+  | Uint8Array
+  | Uint8ClampedArray
+  | Int16Array
+  | Uint16Array
+  | Int32Array
+  | Uint32Array
   | readonly number[];
 /**
  * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and every maxError counts
@@ -57,7 +66,10 @@ export class ScarpError extends Error {
  * before the first call, which otherwise needs up to seven times as long as later ones. Workers of a pool do so by
  * themselves.
  * */
-export function ready(source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled, options?: { warm?: boolean }): Promise<void>;
+export function ready(
+  source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled,
+  options?: { warm?: boolean },
+): Promise<void>;
 export function isReady(): boolean;
 export function version(): string;
 
@@ -183,8 +195,13 @@ export function simplifySync(z: Heights, width: number, height: number, options:
 export function simplify(z: Heights, width: number, height: number, options: Options & AsyncOptions): Promise<Mesh>;
 
 /** Judges a mesh by brute force, without knowing how it was made. */
-export function measure(z: Heights, width: number, height: number,
-  mesh: { positions: Numbers, indices: Numbers, origin?: Numbers }, place?: Place): Report;
+export function measure(
+  z: Heights,
+  width: number,
+  height: number,
+  mesh: { positions: Numbers; indices: Numbers; origin?: Numbers },
+  place?: Place,
+): Report;
 
 export interface PointOptions extends Goals {
   /** Rule for several points at one place. */
@@ -212,7 +229,7 @@ export interface Refiner extends Disposable {}
 export class Refiner {
   constructor(z: Heights, width: number, height: number, place?: Place);
   /** Inserts until maxError holds, or there are maxVertices, or all is exact; returns how many were inserted. */
-  run(goals?: { maxError?: number, maxVertices?: number }): number;
+  run(goals?: { maxError?: number; maxVertices?: number }): number;
   /** False once every sample is exact. */
   insertWorst(): boolean;
   readonly maxError: number;
@@ -227,9 +244,15 @@ export class Refiner {
  * A GLB file (glTF 2.0, y up), whose positions are float32: float64 ones are rounded. compress: by meshoptimizer's
  * codec (EXT_meshopt_compression); positions of simplify() with lattice keep their values, and have 16 bits each.
  * */
-export function encodeGlb(mesh: { positions: Numbers, indices: Numbers, normals?: Numbers, uvs?: Numbers, origin?: Numbers, cell?: Numbers },
-  options?: { compress?: boolean }): Bytes;
+export function encodeGlb(
+  mesh: { positions: Numbers; indices: Numbers; normals?: Numbers; uvs?: Numbers; origin?: Numbers; cell?: Numbers },
+  options?: { compress?: boolean },
+): Bytes;
 
 /** Heights in metres of a tile's pixels, four bytes each; NaN where a pixel is transparent. */
-export function decodeTile(rgba: Uint8ClampedArray | Uint8Array, width: number, height: number,
-  encoding?: 'terrarium' | 'mapbox' | { rScaler: number, gScaler: number, bScaler: number, offset: number }): Floats;
+export function decodeTile(
+  rgba: Uint8ClampedArray | Uint8Array,
+  width: number,
+  height: number,
+  encoding?: 'terrarium' | 'mapbox' | { rScaler: number; gScaler: number; bScaler: number; offset: number },
+): Floats;

@@ -6,12 +6,13 @@ import { Sentence } from './sentence.js';
 
 const MOST_BYTES = 2 ** 30;
 const RASTERS = /\.(tiff?|hgt|png)$/i;
-const FIRST_SHARE = 0.02;  // max error of the first mesh, of the relief
+const FIRST_SHARE = 0.02; // max error of the first mesh, of the relief
 
 /** The document of a raster: {document, decode}, the latter to read it again; null if another opening has begun
  * meanwhile. */
 async function readDocument(page, file, isLast, decoding) {
-  if (!HAS_ENGINE) throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
+  if (!HAS_ENGINE)
+    throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
   const { readRaster } = await import('./rasters.js');
   const raster = await readRaster(file, decoding);
   if (!isLast()) return null;
@@ -21,7 +22,8 @@ async function readDocument(page, file, isLast, decoding) {
 
 /** The last opening wins: results and messages of earlier ones are dropped. */
 export async function begin(page, read) {
-  const turn = page.turn = (page.turn ?? 0) + 1, isLast = () => turn === page.turn;
+  const turn = (page.turn = (page.turn ?? 0) + 1);
+  const isLast = () => turn === page.turn;
   page.live.cancelFirst();
   page.say('');
   try {
@@ -36,21 +38,30 @@ export async function begin(page, read) {
 
 /** A page that began empty shows its first file by its address, unless that names a raster of other dimensions. */
 function stateOfFirst(page, { field }) {
-  const state = page.document ? {} : readFragment(), [cols, rows] = state.samples ?? [];
+  const state = page.document ? {} : readFragment();
+  const [cols, rows] = state.samples ?? [];
   return cols === undefined || (field?.cols === cols && field.rows === rows) ? state : {};
 }
 
 /** Handles a drop. */
 async function readFiles(page, files, isLast) {
-  const large = files.find(file => file.size > MOST_BYTES), wrong = files.find(file => !/\.glb$/i.test(file.name) && !RASTERS.test(file.name));
-  if (wrong) throw new Sentence(`${wrong.name} is no file that this page reads: .glb${HAS_ENGINE ? ', .tif, .hgt or .png' : ''}.`);
+  const large = files.find(file => file.size > MOST_BYTES);
+  const wrong = files.find(file => !/\.glb$/i.test(file.name) && !RASTERS.test(file.name));
+  if (wrong)
+    throw new Sentence(
+      `${wrong.name} is no file that this page reads: .glb${HAS_ENGINE ? ', .tif, .hgt or .png' : ''}.`,
+    );
   if (large) throw new Sentence(`${large.name} is too large for this page, which takes 1 GiB.`);
   if (files.length > 1) throw new Sentence('One file at a time, please.');
   const [file] = files;
   if (RASTERS.test(file.name)) return readDocument(page, file, isLast, null);
   const read = [{ name: file.name, bytes: file.size, buffer: await file.arrayBuffer() }];
-  const old = page.document, field = old?.field ?? null, opened = await makeDocument(read, null);
-  return { document: field && fits(field, opened) ? await makeDocument(read, field, old.place.metres, old.unit) : opened };
+  const old = page.document;
+  const field = old?.field ?? null;
+  const opened = await makeDocument(read, null);
+  return {
+    document: field && fits(field, opened) ? await makeDocument(read, field, old.place.metres, old.unit) : opened,
+  };
 }
 
 /** `page.load` is for who brings files in another way. */

@@ -31,14 +31,17 @@ export class Field {
 
   /** Vertices that a file rounded to float32 lie on their samples again. */
   toGrid(x, y) {
-    const a = this.affine, dx = x - a[0], dy = y - a[3];
+    const a = this.affine;
+    const dx = x - a[0];
+    const dy = y - a[3];
     return [snap((a[5] * dx - a[2] * dy) / this.determinant), snap((a[1] * dy - a[4] * dx) / this.determinant)];
   }
 
   /** Grid positions of all vertices: column, row, column, … */
   toGrids(positions) {
-    const grid = new Float64Array(positions.length / 3 * 2);
-    for (let v = 0, k = 0; k < grid.length; v += 3, k += 2) [grid[k], grid[k + 1]] = this.toGrid(positions[v], positions[v + 1]);
+    const grid = new Float64Array((positions.length / 3) * 2);
+    for (let v = 0, k = 0; k < grid.length; v += 3, k += 2)
+      [grid[k], grid[k + 1]] = this.toGrid(positions[v], positions[v + 1]);
     return grid;
   }
 
@@ -46,9 +49,12 @@ export class Field {
   heightAt(x, y) {
     const [col, row] = this.toGrid(x, y);
     if (!(col >= 0 && row >= 0 && col <= this.cols - 1 && row <= this.rows - 1)) return NaN;
-    const c = Math.min(Math.floor(col), this.cols - 2), r = Math.min(Math.floor(row), this.rows - 2), u = col - c, v = row - r;
+    const c = Math.min(Math.floor(col), this.cols - 2);
+    const r = Math.min(Math.floor(row), this.rows - 2);
+    const u = col - c;
+    const v = row - r;
     const at = (dc, dr) => this.samples[(r + dr) * this.cols + c + dc];
-    const mix = (a, b, t) => t === 0 ? a : t === 1 ? b : a + t * (b - a);
+    const mix = (a, b, t) => (t === 0 ? a : t === 1 ? b : a + t * (b - a));
     return mix(mix(at(0, 0), at(1, 0), u), mix(at(0, 1), at(1, 1), u), v);
   }
 }

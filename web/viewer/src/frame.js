@@ -4,8 +4,10 @@
 export const WGS84 = { semiMajor: 6378137, inverseFlattening: 298.257223563 };
 
 function metresPerRadian({ semiMajor, inverseFlattening }, latitude) {
-  const f = inverseFlattening > 0 ? 1 / inverseFlattening : 0, e2 = f * (2 - f), w2 = 1 - e2 * Math.sin(latitude) ** 2;
-  return [semiMajor / Math.sqrt(w2) * Math.cos(latitude), semiMajor * (1 - e2) / (w2 * Math.sqrt(w2))];
+  const f = inverseFlattening > 0 ? 1 / inverseFlattening : 0;
+  const e2 = f * (2 - f);
+  const w2 = 1 - e2 * Math.sin(latitude) ** 2;
+  return [(semiMajor / Math.sqrt(w2)) * Math.cos(latitude), (semiMajor * (1 - e2)) / (w2 * Math.sqrt(w2))];
 }
 
 /** Ties to even, as C rounds. */
@@ -18,7 +20,7 @@ function roundEven(value) {
 function roundPair(pair, reach) {
   const span = Math.abs(pair[0]) * reach[0] + Math.abs(pair[1]) * reach[1];
   if (span === 0 || !Number.isFinite(span)) return pair;
-  for (let unit = 2 ** (Math.floor(Math.log2(span)) - 25);; unit *= 2) {
+  for (let unit = 2 ** (Math.floor(Math.log2(span)) - 25); ; unit *= 2) {
     const [p, q] = pair.map(value => roundEven(value / unit));
     if (Math.abs(p) * reach[0] + Math.abs(q) * reach[1] <= 2 ** 24) return [p * unit, q * unit];
   }
@@ -28,13 +30,22 @@ const at = (a, col, row) => [a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col +
 
 /** From x and y around the centre sample to the coordinates of the raster's CRS. */
 function backToSource([, a, b, , c, d], samples, centre) {
-  const [, e, f, , g, h] = samples, determinant = a * d - b * c, [x, y] = at(samples, ...centre);
-  return [x, (e * d - f * c) / determinant, (f * a - e * b) / determinant, y, (g * d - h * c) / determinant, (h * a - g * b) / determinant];
+  const [, e, f, , g, h] = samples;
+  const determinant = a * d - b * c;
+  const [x, y] = at(samples, ...centre);
+  return [
+    x,
+    (e * d - f * c) / determinant,
+    (f * a - e * b) / determinant,
+    y,
+    (g * d - h * c) / determinant,
+    (h * a - g * b) / determinant,
+  ];
 }
 
 /** For each `step`th column and row: where they lie in the whole raster. */
 export function thinFrame(frame, step) {
-  return { ...frame, affine: frame.affine.map((value, k) => k % 3 ? value * step : value) };
+  return { ...frame, affine: frame.affine.map((value, k) => (k % 3 ? value * step : value)) };
 }
 
 export function gridFrame(rows) {
@@ -45,14 +56,33 @@ export function gridFrame(rows) {
  * `samples`: from columns and rows to the coordinates of the CRS, in GDAL's order. `radians`: one unit of these, if
  * they are longitude and latitude; else `metres`, null where unknown. `height`: metres of a unit of the heights.
  * */
-export function localFrame(samples, cols, rows, { radians = null, ellipsoid = WGS84, metres = null, height = 1, crs = null }) {
-  const centre = [Math.floor(cols / 2), Math.floor(rows / 2)], latitude = radians && at(samples, ...centre)[1] * radians;
-  const [east, north] = radians ? metresPerRadian(ellipsoid, latitude).map(length => length * radians) : Array(2).fill(metres ?? 1);
-  const [xc, xr] = roundPair([samples[1] * east, samples[2] * east], centre), [yc, yr] = roundPair([samples[4] * north, samples[5] * north], centre);
+export function localFrame(
+  samples,
+  cols,
+  rows,
+  { radians = null, ellipsoid = WGS84, metres = null, height = 1, crs = null },
+) {
+  const centre = [Math.floor(cols / 2), Math.floor(rows / 2)];
+  const latitude = radians && at(samples, ...centre)[1] * radians;
+  const [east, north] = radians
+    ? metresPerRadian(ellipsoid, latitude).map(length => length * radians)
+    : Array(2).fill(metres ?? 1);
+  const [xc, xr] = roundPair([samples[1] * east, samples[2] * east], centre);
+  const [yc, yr] = roundPair([samples[4] * north, samples[5] * north], centre);
   const affine = [-(xc * centre[0] + xr * centre[1]), xc, xr, -(yc * centre[0] + yr * centre[1]), yc, yr];
-  const isAtPole = radians && !(Math.abs(latitude) < Math.PI / 2 && east > 1e-3 * north), area = xc * yr - xr * yc;
+  const isAtPole = radians && !(Math.abs(latitude) < Math.PI / 2 && east > 1e-3 * north);
+  const area = xc * yr - xr * yc;
   if (isAtPole || area === 0 || !Number.isFinite(area)) return gridFrame(rows);
   const toSource = backToSource(affine, samples, centre);
-  return { affine, metres: [1, 1, height], knowsMetres: Boolean(radians) || metres !== null,
-    extras: { crs_option: 'local', origin: [toSource[0], toSource[3]], ...(crs ? { origin_crs: crs } : {}), to_source: toSource } };
+  return {
+    affine,
+    metres: [1, 1, height],
+    knowsMetres: Boolean(radians) || metres !== null,
+    extras: {
+      crs_option: 'local',
+      origin: [toSource[0], toSource[3]],
+      ...(crs ? { origin_crs: crs } : {}),
+      to_source: toSource,
+    },
+  };
 }

@@ -1,13 +1,16 @@
 // The effects of keys.
-const TURNED = 5;  // degrees
-const MOVED = 0.1;  // share of the picture's height
+const TURNED = 5; // degrees
+const MOVED = 0.1; // share of the picture's height
 
 export function listenToKeys(page) {
   addEventListener('keydown', event => {
-    const { target, key } = event, isControl = target.matches?.('input, select, button, dialog, [role=slider]');
-    if (event.ctrlKey || event.metaKey || event.altKey || !page.document || document.querySelector('dialog[open]')) return;
+    const { target, key } = event;
+    const isControl = target.matches?.('input, select, button, dialog, [role=slider]');
+    if (event.ctrlKey || event.metaKey || event.altKey || !page.document || document.querySelector('dialog[open]'))
+      return;
     if (isControl && /^(Arrow|Enter|Page| )/.test(key)) return;
-    const arrow = (x, y) => event.shiftKey ? page.scene.move(x * MOVED, y * MOVED) : page.scene.turn(-x * TURNED, y * TURNED);
+    const arrow = (x, y) =>
+      event.shiftKey ? page.scene.move(x * MOVED, y * MOVED) : page.scene.turn(-x * TURNED, y * TURNED);
     const action = {
       w: () => page.change({ edges: !page.look.edges }),
       e: () => page.document.field && page.change({ errors: !page.look.errors }),

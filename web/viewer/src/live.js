@@ -18,7 +18,7 @@ class Helper {
   }
 
   start() {
-    const worker = new Worker(this.address ??= URL.createObjectURL(new Blob([SOURCE], { type: 'text/javascript' })));
+    const worker = new Worker((this.address ??= URL.createObjectURL(new Blob([SOURCE], { type: 'text/javascript' }))));
     const lose = why => {
       if (worker !== this.worker) return;
       worker.terminate();
@@ -89,7 +89,8 @@ export class Live {
     $('slider-row').hidden = $('both-row').hidden = !this.isUsable;
     this.label(null);
     if (!this.isUsable) return;
-    const { field, unit } = document, relief = Math.max(field.high - field.low, 1e-9);
+    const { field, unit } = document;
+    const relief = Math.max(field.high - field.low, 1e-9);
     this.quick = new Helper(field);
     this.slow = new Helper(field);
     this.largest = relief / 2;
@@ -108,7 +109,7 @@ export class Live {
       this.hears = null;
       this.follow(first ?? this.page.shown[0].judged.maxError);
       if (both) this.turnBoth(true);
-      else if (error !== undefined) this.choose(this.stepOf(error)), this.finish();
+      else if (error !== undefined) (this.choose(this.stepOf(error)), this.finish());
     };
     if (first !== undefined || this.page.shown[0].isJudged) this.hears();
   }
@@ -122,12 +123,15 @@ export class Live {
 
   /** The first mesh of a raster, for a max error of that share of the relief: {mesh, judged, goal}. */
   makeFirst(field, share) {
-    const helper = this.first = new Helper(field), goal = { maxError: tidy((field.high - field.low) * share) };
-    return new Promise((done, failed) => helper.ask({ kind: 'finish', goal, effort: 'fast', order: 'greedy' }, answer => {
-      helper.end();
-      if (answer.error) failed(new Sentence(`${field.name}: ${answer.error}`));
-      else done({ ...answer, goal });
-    }));
+    const helper = (this.first = new Helper(field));
+    const goal = { maxError: tidy((field.high - field.low) * share) };
+    return new Promise((done, failed) =>
+      helper.ask({ kind: 'finish', goal, effort: 'fast', order: 'greedy' }, answer => {
+        helper.end();
+        if (answer.error) failed(new Sentence(`${field.name}: ${answer.error}`));
+        else done({ ...answer, goal });
+      }),
+    );
   }
 
   /** For what another opening overtakes. */
@@ -141,7 +145,10 @@ export class Live {
   }
 
   stepOf(error) {
-    return Math.max(0, Math.min(this.most, Math.round(Math.log2(this.largest / Math.max(error, 1e-12)) * STEPS_AN_OCTAVE)));
+    return Math.max(
+      0,
+      Math.min(this.most, Math.round(Math.log2(this.largest / Math.max(error, 1e-12)) * STEPS_AN_OCTAVE)),
+    );
   }
 
   /** The slider stands at the error of what is shown. */
@@ -161,7 +168,12 @@ export class Live {
   }
 
   state() {
-    return this.stepNow === null ? {} : { error: this.errorOf(this.stepNow), ...(this.both ? { both: 1, count: Number($('same').value === 'count') } : {}) };
+    return this.stepNow === null
+      ? {}
+      : {
+          error: this.errorOf(this.stepNow),
+          ...(this.both ? { both: 1, count: Number($('same').value === 'count') } : {}),
+        };
   }
 
   /** For a mesh of the file. */
@@ -188,7 +200,7 @@ export class Live {
   turnBoth(both) {
     this.both = both;
     $('both').checked = both;
-    if (both) return this.choose(this.stepNow ?? Number($('error').value)), this.finish();
+    if (both) return (this.choose(this.stepNow ?? Number($('error').value)), this.finish());
     this.slow.cancel();
     this.show();
   }
@@ -203,7 +215,9 @@ export class Live {
     this.say('');
     const key = `greedy ${step}`;
     if (this.meshes.has(key)) return this.show();
-    const goal = ['local', 'grid'].includes(this.page.document.levels[0].extras.crs_option) ? { maxError: error } : null;
+    const goal = ['local', 'grid'].includes(this.page.document.levels[0].extras.crs_option)
+      ? { maxError: error }
+      : null;
     this.quick.ask({ kind: 'refine', error }, answer => {
       if (!this.take(answer, key, 'greedy', goal) || step !== this.stepNow) return;
       this.show();
@@ -217,25 +231,35 @@ export class Live {
       return false;
     }
     const { field, place, levels } = this.page.document;
-    this.meshes.set(key, terrainOfEngine(name, mesh, { judged, goal, extras: levels[0].extras }, field, place, levels[0]));
+    this.meshes.set(
+      key,
+      terrainOfEngine(name, mesh, { judged, goal, extras: levels[0].extras }, field, place, levels[0]),
+    );
     return true;
   }
 
   keys() {
     const greedy = `greedy ${this.stepNow}`;
-    return [greedy, this.both && $('same').value === 'count' ? `high, same triangles as ${greedy}` : `high ${this.stepNow}`];
+    return [
+      greedy,
+      this.both && $('same').value === 'count' ? `high, same triangles as ${greedy}` : `high ${this.stepNow}`,
+    ];
   }
 
   /** Effort high, in the background. */
   finish() {
     if (this.stepNow === null) return;
-    const [greedy, high] = this.keys(), step = this.stepNow;
+    const [greedy, high] = this.keys();
+    const step = this.stepNow;
     this.wantsFinish = !this.meshes.has(greedy);
     if (this.wantsFinish) return;
     if (this.meshes.has(high)) return this.show();
     this.say('Preview; effort high is at work …');
     this.show();
-    const goal = this.both && $('same').value === 'count' ? { maxTriangles: this.meshes.get(greedy).triangles } : { maxError: this.errorOf(step) };
+    const goal =
+      this.both && $('same').value === 'count'
+        ? { maxTriangles: this.meshes.get(greedy).triangles }
+        : { maxError: this.errorOf(step) };
     this.slow.cancel();
     this.slow.ask({ kind: 'finish', goal, effort: 'high' }, answer => {
       if (!this.take(answer, high, 'high', goal) || this.keys()[1] !== high) return;

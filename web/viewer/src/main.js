@@ -32,7 +32,17 @@ function complain(error) {
 
 class Page {
   constructor() {
-    this.look = { errors: false, image: false, edges: false, smooth: false, exaggeration: 1, sun: { azimuth: 315, altitude: 40 }, scale: 1, divider: 0.5, covered: () => $('panel').getBoundingClientRect() };
+    this.look = {
+      errors: false,
+      image: false,
+      edges: false,
+      smooth: false,
+      exaggeration: 1,
+      sun: { azimuth: 315, altitude: 40 },
+      scale: 1,
+      divider: 0.5,
+      covered: () => $('panel').getBoundingClientRect(),
+    };
     this.scene = new Scene($('canvas'), this.look);
     this.measuring = new Measuring(this.scene);
     this.live = new Live(this);
@@ -106,13 +116,20 @@ class Page {
 
   /** Makes the controls and the readout agree with the state, and the picture. */
   update(isDrawn = true) {
-    const { look, shown, document: { field, unit, levels, place, knowsMetres, isOfTiles } } = this, [terrain] = shown;
-    const areJudged = shown.every(({ isJudged }) => isJudged), showsErrors = look.errors && areJudged;
+    const {
+      look,
+      shown,
+      document: { field, unit, levels, place, knowsMetres, isOfTiles },
+    } = this;
+    const [terrain] = shown;
+    const areJudged = shown.every(({ isJudged }) => isJudged);
+    const showsErrors = look.errors && areJudged;
     const colors = look.errors ? 'errors' : look.image ? 'image' : 'relief';
     for (const name of ['relief', 'errors', 'image']) $(name).checked = name === colors;
     for (const name of ['edges', 'smooth']) $(name).checked = look[name];
     $('exaggeration').value = String(Math.round(Math.log10(look.exaggeration) * 100));
-    $('exaggeration-text').textContent = look.exaggeration === 1 ? (knowsMetres ? '1 (true)' : '1') : `${Number(look.exaggeration.toPrecision(2))} ×`;
+    $('exaggeration-text').textContent =
+      look.exaggeration === 1 ? (knowsMetres ? '1 (true)' : '1') : `${Number(look.exaggeration.toPrecision(2))} ×`;
     $('azimuth').value = String(look.sun.azimuth);
     $('azimuth-text').textContent = `${look.sun.azimuth}°`;
     $('altitude').value = String(look.sun.altitude);
@@ -126,17 +143,32 @@ class Page {
       if (shown.length > 1) line.textContent = summarize(shown[k], unit);
     });
     $('divider').hidden = shown.length < 2;
-    drawLegend({ errors: showsErrors, image: look.image && terrain.hasImage, scale: look.scale, low: place.low[2], high: place.high[2], unit });
+    drawLegend({
+      errors: showsErrors,
+      image: look.image && terrain.hasImage,
+      scale: look.scale,
+      low: place.low[2],
+      high: place.high[2],
+      unit,
+    });
     $('map').hidden = !showsErrors;
-    if (showsErrors && (this.mapped !== terrain || this.mappedScale !== look.scale)) drawMap(terrain.judged, field, look.scale);
+    if (showsErrors && (this.mapped !== terrain || this.mappedScale !== look.scale))
+      drawMap(terrain.judged, field, look.scale);
     [this.mapped, this.mappedScale] = showsErrors ? [terrain, look.scale] : [];
     const notes = [...this.document.notes];
-    if (isOfTiles) notes.push('Tiles side by side on a flat map; heights are those of the tiles. What judges them is scarp tile check SET.');
+    if (isOfTiles)
+      notes.push(
+        'Tiles side by side on a flat map; heights are those of the tiles. What judges them is scarp tile check SET.',
+      );
     else if (!field) notes.push('Without its raster nothing can be judged here: scarp view MESH RASTER.');
-    if (!knowsMetres) notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
+    if (!knowsMetres)
+      notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
     if (field && !this.live.isThere) notes.push('This page was built without the engine: the mesh is as in its file.');
     $('notes').textContent = notes.join(' ');
-    const saved = shown.at(-1), command = commandOf(saved, $('format').value), which = shown.length > 1 ? saved.name : '', commandNote = commandNotes(saved, $('format').value);
+    const saved = shown.at(-1);
+    const command = commandOf(saved, $('format').value);
+    const which = shown.length > 1 ? saved.name : '';
+    const commandNote = commandNotes(saved, $('format').value);
     $('save').textContent = `Download ${which}`.trim();
     $('command').parentElement.hidden = command === null;
     $('command').textContent = command;
@@ -145,7 +177,10 @@ class Page {
     $('command-note').hidden = !commandNote;
     $('decoding-row').hidden = !field?.decoding;
     if (field?.decoding) $('decoding').value = field.decoding;
-    $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${showsErrors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`);
+    $('canvas').setAttribute(
+      'aria-label',
+      `Terrain: ${summarize(terrain, unit)}${showsErrors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`,
+    );
     if (isDrawn) this.scene.invalidate();
   }
 
@@ -155,12 +190,18 @@ class Page {
   }
 
   drawOverlay() {
-    const { scene, look, document: { field } } = this, { azimuth, altitude, distance, target } = scene.orbit();
+    const {
+      scene,
+      look,
+      document: { field },
+    } = this;
+    const { azimuth, altitude, distance, target } = scene.orbit();
     drawCompass(azimuth);
     drawBar(scene.metresPerPixel(), this.document.knowsMetres ? 'm' : 'units');
     this.measuring.drawMarks();
     if (scene.count > 1) {
-      const [left] = scene.part(1), width = scene.canvas.clientWidth;
+      const [left] = scene.part(1);
+      const width = scene.canvas.clientWidth;
       $('divider').style.left = `${left}px`;
       $('divider').setAttribute('aria-valuenow', String(Math.round(look.divider * 100)));
       $('side-right').style.left = `${left + 20}px`;
@@ -168,8 +209,19 @@ class Page {
       $('side-left').style.maxWidth = `${left - scene.free(0)[0] - 40}px`;
       $('side-right').style.maxWidth = `${width - left - (innerWidth > 640 ? 90 : 30)}px`;
     }
-    writeFragment(() => ({ errors: Number(look.errors), ...(this.hasImage ? { image: Number(look.image) } : {}), edges: Number(look.edges), smooth: Number(look.smooth), exaggeration: look.exaggeration, azimuth: look.sun.azimuth, altitude: look.sun.altitude,
-      ...(this.level ? { level: this.level } : {}), ...(field ? { samples: [field.cols, field.rows] } : {}), ...this.live.state(), view: [azimuth, altitude, distance, ...target] }));
+    writeFragment(() => ({
+      errors: Number(look.errors),
+      ...(this.hasImage ? { image: Number(look.image) } : {}),
+      edges: Number(look.edges),
+      smooth: Number(look.smooth),
+      exaggeration: look.exaggeration,
+      azimuth: look.sun.azimuth,
+      altitude: look.sun.altitude,
+      ...(this.level ? { level: this.level } : {}),
+      ...(field ? { samples: [field.cols, field.rows] } : {}),
+      ...this.live.state(),
+      view: [azimuth, altitude, distance, ...target],
+    }));
     this.drawn = (this.drawn ?? 0) + 1;
   }
 
@@ -179,10 +231,14 @@ class Page {
 
   wire() {
     const on = (id, event, action) => $(id).addEventListener(event, action);
-    for (const name of ['relief', 'errors', 'image']) on(name, 'change', () => this.change({ errors: name === 'errors', image: name === 'image' }));
+    for (const name of ['relief', 'errors', 'image'])
+      on(name, 'change', () => this.change({ errors: name === 'errors', image: name === 'image' }));
     for (const name of ['edges', 'smooth']) on(name, 'change', () => this.change({ [name]: $(name).checked }));
-    on('exaggeration', 'input', () => this.change({ exaggeration: Number((10 ** ($('exaggeration').value / 100)).toPrecision(2)) }));
-    for (const id of ['azimuth', 'altitude']) on(id, 'input', () => this.change({ sun: { ...this.look.sun, [id]: Number($(id).value) } }));
+    on('exaggeration', 'input', () =>
+      this.change({ exaggeration: Number((10 ** ($('exaggeration').value / 100)).toPrecision(2)) }),
+    );
+    for (const id of ['azimuth', 'altitude'])
+      on(id, 'input', () => this.change({ sun: { ...this.look.sun, [id]: Number($(id).value) } }));
     on('level', 'input', () => this.chooseLevel(Number($('level').value)));
     on('measure', 'click', () => this.measuring.turn(!this.measuring.isOn));
     on('measured-close', 'click', () => this.measuring.turn(false));
@@ -190,7 +246,9 @@ class Page {
     on('picture', 'click', () => this.savePicture().catch(complain));
     on('format', 'change', () => this.update());
     on('save', 'click', () => saveMesh(this.shown.at(-1), this.document.name, $('format').value));
-    on('full', 'click', () => document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
+    on('full', 'click', () =>
+      document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen(),
+    );
     on('help', 'click', () => $('keys').showModal());
     on('fold', 'click', () => {
       const folded = document.body.classList.toggle('folded');
@@ -199,14 +257,18 @@ class Page {
     });
     if (matchMedia('(max-width: 640px)').matches) $('fold').click();
     let pressed = null;
-    on('canvas', 'pointerdown', event => { pressed = [event.clientX, event.clientY]; });
+    on('canvas', 'pointerdown', event => {
+      pressed = [event.clientX, event.clientY];
+    });
     on('canvas', 'pointerup', event => {
       const still = pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4;
       if (still && this.measuring.isOn) this.measuring.click(event.clientX, event.clientY, this);
     });
     const divide = x => this.change({ divider: Math.min(0.95, Math.max(0.05, x)) });
     on('divider', 'pointerdown', event => $('divider').setPointerCapture(event.pointerId));
-    on('divider', 'pointermove', event => { if ($('divider').hasPointerCapture(event.pointerId)) divide(event.clientX / innerWidth); });
+    on('divider', 'pointermove', event => {
+      if ($('divider').hasPointerCapture(event.pointerId)) divide(event.clientX / innerWidth);
+    });
     on('divider', 'keydown', event => {
       const step = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
       if (!step) return;
@@ -217,11 +279,15 @@ class Page {
 }
 
 async function start() {
-  const page = window.scarpPage = new Page();  // before the data are there: the browser compiles meanwhile what draws
+  const page = (window.scarpPage = new Page()); // before the data are there: the browser compiles meanwhile what draws
   if (document.readyState === 'loading') await new Promise(done => addEventListener('DOMContentLoaded', done));
   const data = $('scarp-data');
-  if (!data) return say(HAS_ENGINE ? 'Drop a GeoTIFF, an .hgt file or a PNG tile here, or a GLB. It stays on this machine.'
-    : 'This page holds no mesh: scarp view MESH RASTER makes one that does. Or drop a GLB file here.');
+  if (!data)
+    return say(
+      HAS_ENGINE
+        ? 'Drop a GeoTIFF, an .hgt file or a PNG tile here, or a GLB. It stays on this machine.'
+        : 'This page holds no mesh: scarp view MESH RASTER makes one that does. Or drop a GLB file here.',
+    );
   await begin(page, async () => ({ document: await readInline(JSON.parse(data.textContent)), state: readFragment() }));
 }
 
@@ -229,4 +295,7 @@ addEventListener('error', event => complain(event.error ?? new Error(event.messa
 addEventListener('unhandledrejection', event => complain(event.reason));
 /** A frame later than the terrain: the layers over it need as long to paint. */
 const showPanel = () => document.body.classList.remove('empty');
-start().then(() => requestAnimationFrame(() => setTimeout(showPanel)), error => complain(error) ?? showPanel());
+start().then(
+  () => requestAnimationFrame(() => setTimeout(showPanel)),
+  error => complain(error) ?? showPanel(),
+);

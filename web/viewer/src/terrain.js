@@ -10,7 +10,8 @@ export class Place {
     this.low = [Infinity, Infinity, Infinity];
     this.high = [-Infinity, -Infinity, -Infinity];
     for (let c = 0; c < 3; ++c) {
-      let low = Infinity, high = -Infinity;
+      let low = Infinity;
+      let high = -Infinity;
       for (let k = c; k < positions.length; k += 3) {
         low = Math.min(low, positions[k]);
         high = Math.max(high, positions[k]);
@@ -18,7 +19,7 @@ export class Place {
       [this.low[c], this.high[c]] = [low, high];
     }
     this.center = this.low.map((low, k) => (low + this.high[k]) / 2);
-    this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => (this.high[k] - this.low[k]) / 2 * metres[k])));
+    this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => ((this.high[k] - this.low[k]) / 2) * metres[k])));
   }
 
   /** At most 1: with it heights stay below a quarter of the width, where that is not below 0.1. */
@@ -28,12 +29,14 @@ export class Place {
   }
 
   toScene(x, y, z) {
-    const [cx, cy, cz] = this.center, [mx, my, mz] = this.metres;
+    const [cx, cy, cz] = this.center;
+    const [mx, my, mz] = this.metres;
     return [(x - cx) * mx, (y - cy) * my, (z - cz) * mz];
   }
 
   fromScene(x, y, z) {
-    const [cx, cy, cz] = this.center, [mx, my, mz] = this.metres;
+    const [cx, cy, cz] = this.center;
+    const [mx, my, mz] = this.metres;
     return [x / mx + cx, y / my + cy, z / mz + cz];
   }
 }
@@ -44,7 +47,23 @@ export class Terrain {
    * runs of indices under one image, or of one ground. `extras`: metadata of its file; `goal`: the request to the
    * engine; `judged`: the result of judge(), if it is known: of every sample; null without a raster.
    * */
-  constructor({ name, positions, indices, bytes = null, told = null, extras = {}, goal = null, judged = null, normals = null, uvs = null, sheets = [{ image: null, ground: null, start: 0, count: indices.length }] }, place, field) {
+  constructor(
+    {
+      name,
+      positions,
+      indices,
+      bytes = null,
+      told = null,
+      extras = {},
+      goal = null,
+      judged = null,
+      normals = null,
+      uvs = null,
+      sheets = [{ image: null, ground: null, start: 0, count: indices.length }],
+    },
+    place,
+    field,
+  ) {
     Object.assign(this, { name, positions, indices, bytes, told, extras, goal, place, field, judged, uvs, sheets });
     this.scene = new Float32Array(positions.length);
     let reach = 0;
@@ -55,7 +74,7 @@ export class Terrain {
       this.scene[k + 2] = z;
       reach = Math.max(reach, x * x + y * y + z * z);
     }
-    this.reach = Math.max(place.radius, Math.sqrt(reach));  // from the scene's middle: other levels may be wider than the first
+    this.reach = Math.max(place.radius, Math.sqrt(reach)); // from the scene's middle: other levels may be wider than the first
     this.givenNormals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
 
@@ -69,7 +88,9 @@ export class Terrain {
 
   /** Judges it once, in the background. */
   judge() {
-    return this.judging ??= judgeBeside(this.field, this).then(judged => { this.judged = judged; });
+    return (this.judging ??= judgeBeside(this.field, this).then(judged => {
+      this.judged = judged;
+    }));
   }
 
   /** Positions of vertices in the raster, as shares of its columns and rows. */
@@ -84,17 +105,18 @@ export class Terrain {
 
   /** The map from x and y to the image; null where that is no affine map, or not of one image. */
   get placing() {
-    if (this.knownPlacing === undefined) this.knownPlacing = this.sheets.length === 1 && this.hasImage ? findPlacing(this) : null;
+    if (this.knownPlacing === undefined)
+      this.knownPlacing = this.sheets.length === 1 && this.hasImage ? findPlacing(this) : null;
     return this.knownPlacing;
   }
 
   /** Those of the file, or else of the triangles around each place. */
   get normals() {
-    return this.givenNormals ??= sumNormals(this.scene, this.indices, this.firsts);
+    return (this.givenNormals ??= sumNormals(this.scene, this.indices, this.firsts));
   }
 
   get firsts() {
-    return this.knownFirsts ??= joinPlaces(this.scene);
+    return (this.knownFirsts ??= joinPlaces(this.scene));
   }
 
   /** Longest first, as rankEdges() has them. */
@@ -121,7 +143,8 @@ class Cells {
       const [y0, y1] = [Math.min(...corners.map(c => c[1])), Math.max(...corners.map(c => c[1]))];
       for (let y = y0; y <= y1; ++y) {
         for (let x = x0; x <= x1; ++x) {
-          const key = y * this.side + x, list = this.lists.get(key);
+          const key = y * this.side + x;
+          const list = this.lists.get(key);
           if (list) list.push(t);
           else this.lists.set(key, [t]);
         }
@@ -131,18 +154,25 @@ class Cells {
 
   cellOf(x, y) {
     const { low, high } = this.place;
-    return [[x, 0], [y, 1]].map(([value, k]) => Math.min(this.side - 1, Math.max(0, Math.floor((value - low[k]) / (high[k] - low[k] || 1) * this.side))));
+    return [
+      [x, 0],
+      [y, 1],
+    ].map(([value, k]) =>
+      Math.min(this.side - 1, Math.max(0, Math.floor(((value - low[k]) / (high[k] - low[k] || 1)) * this.side))),
+    );
   }
 
   heightAt(x, y) {
-    const [cx, cy] = this.cellOf(x, y), p = this.positions;
+    const [cx, cy] = this.cellOf(x, y);
+    const p = this.positions;
     for (const t of this.lists.get(cy * this.side + cx) ?? []) {
       const [a, b, c] = [0, 1, 2].map(k => 3 * this.indices[t + k]);
       const area = (p[b] - p[a]) * (p[c + 1] - p[a + 1]) - (p[b + 1] - p[a + 1]) * (p[c] - p[a]);
       if (area === 0) continue;
       const v = ((x - p[a]) * (p[c + 1] - p[a + 1]) - (y - p[a + 1]) * (p[c] - p[a])) / area;
       const w = ((p[b] - p[a]) * (y - p[a + 1]) - (p[b + 1] - p[a + 1]) * (x - p[a])) / area;
-      if (v > -1e-9 && w > -1e-9 && v + w < 1 + 1e-9) return p[a + 2] + v * (p[b + 2] - p[a + 2]) + w * (p[c + 2] - p[a + 2]);
+      if (v > -1e-9 && w > -1e-9 && v + w < 1 + 1e-9)
+        return p[a + 2] + v * (p[b + 2] - p[a + 2]) + w * (p[c + 2] - p[a + 2]);
     }
     return NaN;
   }

@@ -1,7 +1,9 @@
 // Heights that stand for nodata without being declared, by the rule of the program (scarp/height_field.h, find_undeclared_nodata).
 import { count, number } from './words.js';
 
-const ENDS = 6, SIGNS = [9999, 99999, 999999, 32767, 65535], HUGE = 1e20;
+const ENDS = 6;
+const SIGNS = [9999, 99999, 999999, 32767, 65535];
+const HUGE = 1e20;
 
 /** The outermost heights at one end, each once, inwards: [{height, samples}]. `isBeyond(a, b)`: a lies farther out than b. */
 function outermost(samples, isBeyond) {
@@ -31,26 +33,36 @@ function isFar({ height, samples }, gap, range, valid) {
 /** How many heights at one end are far from the others, which reach to `other`. */
 function countFar(ends, first, other, valid) {
   for (let next = first + 1; next < ends.length; ++next) {
-    const { height } = ends[next], range = Math.abs(other - height);
+    const { height } = ends[next];
+    const range = Math.abs(other - height);
     const mayTell = range > 0 || !isSign(height);
-    if (mayTell && ends.slice(first, next).every(here => isFar(here, Math.abs(height - here.height), range, valid))) return next;
+    if (mayTell && ends.slice(first, next).every(here => isFar(here, Math.abs(height - here.height), range, valid)))
+      return next;
   }
   return first;
 }
 
 /** Sentences, one for each such height. */
 export function warnOfUndeclared({ name, samples }) {
-  const lowest = outermost(samples, (a, b) => a < b), highest = outermost(samples, (a, b) => a > b);
+  const lowest = outermost(samples, (a, b) => a < b);
+  const highest = outermost(samples, (a, b) => a > b);
   if (lowest.length < 2) return [];
-  let valid = 0, low = 0, high = 0;
+  let valid = 0;
+  let low = 0;
+  let high = 0;
   for (const z of samples) valid += z === z;
   for (let look = 0, before = -1; look < ENDS && before !== low + high; ++look) {
     before = low + high;
     low = countFar(lowest, low, highest[high].height, valid);
     high = countFar(highest, high, lowest[low].height, valid);
   }
-  const least = lowest[low].height, most = highest[high].height;
-  const tell = (side, far) => far.map(({ height, samples: n }) => `${n === 1 ? '1 sample of' : `${count(n)} samples of`} ${name} ${n === 1 ? 'is' : 'are'} exactly ` +
-    `${number(height)}, far ${side} all others (${number(least)} to ${number(most)}): if ${n === 1 ? 'it means' : 'they mean'} nodata, declare it (gdal_edit.py -a_nodata ${height}) and drop it again.`);
+  const least = lowest[low].height;
+  const most = highest[high].height;
+  const tell = (side, far) =>
+    far.map(
+      ({ height, samples: n }) =>
+        `${n === 1 ? '1 sample of' : `${count(n)} samples of`} ${name} ${n === 1 ? 'is' : 'are'} exactly ` +
+        `${number(height)}, far ${side} all others (${number(least)} to ${number(most)}): if ${n === 1 ? 'it means' : 'they mean'} nodata, declare it (gdal_edit.py -a_nodata ${height}) and drop it again.`,
+    );
   return [...tell('below', lowest.slice(0, low)), ...tell('above', highest.slice(0, high))];
 }
