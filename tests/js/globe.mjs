@@ -1,7 +1,7 @@
 // Judges a globe in a real browser: globe.mjs ADDRESS POINTS.json SHOT.png [CHROMIUM]
 //
-// POINTS.json: a list of [longitude, latitude, height]. Prints JSON: of each level of the set with heights there the largest
-// |height that CesiumJS samples - height|, the page's text, errors of the console, and requests to elsewhere.
+// POINTS.json: a list of [longitude, latitude, height]. Prints JSON: of each level of the set with heights there the
+// largest |height that CesiumJS samples - height|, the page's text, errors of the console, and requests to elsewhere.
 import { readFileSync } from 'node:fs';
 import { openPage } from './browser.mjs';
 

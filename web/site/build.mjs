@@ -1,5 +1,6 @@
-// The static site: the documents as pages around the viewer. build.mjs SOURCE SITE MADE: SOURCE is the project's folder, MADE
-// has the documents that are written by scripts; try.html is there already. Fails where a link leads nowhere.
+// The static site: the documents as pages around the viewer. build.mjs SOURCE SITE MADE: SOURCE is the project's
+// folder, MADE has the documents that are written by scripts; try.html is there already. Fails where a link leads
+// nowhere.
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, normalize, relative } from 'node:path';
 import { Marked } from 'marked';

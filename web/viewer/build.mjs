@@ -1,5 +1,5 @@
-// Builds the viewer into one HTML file: build.mjs PAGE.html [NPM_PACKAGE], the latter the folder of the package `scarp`,
-// whose engine then refines live in the page.
+// Builds the viewer into one HTML file: build.mjs PAGE.html [NPM_PACKAGE], the latter the folder of the package
+// `scarp`, whose engine then refines live in the page.
 import { readFileSync, existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';

@@ -7,7 +7,8 @@ export function simplifyPointsSync(points: Heights, options: PointOptions): Mesh
 export function simplifyPoints(points: Heights, options: PointOptions & AsyncOptions): Promise<Mesh>;
 
 export interface TilerOptions {
-  /** West, south, east, north of the raster, its outer pixels included: degrees of the globe, or metres of web Mercator. */
+  /** West, south, east, north of the raster, its outer pixels included: degrees of the globe, or metres of web
+   * Mercator. */
   bounds: Numbers;
   crs?: 'degrees' | 'mercator';
   nodata?: number | null;
@@ -27,7 +28,8 @@ export interface Tile {
   bytes: Bytes;
   triangleCount: number;
   vertexCount: number;
-  /** Largest errors in metres: at the tile's nodes; with the sag of flat triangles; at the source's samples. NaN: not known. */
+  /** Largest errors in metres: at the tile's nodes; with the sag of flat triangles; at the source's samples. NaN: not
+   * known. */
   nodeError: number;
   bound: number;
   sourceError: number;

@@ -121,7 +121,8 @@ class Builder {
 const MOST_SHORT = 65535;
 const MOST_WHOLE = 2 ** 24;
 
-/// The largest step of which an axis' offsets are multiples, at most `most`; null without one. `slack`: what a double may have rounded.
+/// The largest step of which an axis' offsets are multiples, at most `most`; null without one. `slack`: what a double
+/// may have rounded.
 function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   for (let step = unit; step >= finest; step /= 2) {
     let isOnGrid = true;
@@ -135,8 +136,8 @@ function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   return null;
 }
 
-/// Positions as 16-bit numbers, y up, that keep their values; of float64 positions, where that is too narrow, as whole numbers in float32.
-/// null where there is no such grid.
+/// Positions as 16-bit numbers, y up, that keep their values; of float64 positions, where that is too narrow, as whole
+/// numbers in float32. null where there is no such grid.
 function findGrid({ positions, cell = [0, 0], origin }) {
   const { min, max } = bounds(positions);
   const areDoubles = kindOf(positions) !== 'Float32Array';
@@ -181,7 +182,8 @@ function gather(array, width, from) {
   return moved;
 }
 
-/// The attributes and indices, compressed. Positions of float32 or on a lattice keep their values; normals and texture coordinates in 0 … 1 are rounded.
+/// The attributes and indices, compressed. Positions of float32 or on a lattice keep their values; normals and texture
+/// coordinates in 0 … 1 are rounded.
 function addCompressed(glb, mesh) {
   const { positions, indices, normals, uvs } = mesh;
   const { corners, from } = orderForCodec(indices, positions.length / 3);

@@ -59,8 +59,8 @@ function roundNodata(values, nodata = NaN) {
   return near === nodata || (isFloat32(values) && near !== 0) ? near : NaN;
 }
 
-/// Float32 of the values, their nodata, and the largest rounding among those that are heights. Rounded values have NaN for nodata, which
-/// they are compared with as they were given.
+/// Float32 of the values, their nodata, and the largest rounding among those that are heights. Rounded values have NaN
+/// for nodata, which they are compared with as they were given.
 function round(values, nodata) {
   if (EXACT.includes(kindOf(values)))
     return {
@@ -94,7 +94,8 @@ export function checkFloat32(name, values, nodata = undefined) {
     );
 }
 
-/// Checks heights without a copy of those that are float32. `z`: a typed array, or another array of numbers; `given`: the same, without null.
+/// Checks heights without a copy of those that are float32. `z`: a typed array, or another array of numbers; `given`:
+/// the same, without null.
 export function checkHeights(z, width, height, nodata) {
   checkSide('width', width);
   checkSide('height', height);
@@ -115,7 +116,8 @@ export function putDoubles(blocks, ...numbers) {
   return blocks.put(Float64Array.from(numbers.flat()));
 }
 
-/// A value for each sample, in float32; undefined without any. Rounded so that no bound grows: tolerances towards 0, weights away from it.
+/// A value for each sample, in float32; undefined without any. Rounded so that no bound grows: tolerances towards 0,
+/// weights away from it.
 export function takeBeside(name, values, width, height) {
   if (values === undefined) return undefined;
   checkLength(name, values, width * height, `a raster of ${width} x ${height}`);

@@ -16,8 +16,9 @@ export type Numbers =
   | Uint32Array
   | readonly number[];
 /**
- * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and every maxError counts
- * the largest rounding. A height beyond float32's range (3.4e38) is refused. null in an array is no height, as NaN is.
+ * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and
+ * every maxError counts the largest rounding. A height beyond float32's range (3.4e38) is refused. null in an array is
+ * no height, as NaN is.
  */
 export type Heights = Numbers | readonly (number | null)[];
 
@@ -75,7 +76,8 @@ export function version(): string;
 
 /** The position of samples. Without a transform x is the column, and y counts rows from the last one up. */
 export interface Place {
-  /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN and infinities never are. */
+  /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN
+   * and infinities never are. */
   nodata?: number | null;
   /** GDAL's geotransform, of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
   transform?: Numbers | null;
@@ -113,8 +115,8 @@ export interface Options extends Goals, Place {
   normals?: boolean;
   uvs?: boolean;
   /**
-   * Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16 bits. Positions are
-   * float64, as with doubles: WebGL wants Float32Array.from(mesh.positions), which rounds them.
+   * Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16
+   * bits. Positions are float64, as with doubles: WebGL wants Float32Array.from(mesh.positions), which rounds them.
    */
   lattice?: boolean;
   /** Positions are float64. A GLB without compress rounds them to float32: judge that file, or omit doubles and
@@ -236,7 +238,8 @@ export class Refiner {
   readonly vertexCount: number;
   readonly triangleCount: number;
   mesh(): Mesh;
-  /** Gives its memory back at once; else the garbage collector does, which runs late: it does not know how much there is. */
+  /** Gives its memory back at once; else the garbage collector does, which runs late: it does not know how much there
+   * is. */
   free(): void;
 }
 

@@ -1,5 +1,5 @@
-// The package in one piece, for pages that open from a file and for bundlers that do not follow new URL(): the module and the
-// worker are text within it.
+// The package in one piece, for pages that open from a file and for bundlers that do not follow new URL(): the module
+// and the worker are text within it.
 import { defaults } from './ready.js';
 import { MODULE, WORKER } from './inline-data.js';
 

@@ -1,5 +1,6 @@
-// In place of loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: heights as they are, without a border of zeros, and an error
-// that is kept. Loads pictures of tiles (terrarium, mapbox or any elevationDecoder) to meshes. It needs no ready().
+// In place of loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: heights as they are, without a border of zeros,
+// and an error that is kept. Loads pictures of tiles (terrarium, mapbox or any elevationDecoder) to meshes. It needs no
+// ready().
 import { ScarpError, decodeTile, ready, simplifySync } from './index.js';
 import { show, takeOptions } from './options.js';
 import { buildSkirts } from './skirts.js';
@@ -12,8 +13,8 @@ const DEFAULTS = {
   effort: 'fast',
 };
 
-/// Samples stand for their pixels' centres; the mesh reaches to the pixels' outer edges, where the next tile's begins: the
-/// outer samples are its border, moved there. Half a pixel is what the neighbours then differ by.
+/// Samples stand for their pixels' centres; the mesh reaches to the pixels' outer edges, where the next tile's begins:
+/// the outer samples are its border, moved there. Half a pixel is what the neighbours then differ by.
 function attributesOf(mesh, width, height, bounds) {
   const [west, south, east, north] = bounds ?? [0, 0, width, height];
   const {

@@ -1,5 +1,6 @@
-// The codec of EXT_meshopt_compression, version 0 for attributes and 1 for triangles: Arseny Kapoulkine's meshoptimizer, whose
-// decoders read what is written here. https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
+// The codec of EXT_meshopt_compression, version 0 for attributes and 1 for triangles: Arseny Kapoulkine's
+// meshoptimizer, whose decoders read what is written here.
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
 
 /// Bytes that grow.
 class Bytes {
@@ -48,7 +49,8 @@ function writeGroup(out, group, bits) {
   });
 }
 
-/// `items`: bytes, `stride` an item, a multiple of 4. Each byte of an item is a channel of its own, as differences from item to item.
+/// `items`: bytes, `stride` an item, a multiple of 4. Each byte of an item is a channel of its own, as differences from
+/// item to item.
 export function encodeAttributes(items, stride) {
   const count = items.length / stride;
   const blockItems = Math.min(Math.floor(MOST / stride) & ~(GROUP - 1), 256);

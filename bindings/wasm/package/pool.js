@@ -23,7 +23,8 @@ function makeHere(make) {
   }
 }
 
-/// Node has its workers elsewhere. Bundlers find `new Worker()` of the global name alone, which is there during the call.
+/// Node has its workers elsewhere. Bundlers find `new Worker()` of the global name alone, which is there during the
+/// call.
 async function makeInNode(make) {
   const name = 'node:worker_threads';
   const threads = await import(/* webpackIgnore: true */ /* @vite-ignore */ name);

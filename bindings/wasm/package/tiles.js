@@ -15,7 +15,8 @@ function placeBounds([west, south, east, north], width, height) {
   return [west, (east - west) / width, 0, north, 0, (south - north) / height];
 }
 
-/// `degrees`: the bounds in degrees, whatever their CRS. The centres of pixels lie on the globe, and their edges may lie beyond.
+/// `degrees`: the bounds in degrees, whatever their CRS. The centres of pixels lie on the globe, and their edges may
+/// lie beyond.
 function checkBounds(bounds, degrees, width, height) {
   const refuse = why => {
     throw new ScarpError('usage', `bounds is ${bounds ? `[${bounds.join(', ')}]` : 'not given'}, ${why}`);

@@ -8,7 +8,8 @@ import { serve } from './serve.mjs';
 const [program, told, ...bundles] = process.argv.slice(2);
 const server = await serve(process.cwd());
 const { browser, page, errors } = await openPage(server.address, { width: 400, height: 300 }, program);
-/// The dev server, and a page of it; it packs what the page imports at the first visit. Its cache is not where the package is.
+/// The dev server, and a page of it; it packs what the page imports at the first visit. Its cache is not where the
+/// package is.
 async function openDev(page) {
   const { createServer } = await import('vite');
   const dev = await createServer({

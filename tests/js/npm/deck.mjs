@@ -1,4 +1,5 @@
-// A page of deck.gl: its TerrainLayer draws one picture of heights, and tiles of the web, by the loader that the address names.
+// A page of deck.gl: its TerrainLayer draws one picture of heights, and tiles of the web, by the loader that the
+// address names.
 import { Deck, MapView } from '@deck.gl/core';
 import { TerrainLayer } from '@deck.gl/geo-layers';
 import { TerrainLoader as Theirs } from '@loaders.gl/terrain';

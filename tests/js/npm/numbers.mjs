@@ -1,4 +1,5 @@
-// Numbers in sentences as C prints them: numbers.mjs CASES.json, a list of [value, is float32, style, precision, printed].
+// Numbers in sentences as C prints them: numbers.mjs CASES.json, a list of [value, is float32, style, precision,
+// printed].
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { printNumber } from './node_modules/scarp/number.js';

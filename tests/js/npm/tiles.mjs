@@ -1,4 +1,5 @@
-// The program's tiles, but for the order of their triangles, and its layer.json: tiles.mjs CRS NAME WIDTH HEIGHT WEST SOUTH EAST NORTH FOLDER
+// The program's tiles, but for the order of their triangles, and its layer.json: tiles.mjs CRS NAME WIDTH HEIGHT WEST
+// SOUTH EAST NORTH FOLDER
 //
 // Prints how many were compared, and how many of them have their error.
 import assert from 'node:assert/strict';

@@ -84,7 +84,8 @@ export function documentOfRaster(
   };
 }
 
-/** A mesh of the engine, which is in the field's frame; `known` of it: {judged, goal, extras}. Under the image of `shown`, if there is one. */
+/** A mesh of the engine, which is in the field's frame; `known` of it: {judged, goal, extras}. Under the image of
+ * `shown`, if there is one. */
 export function terrainOfEngine(name, { positions, indices, origin }, known, field, place, shown = null) {
   const placed = placeMesh({ positions, origin });
   const inImage = shown?.placing;

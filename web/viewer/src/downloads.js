@@ -1,4 +1,5 @@
-// The mesh that is shown, as the program writes it: GLB and OBJ y up, STL z up; x and y are offsets from `origin`, heights are whole.
+// The mesh that is shown, as the program writes it: GLB and OBJ y up, STL z up; x and y are offsets from `origin`,
+// heights are whole.
 
 function originOf({ field, place }) {
   return field ? field.toPlace(field.cols >> 1, field.rows >> 1) : place.center.map(Math.round);

@@ -22,7 +22,8 @@ function findStray({ samples, cols, rows }) {
 
 /**
  * `positions`: x, y, z of the frame that the field lies in. Returns errors of all samples (NaN: void or uncovered),
- * the largest |error|, the root of the mean square, and how many samples were covered, not, and stray: these are not judged.
+ * the largest |error|, the root of the mean square, and how many samples were covered, not, and stray: these are not
+ * judged.
  */
 export function judge(field, { positions, indices }) {
   const { samples, cols, rows } = field;

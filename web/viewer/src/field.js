@@ -7,7 +7,8 @@ function narrow(samples) {
 }
 
 export class Field {
-  /** `affine`: from column and row of a sample's centre to x and y of the mesh, in GDAL's order of terms; `decoding`: how the heights lie in colours, null where they do not; `step`: each such sample of the file is here. */
+  /** `affine`: from column and row of a sample's centre to x and y of the mesh, in GDAL's order of terms; `decoding`:
+   * how the heights lie in colours, null where they do not; `step`: each such sample of the file is here. */
   constructor({ name, cols, rows, affine, samples, unit = '', decoding = null, step = 1 }) {
     Object.assign(this, { name, cols, rows, affine, samples: narrow(samples), unit, decoding, step });
     this.determinant = affine[1] * affine[5] - affine[2] * affine[4];

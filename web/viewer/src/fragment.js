@@ -39,7 +39,8 @@ export function readFragment() {
 }
 
 let timer = 0;
-/** Not at each picture while one turns it: browsers refuse that; nor within a notebook, where the page has no address. */
+/** Not at each picture while one turns it: browsers refuse that; nor within a notebook, where the page has no
+ * address. */
 export function writeFragment(makeState) {
   if (location.protocol === 'about:') return;
   clearTimeout(timer);

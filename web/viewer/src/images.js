@@ -4,7 +4,8 @@ const SLACK = 1e-3; // share of the image's side
 
 const toSrgb = linear => (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
 
-/** {texture, places, ground, hasNormalMap, isMoved} of a primitive: the texture's index or null, the name of an attribute, the colour where there is no texture. */
+/** {texture, places, ground, hasNormalMap, isMoved} of a primitive: the texture's index or null, the name of an
+ * attribute, the colour where there is no texture. */
 export function surfaceOf(json, primitive) {
   const material = json.materials?.[primitive.material] ?? {};
   const { baseColorTexture: base, baseColorFactor = [] } = material.pbrMetallicRoughness ?? {};
@@ -19,7 +20,8 @@ export function surfaceOf(json, primitive) {
   };
 }
 
-/** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for the single pixel that stands in for an image; or {why} there is none. */
+/** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for the single pixel that stands in for an
+ * image; or {why} there is none. */
 export async function readImage(json, index, bytesOf) {
   const texture = json.textures?.[index] ?? {};
   const source = json.images?.[texture.extensions?.EXT_texture_webp?.source ?? texture.source];

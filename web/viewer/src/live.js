@@ -55,7 +55,8 @@ class Helper {
     busy?.(data, Boolean(next));
   }
 
-  /** A worker in the middle of a computation hears nothing: it is ended, and a new one begins with the next question. */
+  /** A worker in the middle of a computation hears nothing: it is ended, and a new one begins with the next
+   * question. */
   cancel() {
     if (this.busy) this.end();
   }
@@ -205,7 +206,8 @@ export class Live {
     this.show();
   }
 
-  /** A mesh of this error at once, by the engine that inserts the worst sample: the program's greedy mesh, but where x and y are no offsets that float32 holds. */
+  /** A mesh of this error at once, by the engine that inserts the worst sample: the program's greedy mesh, but where x
+   * and y are no offsets that float32 holds. */
   choose(step) {
     this.stepNow = step;
     $('error').value = String(step);

@@ -1,4 +1,5 @@
-// PNG, as the numbers that lie in it: a canvas would cut 16 bits to 8, put colours for a palette's numbers, and manage colours.
+// PNG, as the numbers that lie in it: a canvas would cut 16 bits to 8, put colours for a palette's numbers, and manage
+// colours.
 import { Sentence } from './sentence.js';
 
 const CHANNELS = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 };

@@ -159,7 +159,8 @@ class View {
 }
 
 export class Scene {
-  /** `look`: {errors, image, edges, smooth, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller changes. */
+  /** `look`: {errors, image, edges, smooth, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller
+   * changes. */
   constructor(canvas, look) {
     Object.assign(this, { canvas, look, listeners: [], views: [] });
     const { width, height, ratio } = this.size();

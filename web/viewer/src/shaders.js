@@ -16,7 +16,8 @@ void main() {
   gl_Position = projectionMatrix * view;
 }`;
 
-// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent the relief shows.
+// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent the relief
+// shows.
 export const SURFACE_FRAGMENT = `
 uniform sampler2D errors;
 uniform bool showsErrors;

@@ -61,7 +61,8 @@ function addUp(words, inRow, bands) {
   for (let k = 0; k < words.length; ++k) if (k % inRow >= bands) words[k] += words[k - bands];
 }
 
-/** How one image of a TIFF lies in the file. Throws a Sentence where its samples are none that are read here, or anything where it is damaged. */
+/** How one image of a TIFF lies in the file. Throws a Sentence where its samples are none that are read here, or
+ * anything where it is damaged. */
 export class TiffSamples {
   constructor(name, { fileDirectory: d, littleEndian }, buffer) {
     const unknown = what => new Sentence(`${name} ${what}: gdal_translate makes a GeoTIFF of it that this page reads.`);
@@ -162,7 +163,8 @@ export class TiffSamples {
     return { values, pitch, mask };
   }
 
-  /** Calls visit(index, value) for each `step`th sample of each `step`th row of a band; `hole`: of blocks that were never written. */
+  /** Calls visit(index, value) for each `step`th sample of each `step`th row of a band; `hole`: of blocks that were
+   * never written. */
   async each(band, step, hole, visit) {
     const across = Math.ceil(this.cols / this.blockCols);
     const down = Math.ceil(this.rows / this.blockRows);

@@ -1,11 +1,13 @@
-// Heights that stand for nodata without being declared, by the rule of the program (scarp/height_field.h, find_undeclared_nodata).
+// Heights that stand for nodata without being declared, by the rule of the program (scarp/height_field.h,
+// find_undeclared_nodata).
 import { count, number } from './words.js';
 
 const ENDS = 6;
 const SIGNS = [9999, 99999, 999999, 32767, 65535];
 const HUGE = 1e20;
 
-/** The outermost heights at one end, each once, inwards: [{height, samples}]. `isBeyond(a, b)`: a lies farther out than b. */
+/** The outermost heights at one end, each once, inwards: [{height, samples}]. `isBeyond(a, b)`: a lies farther out than
+ * b. */
 function outermost(samples, isBeyond) {
   const ends = [];
   for (const z of samples) {
