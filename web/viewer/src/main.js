@@ -5,13 +5,11 @@ import { readFragment, writeFragment } from './fragment.js';
 import { listenToKeys } from './keys.js';
 import { Live } from './live.js';
 import { Measuring } from './measuring.js';
-import { drawBar, drawCompass, drawLegend, drawMap } from './overlay.js';
-import { commandNotes, commandOf } from './command.js';
+import { drawBar, drawCompass } from './overlay.js';
 import { save, saveMesh } from './downloads.js';
-import { fillReadout, summarize } from './readout.js';
+import { fillPanel } from './panel.js';
 import { Scene } from './scene.js';
 import { Sentence } from './sentence.js';
-import { number } from './words.js';
 
 const $ = id => document.getElementById(id);
 
@@ -116,71 +114,7 @@ class Page {
 
   /** Makes the controls and the readout agree with the state, and the picture. */
   update(isDrawn = true) {
-    const {
-      look,
-      shown,
-      document: { field, unit, levels, place, knowsMetres, isOfTiles },
-    } = this;
-    const [terrain] = shown;
-    const areJudged = shown.every(({ isJudged }) => isJudged);
-    const showsErrors = look.errors && areJudged;
-    const colors = look.errors ? 'errors' : look.image ? 'image' : 'relief';
-    for (const name of ['relief', 'errors', 'image']) $(name).checked = name === colors;
-    for (const name of ['edges', 'smooth']) $(name).checked = look[name];
-    $('exaggeration').value = String(Math.round(Math.log10(look.exaggeration) * 100));
-    $('exaggeration-text').textContent =
-      look.exaggeration === 1 ? (knowsMetres ? '1 (true)' : '1') : `${Number(look.exaggeration.toPrecision(2))} ×`;
-    $('azimuth').value = String(look.sun.azimuth);
-    $('azimuth-text').textContent = `${look.sun.azimuth}°`;
-    $('altitude').value = String(look.sun.altitude);
-    $('altitude-text').textContent = `${look.sun.altitude}°`;
-    $('level').value = String(this.level);
-    $('level-text').textContent = `${this.level + 1} of ${levels.length}`;
-    look.scale = field && areJudged ? Math.max(...shown.map(t => t.judged.maxError)) : 1;
-    fillReadout($('readout'), terrain, unit, levels.includes(terrain) && levels.length === 1 ? null : terrain.name);
-    [$('side-left'), $('side-right')].forEach((line, k) => {
-      line.hidden = shown.length < 2;
-      if (shown.length > 1) line.textContent = summarize(shown[k], unit);
-    });
-    $('divider').hidden = shown.length < 2;
-    drawLegend({
-      errors: showsErrors,
-      image: look.image && terrain.hasImage,
-      scale: look.scale,
-      low: place.low[2],
-      high: place.high[2],
-      unit,
-    });
-    $('map').hidden = !showsErrors;
-    if (showsErrors && (this.mapped !== terrain || this.mappedScale !== look.scale))
-      drawMap(terrain.judged, field, look.scale);
-    [this.mapped, this.mappedScale] = showsErrors ? [terrain, look.scale] : [];
-    const notes = [...this.document.notes];
-    if (isOfTiles)
-      notes.push(
-        'Tiles side by side on a flat map; heights are those of the tiles. What judges them is scarp tile check SET.',
-      );
-    else if (!field) notes.push('Without its raster nothing can be judged here: scarp view MESH RASTER.');
-    if (!knowsMetres)
-      notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
-    if (field && !this.live.isThere) notes.push('This page was built without the engine: the mesh is as in its file.');
-    $('notes').textContent = notes.join(' ');
-    const saved = shown.at(-1);
-    const command = commandOf(saved, $('format').value);
-    const which = shown.length > 1 ? saved.name : '';
-    const commandNote = commandNotes(saved, $('format').value);
-    $('save').textContent = `Download ${which}`.trim();
-    $('command').parentElement.hidden = command === null;
-    $('command').textContent = command;
-    $('command-of').textContent = which && `${which}: `;
-    $('command-note').textContent = commandNote;
-    $('command-note').hidden = !commandNote;
-    $('decoding-row').hidden = !field?.decoding;
-    if (field?.decoding) $('decoding').value = field.decoding;
-    $('canvas').setAttribute(
-      'aria-label',
-      `Terrain: ${summarize(terrain, unit)}${showsErrors ? `; coloured by error, blue ${number(look.scale)} below to red above` : colors === 'image' ? '; under its image' : ''}${look.smooth ? '; smooth' : ''}`,
-    );
+    fillPanel(this);
     if (isDrawn) this.scene.invalidate();
   }
 
@@ -279,7 +213,8 @@ class Page {
 }
 
 async function start() {
-  const page = (window.scarpPage = new Page()); // before the data are there: the browser compiles meanwhile what draws
+  // Before the data are there: the browser compiles meanwhile what draws.
+  const page = (window.scarpPage = new Page());
   if (document.readyState === 'loading') await new Promise(done => addEventListener('DOMContentLoaded', done));
   const data = $('scarp-data');
   if (!data)
