@@ -6,12 +6,7 @@ import { dirname, join, normalize, relative } from 'node:path';
 import { Marked } from 'marked';
 
 const [source, site, made] = process.argv.slice(2);
-const style = `:root { color-scheme: light dark; --text: #14181c; --back: #fff; --faint: #59636c; --line: #ccd2d8; --link: #0b5fad; --code: #f1f3f5 }
-@media (prefers-color-scheme: dark) { :root { --text: #e8ebee; --back: #14181c; --faint: #adb6be; --line: #39424a; --link: #7fbcff; --code: #1d2329 } }
-body { margin: 0; background: var(--back); color: var(--text); font: 16px/1.55 system-ui, "DejaVu Sans", sans-serif }
-nav, main { max-width: 60rem; margin: 0 auto; padding: 12px 16px } nav { border-bottom: 1px solid var(--line); display: flex; flex-wrap: wrap; gap: 4px 18px }
-a { color: var(--link) } img { max-width: 100%; height: auto } pre, .table { overflow-x: auto } code { font: 14px ui-monospace, "DejaVu Sans Mono", monospace; background: var(--code); padding: 0 3px }
-pre { background: var(--code); padding: 10px 14px } pre code { padding: 0 } table { border-collapse: collapse } th, td { border: 1px solid var(--line); padding: 4px 8px; text-align: left; vertical-align: top }`;
+const style = readFileSync(join(source, 'web/site/style.css'), 'utf8');
 const list = folder => readdirSync(folder).filter(name => name.endsWith('.md'));
 const madePages = list(made).map(name => `docs/${name}`);
 const pages = [
@@ -95,10 +90,12 @@ function writePage(page) {
     ['docs/python.html', 'Python'],
   ];
   mkdirSync(join(site, dirname(address)), { recursive: true });
+  const head = `<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">`;
+  const nav = links.map(([to, name]) => `<a href="${up}/${to}">${name}</a>`).join(' ');
   writeFileSync(
     join(site, address),
-    `<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>${title}</title><style>${style}</style></head>\n` +
-      `<body><nav aria-label="Site">${links.map(([to, name]) => `<a href="${up}/${to}">${name}</a>`).join(' ')}</nav><main>\n${body}</main></body></html>\n`,
+    `<!doctype html>\n<html lang="en"><head>${head}<title>${title}</title><style>${style}</style></head>\n` +
+      `<body><nav aria-label="Site">${nav}</nav><main>\n${body}</main></body></html>\n`,
   );
 }
 

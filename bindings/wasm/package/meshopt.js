@@ -113,6 +113,24 @@ class Recent {
   }
 }
 
+/// A whole number, which needs fewer bytes the nearer it is to 0.
+function writeDelta(out, delta) {
+  for (let code = ((delta << 1) ^ (delta >> 31)) >>> 0; ; code >>>= 7) {
+    out.push((code & 127) | (code > 127 ? 128 : 0));
+    if (code <= 127) break;
+  }
+}
+
+/// Version 1: the codes of the triangles, their data, and the table of pairs.
+function pack(codes, data) {
+  PAIRS.forEach(pair => data.push(pair));
+  const bytes = new Uint8Array(1 + codes.size + data.size);
+  bytes[0] = 0xe1;
+  bytes.set(codes.done(), 1);
+  bytes.set(data.done(), 1 + codes.size);
+  return bytes;
+}
+
 /// Each triangle by an edge of one of the last, and its third corner by what came before.
 export function encodeTriangles(corners) {
   const codes = new Bytes();
@@ -123,12 +141,9 @@ export function encodeTriangles(corners) {
   let last = 0;
   const placeOf = v => vertices.find(other => other === v);
   const isNext = v => v === next && (++next, true);
+  const codeOf = (v, place = placeOf(v)) => (place >= 0 && place < 14 ? place + 1 : isNext(v) ? 0 : 15);
   const writeIndex = v => {
-    const delta = (v - last) | 0;
-    for (let code = ((delta << 1) ^ (delta >> 31)) >>> 0; ; code >>>= 7) {
-      data.push((code & 127) | (code > 127 ? 128 : 0));
-      if (code <= 127) break;
-    }
+    writeDelta(data, (v - last) | 0);
     last = v;
   };
   for (let t = 0; t < corners.length; t += 3) {
@@ -141,11 +156,8 @@ export function encodeTriangles(corners) {
       const [a, b, c] = ORDERS[turn].map(k => given[k]);
       const place = placeOf(c);
       let code = place >= 1 && place < 13 ? place : isNext(c) ? 0 : 15;
-      if (code === 15 && c + 1 === last) {
-        code = 13;
-        last = c;
-      } else if (code === 15 && c === last + 1) {
-        code = 14;
+      if (code === 15 && Math.abs(c - last) === 1) {
+        code = c < last ? 13 : 14;
         last = c;
       }
       codes.push((edge << 4) | code);
@@ -161,38 +173,25 @@ export function encodeTriangles(corners) {
       next = 0;
       vertices.clear();
     }
-    const [placeB, placeC] = [placeOf(b), placeOf(c)];
     const codeA = isNext(a) ? 0 : 15;
-    const codeB = placeB >= 0 && placeB < 14 ? placeB + 1 : isNext(b) ? 0 : 15;
-    const codeC = placeC >= 0 && placeC < 14 ? placeC + 1 : isNext(c) ? 0 : 15;
+    const codeB = codeOf(b);
+    const codeC = codeOf(c);
     const pair = PAIRS.indexOf((codeB << 4) | codeC);
     if (codeA === 0 && pair >= 0 && pair < 14 && !isReset) codes.push(0xf0 | pair);
     else {
       codes.push(0xf0 | 14 | codeA);
       data.push((codeB << 4) | codeC);
     }
-    for (const [code, v] of [
-      [codeA, a],
-      [codeB, b],
-      [codeC, c],
-    ])
+    [codeA, codeB, codeC].forEach((code, k) => {
+      const v = [a, b, c][k];
       if (code === 15) writeIndex(v);
-    for (const [code, v] of [
-      [codeA, a],
-      [codeB, b],
-      [codeC, c],
-    ])
       if (code === 0 || code === 15) vertices.push(v);
+    });
     edges.push([b, a]);
     edges.push([c, b]);
     edges.push([a, c]);
   }
-  PAIRS.forEach(pair => data.push(pair));
-  const bytes = new Uint8Array(1 + codes.size + data.size);
-  bytes[0] = 0xe1;
-  bytes.set(codes.done(), 1);
-  bytes.set(data.done(), 1 + codes.size);
-  return bytes;
+  return pack(codes, data);
 }
 
 /// Triangles from neighbour to neighbour, the nearest edges first, and vertices by first use: the order that needs few

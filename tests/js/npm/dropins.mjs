@@ -81,19 +81,20 @@ test('martini: the same names, fewer triangles, and a bound that holds', () => {
     assert.throws(run, { code: 'usage', message: /maxError is Infinity/ });
 });
 
+// A tile of terrarium.
+const [width, height] = [64, 48];
+const heights = hills(width, height);
+const data = new Uint8ClampedArray(4 * width * height);
+heights.forEach((value, k) => {
+  const code = Math.round((value + 32768) * 256);
+  data.set([code >> 16, (code >> 8) & 255, code & 255, 255], 4 * k);
+});
+const elevationDecoder = { rScaler: 256, gScaler: 1, bScaler: 1 / 256, offset: -32768 };
+const options = { meshMaxError: 4, bounds: [10, 20, 74, 68], elevationDecoder, skirtHeight: 0 };
+
 test('loaders.gl: the shape of its terrain, without its cliffs at the last row and column', async () => {
-  const [width, height] = [64, 48];
-  const heights = hills(width, height);
-  const data = new Uint8ClampedArray(4 * width * height);
-  heights.forEach((value, k) => {
-    const code = Math.round((value + 32768) * 256);
-    data.set([code >> 16, (code >> 8) & 255, code & 255, 255], 4 * k);
-  });
-  const elevationDecoder = { rScaler: 256, gScaler: 1, bScaler: 1 / 256, offset: -32768 };
-  const bounds = [10, 20, 74, 68];
   const file = new URL('node_modules/@loaders.gl/terrain/dist/lib/parse-terrain.js', import.meta.url);
   const { makeTerrainMeshFromImage } = await import(file);
-  const options = { meshMaxError: 4, bounds, elevationDecoder, skirtHeight: 0 };
   const [mine, theirs] = [
     makeTerrainMesh({ data, width, height }, options),
     makeTerrainMeshFromImage({ data, width, height }, options),
@@ -117,6 +118,9 @@ test('loaders.gl: the shape of its terrain, without its cliffs at the last row a
   assert.ok(skirted.attributes.POSITION.value.length > mine.attributes.POSITION.value.length);
   assert.equal(lowest(skirted), lowest(mine));
   assert.equal(skirted.indices.value.length % 3, 0);
+});
+
+test('loaders.gl: what is refused', () => {
   for (const [given, sentence] of [
     [{ bounds: [0, 0, 1] }, /bounds is an array of 3; it is an array of 4/],
     [{ bounds: 'abcd' }, /bounds is 'abcd'/],
