@@ -43,6 +43,5 @@ const html = readFileSync(join(source, 'page.html'), 'utf8')
   .replace('/*SCRIPT*/', () => script.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--'));
 mkdirSync(dirname(page), { recursive: true });
 writeFileSync(page, html);
-console.log(
-  `${page}: ${(html.length / 1e6).toFixed(2)} MB, ${hasEngine ? 'with the engine' : 'without the engine (make npm builds it)'}`,
-);
+const about = hasEngine ? 'with the engine' : 'without the engine (make npm builds it)';
+console.log(`${page}: ${(html.length / 1e6).toFixed(2)} MB, ${about}`);

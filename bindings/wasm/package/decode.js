@@ -38,8 +38,8 @@ export function decodeTile(rgba, width, height, encoding = 'terrarium') {
     if (Number.isFinite(z[k])) continue;
     throw new ScarpError(
       'input',
-      `the encoding makes ${metres} of pixel ${k} (${rgba[at]}, ${rgba[at + 1]}, ${rgba[at + 2]}), and float32 ends at ` +
-        `${FARTHEST}: take smaller scalers`,
+      `the encoding makes ${metres} of pixel ${k} (${rgba[at]}, ${rgba[at + 1]}, ${rgba[at + 2]}), and float32 ` +
+        `ends at ${FARTHEST}: take smaller scalers`,
     );
   }
   return z;

@@ -48,7 +48,8 @@ export function checkArray(name, values, voidOf = undefined) {
   const kind = kindOf(values);
   if (!ArrayBuffer.isView(values) || WAYS[kind])
     refuse(
-      `${name} ${name.endsWith('s') ? 'are' : 'is'} no array of numbers, but ${WAYS[kind] ? `${article(kind)}: ${WAYS[kind]}` : show(values)}`,
+      `${name} ${name.endsWith('s') ? 'are' : 'is'} no array of numbers, but ` +
+        (WAYS[kind] ? `${article(kind)}: ${WAYS[kind]}` : show(values)),
     );
   return values;
 }
@@ -102,8 +103,8 @@ export function checkHeights(z, width, height, nodata) {
   if (width * height > MOST_SAMPLES) {
     throw new ScarpError(
       'memory',
-      `a raster of ${width} x ${height} has ${width * height} samples, and a module of WebAssembly has memory for fewer ` +
-        `than ${MOST_SAMPLES}: take a smaller raster, or the program scarp`,
+      `a raster of ${width} x ${height} has ${width * height} samples, and a module of WebAssembly has memory for ` +
+        `fewer than ${MOST_SAMPLES}: take a smaller raster, or the program scarp`,
     );
   }
   const given = checkArray('the heights', z, NaN);

@@ -83,7 +83,8 @@ export function checkMesh(mesh) {
   for (const [name, values] of Object.entries({ positions, indices })) {
     if (values.length % 3)
       refuse(
-        `the mesh's ${name} has ${values.length} numbers, and needs three for each ${name === 'indices' ? 'triangle' : 'vertex'}`,
+        `the mesh's ${name} has ${values.length} numbers, and needs three for each ` +
+          (name === 'indices' ? 'triangle' : 'vertex'),
       );
   }
   const count = positions.length / 3;

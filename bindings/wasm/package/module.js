@@ -62,7 +62,8 @@ function checkBytes(bytes, where) {
   if ([0, 0x61, 0x73, 0x6d].every((byte, k) => first[k] === byte)) return bytes;
   const isPage = /^\s*</.test(new TextDecoder().decode(first.subarray(0, 64)));
   const is = isPage
-    ? "a page of HTML, with which a server answers where it has no file; vite's dev server needs optimizeDeps: { exclude: ['scarp'] }"
+    ? "a page of HTML, with which a server answers where it has no file; vite's dev server needs " +
+      "optimizeDeps: { exclude: ['scarp'] }"
     : `no WebAssembly: ${first.length === 0 ? 'it is empty' : 'it begins with other bytes'}`;
   throw new ScarpError('input', `${where} is ${is}; ${ADVICE}`);
 }

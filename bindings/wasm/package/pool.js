@@ -56,8 +56,8 @@ async function openWorker(make, onMessage, onFailure) {
 }
 
 const WORKER_ADVICE =
-  "its script is scarp/worker, which a bundler may not have found, or a content policy refuses: it needs worker-src 'self'; " +
-  "give createPool({ worker }), or import 'scarp/inline'";
+  'its script is scarp/worker, which a bundler may not have found, or a content policy refuses: it needs ' +
+  "worker-src 'self'; give createPool({ worker }), or import 'scarp/inline'";
 const mayShare = () => typeof SharedArrayBuffer !== 'undefined' && globalThis.crossOriginIsolated !== false;
 const cancelled = signal => new ScarpError('cancelled', 'the call was cancelled', { cause: signal?.reason });
 
@@ -171,7 +171,8 @@ function take(array, isMoved) {
   if (!isMoved) return array.slice();
   if (kindOf(array.buffer) === 'SharedArrayBuffer')
     refuse(
-      'transfer moves the buffer of the heights, and theirs is a SharedArrayBuffer, which cannot be moved: leave transfer out',
+      'transfer moves the buffer of the heights, and theirs is a SharedArrayBuffer, which cannot be moved: ' +
+        'leave transfer out',
     );
   try {
     return globalThis.structuredClone ? structuredClone(array, { transfer: [array.buffer] }) : array;

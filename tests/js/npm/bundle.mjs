@@ -3,8 +3,8 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 
 const [name] = process.argv.slice(2);
-const page = script =>
-  `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>${name}</title><script type="module" src="${script}"></script>\n`;
+const head = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>${name}</title>`;
+const page = script => `${head}<script type="module" src="${script}"></script>\n`;
 fs.mkdirSync(name, { recursive: true });
 switch (name) {
   case 'esbuild': {
@@ -35,10 +35,8 @@ switch (name) {
       write: false,
       alias: { scarp: 'scarp/inline' },
     });
-    fs.writeFileSync(
-      `${name}/index.html`,
-      `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>inline</title><script type="module">${script.text.replaceAll('</script', '<\\/script')}</script>\n`,
-    );
+    const text = script.text.replaceAll('</script', '<\\/script');
+    fs.writeFileSync(`${name}/index.html`, `${head}<script type="module">${text}</script>\n`);
     break;
   }
   case 'formats': {
@@ -50,7 +48,10 @@ switch (name) {
         ['scarp/inline', /^2 triangles$/],
       ]) {
         const contents = `import { simplify } from '${entry}';
-          simplify([0, 0, 0, 9], 2, 2, { maxError: 1 }).then(mesh => console.log(mesh.triangleCount + ' triangles'), ({ code, message }) => console.log('FAILED', code, message));`;
+          simplify([0, 0, 0, 9], 2, 2, { maxError: 1 }).then(
+            mesh => console.log(mesh.triangleCount + ' triangles'),
+            ({ code, message }) => console.log('FAILED', code, message),
+          );`;
         await build({
           stdin: { contents, resolveDir: '.' },
           bundle: true,

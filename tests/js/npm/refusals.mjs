@@ -1,4 +1,4 @@
-// What the package refuses, in Node: each with a sentence.
+// Calls that the package refuses, in Node, each with a sentence.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import test from 'node:test';

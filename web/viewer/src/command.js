@@ -21,7 +21,8 @@ export function commandOf({ field, goal, name, extras }, format) {
   if (!goal) return null;
   const asked = goal.maxTriangles ? `-t ${goal.maxTriangles}` : `-e ${goal.maxError}`;
   const decode = field.decoding && field.decoding !== 'grey' ? ` --decode ${field.decoding}` : '';
-  return `scarp simplify ${quote(field.name)} mesh.${format === 'obj' ? 'glb' : format} ${asked} ${EFFORTS[name]}${decode}${optionsOf(extras)}`;
+  const files = `${quote(field.name)} mesh.${format === 'obj' ? 'glb' : format}`;
+  return `scarp simplify ${files} ${asked} ${EFFORTS[name]}${decode}${optionsOf(extras)}`;
 }
 
 /** Notes on what the command does not express. */

@@ -149,7 +149,8 @@ async function readHeights(name, tiff, image, buffer, step, told, factor) {
       : null;
   if (source.bands > 1 && NODATA_VALUES)
     throw new Sentence(
-      `${name} tells by all bands at once where there is nothing (NODATA_VALUES): this page reads one band; gdal_translate -b 1 makes a file of it.`,
+      `${name} tells by all bands at once where there is nothing (NODATA_VALUES): this page reads one band; ` +
+        `gdal_translate -b 1 makes a file of it.`,
     );
   let scale = numberOf(told.scale ?? '1');
   let offset = numberOf(told.offset ?? '0');
@@ -200,7 +201,8 @@ export async function readGeotiff(name, buffer, mostSamples) {
   });
   if (step > 1)
     notes.push(
-      `${name} has ${fullCols} x ${fullRows} samples, too many for a page: one of ${step} x ${step} was read, and errors are against these.`,
+      `${name} has ${fullCols} x ${fullRows} samples, too many for a page: one of ${step} x ${step} was read, ` +
+        `and errors are against these.`,
     );
   if (colours === COLOURS || colours === PALETTE)
     notes.push(

@@ -99,7 +99,8 @@ class Reader {
       await MeshoptDecoder.ready;
     } catch {
       throw new Sentence(
-        `${this.name} is compressed, and this browser refuses WebAssembly, which unpacks it: write it without --compress.`,
+        `${this.name} is compressed, and this browser refuses WebAssembly, which unpacks it: ` +
+          'write it without --compress.',
       );
     }
     this.decoder = MeshoptDecoder;

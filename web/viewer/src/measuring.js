@@ -92,8 +92,11 @@ export class Measuring {
       const to = place.toScene(b.x, b.y, b.z);
       const run = Math.hypot(to[0] - from[0], to[1] - from[1]);
       const rise = to[2] - from[2];
+      const straight = distance(Math.hypot(run, rise), lengthUnit);
+      const slope = Number(((Math.atan2(rise, run) * 180) / Math.PI).toPrecision(3));
       this.say(
-        `Distance ${distance(run, lengthUnit)} on the map, ${distance(Math.hypot(run, rise), lengthUnit)} straight; height difference ${withUnit(b.z - a.z, unit)}; slope ${Number(((Math.atan2(rise, run) * 180) / Math.PI).toPrecision(3))}°.`,
+        `Distance ${distance(run, lengthUnit)} on the map, ${straight} straight; ` +
+          `height difference ${withUnit(b.z - a.z, unit)}; slope ${slope}°.`,
       );
       this.drawProfile(sampleLine(terrain, [a.x, a.y], [b.x, b.y]), [a, b], place, run, unit, lengthUnit);
     }
@@ -106,12 +109,10 @@ export class Measuring {
     const high = Math.max(...heights, low + 1e-9);
     const toY = z => 134 - ((z - low) / (high - low)) * 128;
     const toX = t => 600 * t;
-    const path = (name, k) =>
-      `<path class="${name}" d="${trace(
-        line.map(point => [point[0], point[k]]),
-        toX,
-        toY,
-      )}"/>`;
+    const path = (name, k) => {
+      const points = line.map(point => [point[0], point[k]]);
+      return `<path class="${name}" d="${trace(points, toX, toY)}"/>`;
+    };
     $('profile').innerHTML = path('raster', 2) + path('mesh', 1);
     $('profile').setAttribute(
       'aria-label',

@@ -33,7 +33,7 @@ function fillSides(shown, unit) {
   $('divider').hidden = shown.length < 2;
 }
 
-let mapped = {}; // what the map from above was drawn of
+let mapped = {}; // terrain and scale of the map from above
 
 function fillMap(terrain, scale, showsErrors) {
   $('map').hidden = !showsErrors;
@@ -42,7 +42,7 @@ function fillMap(terrain, scale, showsErrors) {
   mapped = showsErrors ? { terrain, scale } : {};
 }
 
-/** What the page cannot know or do. */
+/** Limits of what the page knows and does. */
 function fillNotes({ field, notes, knowsMetres, isOfTiles }, hasEngine) {
   const words = [...notes];
   if (isOfTiles)

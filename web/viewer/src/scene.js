@@ -164,7 +164,8 @@ export class Scene {
   constructor(canvas, look) {
     Object.assign(this, { canvas, look, listeners: [], views: [] });
     const { width, height, ratio } = this.size();
-    Object.assign(canvas, { width: width * ratio, height: height * ratio }); // before there is a buffer, which would be made twice
+    // Before there is a buffer, which would be made twice.
+    Object.assign(canvas, { width: width * ratio, height: height * ratio });
     try {
       this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
     } catch {

@@ -65,8 +65,10 @@ attribute vec3 other;
 uniform vec2 pixels;
 varying float shown;
 void main() {
-  vec4 here = projectionMatrix * modelViewMatrix * vec4(position, 1.0), there = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
-  float lengthOnScreen = there.w <= 0. || here.w <= 0. ? 1e4 : length((here.xy / here.w - there.xy / there.w) * .5 * pixels);
+  vec4 here = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  vec4 there = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
+  vec2 apart = (here.xy / here.w - there.xy / there.w) * .5 * pixels;
+  float lengthOnScreen = there.w <= 0. || here.w <= 0. ? 1e4 : length(apart);
   shown = smoothstep(4., 12., lengthOnScreen);
   gl_Position = shown > 0. ? here : vec4(0., 0., 2., 1.);
 }`;

@@ -74,7 +74,8 @@ export class Terrain {
       this.scene[k + 2] = z;
       reach = Math.max(reach, x * x + y * y + z * z);
     }
-    this.reach = Math.max(place.radius, Math.sqrt(reach)); // from the scene's middle: other levels may be wider than the first
+    // From the scene's middle: other levels may be wider than the first.
+    this.reach = Math.max(place.radius, Math.sqrt(reach));
     this.givenNormals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
 

@@ -60,11 +60,14 @@ export function warnOfUndeclared({ name, samples }) {
   }
   const least = lowest[low].height;
   const most = highest[high].height;
-  const tell = (side, far) =>
-    far.map(
-      ({ height, samples: n }) =>
-        `${n === 1 ? '1 sample of' : `${count(n)} samples of`} ${name} ${n === 1 ? 'is' : 'are'} exactly ` +
-        `${number(height)}, far ${side} all others (${number(least)} to ${number(most)}): if ${n === 1 ? 'it means' : 'they mean'} nodata, declare it (gdal_edit.py -a_nodata ${height}) and drop it again.`,
-    );
-  return [...tell('below', lowest.slice(0, low)), ...tell('above', highest.slice(0, high))];
+  const others = `${number(least)} to ${number(most)}`;
+  const warn = (side, far) =>
+    far.map(({ height, samples: n }) => {
+      const [which, are, mean] = n === 1 ? ['1 sample', 'is', 'it means'] : [`${count(n)} samples`, 'are', 'they mean'];
+      return (
+        `${which} of ${name} ${are} exactly ${number(height)}, far ${side} all others (${others}): ` +
+        `if ${mean} nodata, declare it (gdal_edit.py -a_nodata ${height}) and drop it again.`
+      );
+    });
+  return [...warn('below', lowest.slice(0, low)), ...warn('above', highest.slice(0, high))];
 }
