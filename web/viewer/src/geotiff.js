@@ -75,7 +75,7 @@ function bareFrameOf(image, unit) {
 }
 
 const LARGEST = 3.4028234663852886e38;
-const NEAR_LARGEST = 3.4e38; // the latter: "-3.40282e+38" and its like, however few digits survived
+const NEAR_LARGEST = 3.4e38; // "-3.40282e+38" and its like, however few digits survived
 
 /** Parses a number as C does. */
 function numberOf(text) {

@@ -41,8 +41,8 @@ export function findPlacing({ positions, uvs }) {
   const count = uvs.length / 2;
   const row = v => [positions[3 * v], positions[3 * v + 1], uvs[2 * v], uvs[2 * v + 1]];
   const mean = [0, 0, 0, 0];
-  const products = Array.from({ length: 2 }, () => [0, 0, 0, 0]); // sums for x and for y, with
-  // each of the four
+  // Sums for x and for y, with each of the four.
+  const products = Array.from({ length: 2 }, () => [0, 0, 0, 0]);
   for (let v = 0; v < count; ++v)
     row(v).forEach((value, k) => {
       mean[k] += value / count;

@@ -110,7 +110,7 @@ export class Live {
       this.hears = null;
       this.follow(first ?? this.page.shown[0].judged.maxError);
       if (both) this.turnBoth(true);
-      else if (error !== undefined) (this.choose(this.stepOf(error)), this.finish());
+      else if (error !== undefined) this.chooseAndFinish(this.stepOf(error));
     };
     if (first !== undefined || this.page.shown[0].isJudged) this.hears();
   }
@@ -201,7 +201,7 @@ export class Live {
   turnBoth(both) {
     this.both = both;
     $('both').checked = both;
-    if (both) return (this.choose(this.stepNow ?? Number($('error').value)), this.finish());
+    if (both) return this.chooseAndFinish(this.stepNow ?? Number($('error').value));
     this.slow.cancel();
     this.show();
   }
@@ -225,6 +225,11 @@ export class Live {
       this.show();
       if (this.wantsFinish) this.finish();
     });
+  }
+
+  chooseAndFinish(step) {
+    this.choose(step);
+    this.finish();
   }
 
   take({ error, mesh, judged }, key, name, goal) {

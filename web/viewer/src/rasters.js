@@ -36,22 +36,26 @@ const DECODINGS = {
   mapbox: (r, g, b) => -10000 + (r * 65536 + g * 256 + b) * 0.1,
   grey: r => r,
 };
+// Limits of heights of the earth.
 const LOWEST = -12000;
-const HIGHEST = 9000; // limits of heights of the earth
+const HIGHEST = 9000;
 const MOST_ODD = 0.1; // share of a tile's pixels that stand for nodata
 
 /** The decoding whose heights are of the earth. Both never are: terrarium's have a red of 81 to 163, mapbox's of 0 to
  * 2. */
 function guessDecoding(pixels, decode) {
-  return (
-    ['terrarium', 'mapbox'].find(key => {
-      const heights = decode(key);
-      let there = 0;
-      let odd = 0;
-      for (const z of heights) if (z === z) (++there, (odd += !(z >= LOWEST && z <= HIGHEST)));
-      return there > 0 && odd <= MOST_ODD * there;
-    }) ?? 'grey'
-  );
+  const found = ['terrarium', 'mapbox'].find(key => {
+    const heights = decode(key);
+    let there = 0;
+    let odd = 0;
+    for (const z of heights) {
+      if (z !== z) continue;
+      ++there;
+      odd += !(z >= LOWEST && z <= HIGHEST);
+    }
+    return there > 0 && odd <= MOST_ODD * there;
+  });
+  return found ?? 'grey';
 }
 
 const NOTES = {

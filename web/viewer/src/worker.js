@@ -21,8 +21,8 @@ function warmUp() {
   simplifySync(z, side, side, { maxError: 1, effort: 'fast' });
 }
 
-const AT_THE_BOUND = 1 + 1e-12; // factor of an error: the refiner's doubles would continue where an exact decision
-// ends
+// Factor of an error: the refiner's doubles would continue where an exact decision ends.
+const AT_THE_BOUND = 1 + 1e-12;
 
 /** Finer meshes continue from the last; for a coarser one it begins again. */
 function refine(error) {
