@@ -106,6 +106,7 @@ clean:
 format:
 	@tools/install_packages.sh lint
 	git ls-files -co --exclude-standard '*.h' '*.cpp' | xargs clang-format -i
+	@if command -v npm >/dev/null; then tools/format_js.sh --write; else echo 'JavaScript stays as it is: prettier needs npm.'; fi
 
 tidy:
 	@tools/install_packages.sh build test lint
@@ -131,6 +132,6 @@ help:
 	@echo 'make bench    the benchmarks; their tables are under version control'
 	@echo 'make paper    the experiments of the 1995 paper on the fields in DATA, written to bench/paper.md'
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
-	@echo 'make format   clang-format on all sources'
+	@echo 'make format   clang-format on all sources in C++, and prettier, by npm, on JavaScript'
 	@echo 'make tidy     clang-tidy on src/ and apps/'
 	@echo 'make clean    remove the build folders, demo/, globe/ and dist/'

@@ -4,7 +4,7 @@
 //
 // "once": no warm-up, so that the time of the process is that of reading, one triangulation and writing.
 
-import {readFileSync, writeFileSync} from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import Delatin from 'delatin';
 
 const [path, cols, rows, error, mesh, once] = process.argv.slice(2);
@@ -13,7 +13,8 @@ if (error === undefined) {
   process.exit(2);
 }
 const bytes = readFileSync(path);
-const width = Number(cols), height = Number(rows);
+const width = Number(cols);
+const height = Number(rows);
 if (bytes.length !== 4 * width * height) {
   console.error(`${path} does not hold COLS times ROWS samples`);
   process.exit(2);
@@ -29,27 +30,36 @@ function refine(heights, w, h) {
 // The raster itself, or its upper left 512×512 samples where it has more than 2 million.
 function warmUp() {
   if (samples.length <= 2e6) return refine(samples, width, height);
-  const w = Math.min(width, 512), h = Math.min(height, 512);
+  const w = Math.min(width, 512);
+  const h = Math.min(height, 512);
   const part = new Float32Array(w * h);
   for (let row = 0; row < h; row++) part.set(samples.subarray(row * width, row * width + w), row * w);
   return refine(part, w, h);
 }
 
 if (once === undefined) warmUp();
-const cpu = process.cpuUsage(), start = performance.now();
+const cpu = process.cpuUsage();
+const start = performance.now();
 const tin = refine(samples, width, height);
-const seconds = (performance.now() - start) / 1000, used = process.cpuUsage(cpu);
+const seconds = (performance.now() - start) / 1000;
+const used = process.cpuUsage(cpu);
 
-const {version} = JSON.parse(readFileSync(new URL('node_modules/delatin/package.json', import.meta.url)));
-console.log(JSON.stringify({
-  version: `${version}, node ${process.versions.node}`,
-  seconds,
-  cpu_seconds: (used.user + used.system) / 1e6,
-  vertices: tin.coords.length / 2,
-  triangles: tin.triangles.length / 3,
-}));
+const { version } = JSON.parse(readFileSync(new URL('node_modules/delatin/package.json', import.meta.url)));
+console.log(
+  JSON.stringify({
+    version: `${version}, node ${process.versions.node}`,
+    seconds,
+    cpu_seconds: (used.user + used.system) / 1e6,
+    vertices: tin.coords.length / 2,
+    triangles: tin.triangles.length / 3,
+  }),
+);
 if (mesh !== undefined) {
   const counts = Uint32Array.of(tin.coords.length / 2, tin.triangles.length / 3);
-  writeFileSync(mesh, Buffer.concat([counts, Uint32Array.from(tin.coords), Uint32Array.from(tin.triangles)].map(
-    (array) => Buffer.from(array.buffer))));
+  writeFileSync(
+    mesh,
+    Buffer.concat(
+      [counts, Uint32Array.from(tin.coords), Uint32Array.from(tin.triangles)].map(array => Buffer.from(array.buffer)),
+    ),
+  );
 }

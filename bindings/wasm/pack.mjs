@@ -9,13 +9,28 @@ const root = path.resolve(here, '../..');
 const version = /project\(scarp VERSION ([\d.]+)/.exec(fs.readFileSync(`${root}/CMakeLists.txt`, 'utf8'))[1];
 const staged = path.join(build, 'npm');
 
-/// The worker and what it imports in one script: each file a function, after those that it needs.
-function join_worker() {
-  const files = ['number.js', 'error.js', 'options.js', 'module.js', 'heights.js', 'mesh.js', 'simplify.js', 'hills.js', 'warm.js', 'alive.js', 'worker.js'];
+/// The worker and what it imports in one script: each file a function, after those that it needs,
+/// without comments and indentation: no text of these files spans lines.
+function joinWorker() {
+  const files = [
+    'number.js',
+    'error.js',
+    'options.js',
+    'module.js',
+    'heights.js',
+    'mesh.js',
+    'simplify.js',
+    'hills.js',
+    'warm.js',
+    'alive.js',
+    'worker.js',
+  ];
   const parts = files.map(file => {
-    const text = fs.readFileSync(`${here}/package/${file}`, 'utf8').replace(/^\s*\/\/.*\n/gm, '');
+    const text = fs.readFileSync(`${here}/package/${file}`, 'utf8').replace(/^\s*\/\/.*\n|^ +/gm, '');
     const names = [...text.matchAll(/^export (?:async )?(?:const|function|class) (\w+)/gm)].map(([, name]) => name);
-    const body = text.replace(/^import ({[^}]*}) from '.\/(.*)';$/gm, "const $1 = files['$2'];").replace(/^export /gm, '');
+    const body = text
+      .replace(/^import ({[^}]*}) from '.\/(.*)';$/gm, "const $1 = files['$2'];")
+      .replace(/^export /gm, '');
     return `files['${file}'] = (() => {\n${body}return { ${names.join(', ')} };\n})();\n`;
   });
   return `const files = {};\n${parts.join('')}`;
@@ -23,24 +38,47 @@ function join_worker() {
 
 fs.rmSync(staged, { recursive: true, force: true });
 fs.cpSync(`${here}/package`, staged, { recursive: true });
-fs.writeFileSync(`${staged}/package.json`, fs.readFileSync(`${staged}/package.json`, 'utf8').replace('VERSION', version));
-for (const [from, to] of [[`${here}/README.md`, 'README.md'], [`${root}/LICENSE`, 'LICENSE']]) fs.copyFileSync(from, path.join(staged, to));
+fs.writeFileSync(
+  `${staged}/package.json`,
+  fs.readFileSync(`${staged}/package.json`, 'utf8').replace('VERSION', version),
+);
+for (const [from, to] of [
+  [`${here}/README.md`, 'README.md'],
+  [`${root}/LICENSE`, 'LICENSE'],
+])
+  fs.copyFileSync(from, path.join(staged, to));
 // The dev server of vite packs scripts of node_modules anew, elsewhere, without the files next to them; .jsx stays in
 // its place.
 for (const entry of ['index', 'full', 'lite', 'delatin', 'martini', 'loaders']) {
-  const has_default = fs.readFileSync(`${staged}/${entry}.js`, 'utf8').includes('export default');
-  fs.writeFileSync(`${staged}/${entry}.jsx`, `export * from './${entry}.js';\n${has_default ? `export { default } from './${entry}.js';\n` : ''}`);
+  const hasDefault = fs.readFileSync(`${staged}/${entry}.js`, 'utf8').includes('export default');
+  fs.writeFileSync(
+    `${staged}/${entry}.jsx`,
+    `export * from './${entry}.js';\n${hasDefault ? `export { default } from './${entry}.js';\n` : ''}`,
+  );
 }
-const imports = ['progress', 'number', 'clock_time_get', 'emscripten_notify_memory_growth', 'environ_get', 'environ_sizes_get', 'proc_exit'];
+const imports = [
+  'progress',
+  'number',
+  'clock_time_get',
+  'emscripten_notify_memory_growth',
+  'environ_get',
+  'environ_sizes_get',
+  'proc_exit',
+];
 for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
   const bytes = fs.readFileSync(`${build}/bin/${name}`);
   // The linker makes an import of a name that it does not find.
-  const unknown = WebAssembly.Module.imports(new WebAssembly.Module(bytes)).map(entry => entry.name).filter(entry => !imports.includes(entry));
+  const unknown = WebAssembly.Module.imports(new WebAssembly.Module(bytes))
+    .map(entry => entry.name)
+    .filter(entry => !imports.includes(entry));
   if (unknown.length > 0) throw new Error(`${name} lacks ${unknown.join(', ')}`);
   fs.writeFileSync(path.join(staged, name), bytes);
 }
 const bytes = fs.readFileSync(`${staged}/scarp.wasm`).toString('base64');
-fs.writeFileSync(`${staged}/inline-data.js`, `export const MODULE = ${JSON.stringify(bytes)};\nexport const WORKER = ${JSON.stringify(join_worker())};\n`);
+fs.writeFileSync(
+  `${staged}/inline-data.js`,
+  `export const MODULE = ${JSON.stringify(bytes)};\nexport const WORKER = ${JSON.stringify(joinWorker())};\n`,
+);
 fs.mkdirSync(dist, { recursive: true });
 execFileSync('npm', ['pack', '--silent', '--offline', '--pack-destination', dist], { cwd: staged });
 console.log(path.join(dist, `scarp-${version}.tgz`));

@@ -37,7 +37,7 @@ ready = {"until": "document.readyState === 'complete'"}
 jobs = [{"page": f"{folder}/{name}", "folder": folder, "steps": [ready | {"shot": os.path.basename(name)}], "axe": True, "dark": dark}
         for name, dark in (("index.html", False), ("docs/guide/viewer.html", True))]
 jobs.append({"page": f"{folder}/try.html", "steps": [{"until": "!document.getElementById('notice').hidden", "read": "document.getElementById('notice').textContent"}]})
-jobs.append({"page": f"{folder}/example.html", "steps": [{"until": "window.scarp_page?.drawn > 0", "read": "document.title"}]})
+jobs.append({"page": f"{folder}/example.html", "steps": [{"until": "window.scarpPage?.drawn > 0", "read": "document.title"}]})
 print(json.dumps(jobs))
 E2
 shots=${SCARP_SHOTS:-$scratch}

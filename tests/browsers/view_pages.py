@@ -2,8 +2,8 @@
 # [jobs].
 import base64, functools, json, os, subprocess, sys
 READ = "[document.getElementById('readout').innerText, document.title]"
-JUDGED = "scarp_page.shown.every(terrain => terrain.is_judged)"
-READY = "window.scarp_page?.drawn > 0 && !document.body.classList.contains('empty') && " + JUDGED
+JUDGED = "scarpPage.shown.every(terrain => terrain.isJudged)"
+READY = "window.scarpPage?.drawn > 0 && !document.body.classList.contains('empty') && " + JUDGED
 NOTICE = "document.getElementById('notice').hidden ? '' : document.getElementById('notice').textContent"
 jobs, checks = [], []
 
@@ -43,23 +43,23 @@ def plain(values):
 CANVAS = "document.getElementById('canvas').toDataURL()"
 # Ahead is north there; one step to the right and two back end south-east of the middle, as far from it as before.
 MOVED = """(first => {
-  const press = key => dispatchEvent(new KeyboardEvent('keydown', {key, shiftKey: true})), far = scarp_page.scene.orbit().distance;
+  const press = key => dispatchEvent(new KeyboardEvent('keydown', {key, shiftKey: true})), far = scarpPage.scene.orbit().distance;
   for (const key of ['ArrowRight', 'ArrowDown', 'ArrowDown']) press(key);
-  const {target: [x, y, z], distance} = scarp_page.scene.orbit();
+  const {target: [x, y, z], distance} = scarpPage.scene.orbit();
   return [first, y / x, x > 0 && Math.abs(x + y) < 1e-6 * x && z === 0 && Math.abs(distance / far - 1) < 1e-6];
-})(scarp_page.scene.orbit().target)"""
+})(scarpPage.scene.orbit().target)"""
 MEASURED = ("[document.getElementById('measured-text').textContent, (document.querySelector('#profile .mesh')?.getAttribute('d') ?? '')"
             ".split('L').length, document.getElementById('profile').getBoundingClientRect().height]")
 job(plain, "plain.html", [
     {"until": READY, "read": READ, "shot": "light"},
     {"read": CANVAS},
-    {"keys": ["w"], "until": "scarp_page.scene.views[0].edges.visible", "read": CANVAS, "shot": "wireframe"},
-    {"keys": ["w", "e"], "until": "scarp_page.scene.views[0].uniforms.errors.value", "read": CANVAS, "shot": "errors"},
-    {"keys": ["ArrowLeft", "ArrowUp", "PageUp"], "until": "!scarp_page.scene.asked", "read": CANVAS},
-    {"keys": ["r"], "after": "scarp_page.scene.set_orbit({...scarp_page.scene.orbit(), azimuth: 0})"}, {"keys": ["Shift+ArrowUp"], "read": MOVED},
-    {"keys": ["r", "m"], "clicks": [[600, 330], [800, 450]], "until": "scarp_page.measuring.points.length === 2", "read": MEASURED,
+    {"keys": ["w"], "until": "scarpPage.scene.views[0].edges.visible", "read": CANVAS, "shot": "wireframe"},
+    {"keys": ["w", "e"], "until": "scarpPage.scene.views[0].uniforms.errors.value", "read": CANVAS, "shot": "errors"},
+    {"keys": ["ArrowLeft", "ArrowUp", "PageUp"], "until": "!scarpPage.scene.asked", "read": CANVAS},
+    {"keys": ["r"], "after": "scarpPage.scene.setOrbit({...scarpPage.scene.orbit(), azimuth: 0})"}, {"keys": ["Shift+ArrowUp"], "read": MOVED},
+    {"keys": ["r", "m"], "clicks": [[600, 330], [800, 450]], "until": "scarpPage.measuring.points.length === 2", "read": MEASURED,
      "shot": "profile"},
-    {"do": "scarp_page.scene.png().then(blob => blob.size)"},
+    {"do": "scarpPage.scene.png().then(blob => blob.size)"},
     {"until": "location.hash.includes('errors=1')", "read": "location.hash"}], axe=True)
 
 
@@ -71,8 +71,8 @@ def restored(values):
 
 
 job(restored, "plain.html", [
-    {"until": READY, "read": "[scarp_page.look.errors, scarp_page.look.smooth, scarp_page.look.exaggeration, (o => [o.azimuth, o.altitude, o.distance])"
-                             "(scarp_page.scene.orbit()), document.getElementById('panel').innerText]", "shot": "fragment"}],
+    {"until": READY, "read": "[scarpPage.look.errors, scarpPage.look.smooth, scarpPage.look.exaggeration, (o => [o.azimuth, o.altitude, o.distance])"
+                             "(scarpPage.scene.orbit()), document.getElementById('panel').innerText]", "shot": "fragment"}],
     fragment="#errors=1&smooth=1&exaggeration=3&view=30,45,20000,0,0,0")
 
 
@@ -83,8 +83,8 @@ def unmoved(values):
 
 # A value that is no number in its range does not change the page's first state.
 for fragment in ("#view=0,0,0,0,0,0&exaggeration=1,2&azimuth=NaN&altitude=&level=x", "#view=,,,,,&exaggeration=1e300", "#view=1e300,1,1,1,1,1&constructor=1"):
-    job(unmoved, "plain.html", [{"until": READY, "read": "[scarp_page.look.exaggeration, Object.values(scarp_page.scene.orbit()).flat().map(x => x.toFixed(4)),"
-                                 " Object.values(scarp_page.look.sun), scarp_page.level + 1, (scarp_page.scene.reset(), Object.values(scarp_page.scene.orbit()).flat()"
+    job(unmoved, "plain.html", [{"until": READY, "read": "[scarpPage.look.exaggeration, Object.values(scarpPage.scene.orbit()).flat().map(x => x.toFixed(4)),"
+                                 " Object.values(scarpPage.look.sun), scarpPage.level + 1, (scarpPage.scene.reset(), Object.values(scarpPage.scene.orbit()).flat()"
                                  ".map(x => x.toFixed(4)))]"}], fragment=fragment, width=400, height=300)
 job(lambda values: values[0].index("gradient"), "plain.html", [{"until": READY, "read": "getComputedStyle(document.getElementById('legend-bar')).backgroundImage", "shot": "forced"}],
     forced_colors=True, axe=True)
@@ -103,8 +103,8 @@ def levels(values):
 
 
 job(levels, "levels_lod0.html", [
-    {"until": READY, "read": "[scarp_page.document.levels.length, (() => { const at = scarp_page.shown[0].scene, found = [[], []]; for (let v = 0; v < at.length; v += 3)"
-                             " scarp_page.scene.project(at.subarray(v, v + 3)).forEach((value, k) => found[k].push(value));"
+    {"until": READY, "read": "[scarpPage.document.levels.length, (() => { const at = scarpPage.shown[0].scene, found = [[], []]; for (let v = 0; v < at.length; v += 3)"
+                             " scarpPage.scene.project(at.subarray(v, v + 3)).forEach((value, k) => found[k].push(value));"
                              " return found.flatMap(values => [Math.min(...values), Math.max(...values)]); })()]", "shot": "phone"},
     {"do": "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))",
      "after": "document.getElementById('fold').click()"},
@@ -127,10 +127,10 @@ def tile_levels(name, values):
     assert all(outer > 0 and cracks == 0 for outer, cracks in values[2]), values[2]
 
 
-TILES = ("[scarp_page.document.levels.map(l => [l.name, l.triangles]), document.getElementById('notes').textContent,"
-         " scarp_page.document.levels.map(l => l.reach)]")
+TILES = ("[scarpPage.document.levels.map(l => [l.name, l.triangles]), document.getElementById('notes').textContent,"
+         " scarpPage.document.levels.map(l => l.reach)]")
 # Edges of one triangle, but for those around all tiles of a level.
-CRACKS = """scarp_page.document.levels.map(({positions, indices, firsts}) => {
+CRACKS = """scarpPage.document.levels.map(({positions, indices, firsts}) => {
   const used = new Map(), corner = k => firsts[indices[k]], ends = [0, 1].map(c => positions.reduce(([low, high], value, k) => k % 3 === c ? [Math.min(low, value), Math.max(high, value)] : [low, high], [Infinity, -Infinity]));
   const is_outer = (a, b) => [0, 1].some(c => ends[c].some(end => [a, b].every(v => Math.abs(positions[3 * v + c] - end) < 1e-3 * (ends[c][1] - ends[c][0]))));
   indices.forEach((_, k) => {
@@ -140,7 +140,7 @@ CRACKS = """scarp_page.document.levels.map(({positions, indices, firsts}) => {
   const open = [...used.values()].filter(found => found.length === 1);
   return [open.length, open.filter(([[a, b]]) => !is_outer(a, b)).length];
 })"""
-TOP = "scarp_page.document.place.high[2]"
+TOP = "scarpPage.document.place.high[2]"
 COARSE = "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))"
 
 
@@ -149,21 +149,21 @@ def plane(values):
     assert abs(east - 149 * 90) < 2 and abs(north - 149 * 90) < 2, values
 
 
-job(plane, "plane.html", [{"until": READY, "read": "[0, 1].map(k => scarp_page.document.place.high[k] - scarp_page.document.place.low[k])", "shot": "tiles_plane"}])
+job(plane, "plane.html", [{"until": READY, "read": "[0, 1].map(k => scarpPage.document.place.high[k] - scarpPage.document.place.low[k])", "shot": "tiles_plane"}])
 for name in ("set", "archive"):
     job(functools.partial(tile_levels, name), f"{name}.html", [
         {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP}, {"read": CRACKS},
-        {"do": COARSE, "until": "scarp_page.level === 2 && !scarp_page.scene.asked", "shot": f"tiles_{name}_coarse"}])
+        {"do": COARSE, "until": "scarpPage.level === 2 && !scarpPage.scene.asked", "shot": f"tiles_{name}_coarse"}])
 # Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and
 # outside it; which parts of the page show the image.
 QUARTERS = """(() => {
-  const {scene, shown: [terrain], document: {place}} = scarp_page, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.positions[k - c + 2] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
+  const {scene, shown: [terrain], document: {place}} = scarpPage, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.positions[k - c + 2] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
   scene.draw();
   [picture.width, picture.height] = [scene.canvas.width, scene.canvas.height];
   picture.getContext('2d').drawImage(scene.canvas, 0, 0);
   const between = (k, share) => land[k][0] + share * (land[k].at(-1) - land[k][0]);
   const colors = [[.25, .75], [.75, .75], [.25, .25], [.75, .25], [-.1, -.1]].map(([u, v]) => {
-    const [x, y] = [between(0, u), between(1, v)], z = terrain.height_at(x, y), at = scene.project(place.to_scene(x, y, z));
+    const [x, y] = [between(0, u), between(1, v)], z = terrain.heightAt(x, y), at = scene.project(place.toScene(x, y, z));
     if (!(z === z)) return 'sky';
     const [red, green, blue] = picture.getContext('2d').getImageData(...at.map(c => c * ratio), 1, 1).data;
     return [red > 1.5 * blue && 'r', green > 1.5 * blue && 'g', blue > 1.5 * green && 'b'].filter(Boolean).join('');
@@ -185,8 +185,8 @@ def draped(values):
 
 job(draped, "draped.html", [
     {"until": READY, "read": QUARTERS, "shot": "tiles_draped"}, {"keys": ["i"], "read": QUARTERS}, {"keys": ["i"], "read": QUARTERS},
-    {"do": COARSE.replace("'2'", "'1'"), "until": "scarp_page.level === 1", "read": QUARTERS, "shot": "tiles_draped_coarse"},
-    {"read": "scarp_page.document.levels.map(l => l.sheets.map(s => [Boolean(s.image), s.ground && String(s.ground.map(c => Math.round(255 * c)))]))"}], axe=True)
+    {"do": COARSE.replace("'2'", "'1'"), "until": "scarpPage.level === 1", "read": QUARTERS, "shot": "tiles_draped_coarse"},
+    {"read": "scarpPage.document.levels.map(l => l.sheets.map(s => [Boolean(s.image), s.ground && String(s.ground.map(c => Math.round(255 * c)))]))"}], axe=True)
 job(lambda values: same("plain.json", values[0][0]), "obj.html", [{"until": READY, "read": READ}])
 
 
@@ -198,8 +198,8 @@ if os.path.exists("python.html"):
 
     # A page within a page, as notebooks show it; it writes no address a little later.
     job(within, "notebook.html", [
-        {"until": "(({contentDocument: page, contentWindow: {scarp_page}}) => page.body && !page.body.classList.contains('empty') && "
-                  f"scarp_page?.drawn > 0 && {JUDGED})(document.querySelector('iframe'))",
+        {"until": "(({contentDocument: page, contentWindow: {scarpPage}}) => page.body && !page.body.classList.contains('empty') && "
+                  f"scarpPage?.drawn > 0 && {JUDGED})(document.querySelector('iframe'))",
          "read": READ.replace("document.", "document.querySelector('iframe').contentDocument."), "shot": "notebook"},
         {"do": "new Promise(done => setTimeout(done, 500))"},
         {"read": "document.querySelector('iframe').contentDocument.getElementById('notice').hidden"}])
@@ -260,7 +260,7 @@ job(lambda values: values[0].index("here"), "empty.html", [{"until": NOTICE, "re
 
 # The file's normals, compared with those of the triangles: the mean cosine.
 NORMALS = """(() => {
-  const {terrain, surface: {geometry}} = scarp_page.scene.views[0], given = geometry.attributes.normal.array.slice();
+  const {terrain, surface: {geometry}} = scarpPage.scene.views[0], given = geometry.attributes.normal.array.slice();
   geometry.computeVertexNormals();
   const own = geometry.attributes.normal.array, count = given.length / 3;
   let sum = 0;
@@ -306,12 +306,12 @@ def loads(values):
 
 DRAG = ("(slider => { slider.value = String(%d); slider.dispatchEvent(new Event('input')); })(document.getElementById('error'))")
 RELEASE = "document.getElementById('error').dispatchEvent(new Event('change'))"
-NOW = ("[scarp_page.live.error_of(scarp_page.live.step_now), ...scarp_page.shown.map(t => [t.name, t.triangles, t.judged.max_error,"
+NOW = ("[scarpPage.live.errorOf(scarpPage.live.stepNow), ...scarpPage.shown.map(t => [t.name, t.triangles, t.judged.maxError,"
        " t.judged.uncovered])]")
 TEXTS = "['save', 'command-of', 'command-note', 'error-text'].map(id => document.getElementById(id).textContent)"
-COMMAND = "({command: document.getElementById('command').textContent, triangles: scarp_page.shown.at(-1).triangles, texts: " + TEXTS + "})"
+COMMAND = "({command: document.getElementById('command').textContent, triangles: scarpPage.shown.at(-1).triangles, texts: " + TEXTS + "})"
 FORMAT = "(menu => { menu.value = '%s'; menu.dispatchEvent(new Event('change')); })(document.getElementById('format'))"
-HIGH = "scarp_page.shown.at(-1).name === 'high' && document.getElementById('progress').hidden"
+HIGH = "scarpPage.shown.at(-1).name === 'high' && document.getElementById('progress').hidden"
 
 
 def kept(asked, mesh, name):
@@ -443,22 +443,22 @@ def refused(values):
 FORMATS, KNOWN_METRES = ("glb", "stl", "obj"), ("dem.tif", "N36W085.hgt", "; touch x $(touch y) 'q' .tif", "stray.tif", "terraces.tif", "colour.tif", "feet.tif", "unsaid.tif")
 if os.path.exists("live.html"):
     job(live, "live.html", [
-        {"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"do": COMMAND},
-        {"do": DRAG % 28, "until": "scarp_page.live.step_now === 28 && scarp_page.shown[0].judged.max_error <= scarp_page.live.error_of(28)",
+        {"until": READY}, {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'", "read": NOW}, {"do": COMMAND},
+        {"do": DRAG % 28, "until": "scarpPage.live.stepNow === 28 && scarpPage.shown[0].judged.maxError <= scarpPage.live.errorOf(28)",
          "read": NOW},
         {"do": RELEASE, "until": HIGH, "read": NOW, "shot": "live"}, {"do": COMMAND},
         {"do": FORMAT % "obj"}, {"do": COMMAND, "after": FORMAT % "glb"},
-        {"keys": ["s"], "until": "scarp_page.shown.length === 2", "read": NOW, "shot": "side_by_side"},
+        {"keys": ["s"], "until": "scarpPage.shown.length === 2", "read": NOW, "shot": "side_by_side"},
         {"do": "(menu => { menu.value = 'count'; menu.dispatchEvent(new Event('change')); })(document.getElementById('same'))",
-         "until": "scarp_page.shown[1].judged.max_error < 0.6 * scarp_page.shown[0].judged.max_error", "read": NOW},
+         "until": "scarpPage.shown[1].judged.maxError < 0.6 * scarpPage.shown[0].judged.maxError", "read": NOW},
         {"do": COMMAND}, {"until": "location.hash.includes('count=1')", "read": "location.hash"},
-        {"keys": ["r"], "until": "scarp_page.shown.length === 1 && scarp_page.shown[0] === scarp_page.document.levels[0] && "
+        {"keys": ["r"], "until": "scarpPage.shown.length === 1 && scarpPage.shown[0] === scarpPage.document.levels[0] && "
                                  "!location.hash.includes('both=1')", "read": "location.hash"}], axe=True)
-    job(restored, "live.html", [{"until": READY + " && scarp_page.shown.length === 2 && " + HIGH, "read": NOW}, {"read": "document.getElementById('same').value"}],
+    job(restored, "live.html", [{"until": READY + " && scarpPage.shown.length === 2 && " + HIGH, "read": NOW}, {"read": "document.getElementById('same').value"}],
         fragment="#error=50&both=1&count=1", width=500, height=400)
-    OPENED = ("({name: document.title, error: scarp_page.shown[0].judged.max_error, most: (f => (f.high - f.low) * 0.02)(scarp_page.document.field),"
-              " asked: scarp_page.shown[0].goal.maxError, uncovered: scarp_page.shown[0].judged.uncovered, stray: scarp_page.shown[0].judged.stray,"
-              " samples: scarp_page.shown[0].judged.covered, triangles: scarp_page.shown[0].triangles, high: scarp_page.document.field.high,"
+    OPENED = ("({name: document.title, error: scarpPage.shown[0].judged.maxError, most: (f => (f.high - f.low) * 0.02)(scarpPage.document.field),"
+              " asked: scarpPage.shown[0].goal.maxError, uncovered: scarpPage.shown[0].judged.uncovered, stray: scarpPage.shown[0].judged.stray,"
+              " samples: scarpPage.shown[0].judged.covered, triangles: scarpPage.shown[0].triangles, high: scarpPage.document.field.high,"
               " exaggeration: document.getElementById('exaggeration-text').textContent, notes: document.getElementById('notes').textContent,"
               " command: document.getElementById('command').textContent, is_of_full: document.getElementById('command-note').textContent.includes('full raster'),"
               " label: document.getElementById('error-text').textContent, readout: document.getElementById('readout').innerText})")
@@ -469,12 +469,12 @@ if os.path.exists("live.html"):
              " document.getElementById('format').value = 'glb'; })")
     steps = [{"until": "document.getElementById('notice').textContent"}]
     for name, *_ in OFFERED:
-        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === {json.dumps(name)} && scarp_page.drawn > 0",
+        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === {json.dumps(name)} && scarpPage.drawn > 0",
                    "read": OPENED, "shot": name.split(".")[0].replace(" ", "_")}] + [{"do": SAVED % form} for form in FORMATS]
         if name == "mapbox.png":
             redo = [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": "document.title === 'mapbox.png'",
                      "after": "(menu => { menu.value = 'terrarium'; menu.dispatchEvent(new Event('change')); })(document.getElementById('decoding'))"},
-                    {"until": "scarp_page.document.field.decoding === 'terrarium'", "read": OPENED}]
+                    {"until": "scarpPage.document.field.decoding === 'terrarium'", "read": OPENED}]
     steps += redo
     for name, _ in REFUSED:
         steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
@@ -483,38 +483,38 @@ if os.path.exists("live.html"):
     # After drops one after the other the last wins, however slow those before are.
     drop = lambda name, path: {"drop": [{"name": name, "path": os.path.abspath(path)}]}
     job(overtaken, "try.html", [
-        {"until": NOTICE, "do": "(load => { window.loads = []; scarp_page.load = files => void loads.push(load(files)); })(scarp_page.load)"},
+        {"until": NOTICE, "do": "(load => { window.loads = []; scarpPage.load = files => void loads.push(load(files)); })(scarpPage.load)"},
         drop("dem.tif", "dem.tif"), drop("N36W085.hgt", "N36W085.hgt"),
-        {"do": "Promise.all(loads).then(() => [document.title, scarp_page.document.name, " + NOTICE + ", Boolean(scarp_page.live.first?.worker)])"}])
+        {"do": "Promise.all(loads).then(() => [document.title, scarpPage.document.name, " + NOTICE + ", Boolean(scarpPage.live.first?.worker)])"}])
     # A page that began empty: without a mesh there is nothing to save; its address is for the first file, if that has as many samples.
     EMPTY = ("[...['save', 'format', 'picture'].map(id => document.getElementById(id).disabled), document.getElementById('notice').classList.contains('error')]")
     fragment = "#errors=1&error=50&both=1&count=1&samples=403,344&view=10,40,90000,0,0,0"
     job(first, "try.html", [
-        {"until": NOTICE, "read": EMPTY, "shot": "empty"}, {**drop("odd\x01.tif", "dem.tif"), "until": "scarp_page.document && scarp_page.shown.length === 2 && " + HIGH, "read": EMPTY}, {"read": NOW},
-        {"read": "[scarp_page.look.errors, document.getElementById('same').value, ...['command', 'command-note'].map(id => document.getElementById(id).textContent), scarp_page.scene.orbit().distance]"}],
+        {"until": NOTICE, "read": EMPTY, "shot": "empty"}, {**drop("odd\x01.tif", "dem.tif"), "until": "scarpPage.document && scarpPage.shown.length === 2 && " + HIGH, "read": EMPTY}, {"read": NOW},
+        {"read": "[scarpPage.look.errors, document.getElementById('same').value, ...['command', 'command-note'].map(id => document.getElementById(id).textContent), scarpPage.scene.orbit().distance]"}],
         fragment=fragment)
-    job(anew, "try.html", [{"until": NOTICE}, {**drop("N36W085.hgt", "N36W085.hgt"), "until": "scarp_page.drawn > 0", "read": "[scarp_page.look.errors, scarp_page.shown.length, Math.round(scarp_page.scene.orbit().azimuth)]"}],
+    job(anew, "try.html", [{"until": NOTICE}, {**drop("N36W085.hgt", "N36W085.hgt"), "until": "scarpPage.drawn > 0", "read": "[scarpPage.look.errors, scarpPage.shown.length, Math.round(scarpPage.scene.orbit().azimuth)]"}],
         fragment=fragment)
     # The image lies over the engine's meshes, too.
-    job(image_kept, "image.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}, {"read": QUARTERS}])
-    job(scaled, "scaled.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'"}, {"do": RELEASE, "until": HIGH}, {"do": COMMAND}])
+    job(image_kept, "image.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'", "read": NOW}, {"read": QUARTERS}])
+    job(scaled, "scaled.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'"}, {"do": RELEASE, "until": HIGH}, {"do": COMMAND}])
     # A worker that ends while it works: a sentence, and the next wish has a new one.
     job(killed, "live.html", [
-        {"until": READY}, {"do": DRAG % 40 + "; scarp_page.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
+        {"until": READY}, {"do": DRAG % 40 + "; scarpPage.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
                            "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
-        {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}])
+        {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'", "read": NOW}])
     # One that ends without an event, as browsers end a worker that uses too much memory: its lock shows it.
     job(ended, "live.html", [
         {"until": READY}, {"do": DRAG % 40, "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
-        {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW}], before="const { Blob: Whole } = window; window.Blob = class extends Whole"
+        {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'", "read": NOW}], before="const { Blob: Whole } = window; window.Blob = class extends Whole"
         " { constructor(parts, options) { super(options?.type === 'text/javascript' ? [`const post = postMessage;"
-        " self.postMessage = (data, moved) => { if (data.judged?.max_error < 20) close(); else post(data, moved); };`, ...parts] : parts, options); } };")
+        " self.postMessage = (data, moved) => { if (data.judged?.maxError < 20) close(); else post(data, moved); };`, ...parts] : parts, options); } };")
     job(refused, "no_wasm.html", [{"until": READY}, {"do": DRAG % 20, "until": "!document.getElementById('progress').hidden",
                                                     "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
 
 # Each load replaces what the last one holds.
 job(loads, "image.html", [{"until": READY}, {"do": """(async () => {
-  const data = JSON.parse(document.getElementById('scarp-data').textContent), page = scarp_page, memory = page.scene.renderer.info.memory;
+  const data = JSON.parse(document.getElementById('scarp-data').textContent), page = scarpPage, memory = page.scene.renderer.info.memory;
   const buffer = Uint8Array.from(atob(data.meshes[0].glb), letter => letter.charCodeAt(0)).buffer, seen = [];
   for (let k = 0; k < 50; ++k) {
     await page.load([new File([buffer], 'again.glb')]);

@@ -56,6 +56,7 @@ succeeds node same.mjs cases
 [ "$(wc -l < "$logs/out")" = 60 ] || fail "not all cases were compared"
 
 succeeds node --expose-gc api.mjs
+for part in pools refusals; do succeeds node $part.mjs; done
 
 # Its sentences print numbers as the program's do: by the fewest digits, or as C.
 python3 - > numbers.json << 'E2'

@@ -1,26 +1,38 @@
 // A page of headless Chromium that draws WebGL by software and reports failures.
-import { chromium } from "playwright-core";
+import { chromium } from 'playwright-core';
 
-const kPatience = 1200e3;  // ms
+const PATIENCE = 1200e3; // ms
 
 /// `errors`: those of the console. `elsewhere`: what was asked of other addresses.
 /// A busy machine draws slowly: what waits for a page waits for as long as the test may run.
-export async function open_page(address, viewport, program = "/usr/bin/chromium", options = {}) {
+export async function openPage(address, viewport, program = '/usr/bin/chromium', options = {}) {
   const browser = await chromium.launch({
     executablePath: program,
-    args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync",
-      "--disable-component-update", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader"],
-    timeout: kPatience,
+    args: [
+      '--no-sandbox',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-sync',
+      '--disable-component-update',
+      '--disable-dev-shm-usage',
+      '--use-gl=angle',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+    ],
+    timeout: PATIENCE,
   });
   const page = await browser.newPage({ viewport, ...options });
-  page.setDefaultTimeout(kPatience);
-  const errors = [], elsewhere = [];
-  page.on("console", message => { if (message.type() === "error") errors.push(message.text()); });
-  page.on("pageerror", error => errors.push(String(error)));
-  page.on("request", request => {
+  page.setDefaultTimeout(PATIENCE);
+  const errors = [];
+  const elsewhere = [];
+  page.on('console', message => {
+    if (message.type() === 'error') errors.push(message.text());
+  });
+  page.on('pageerror', error => errors.push(String(error)));
+  page.on('request', request => {
     const url = request.url();
-    if (!url.startsWith(address) && !url.startsWith("data:") && !url.startsWith("blob:")) elsewhere.push(url);
+    if (!url.startsWith(address) && !url.startsWith('data:') && !url.startsWith('blob:')) elsewhere.push(url);
   });
   return { browser, page, errors, elsewhere };
 }

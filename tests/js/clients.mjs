@@ -2,17 +2,19 @@
 //
 // JOBS.json: a list of {kind: "sample" | "globe" | "tileset", …}, which clients.html explains; a job with a "shot"
 // writes SHOTS/NAME.png. Prints JSON: the answers of the jobs, errors of the console, and what was asked of elsewhere.
-import { readFileSync } from "node:fs";
-import { open_page } from "./browser.mjs";
+import { readFileSync } from 'node:fs';
+import { openPage } from './browser.mjs';
 
-const [address, jobs_file, shots, program] = process.argv.slice(2);
-const { browser, page, errors, elsewhere } = await open_page(address, { width: 480, height: 320 }, program);
-await page.goto(address + "clients.html");
-await page.waitForFunction(() => window.run !== undefined).catch(error => {
-  throw new Error([error, ...errors].join("\n"));
-});
+const [address, jobsFile, shots, program] = process.argv.slice(2);
+const { browser, page, errors, elsewhere } = await openPage(address, { width: 480, height: 320 }, program);
+await page.goto(address + 'clients.html');
+await page
+  .waitForFunction(() => window.run !== undefined)
+  .catch(error => {
+    throw new Error([error, ...errors].join('\n'));
+  });
 const answers = [];
-for (const job of JSON.parse(readFileSync(jobs_file, "utf8"))) {
+for (const job of JSON.parse(readFileSync(jobsFile, 'utf8'))) {
   answers.push(await page.evaluate(job => window.run(job), job));
   if (job.shot) await page.screenshot({ path: `${shots}/${job.shot}.png` });
 }

@@ -1,20 +1,22 @@
 // Reads a PMTiles archive of terrain with the reference reader: node compare_pmtiles.mjs ARCHIVE FOLDER
-// Fails unless each z/x/y.terrain of the folder is in it, at zoom z + 1 (Mercator: z) with y from the north; prints their
-// number.
+// Fails unless each z/x/y.terrain of the folder is in it, at zoom z + 1 (Mercator: z) with y from the north; prints
+// their number.
 import fs from 'node:fs';
 import zlib from 'node:zlib';
-import {PMTiles} from 'pmtiles';
+import { PMTiles } from 'pmtiles';
 
 class File {
   constructor(path) {
     this.path = path;
     this.fd = fs.openSync(path);
   }
-  getKey() { return this.path; }
+  getKey() {
+    return this.path;
+  }
   async getBytes(offset, length) {
     const bytes = Buffer.alloc(length);
     const count = fs.readSync(this.fd, bytes, 0, length, offset);
-    return {data: bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + count)};
+    return { data: bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + count) };
   }
 }
 
@@ -26,7 +28,7 @@ const more = { geographic: 1, mercator: 0 }[metadata.grid];
 if (!header.clustered || metadata.zoom_offset !== more) throw new Error('no clustered archive of terrain');
 if (metadata.files['layer.json'] !== fs.readFileSync(`${folder}/layer.json`, 'utf8')) throw new Error('layer.json');
 let count = 0;
-for (const name of fs.readdirSync(folder, {recursive: true})) {
+for (const name of fs.readdirSync(folder, { recursive: true })) {
   const found = /^(\d+)\/(\d+)\/(\d+)\.terrain$/.exec(name);
   if (!found) continue;
   const [z, x, y] = found.slice(1).map(Number);

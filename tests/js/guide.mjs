@@ -2,22 +2,28 @@
 //
 // PLACE: longitude,latitude. Prints JSON: of each page the errors of the console, and the height that it draws at the
 // place. Writes SHOTS/guide_0.png and so on.
-import { open_page } from "./browser.mjs";
+import { openPage } from './browser.mjs';
 
 const [where, shots, program, ...addresses] = process.argv.slice(2);
-const place = where.split(",").map(Number);
+const place = where.split(',').map(Number);
 const answers = [];
 for (const [k, address] of addresses.entries()) {
-  const { browser, page, errors } = await open_page(address, { width: 640, height: 400 }, program);
+  const { browser, page, errors } = await openPage(address, { width: 640, height: 400 }, program);
   await page.goto(address);
-  await page.waitForFunction(() => window.viewer !== undefined).catch(error => {
-    throw new Error([error, ...errors].join("\n"));
-  });
+  await page
+    .waitForFunction(() => window.viewer !== undefined)
+    .catch(error => {
+      throw new Error([error, ...errors].join('\n'));
+    });
   const height = await page.evaluate(async place => {
     const { scene } = window.viewer;
-    const drawn = () => new Promise(done => {
-      const stop = scene.postRender.addEventListener(() => { stop(); done(); });
-    });
+    const drawn = () =>
+      new Promise(done => {
+        const stop = scene.postRender.addEventListener(() => {
+          stop();
+          done();
+        });
+      });
     for (let left = 3; left > 0; left = scene.globe.tilesLoaded ? left - 1 : 3) {
       await drawn();
     }

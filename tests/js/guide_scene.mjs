@@ -1,15 +1,18 @@
 // The setting before the lines of a guide: a scene with light, and a camera. Draws until something is seen.
-import * as THREE from "three";
+import * as THREE from 'three';
 
 const renderer = new THREE.WebGLRenderer();
 renderer.setSize(400, 300);
 document.body.append(renderer.domElement);
-const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(50, 4 / 3, 1, 2000);
+const scene = new THREE.Scene();
+const camera = new THREE.PerspectiveCamera(50, 4 / 3, 1, 2000);
 scene.add(new THREE.HemisphereLight(0xffffff, 0x444444, 3));
 Object.assign(window, { scene, camera, drawn: 0 });
-const pixels = new Uint8Array(4 * 400 * 300), sphere = new THREE.Sphere();
+const pixels = new Uint8Array(4 * 400 * 300);
+const sphere = new THREE.Sphere();
 const draw = () => {
-  if (window.tiles) {  // like in the guide: in the loop that draws
+  if (window.tiles) {
+    // like in the guide: in the loop that draws
     if (tiles.getBoundingSphere(sphere)) {
       sphere.applyMatrix4(tiles.group.matrixWorld);
       camera.position.set(0, sphere.radius, sphere.radius).add(sphere.center);

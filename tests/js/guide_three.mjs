@@ -1,13 +1,13 @@
 // The lines of a guide in three.js: guide_three.mjs SHOTS CHROMIUM ADDRESS...
 //
-// Each page draws as window.draw() does until window.is_drawn. Prints JSON: of each the errors of the console, and how
-// much of the picture is not background. Writes SHOTS/three_0.png and so on.
-import { open_page } from "./browser.mjs";
+// Each page draws as window.draw() does until window.drawn is not 0. Prints JSON: of each the errors of the console,
+// and how much of the picture is not background. Writes SHOTS/three_0.png and so on.
+import { openPage } from './browser.mjs';
 
 const [shots, program, ...addresses] = process.argv.slice(2);
 const answers = [];
 for (const [k, address] of addresses.entries()) {
-  const { browser, page, errors } = await open_page(address, { width: 400, height: 300 }, program);
+  const { browser, page, errors } = await openPage(address, { width: 400, height: 300 }, program);
   await page.goto(address);
   await page.waitForFunction(() => window.drawn > 0).catch(error => errors.push(String(error)));
   answers.push({ drawn: await page.evaluate(() => window.drawn ?? 0), errors });

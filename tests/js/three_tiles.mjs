@@ -3,37 +3,39 @@
 // PLACES.json: [[longitude, latitude], …] in degrees, near each other. Views the first from above from 60 km until all
 // tiles of the finest level in sight are there. Prints JSON: heights above the ellipsoid where a ray straight down
 // meets the tiles (null: it meets none), the tiles that are drawn, and what could not be loaded.
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 
-const [folder, places_file] = process.argv.slice(2);
-const places = JSON.parse(readFileSync(places_file, "utf8")).map(place => place.map(degrees => degrees * Math.PI / 180));
+const [folder, placesFile] = process.argv.slice(2);
+const places = JSON.parse(readFileSync(placesFile, 'utf8')).map(place =>
+  place.map(degrees => (degrees * Math.PI) / 180),
+);
 
 // The parts of a browser that the renderer uses.
 globalThis.self = globalThis.window = globalThis;
-globalThis.location = new URL("http://localhost/");
+globalThis.location = new URL('http://localhost/');
 globalThis.requestAnimationFrame = callback => setTimeout(callback, 0);
 globalThis.cancelAnimationFrame = clearTimeout;
 globalThis.fetch = async url => {
   try {
     return new Response(readFileSync(join(folder, new URL(url).pathname)));
   } catch {
-    return new Response("", { status: 404 });
+    return new Response('', { status: 404 });
   }
 };
 console.warn = () => {};
-const { PerspectiveCamera, Raycaster, Vector3 } = await import("three");
-const { MeshoptDecoder } = await import("three/addons/libs/meshopt_decoder.module.js");
-const { TilesRenderer } = await import("3d-tiles-renderer");
-const { GLTFExtensionsPlugin, ImplicitTilingPlugin } = await import("3d-tiles-renderer/plugins");
+const { PerspectiveCamera, Raycaster, Vector3 } = await import('three');
+const { MeshoptDecoder } = await import('three/addons/libs/meshopt_decoder.module.js');
+const { TilesRenderer } = await import('3d-tiles-renderer');
+const { GLTFExtensionsPlugin, ImplicitTilingPlugin } = await import('3d-tiles-renderer/plugins');
 
 await MeshoptDecoder.ready;
-const tiles = new TilesRenderer("http://localhost/tileset.json");
+const tiles = new TilesRenderer('http://localhost/tileset.json');
 tiles.registerPlugin(new ImplicitTilingPlugin());
 tiles.registerPlugin(new GLTFExtensionsPlugin({ meshoptDecoder: MeshoptDecoder, metadata: false }));
 tiles.errorTarget = 0.01;
 const failed = [];
-tiles.addEventListener("load-error", event => failed.push(`${event.url}: ${event.error}`));
+tiles.addEventListener('load-error', event => failed.push(`${event.url}: ${event.error}`));
 const at = (place, height) => tiles.ellipsoid.getCartographicToPosition(place[1], place[0], height, new Vector3());
 const camera = new PerspectiveCamera(60, 1, 1, 1e8);
 camera.position.copy(at(places[0], 60000));

@@ -5,48 +5,60 @@
 // path}], do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one
 // answer a job: the values of `do` and `read`, errors of the console, what was asked of elsewhere, and what axe-core
 // objects to.
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { pathToFileURL } from "node:url";
-import { open_page } from "./browser.mjs";
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { pathToFileURL } from 'node:url';
+import { openPage } from './browser.mjs';
 
-const [jobs_file, shots, program] = process.argv.slice(2);
-const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const [jobsFile, shots, program] = process.argv.slice(2);
+const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 /// Playwright's own function evaluates text in the page, which the page's policy forbids.
-async function wait_for(page, condition) {
+async function waitFor(page, condition) {
   while (!(await page.evaluate(condition))) await page.waitForTimeout(100);
 }
 
-async function do_job(job) {
+async function doJob(job) {
   const address = pathToFileURL(job.page).href;
-  const { browser, page, errors, elsewhere } = await open_page(job.folder ? pathToFileURL(job.folder).href : address, { width: job.width ?? 1100, height: job.height ?? 700 }, program, { javaScriptEnabled: !job.no_script });
+  const { browser, page, errors, elsewhere } = await openPage(
+    job.folder ? pathToFileURL(job.folder).href : address,
+    { width: job.width ?? 1100, height: job.height ?? 700 },
+    program,
+    { javaScriptEnabled: !job.no_script },
+  );
   try {
-    await page.emulateMedia({ colorScheme: job.dark ? "dark" : "light", reducedMotion: "reduce", forcedColors: job.forced_colors ? "active" : "none" });
+    await page.emulateMedia({
+      colorScheme: job.dark ? 'dark' : 'light',
+      reducedMotion: 'reduce',
+      forcedColors: job.forced_colors ? 'active' : 'none',
+    });
     if (job.before) await page.addInitScript(job.before);
-    await page.goto(address + (job.fragment ?? ""));
+    await page.goto(address + (job.fragment ?? ''));
     const values = [];
     for (const step of job.steps) {
       if (step.drop) {
-        const files = step.drop.map(({ name, path }) => ({ name, base64: readFileSync(path).toString("base64") }));
+        const files = step.drop.map(({ name, path }) => ({ name, base64: readFileSync(path).toString('base64') }));
         await page.evaluate(async files => {
           const transfer = new DataTransfer();
-          for (const { name, base64 } of files) transfer.items.add(new File([Uint8Array.from(atob(base64), letter => letter.charCodeAt(0))], name));
-          window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, cancelable: true }));
+          for (const { name, base64 } of files)
+            transfer.items.add(new File([Uint8Array.from(atob(base64), letter => letter.charCodeAt(0))], name));
+          window.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, cancelable: true }));
         }, files);
       }
       if (step.do) values.push(await page.evaluate(step.do));
       for (const key of step.keys ?? []) await page.keyboard.press(key);
       for (const at of step.clicks ?? []) await page.mouse.click(...at);
-      if (step.until) await wait_for(page, step.until);
+      if (step.until) await waitFor(page, step.until);
       if (step.read) values.push(await page.evaluate(step.read));
       if (step.shot) await page.screenshot({ path: `${shots}/${step.shot}.png` });
       if (step.after) await page.evaluate(step.after);
     }
     let violations = [];
     if (job.axe) {
-      await page.evaluate(axe_source);
-      violations = (await page.evaluate(() => axe.run())).violations.map(({ id, nodes }) => `${id}: ${nodes.map(node => node.html).join(" ")}`);
+      await page.evaluate(axeSource);
+      violations = (await page.evaluate(() => axe.run())).violations.map(
+        ({ id, nodes }) => `${id}: ${nodes.map(node => node.html).join(' ')}`,
+      );
     }
     return { values, errors, elsewhere, violations };
   } catch (error) {
@@ -57,5 +69,5 @@ async function do_job(job) {
 }
 
 const answers = [];
-for (const job of JSON.parse(readFileSync(jobs_file, "utf8"))) answers.push(await do_job(job));
+for (const job of JSON.parse(readFileSync(jobsFile, 'utf8'))) answers.push(await doJob(job));
 console.log(JSON.stringify(answers));

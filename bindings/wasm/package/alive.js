@@ -7,10 +7,12 @@ export function holdLock() {
   if (!locks) return Promise.resolve(null);
   const name = `scarp ${Math.random()} ${performance.now()}`;
   return new Promise(resolve => {
-    locks.request(name, () => {
-      resolve(name);
-      return new Promise(() => {});
-    }).catch(() => resolve(null));
+    locks
+      .request(name, () => {
+        resolve(name);
+        return new Promise(() => {});
+      })
+      .catch(() => resolve(null));
   });
 }
 

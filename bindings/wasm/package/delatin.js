@@ -5,7 +5,7 @@ export { ready } from './index.js';
 
 export default class Delatin {
   #refiner;
-  #mesh = null;  // coords and triangles, until it grows
+  #mesh = null; // coords and triangles, until it grows
   #data;
 
   /// `data`: any array of numbers.
@@ -31,8 +31,14 @@ export default class Delatin {
 
   get #made() {
     if (this.#mesh) return this.#mesh;
-    const { positions, indices, origin: [x, y] } = this.#refiner.mesh(), coords = [];
-    for (let k = 0; k < positions.length; k += 3) coords.push(positions[k] + x, this.height - 1 - (positions[k + 1] + y));
+    const {
+      positions,
+      indices,
+      origin: [x, y],
+    } = this.#refiner.mesh();
+    const coords = [];
+    for (let k = 0; k < positions.length; k += 3)
+      coords.push(positions[k] + x, this.height - 1 - (positions[k + 1] + y));
     return (this.#mesh = { coords, triangles: Array.from(indices) });
   }
   /// Columns and rows, the first row at the top. The same array until run() or refine() inserts.
@@ -53,7 +59,8 @@ export default class Delatin {
       const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
       for (let y = Math.min(ay, by, cy); y <= Math.max(ay, by, cy); ++y) {
         for (let x = Math.min(ax, bx, cx); x <= Math.max(ax, bx, cx); ++x) {
-          const v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area, w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area;
+          const v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area;
+          const w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area;
           if (v < 0 || w < 0 || v + w > 1) continue;
           squares[y * width + x] = (az + v * (bz - az) + w * (cz - az) - this.heightAt(x, y)) ** 2;
         }

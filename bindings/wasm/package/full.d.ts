@@ -7,7 +7,8 @@ export function simplifyPointsSync(points: Heights, options: PointOptions): Mesh
 export function simplifyPoints(points: Heights, options: PointOptions & AsyncOptions): Promise<Mesh>;
 
 export interface TilerOptions {
-  /** West, south, east, north of the raster, its outer pixels included: degrees of the globe, or metres of web Mercator. */
+  /** West, south, east, north of the raster, its outer pixels included: degrees of the globe, or metres of web
+   * Mercator. */
   bounds: Numbers;
   crs?: 'degrees' | 'mercator';
   nodata?: number | null;
@@ -27,7 +28,8 @@ export interface Tile {
   bytes: Bytes;
   triangleCount: number;
   vertexCount: number;
-  /** Largest errors in metres: at the tile's nodes; with the sag of flat triangles; at the source's samples. NaN: not known. */
+  /** Largest errors in metres: at the tile's nodes; with the sag of flat triangles; at the source's samples. NaN: not
+   * known. */
   nodeError: number;
   bound: number;
   sourceError: number;
@@ -48,7 +50,7 @@ export interface LayerJson {
   maxzoom: number;
   extensions: string[];
   /** Rectangles of tiles, level by level. */
-  available: { startX: number, startY: number, endX: number, endY: number }[][];
+  available: { startX: number; startY: number; endX: number; endY: number }[][];
 }
 export interface Tiler extends Disposable {}
 /** Terrain tiles for globes, made as they are asked for, of heights in metres above the ellipsoid. */
@@ -60,6 +62,6 @@ export class Tiler {
   /** Columns and rows of a level's tiles. */
   list(z: number): [number, number][];
   /** The file that clients read first. `tiles`: templates of the tiles' addresses, '{z}/{x}/{y}.terrain' by default. */
-  layerJson(options?: { name?: string, attribution?: string, tiles?: string[] }): LayerJson;
+  layerJson(options?: { name?: string; attribution?: string; tiles?: string[] }): LayerJson;
   free(): void;
 }

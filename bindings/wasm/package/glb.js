@@ -7,7 +7,8 @@ import { encodeAttributes, encodeTriangles, orderForCodec } from './meshopt.js';
 
 const MESHOPT = 'EXT_meshopt_compression';
 const BYTE_KINDS = { Int16Array: 5122, Uint16Array: 5123, Uint32Array: 5125, Float32Array: 5126 };
-const ARRAY_BUFFER = 34962, INDEX_BUFFER = 34963;
+const ARRAY_BUFFER = 34962;
+const INDEX_BUFFER = 34963;
 const pad4 = size => Math.ceil(size / 4) * 4;
 
 /// (x, y, z) becomes (x, z, -y): a rotation, so winding stays as it is.
@@ -22,7 +23,8 @@ function yUp(array) {
 }
 
 function bounds(positions) {
-  const min = [Infinity, Infinity, Infinity], max = [-Infinity, -Infinity, -Infinity];
+  const min = [Infinity, Infinity, Infinity];
+  const max = [-Infinity, -Infinity, -Infinity];
   for (let k = 0; k < positions.length; ++k) {
     min[k % 3] = Math.min(min[k % 3], positions[k]);
     max[k % 3] = Math.max(max[k % 3], positions[k]);
@@ -44,8 +46,13 @@ class Builder {
     return { byteOffset, byteLength: bytes.length };
   }
   #addAccessor(array, count, width, more) {
-    this.accessors.push({ bufferView: this.bufferViews.length - 1, componentType: BYTE_KINDS[kindOf(array)], count,
-      type: width === 1 ? 'SCALAR' : `VEC${width}`, ...more });
+    this.accessors.push({
+      bufferView: this.bufferViews.length - 1,
+      componentType: BYTE_KINDS[kindOf(array)],
+      count,
+      type: width === 1 ? 'SCALAR' : `VEC${width}`,
+      ...more,
+    });
     return this.accessors.length - 1;
   }
 
@@ -57,17 +64,34 @@ class Builder {
 
   /// Compressed; items of attributes are padded to 4 bytes.
   addPacked(array, width, target, more = {}) {
-    const count = array.length / width, isIndices = target === INDEX_BUFFER, size = array.BYTES_PER_ELEMENT * width;
+    const count = array.length / width;
+    const isIndices = target === INDEX_BUFFER;
+    const size = array.BYTES_PER_ELEMENT * width;
     const byteStride = isIndices ? size : pad4(size);
     let packed;
     if (isIndices) packed = encodeTriangles(array);
     else {
-      const items = new Uint8Array(count * byteStride), bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+      const items = new Uint8Array(count * byteStride);
+      const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
       for (let v = 0; v < count; ++v) items.set(bytes.subarray(v * size, (v + 1) * size), v * byteStride);
       packed = encodeAttributes(items, byteStride);
     }
-    this.bufferViews.push({ buffer: 1, byteOffset: this.unpacked, byteLength: count * byteStride, ...(isIndices ? {} : { byteStride }), target,
-      extensions: { [MESHOPT]: { buffer: 0, ...this.#addPiece(packed), byteStride, count, mode: isIndices ? 'TRIANGLES' : 'ATTRIBUTES' } } });
+    this.bufferViews.push({
+      buffer: 1,
+      byteOffset: this.unpacked,
+      byteLength: count * byteStride,
+      ...(isIndices ? {} : { byteStride }),
+      target,
+      extensions: {
+        [MESHOPT]: {
+          buffer: 0,
+          ...this.#addPiece(packed),
+          byteStride,
+          count,
+          mode: isIndices ? 'TRIANGLES' : 'ATTRIBUTES',
+        },
+      },
+    });
     this.unpacked = pad4(this.unpacked + count * byteStride);
     return this.#addAccessor(array, count, width, more);
   }
@@ -80,21 +104,25 @@ class Builder {
     const padded = new Uint8Array(pad4(text.length)).fill(0x20);
     padded.set(text);
     const total = 28 + padded.length + pad4(size);
-    if (total >= 2 ** 32) throw new ScarpError('output', `a GLB file holds less than 4 GiB, and this mesh needs ${total} bytes`);
-    const file = new Uint8Array(total), words = new DataView(file.buffer);
-    [0x46546C67, 2, total, padded.length, 0x4E4F534A].forEach((word, k) => words.setUint32(4 * k, word, true));
+    if (total >= 2 ** 32)
+      throw new ScarpError('output', `a GLB file holds less than 4 GiB, and this mesh needs ${total} bytes`);
+    const file = new Uint8Array(total);
+    const words = new DataView(file.buffer);
+    [0x46546c67, 2, total, padded.length, 0x4e4f534a].forEach((word, k) => words.setUint32(4 * k, word, true));
     file.set(padded, 20);
     words.setUint32(20 + padded.length, pad4(size), true);
-    words.setUint32(24 + padded.length, 0x004E4942, true);
+    words.setUint32(24 + padded.length, 0x004e4942, true);
     for (const { byteOffset, bytes } of this.pieces) file.set(bytes, 28 + padded.length + byteOffset);
     return file;
   }
 }
 
 /// The most that a number of a grid may be: whole numbers of float32 end there.
-const MOST_SHORT = 65535, MOST_WHOLE = 2 ** 24;
+const MOST_SHORT = 65535;
+const MOST_WHOLE = 2 ** 24;
 
-/// The largest step of which an axis' offsets are multiples, at most `most`; null without one. `slack`: what a double may have rounded.
+/// The largest step of which an axis' offsets are multiples, at most `most`; null without one. `slack`: what a double
+/// may have rounded.
 function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   for (let step = unit; step >= finest; step /= 2) {
     let isOnGrid = true;
@@ -108,14 +136,21 @@ function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   return null;
 }
 
-/// Positions as 16-bit numbers, y up, that keep their values; of float64 positions, where that is too narrow, as whole numbers in float32.
-/// null where there is no such grid.
+/// Positions as 16-bit numbers, y up, that keep their values; of float64 positions, where that is too narrow, as whole
+/// numbers in float32. null where there is no such grid.
 function findGrid({ positions, cell = [0, 0], origin }) {
   const { min, max } = bounds(positions);
-  const areDoubles = kindOf(positions) !== 'Float32Array', most = areDoubles ? MOST_WHOLE : MOST_SHORT;
+  const areDoubles = kindOf(positions) !== 'Float32Array';
+  const most = areDoubles ? MOST_WHOLE : MOST_SHORT;
   const [x, y] = [0, 1].map(axis => {
-    const unit = Math.abs(cell[axis]) || 1, farthest = Math.abs(origin[axis]) + Math.max(Math.abs(min[axis]), Math.abs(max[axis]));
-    return findStep(positions, axis, min[axis], { unit, finest: unit / 256, most, slack: areDoubles ? farthest * 2 ** -51 : 0 });
+    const unit = Math.abs(cell[axis]) || 1;
+    const farthest = Math.abs(origin[axis]) + Math.max(Math.abs(min[axis]), Math.abs(max[axis]));
+    return findStep(positions, axis, min[axis], {
+      unit,
+      finest: unit / 256,
+      most,
+      slack: areDoubles ? farthest * 2 ** -51 : 0,
+    });
   });
   const z = findStep(positions, 2, min[2], { unit: 1024, finest: 2 ** -40, most: MOST_SHORT });
   if (!(x && y && (z || areDoubles))) return null;
@@ -133,8 +168,9 @@ function findGrid({ positions, cell = [0, 0], origin }) {
 function packNormals(normals, scale) {
   const packed = new Int16Array(normals.length);
   for (let k = 0; k < normals.length; k += 3) {
-    const scaled = [0, 1, 2].map(axis => normals[k + axis] * scale[axis]), length = Math.hypot(...scaled);
-    for (let axis = 0; axis < 3; ++axis) packed[k + axis] = Math.round(32767 * scaled[axis] / length);
+    const scaled = [0, 1, 2].map(axis => normals[k + axis] * scale[axis]);
+    const length = Math.hypot(...scaled);
+    for (let axis = 0; axis < 3; ++axis) packed[k + axis] = Math.round((32767 * scaled[axis]) / length);
   }
   return packed;
 }
@@ -146,14 +182,18 @@ function gather(array, width, from) {
   return moved;
 }
 
-/// The attributes and indices, compressed. Positions of float32 or on a lattice keep their values; normals and texture coordinates in 0 … 1 are rounded.
+/// The attributes and indices, compressed. Positions of float32 or on a lattice keep their values; normals and texture
+/// coordinates in 0 … 1 are rounded.
 function addCompressed(glb, mesh) {
   const { positions, indices, normals, uvs } = mesh;
   const { corners, from } = orderForCodec(indices, positions.length / 3);
   const { numbers, shift, scale } = findGrid(mesh) ?? { numbers: yUp(positions), shift: [0, 0, 0], scale: [1, 1, 1] };
   const placed = gather(numbers, 3, from);
   const attributes = { POSITION: glb.addPacked(placed, 3, ARRAY_BUFFER, bounds(placed)) };
-  if (normals) attributes.NORMAL = glb.addPacked(gather(packNormals(yUp(normals), scale), 3, from), 3, ARRAY_BUFFER, { normalized: true });
+  if (normals)
+    attributes.NORMAL = glb.addPacked(gather(packNormals(yUp(normals), scale), 3, from), 3, ARRAY_BUFFER, {
+      normalized: true,
+    });
   if (uvs) {
     const fit = uvs.every(value => value >= 0 && value <= 1);
     const numbers = fit ? Uint16Array.from(uvs, value => Math.round(65535 * value)) : Float32Array.from(uvs);
@@ -176,8 +216,10 @@ function addPlain(glb, { positions, indices, normals, uvs }) {
 /// loaders of three.js, Babylon.js and CesiumJS know; positions on a lattice (simplify's option) have 16 bits each.
 export function encodeGlb(mesh, options = {}) {
   const { compress = false } = takeOptions(options, 'glb');
-  const checked = checkMesh(mesh), [x, y, z] = checked.origin;
-  for (const name of ['positions', 'origin', 'normals', 'uvs']) if (checked[name]) checkFloat32(`the mesh's ${name}`, checked[name]);
+  const checked = checkMesh(mesh);
+  const [x, y, z] = checked.origin;
+  for (const name of ['positions', 'origin', 'normals', 'uvs'])
+    if (checked[name]) checkFloat32(`the mesh's ${name}`, checked[name]);
   const glb = new Builder();
   const { shift, scale, ...primitive } = (compress ? addCompressed : addPlain)(glb, checked);
   const translation = [x + shift[0], z + shift[1], 0 - y + shift[2]];
@@ -190,6 +232,11 @@ export function encodeGlb(mesh, options = {}) {
     scenes: [{ nodes: [0] }],
     nodes: [{ name: 'terrain', mesh: 0, translation, scale }],
     meshes: [{ name: 'terrain', primitives: [{ ...primitive, material: 0, mode: 4 }] }],
-    materials: [{ name: 'earth', pbrMetallicRoughness: { baseColorFactor: [0.47, 0.42, 0.33, 1], metallicFactor: 0, roughnessFactor: 1 } }],
+    materials: [
+      {
+        name: 'earth',
+        pbrMetallicRoughness: { baseColorFactor: [0.47, 0.42, 0.33, 1], metallicFactor: 0, roughnessFactor: 1 },
+      },
+    ],
   });
 }

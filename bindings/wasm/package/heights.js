@@ -14,20 +14,27 @@ export function refuse(message) {
 }
 
 export function checkSide(name, side, least = 2) {
-  if (!Number.isInteger(side) || side < least || side > 2 ** 31 - 1) refuse(`${name} is ${show(side)}; it is a whole number, at least ${least}`);
+  if (!Number.isInteger(side) || side < least || side > 2 ** 31 - 1)
+    refuse(`${name} is ${show(side)}; it is a whole number, at least ${least}`);
 }
 
 export function checkLength(name, values, count, grid) {
   if (values.length === count) return;
   const isDetached = values.length === 0 && values.buffer?.detached !== false && values.buffer?.byteLength === 0;
-  refuse(isDetached ? `the buffer of ${name} is detached: it was transferred, such as to a worker; keep a copy`
-                    : `${name} has ${values.length} values, and ${grid} has ${count}`);
+  refuse(
+    isDetached
+      ? `the buffer of ${name} is detached: it was transferred, such as to a worker; keep a copy`
+      : `${name} has ${values.length} values, and ${grid} has ${count}`,
+  );
 }
 
 /// The way out with arrays that hold no numbers.
 const WAYS = {
-  BigInt64Array: 'its BigInts are numbers in Float64Array.from(array, Number)', BigUint64Array: 'its BigInts are numbers in Float64Array.from(array, Number)',
-  DataView: 'give a typed array over its buffer', ArrayBuffer: 'give a typed array over it', SharedArrayBuffer: 'give a typed array over it',
+  BigInt64Array: 'its BigInts are numbers in Float64Array.from(array, Number)',
+  BigUint64Array: 'its BigInts are numbers in Float64Array.from(array, Number)',
+  DataView: 'give a typed array over its buffer',
+  ArrayBuffer: 'give a typed array over it',
+  SharedArrayBuffer: 'give a typed array over it',
 };
 
 /// A typed array as it is; of an array the numbers. `voidOf`: what null stands for, as NaN is in JSON.
@@ -40,7 +47,10 @@ export function checkArray(name, values, voidOf = undefined) {
   }
   const kind = kindOf(values);
   if (!ArrayBuffer.isView(values) || WAYS[kind])
-    refuse(`${name} ${name.endsWith('s') ? 'are' : 'is'} no array of numbers, but ${WAYS[kind] ? `${article(kind)}: ${WAYS[kind]}` : show(values)}`);
+    refuse(
+      `${name} ${name.endsWith('s') ? 'are' : 'is'} no array of numbers, but ` +
+        (WAYS[kind] ? `${article(kind)}: ${WAYS[kind]}` : show(values)),
+    );
   return values;
 }
 
@@ -50,11 +60,15 @@ function roundNodata(values, nodata = NaN) {
   return near === nodata || (isFloat32(values) && near !== 0) ? near : NaN;
 }
 
-/// Float32 of the values, their nodata, and the largest rounding among those that are heights. Rounded values have NaN for nodata, which
-/// they are compared with as they were given.
+/// Float32 of the values, their nodata, and the largest rounding among those that are heights. Rounded values have NaN
+/// for nodata, which they are compared with as they were given.
 function round(values, nodata) {
   if (EXACT.includes(kindOf(values)))
-    return { samples: isFloat32(values) ? values : Float32Array.from(values), nodata: roundNodata(values, nodata), rounding: 0 };
+    return {
+      samples: isFloat32(values) ? values : Float32Array.from(values),
+      nodata: roundNodata(values, nodata),
+      rounding: 0,
+    };
   const samples = Float32Array.from(values);
   let rounding = 0;
   for (let k = 0; k < samples.length; ++k) {
@@ -71,17 +85,27 @@ function round(values, nodata) {
 
 /// Refuses numbers that float32 makes infinite.
 export function checkFloat32(name, values, nodata = undefined) {
-  const far = values.findIndex(value => Number.isFinite(value) && !Number.isFinite(Math.fround(value)) && value !== nodata);
-  if (far >= 0) throw new ScarpError('input', `index ${far} of ${name} is ${values[far]}, and float32 ends at ${FARTHEST}: scale or move ${name}`);
+  const far = values.findIndex(
+    value => Number.isFinite(value) && !Number.isFinite(Math.fround(value)) && value !== nodata,
+  );
+  if (far >= 0)
+    throw new ScarpError(
+      'input',
+      `index ${far} of ${name} is ${values[far]}, and float32 ends at ${FARTHEST}: scale or move ${name}`,
+    );
 }
 
-/// Checks heights without a copy of those that are float32. `z`: a typed array, or another array of numbers; `given`: the same, without null.
+/// Checks heights without a copy of those that are float32. `z`: a typed array, or another array of numbers; `given`:
+/// the same, without null.
 export function checkHeights(z, width, height, nodata) {
   checkSide('width', width);
   checkSide('height', height);
   if (width * height > MOST_SAMPLES) {
-    throw new ScarpError('memory', `a raster of ${width} x ${height} has ${width * height} samples, and a module of WebAssembly has memory for fewer ` +
-      `than ${MOST_SAMPLES}: take a smaller raster, or the program scarp`);
+    throw new ScarpError(
+      'memory',
+      `a raster of ${width} x ${height} has ${width * height} samples, and a module of WebAssembly has memory for ` +
+        `fewer than ${MOST_SAMPLES}: take a smaller raster, or the program scarp`,
+    );
   }
   const given = checkArray('the heights', z, NaN);
   checkLength('the array of heights', given, width * height, `a raster of ${width} x ${height}`);
@@ -93,13 +117,16 @@ export function putDoubles(blocks, ...numbers) {
   return blocks.put(Float64Array.from(numbers.flat()));
 }
 
-/// A value for each sample, in float32; undefined without any. Rounded so that no bound grows: tolerances towards 0, weights away from it.
+/// A value for each sample, in float32; undefined without any. Rounded so that no bound grows: tolerances towards 0,
+/// weights away from it.
 export function takeBeside(name, values, width, height) {
   if (values === undefined) return undefined;
   checkLength(name, values, width * height, `a raster of ${width} x ${height}`);
-  const given = checkArray(name, values), rounded = Float32Array.from(given);
+  const given = checkArray(name, values);
+  const rounded = Float32Array.from(given);
   if (EXACT.includes(kindOf(given))) return rounded;
-  const bits = new Int32Array(rounded.buffer), isWeight = name === 'mask';
+  const bits = new Int32Array(rounded.buffer);
+  const isWeight = name === 'mask';
   for (let k = 0; k < rounded.length; ++k) {
     const [near, exact] = [Math.abs(rounded[k]), Math.abs(given[k])];
     if (isWeight ? near < exact : near > exact) bits[k] += isWeight ? 1 : -1;
@@ -113,5 +140,8 @@ export function putField(blocks, z, width, height, { nodata, transform, degrees 
   if (degrees && !transform) refuse('degrees: true needs a transform, which says where the samples lie');
   const place = transform === undefined ? 0 : degrees ? 2 : 1;
   const geotransform = Array.from(transform ?? [0, 1, 0, 0, 0, -1]);
-  return { address: putDoubles(blocks, blocks.put(samples), width, height, hole, rounding, place, geotransform), rounding };
+  return {
+    address: putDoubles(blocks, blocks.put(samples), width, height, hole, rounding, place, geotransform),
+    rounding,
+  };
 }

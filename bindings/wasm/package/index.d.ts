@@ -4,11 +4,21 @@ declare global {
 }
 
 /** Numbers as the package accepts them, of any realm. */
-export type Numbers = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array | Int32Array | Uint32Array
+export type Numbers =
+  | Float32Array
+  | Float64Array
+  | Int8Array
+  | Uint8Array
+  | Uint8ClampedArray
+  | Int16Array
+  | Uint16Array
+  | Int32Array
+  | Uint32Array
   | readonly number[];
 /**
- * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and every maxError counts
- * the largest rounding. A height beyond float32's range (3.4e38) is refused. null in an array is no height, as NaN is.
+ * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and
+ * every maxError counts the largest rounding. A height beyond float32's range (3.4e38) is refused. null in an array is
+ * no height, as NaN is.
  */
 export type Heights = Numbers | readonly (number | null)[];
 
@@ -57,13 +67,17 @@ export class ScarpError extends Error {
  * before the first call, which otherwise needs up to seven times as long as later ones. Workers of a pool do so by
  * themselves.
  * */
-export function ready(source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled, options?: { warm?: boolean }): Promise<void>;
+export function ready(
+  source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled,
+  options?: { warm?: boolean },
+): Promise<void>;
 export function isReady(): boolean;
 export function version(): string;
 
 /** The position of samples. Without a transform x is the column, and y counts rows from the last one up. */
 export interface Place {
-  /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN and infinities never are. */
+  /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN
+   * and infinities never are. */
   nodata?: number | null;
   /** GDAL's geotransform, of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
   transform?: Numbers | null;
@@ -101,8 +115,8 @@ export interface Options extends Goals, Place {
   normals?: boolean;
   uvs?: boolean;
   /**
-   * Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16 bits. Positions are
-   * float64, as with doubles: WebGL wants Float32Array.from(mesh.positions), which rounds them.
+   * Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16
+   * bits. Positions are float64, as with doubles: WebGL wants Float32Array.from(mesh.positions), which rounds them.
    */
   lattice?: boolean;
   /** Positions are float64. A GLB without compress rounds them to float32: judge that file, or omit doubles and
@@ -183,8 +197,13 @@ export function simplifySync(z: Heights, width: number, height: number, options:
 export function simplify(z: Heights, width: number, height: number, options: Options & AsyncOptions): Promise<Mesh>;
 
 /** Judges a mesh by brute force, without knowing how it was made. */
-export function measure(z: Heights, width: number, height: number,
-  mesh: { positions: Numbers, indices: Numbers, origin?: Numbers }, place?: Place): Report;
+export function measure(
+  z: Heights,
+  width: number,
+  height: number,
+  mesh: { positions: Numbers; indices: Numbers; origin?: Numbers },
+  place?: Place,
+): Report;
 
 export interface PointOptions extends Goals {
   /** Rule for several points at one place. */
@@ -212,14 +231,15 @@ export interface Refiner extends Disposable {}
 export class Refiner {
   constructor(z: Heights, width: number, height: number, place?: Place);
   /** Inserts until maxError holds, or there are maxVertices, or all is exact; returns how many were inserted. */
-  run(goals?: { maxError?: number, maxVertices?: number }): number;
+  run(goals?: { maxError?: number; maxVertices?: number }): number;
   /** False once every sample is exact. */
   insertWorst(): boolean;
   readonly maxError: number;
   readonly vertexCount: number;
   readonly triangleCount: number;
   mesh(): Mesh;
-  /** Gives its memory back at once; else the garbage collector does, which runs late: it does not know how much there is. */
+  /** Gives its memory back at once; else the garbage collector does, which runs late: it does not know how much there
+   * is. */
   free(): void;
 }
 
@@ -227,9 +247,15 @@ export class Refiner {
  * A GLB file (glTF 2.0, y up), whose positions are float32: float64 ones are rounded. compress: by meshoptimizer's
  * codec (EXT_meshopt_compression); positions of simplify() with lattice keep their values, and have 16 bits each.
  * */
-export function encodeGlb(mesh: { positions: Numbers, indices: Numbers, normals?: Numbers, uvs?: Numbers, origin?: Numbers, cell?: Numbers },
-  options?: { compress?: boolean }): Bytes;
+export function encodeGlb(
+  mesh: { positions: Numbers; indices: Numbers; normals?: Numbers; uvs?: Numbers; origin?: Numbers; cell?: Numbers },
+  options?: { compress?: boolean },
+): Bytes;
 
 /** Heights in metres of a tile's pixels, four bytes each; NaN where a pixel is transparent. */
-export function decodeTile(rgba: Uint8ClampedArray | Uint8Array, width: number, height: number,
-  encoding?: 'terrarium' | 'mapbox' | { rScaler: number, gScaler: number, bScaler: number, offset: number }): Floats;
+export function decodeTile(
+  rgba: Uint8ClampedArray | Uint8Array,
+  width: number,
+  height: number,
+  encoding?: 'terrarium' | 'mapbox' | { rScaler: number; gScaler: number; bScaler: number; offset: number },
+): Floats;

@@ -5,22 +5,31 @@ export interface TerrainOptions {
   /** West, south, east, north of the mesh. Default: pixels. */
   bounds?: Numbers | null;
   meshMaxError?: number;
-  elevationDecoder?: { rScaler: number, gScaler: number, bScaler: number, offset: number } | 'terrarium' | 'mapbox';
+  elevationDecoder?: { rScaler: number; gScaler: number; bScaler: number; offset: number } | 'terrarium' | 'mapbox';
   /** Height of walls below the edges. */
   skirtHeight?: number | null;
   effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
 }
 export interface TerrainMesh {
   loaderData: { header: object };
-  header: { vertexCount: number, boundingBox: [number[], number[]] };
+  header: { vertexCount: number; boundingBox: [number[], number[]] };
   mode: 4;
-  indices: { value: Uint32Array, size: 1 };
-  attributes: { POSITION: { value: Float32Array, size: 3 }, TEXCOORD_0: { value: Float32Array, size: 2 } };
+  indices: { value: Uint32Array; size: 1 };
+  attributes: { POSITION: { value: Float32Array; size: 3 }; TEXCOORD_0: { value: Float32Array; size: 2 } };
 }
-export function makeTerrainMesh(image: { data: Uint8ClampedArray | Uint8Array, width: number, height: number }, options?: TerrainOptions): TerrainMesh;
+export function makeTerrainMesh(
+  image: { data: Uint8ClampedArray | Uint8Array; width: number; height: number },
+  options?: TerrainOptions,
+): TerrainMesh;
 /** For deck.gl: new TerrainLayer({ loaders: [TerrainLoader], ... }). */
 export const TerrainLoader: {
-  name: string, id: string, module: string, version: string, worker: false, extensions: string[], mimeTypes: string[],
-  options: { terrain: TerrainOptions },
-  parse(bytes: ArrayBuffer, options?: { terrain?: TerrainOptions }): Promise<TerrainMesh>,
+  name: string;
+  id: string;
+  module: string;
+  version: string;
+  worker: false;
+  extensions: string[];
+  mimeTypes: string[];
+  options: { terrain: TerrainOptions };
+  parse(bytes: ArrayBuffer, options?: { terrain?: TerrainOptions }): Promise<TerrainMesh>;
 };

@@ -1,5 +1,6 @@
-// In place of loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: heights as they are, without a border of zeros, and an error
-// that is kept. Loads pictures of tiles (terrarium, mapbox or any elevationDecoder) to meshes. It needs no ready().
+// In place of loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: heights as they are, without a border of zeros,
+// and an error that is kept. Loads pictures of tiles (terrarium, mapbox or any elevationDecoder) to meshes. It needs no
+// ready().
 import { ScarpError, decodeTile, ready, simplifySync } from './index.js';
 import { show, takeOptions } from './options.js';
 import { buildSkirts } from './skirts.js';
@@ -12,14 +13,20 @@ const DEFAULTS = {
   effort: 'fast',
 };
 
-/// Samples stand for their pixels' centres; the mesh reaches to the pixels' outer edges, where the next tile's begins: the
-/// outer samples are its border, moved there. Half a pixel is what the neighbours then differ by.
+/// Samples stand for their pixels' centres; the mesh reaches to the pixels' outer edges, where the next tile's begins:
+/// the outer samples are its border, moved there. Half a pixel is what the neighbours then differ by.
 function attributesOf(mesh, width, height, bounds) {
   const [west, south, east, north] = bounds ?? [0, 0, width, height];
-  const { positions, origin: [x0, y0, z0] } = mesh, count = positions.length / 3;
-  const placed = new Float32Array(3 * count), uvs = new Float32Array(2 * count);
+  const {
+    positions,
+    origin: [x0, y0, z0],
+  } = mesh;
+  const count = positions.length / 3;
+  const placed = new Float32Array(3 * count);
+  const uvs = new Float32Array(2 * count);
   for (let v = 0; v < count; ++v) {
-    const u = (positions[3 * v] + x0) / (width - 1), down = 1 - (positions[3 * v + 1] + y0) / (height - 1);
+    const u = (positions[3 * v] + x0) / (width - 1);
+    const down = 1 - (positions[3 * v + 1] + y0) / (height - 1);
     placed.set([west + u * (east - west), north - down * (north - south), positions[3 * v + 2] + z0], 3 * v);
     uvs.set([u, down], 2 * v);
   }
@@ -30,7 +37,11 @@ function attributesOf(mesh, width, height, bounds) {
 function addSkirts(attributes, triangles, height) {
   const { POSITION, TEXCOORD_0 } = attributes;
   const { tops, indices } = buildSkirts(triangles, POSITION.value.length / 3);
-  const below = tops.flatMap(v => [POSITION.value[3 * v], POSITION.value[3 * v + 1], POSITION.value[3 * v + 2] - height]);
+  const below = tops.flatMap(v => [
+    POSITION.value[3 * v],
+    POSITION.value[3 * v + 1],
+    POSITION.value[3 * v + 2] - height,
+  ]);
   const uvs = tops.flatMap(v => [TEXCOORD_0.value[2 * v], TEXCOORD_0.value[2 * v + 1]]);
   POSITION.value = Float32Array.from([...POSITION.value, ...below]);
   TEXCOORD_0.value = Float32Array.from([...TEXCOORD_0.value, ...uvs]);
@@ -39,13 +50,20 @@ function addSkirts(attributes, triangles, height) {
 
 /// `image`: { data, width, height } with four bytes a pixel. Needs ready().
 export function makeTerrainMesh(image, options = {}) {
-  const { bounds, meshMaxError, elevationDecoder, skirtHeight, effort } = { ...DEFAULTS, ...takeOptions(options, 'terrain') };
-  if (image === null || typeof image !== 'object') throw new ScarpError('usage', `the image is ${show(image)}; it is { data, width, height }`);
+  const { bounds, meshMaxError, elevationDecoder, skirtHeight, effort } = {
+    ...DEFAULTS,
+    ...takeOptions(options, 'terrain'),
+  };
+  if (image === null || typeof image !== 'object')
+    throw new ScarpError('usage', `the image is ${show(image)}; it is { data, width, height }`);
   const { data, width, height } = image;
   const z = decodeTile(data, width, height, elevationDecoder);
   const mesh = simplifySync(z, width, height, { maxError: meshMaxError, effort });
   const attributes = attributesOf(mesh, width, height, bounds);
-  const box = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  const box = [
+    [Infinity, Infinity, Infinity],
+    [-Infinity, -Infinity, -Infinity],
+  ];
   attributes.POSITION.value.forEach((value, k) => {
     box[0][k % 3] = Math.min(box[0][k % 3], value);
     box[1][k % 3] = Math.max(box[1][k % 3], value);
@@ -63,7 +81,10 @@ export function makeTerrainMesh(image, options = {}) {
 /// The pixels of a picture, in a page or a worker.
 async function decodeImage(bytes) {
   if (typeof createImageBitmap === 'undefined')
-    throw new ScarpError('unsupported', 'there is no decoder of pictures here: decode the tile, and call makeTerrainMesh()');
+    throw new ScarpError(
+      'unsupported',
+      'there is no decoder of pictures here: decode the tile, and call makeTerrainMesh()',
+    );
   const bitmap = await createImageBitmap(new Blob([bytes]), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
   const { width, height } = bitmap;
   const canvas = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
@@ -83,7 +104,7 @@ export const TerrainLoader = {
   options: { terrain: DEFAULTS },
   async parse(bytes, options = {}) {
     const [image] = await Promise.all([decodeImage(bytes), ready()]);
-    const { tesselator, workerUrl, ...ours } = options.terrain ?? {};  // options of loaders.gl for its own loader
+    const { tesselator, workerUrl, ...ours } = options.terrain ?? {}; // options of loaders.gl for its own loader
     return makeTerrainMesh(image, ours);
   },
 };

@@ -3,13 +3,17 @@ export { ready } from './index.js';
 
 export interface Tile {
   /** Vertices as columns and rows from the top; the error is kept. */
-  getMesh(maxError?: number): { vertices: Uint16Array, triangles: Uint32Array };
+  getMesh(maxError?: number): { vertices: Uint16Array; triangles: Uint32Array };
   /** Vertices from numVerticesWithoutSkirts on stand below those of the edges. */
-  getMeshWithSkirts(maxError?: number): { vertices: Uint16Array, triangles: Uint32Array, numVerticesWithoutSkirts: number };
+  getMeshWithSkirts(maxError?: number): {
+    vertices: Uint16Array;
+    triangles: Uint32Array;
+    numVerticesWithoutSkirts: number;
+  };
 }
 /** In place of @mapbox/martini. Needs ready(). */
 export default class Martini {
-  constructor(gridSize?: number, options?: { height?: number, effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max' });
+  constructor(gridSize?: number, options?: { height?: number; effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max' });
   readonly gridSize: number;
   createTile(terrain: Heights): Tile;
 }

@@ -18,8 +18,12 @@ class Tile {
   /// Columns and rows of the vertices, the first row at the top, and the triangles.
   getMesh(maxError = 0) {
     const { width, height, effort } = this.#martini;
-    const { positions, indices, origin: [x, y] } = simplifySync(this.#terrain, width, height, { maxError, effort, vertices: 'samples' });
-    const vertices = new Uint16Array(positions.length / 3 * 2);
+    const {
+      positions,
+      indices,
+      origin: [x, y],
+    } = simplifySync(this.#terrain, width, height, { maxError, effort, vertices: 'samples' });
+    const vertices = new Uint16Array((positions.length / 3) * 2);
     for (let v = 0; v < vertices.length / 2; ++v) {
       vertices[2 * v] = positions[3 * v] + x;
       vertices[2 * v + 1] = height - 1 - (positions[3 * v + 1] + y);
@@ -31,7 +35,8 @@ class Tile {
   /// numVerticesWithoutSkirts on are skirts.
   getMeshWithSkirts(maxError = 0) {
     const { vertices, triangles } = this.getMesh(maxError);
-    const count = vertices.length / 2, { tops, indices } = buildSkirts(triangles, count);
+    const count = vertices.length / 2;
+    const { tops, indices } = buildSkirts(triangles, count);
     const below = tops.flatMap(v => [vertices[2 * v], vertices[2 * v + 1]]);
     return { vertices: Uint16Array.from([...vertices, ...below]), triangles: indices, numVerticesWithoutSkirts: count };
   }
@@ -42,7 +47,8 @@ export default class Martini {
   constructor(gridSize = 257, options = {}) {
     checkSide('gridSize', gridSize);
     const { height = gridSize, effort = 'normal' } = takeOptions(options, 'martini');
-    if (gridSize > 65536 || height > 65536) throw new ScarpError('usage', 'columns and rows are Uint16: at most 65536 samples a side');
+    if (gridSize > 65536 || height > 65536)
+      throw new ScarpError('usage', 'columns and rows are Uint16: at most 65536 samples a side');
     this.gridSize = this.width = gridSize;
     this.height = height;
     this.effort = effort;

@@ -10,10 +10,41 @@ const VIEW = 11;
 
 /// The report from the door's doubles. `rounding`: the loss of heights in float32, which an error may hide.
 export function readReport(numbers, rounding = 0) {
-  const [stop, effort, vertices, triangles, samples, uncovered, stray, maxError, col, row, rmse, meanError, meanAbsError,
-    p50, p95, p99, isSound] = numbers;
-  const report = { vertexCount: vertices, triangleCount: triangles, samples, uncovered, stray,
-    maxError: maxError + rounding, sampleRounding: rounding, maxErrorAt: col < 0 ? null : [col, row], rmse, meanError, meanAbsError, p50, p95, p99 };
+  const [
+    stop,
+    effort,
+    vertices,
+    triangles,
+    samples,
+    uncovered,
+    stray,
+    maxError,
+    col,
+    row,
+    rmse,
+    meanError,
+    meanAbsError,
+    p50,
+    p95,
+    p99,
+    isSound,
+  ] = numbers;
+  const report = {
+    vertexCount: vertices,
+    triangleCount: triangles,
+    samples,
+    uncovered,
+    stray,
+    maxError: maxError + rounding,
+    sampleRounding: rounding,
+    maxErrorAt: col < 0 ? null : [col, row],
+    rmse,
+    meanError,
+    meanAbsError,
+    p50,
+    p95,
+    p99,
+  };
   if (stop >= 0) report.stop = STOPS[stop];
   if (effort >= 0) report.effort = EFFORTS[effort];
   if (isSound >= 0) report.isSound = isSound === 1;
@@ -39,19 +70,31 @@ export class Mesh {
 
 /// A mesh of the caller's: its arrays have the right lengths, and its indices name vertices.
 export function checkMesh(mesh) {
-  const { positions, indices, normals, uvs } = mesh ?? {}, origin = mesh?.origin ?? [0, 0, 0], cell = mesh?.cell ?? undefined;
+  const { positions, indices, normals, uvs } = mesh ?? {};
+  const origin = mesh?.origin ?? [0, 0, 0];
+  const cell = mesh?.cell ?? undefined;
   if (!positions?.length || !indices?.length) refuse('the mesh needs positions and indices');
   for (const [name, values] of Object.entries({ positions, indices, origin, cell, normals, uvs })) {
     if (values == null) continue;
     const bad = checkArray(`the mesh's ${name}`, values).findIndex(value => !Number.isFinite(value));
-    if (bad >= 0) throw new ScarpError('input', `index ${bad} of the mesh's ${name} is ${values[bad]}, and no finite number`);
+    if (bad >= 0)
+      throw new ScarpError('input', `index ${bad} of the mesh's ${name} is ${values[bad]}, and no finite number`);
   }
   for (const [name, values] of Object.entries({ positions, indices })) {
-    if (values.length % 3) refuse(`the mesh's ${name} has ${values.length} numbers, and needs three for each ${name === 'indices' ? 'triangle' : 'vertex'}`);
+    if (values.length % 3)
+      refuse(
+        `the mesh's ${name} has ${values.length} numbers, and needs three for each ` +
+          (name === 'indices' ? 'triangle' : 'vertex'),
+      );
   }
-  const count = positions.length / 3, vertices = `a mesh of ${count} vertices`;
+  const count = positions.length / 3;
+  const vertices = `a mesh of ${count} vertices`;
   const lost = indices.findIndex(index => !(index >= 0 && index < count && Number.isInteger(index)));
-  if (lost >= 0) throw new ScarpError('input', `index ${lost} of the mesh's indices is ${indices[lost]}, and ${vertices} has none of that number`);
+  if (lost >= 0)
+    throw new ScarpError(
+      'input',
+      `index ${lost} of the mesh's indices is ${indices[lost]}, and ${vertices} has none of that number`,
+    );
   checkLength("the mesh's origin", origin, 3, 'a point');
   if (cell) checkLength("the mesh's cell", cell, 2, 'a cell');
   if (normals) checkLength("the mesh's normals", normals, 3 * count, vertices);
@@ -70,7 +113,8 @@ export function takeMesh(blocks, handle, { doubles = false, rounding = 0 } = {})
     const report = readReport(numbers.subarray(VIEW), rounding);
     const places = view(Float64Array, positions, 3 * vertices);
     const mesh = new Mesh({
-      positions: doubles || places.some(place => Math.fround(place) !== place) ? places.slice() : Float32Array.from(places),
+      positions:
+        doubles || places.some(place => Math.fround(place) !== place) ? places.slice() : Float32Array.from(places),
       indices: Corner.from(view(Uint32Array, corners, 3 * triangles)),
       origin: Array.from(numbers.subarray(6, 9)),
       cell: Array.from(numbers.subarray(9, 11)),

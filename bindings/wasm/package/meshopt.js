@@ -1,5 +1,6 @@
-// The codec of EXT_meshopt_compression, version 0 for attributes and 1 for triangles: Arseny Kapoulkine's meshoptimizer, whose
-// decoders read what is written here. https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
+// The codec of EXT_meshopt_compression, version 0 for attributes and 1 for triangles: Arseny Kapoulkine's
+// meshoptimizer, whose decoders read what is written here.
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
 
 /// Bytes that grow.
 class Bytes {
@@ -18,7 +19,9 @@ class Bytes {
   }
 }
 
-const GROUP = 16, TAIL = 32, MOST = 8192;
+const GROUP = 16;
+const TAIL = 32;
+const MOST = 8192;
 
 /// Sixteen bytes by 0, 2, 4 or 8 bits each; what does not fit follows in full.
 function groupSize(group, bits) {
@@ -34,7 +37,8 @@ function writeGroup(out, group, bits) {
     group.forEach(byte => out.push(byte));
     return;
   }
-  const sentinel = (1 << bits) - 1, perByte = 8 / bits;
+  const sentinel = (1 << bits) - 1;
+  const perByte = 8 / bits;
   for (let i = 0; i < GROUP; i += perByte) {
     let packed = 0;
     for (let k = 0; k < perByte; ++k) packed = (packed << bits) | Math.min(group[i + k], sentinel);
@@ -45,23 +49,34 @@ function writeGroup(out, group, bits) {
   });
 }
 
-/// `items`: bytes, `stride` an item, a multiple of 4. Each byte of an item is a channel of its own, as differences from item to item.
+/// `items`: bytes, `stride` an item, a multiple of 4. Each byte of an item is a channel of its own, as differences from
+/// item to item.
 export function encodeAttributes(items, stride) {
-  const count = items.length / stride, blockItems = Math.min(Math.floor(MOST / stride) & ~(GROUP - 1), 256);
-  const out = new Bytes(), last = items.slice(0, stride);
-  out.push(0xA0);
+  const count = items.length / stride;
+  const blockItems = Math.min(Math.floor(MOST / stride) & ~(GROUP - 1), 256);
+  const out = new Bytes();
+  const last = items.slice(0, stride);
+  out.push(0xa0);
   for (let first = 0; first < count; first += blockItems) {
-    const size = Math.min(blockItems, count - first), groups = Math.ceil(size / GROUP);
+    const size = Math.min(blockItems, count - first);
+    const groups = Math.ceil(size / GROUP);
     for (let channel = 0; channel < stride; ++channel) {
       const deltas = new Uint8Array(groups * GROUP);
       for (let i = 0, before = last[channel]; i < size; ++i) {
-        const byte = items[(first + i) * stride + channel], delta = ((byte - before) << 24) >> 24;
+        const byte = items[(first + i) * stride + channel];
+        const delta = ((byte - before) << 24) >> 24;
         deltas[i] = (delta << 1) ^ (delta >> 7);
         before = byte;
       }
       const parts = Array.from({ length: groups }, (_, g) => deltas.subarray(g * GROUP, (g + 1) * GROUP));
-      const modes = parts.map(group => [0, 2, 4, 8].reduce((best, bits, mode, all) => (groupSize(group, bits) < groupSize(group, all[best]) ? mode : best), 3));
-      for (let g = 0; g < groups; g += 4) out.push(modes.slice(g, g + 4).reduce((byte, mode, k) => byte | (mode << (2 * k)), 0));
+      const modes = parts.map(group =>
+        [0, 2, 4, 8].reduce(
+          (best, bits, mode, all) => (groupSize(group, bits) < groupSize(group, all[best]) ? mode : best),
+          3,
+        ),
+      );
+      for (let g = 0; g < groups; g += 4)
+        out.push(modes.slice(g, g + 4).reduce((byte, mode, k) => byte | (mode << (2 * k)), 0));
       parts.forEach((group, g) => writeGroup(out, group, [0, 2, 4, 8][modes[g]]));
     }
     last.set(items.subarray((first + size - 1) * stride, (first + size) * stride));
@@ -71,8 +86,12 @@ export function encodeAttributes(items, stride) {
   return out.done();
 }
 
-const ORDERS = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
-const PAIRS = [0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0];
+const ORDERS = [
+  [0, 1, 2],
+  [1, 2, 0],
+  [2, 0, 1],
+];
+const PAIRS = [0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0];
 
 /// The last 16 of something, the newest first.
 class Recent {
@@ -94,32 +113,51 @@ class Recent {
   }
 }
 
+/// A whole number, which needs fewer bytes the nearer it is to 0.
+function writeDelta(out, delta) {
+  for (let code = ((delta << 1) ^ (delta >> 31)) >>> 0; ; code >>>= 7) {
+    out.push((code & 127) | (code > 127 ? 128 : 0));
+    if (code <= 127) break;
+  }
+}
+
+/// Version 1: the codes of the triangles, their data, and the table of pairs.
+function pack(codes, data) {
+  PAIRS.forEach(pair => data.push(pair));
+  const bytes = new Uint8Array(1 + codes.size + data.size);
+  bytes[0] = 0xe1;
+  bytes.set(codes.done(), 1);
+  bytes.set(data.done(), 1 + codes.size);
+  return bytes;
+}
+
 /// Each triangle by an edge of one of the last, and its third corner by what came before.
 export function encodeTriangles(corners) {
-  const codes = new Bytes(), data = new Bytes(), edges = new Recent(), vertices = new Recent();
-  let next = 0, last = 0;
+  const codes = new Bytes();
+  const data = new Bytes();
+  const edges = new Recent();
+  const vertices = new Recent();
+  let next = 0;
+  let last = 0;
   const placeOf = v => vertices.find(other => other === v);
   const isNext = v => v === next && (++next, true);
+  const codeOf = (v, place = placeOf(v)) => (place >= 0 && place < 14 ? place + 1 : isNext(v) ? 0 : 15);
   const writeIndex = v => {
-    const delta = (v - last) | 0;
-    for (let code = ((delta << 1) ^ (delta >> 31)) >>> 0;; code >>>= 7) {
-      data.push((code & 127) | (code > 127 ? 128 : 0));
-      if (code <= 127) break;
-    }
+    writeDelta(data, (v - last) | 0);
     last = v;
   };
   for (let t = 0; t < corners.length; t += 3) {
     const given = [corners[t], corners[t + 1], corners[t + 2]];
     let turn = -1;
-    const edge = edges.find(([from, to]) => (turn = ORDERS.findIndex(([a, b]) => given[a] === from && given[b] === to)) >= 0);
+    const edge = edges.find(
+      ([from, to]) => (turn = ORDERS.findIndex(([a, b]) => given[a] === from && given[b] === to)) >= 0,
+    );
     if (edge >= 0 && edge < 15) {
-      const [a, b, c] = ORDERS[turn].map(k => given[k]), place = placeOf(c);
+      const [a, b, c] = ORDERS[turn].map(k => given[k]);
+      const place = placeOf(c);
       let code = place >= 1 && place < 13 ? place : isNext(c) ? 0 : 15;
-      if (code === 15 && c + 1 === last) {
-        code = 13;
-        last = c;
-      } else if (code === 15 && c === last + 1) {
-        code = 14;
+      if (code === 15 && Math.abs(c - last) === 1) {
+        code = c < last ? 13 : 14;
         last = c;
       }
       codes.push((edge << 4) | code);
@@ -135,47 +173,52 @@ export function encodeTriangles(corners) {
       next = 0;
       vertices.clear();
     }
-    const [placeB, placeC] = [placeOf(b), placeOf(c)];
     const codeA = isNext(a) ? 0 : 15;
-    const codeB = placeB >= 0 && placeB < 14 ? placeB + 1 : isNext(b) ? 0 : 15;
-    const codeC = placeC >= 0 && placeC < 14 ? placeC + 1 : isNext(c) ? 0 : 15;
+    const codeB = codeOf(b);
+    const codeC = codeOf(c);
     const pair = PAIRS.indexOf((codeB << 4) | codeC);
-    if (codeA === 0 && pair >= 0 && pair < 14 && !isReset) codes.push(0xF0 | pair);
+    if (codeA === 0 && pair >= 0 && pair < 14 && !isReset) codes.push(0xf0 | pair);
     else {
-      codes.push(0xF0 | 14 | codeA);
+      codes.push(0xf0 | 14 | codeA);
       data.push((codeB << 4) | codeC);
     }
-    for (const [code, v] of [[codeA, a], [codeB, b], [codeC, c]]) if (code === 15) writeIndex(v);
-    for (const [code, v] of [[codeA, a], [codeB, b], [codeC, c]]) if (code === 0 || code === 15) vertices.push(v);
+    [codeA, codeB, codeC].forEach((code, k) => {
+      const v = [a, b, c][k];
+      if (code === 15) writeIndex(v);
+      if (code === 0 || code === 15) vertices.push(v);
+    });
     edges.push([b, a]);
     edges.push([c, b]);
     edges.push([a, c]);
   }
-  PAIRS.forEach(pair => data.push(pair));
-  const bytes = new Uint8Array(1 + codes.size + data.size);
-  bytes[0] = 0xE1;
-  bytes.set(codes.done(), 1);
-  bytes.set(data.done(), 1 + codes.size);
-  return bytes;
+  return pack(codes, data);
 }
 
 /// Triangles from neighbour to neighbour, the nearest edges first, and vertices by first use: the order that needs few
 /// bytes.
 export function orderForCodec(corners, vertexCount) {
-  const count = corners.length / 3, across = new Int32Array(corners.length).fill(-1), edges = new Map();
+  const count = corners.length / 3;
+  const across = new Int32Array(corners.length).fill(-1);
+  const edges = new Map();
   for (let k = 0; k < corners.length; ++k) {
-    const a = corners[k], b = corners[k % 3 === 2 ? k - 2 : k + 1], twin = edges.get(b * vertexCount + a);
+    const a = corners[k];
+    const b = corners[k % 3 === 2 ? k - 2 : k + 1];
+    const twin = edges.get(b * vertexCount + a);
     if (twin === undefined) edges.set(a * vertexCount + b, k);
     else [across[k], across[twin]] = [twin, k];
   }
-  const isDone = new Uint8Array(count), ordered = [], ids = new Int32Array(vertexCount).fill(-1), from = [];
+  const isDone = new Uint8Array(count);
+  const ordered = [];
+  const ids = new Int32Array(vertexCount).fill(-1);
+  const from = [];
   const open = [];
   for (let start = 0; start < count; ++start) {
     for (open.push(3 * start); open.length > 0;) {
-      const first = open.pop(), t = Math.floor(first / 3);
+      const first = open.pop();
+      const t = Math.floor(first / 3);
       if (isDone[t]) continue;
       isDone[t] = 1;
-      const turned = [0, 1, 2].map(k => 3 * t + (first + k) % 3);
+      const turned = [0, 1, 2].map(k => 3 * t + ((first + k) % 3));
       for (const k of turned) {
         const v = corners[k];
         if (ids[v] < 0) ids[v] = from.push(v) - 1;

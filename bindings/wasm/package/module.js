@@ -6,11 +6,11 @@ import { kindOf, show, translate } from './options.js';
 
 const KINDS = ['usage', 'memory', 'input', 'promise', 'output', 'cancelled', 'internal'];
 
-let starting = null;  // the promise of start()
+let starting = null; // the promise of start()
 let compiled = null;
 let functions = null;
-let tell = null;    // asked for progress during a call
-let thrown = null;  // by it
+let tell = null; // asked for progress during a call
+let thrown = null; // by it
 
 export const isStarted = () => functions !== null;
 export const compiledModule = () => compiled;
@@ -28,7 +28,8 @@ const IMPORTS = {
   progress(pass, fraction, vertices, maxError) {
     try {
       return tell?.({ pass: text(pass), fraction, vertices, maxError }) === false ? 1 : 0;
-    } catch (error) {  // must not unwind the library
+    } catch (error) {
+      // must not unwind the library
       thrown = { error };
       return 1;
     }
@@ -55,18 +56,26 @@ const ADVICE = "serve the package's .wasm file there, or import 'scarp/inline', 
 
 /// `where` they come from. A server that answers with a page instead of a missing file reports success.
 function checkBytes(bytes, where) {
-  const first = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
+  const first = ArrayBuffer.isView(bytes)
+    ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
+    : new Uint8Array(bytes);
   if ([0, 0x61, 0x73, 0x6d].every((byte, k) => first[k] === byte)) return bytes;
   const isPage = /^\s*</.test(new TextDecoder().decode(first.subarray(0, 64)));
-  const is = isPage ? "a page of HTML, with which a server answers where it has no file; vite's dev server needs optimizeDeps: { exclude: ['scarp'] }"
-                    : `no WebAssembly: ${first.length === 0 ? 'it is empty' : 'it begins with other bytes'}`;
+  const is = isPage
+    ? "a page of HTML, with which a server answers where it has no file; vite's dev server needs " +
+      "optimizeDeps: { exclude: ['scarp'] }"
+    : `no WebAssembly: ${first.length === 0 ? 'it is empty' : 'it begins with other bytes'}`;
   throw new ScarpError('input', `${where} is ${is}; ${ADVICE}`);
 }
 
 function refuse(error) {
   const why = error?.message ?? String(error);
-  return new ScarpError('unsupported', `WebAssembly is refused here: ${why}; it needs WebAssembly with SIMD and exceptions ` +
-    `(Chrome 95, Firefox 100, Safari 16.4, Node 18), and a content policy with 'wasm-unsafe-eval'`, { cause: error });
+  return new ScarpError(
+    'unsupported',
+    `WebAssembly is refused here: ${why}; it needs WebAssembly with SIMD and exceptions ` +
+      `(Chrome 95, Firefox 100, Safari 16.4, Node 18), and a content policy with 'wasm-unsafe-eval'`,
+    { cause: error },
+  );
 }
 
 /// The bytes at an address; of a file in Node, whose fetch() does not know files.
@@ -82,7 +91,11 @@ async function fetchBytes(address) {
     return await readBytes(await fetch(url));
   } catch (error) {
     if (error instanceof ScarpError) throw error;
-    throw new ScarpError('input', `${url} cannot be loaded: ${error.message}; ${ADVICE}; a content policy needs it in connect-src`, { cause: error });
+    throw new ScarpError(
+      'input',
+      `${url} cannot be loaded: ${error.message}; ${ADVICE}; a content policy needs it in connect-src`,
+      { cause: error },
+    );
   }
 }
 
@@ -92,10 +105,14 @@ async function readBytes(response) {
 }
 
 async function takeBytes(source) {
-  if (kindOf(source) === 'ArrayBuffer' || ArrayBuffer.isView(source)) return checkBytes(source, 'what ready() was given');
+  if (kindOf(source) === 'ArrayBuffer' || ArrayBuffer.isView(source))
+    return checkBytes(source, 'what ready() was given');
   if (kindOf(source) === 'Response') return checkBytes(await readBytes(source), source.url || 'the Response');
   if (typeof source !== 'string' && typeof source?.href !== 'string')
-    throw new ScarpError('usage', `ready() was given ${show(source)}; it takes the module's bytes, their URL or Response, or a WebAssembly.Module`);
+    throw new ScarpError(
+      'usage',
+      `ready() was given ${show(source)}; it takes the module's bytes, their URL or Response, or a WebAssembly.Module`,
+    );
   return checkBytes(await fetchBytes(source), source);
 }
 
@@ -114,9 +131,11 @@ async function instantiate(source) {
     throw new ScarpError('input', `what ready() was given is a module of WebAssembly, but not Scarp's; ${ADVICE}`);
   const imports = {};
   for (const { module, name } of WebAssembly.Module.imports(compiled)) {
-    (imports[module] ??= {})[name] = IMPORTS[name] ?? (() => {
-      throw new ScarpError('internal', `the library asked for ${name}; please report it`);
-    });
+    (imports[module] ??= {})[name] =
+      IMPORTS[name] ??
+      (() => {
+        throw new ScarpError('internal', `the library asked for ${name}; please report it`);
+      });
   }
   try {
     ({ exports: functions } = await WebAssembly.instantiate(compiled, imports));
@@ -138,11 +157,14 @@ export function start(source) {
 
 /// Calls a function of the module. `progress` is asked during the call; false cancels.
 export function call(name, args, progress) {
-  if (!functions) throw new ScarpError('usage', "the library is not loaded yet: await ready() first");
+  if (!functions) throw new ScarpError('usage', 'the library is not loaded yet: await ready() first');
   if (!functions[name]) {
     const loaded = functions.scarp_simplify ? 'scarp' : 'scarp/lite';
-    throw new ScarpError('usage', `the module of ${loaded} was loaded first, and does not hold that: in place of ${loaded} import ` +
-      `${/points|tiler/.test(name) ? 'scarp/full, which has points and tiles' : 'scarp, or scarp/full'}`);
+    throw new ScarpError(
+      'usage',
+      `the module of ${loaded} was loaded first, and does not hold that: in place of ${loaded} import ` +
+        `${/points|tiler/.test(name) ? 'scarp/full, which has points and tiles' : 'scarp, or scarp/full'}`,
+    );
   }
   const outer = [tell, thrown];
   [tell, thrown] = [progress, null];
@@ -177,8 +199,10 @@ export class Blocks {
   allocate(bytes) {
     const address = bytes < 2 ** 32 && call('scarp_allocate', [Math.max(bytes, 8)]);
     if (!address) {
-      throw new ScarpError('memory', `there is no memory for ${bytes} bytes: a module of WebAssembly has 4 GiB at most; ` +
-        'take a smaller raster');
+      throw new ScarpError(
+        'memory',
+        `there is no memory for ${bytes} bytes: a module of WebAssembly has 4 GiB at most; ` + 'take a smaller raster',
+      );
     }
     this.#addresses.push(address);
     return address;

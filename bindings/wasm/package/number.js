@@ -2,19 +2,23 @@
 
 /// toFixed() or toExponential(), but of two that are as close the even one, as C has it.
 function rounded(size, method, places) {
-  const [exact, power] = size[method](100).split('e'), end = exact.indexOf('.') + 1 + places;
-  const kept = exact.slice(0, end).replace(/\.$/, ''), isEven = Number(kept.at(-1)) % 2 === 0;
+  const [exact, power] = size[method](100).split('e');
+  const end = exact.indexOf('.') + 1 + places;
+  const kept = exact.slice(0, end).replace(/\.$/, '');
+  const isEven = Number(kept.at(-1)) % 2 === 0;
   if (!isEven || !/^50*$/.test(exact.slice(end))) return size[method](places);
   return power === undefined ? kept : `${kept}e${power}`;
 }
 
 /// `digits` as of toExponential(): without zeros at the end, in the shorter notation of the two, as printf's %g.
 function general(digits, upper) {
-  const [mantissa, power] = digits.split('e'), exponent = Number(power);
+  const [mantissa, power] = digits.split('e');
+  const exponent = Number(power);
   const figures = mantissa.replace('.', '').replace(/0*$/, '');
   if (figures === '') return '0';
   const count = figures.length;
-  if (exponent < -4 || exponent >= upper) return withExponent(`${figures[0]}${count > 1 ? '.' : ''}${figures.slice(1)}e${power}`);
+  if (exponent < -4 || exponent >= upper)
+    return withExponent(`${figures[0]}${count > 1 ? '.' : ''}${figures.slice(1)}e${power}`);
   if (exponent < 0) return `0.${'0'.repeat(-exponent - 1)}${figures}`;
   if (exponent >= count - 1) return `${figures}${'0'.repeat(exponent + 1 - count)}`;
   return `${figures.slice(0, exponent + 1)}.${figures.slice(exponent + 1)}`;
@@ -34,10 +38,17 @@ function shortestFloat(size) {
 /// Style: 'e', 'f', 'g'. Precision -1: the fewest digits that give the number, or the float32, back.
 export function printNumber(value, isFloat, style, precision) {
   if (Number.isNaN(value)) return 'nan';
-  const sign = value < 0 || Object.is(value, -0) ? '-' : '', size = Math.abs(value);
+  const sign = value < 0 || Object.is(value, -0) ? '-' : '';
+  const size = Math.abs(value);
   if (size === Infinity) return `${sign}inf`;
   if (precision < 0) return sign + general(isFloat ? shortestFloat(size) : size.toExponential(), 16);
   if (style === 'e') return sign + withExponent(rounded(size, 'toExponential', precision));
-  if (style === 'f') return sign + (size < 1e21 ? rounded(size, 'toFixed', precision) : BigInt(size) + (precision ? `.${'0'.repeat(precision)}` : ''));
+  if (style === 'f')
+    return (
+      sign +
+      (size < 1e21
+        ? rounded(size, 'toFixed', precision)
+        : BigInt(size) + (precision ? `.${'0'.repeat(precision)}` : ''))
+    );
   return sign + general(rounded(size, 'toExponential', Math.max(precision, 1) - 1), Math.max(precision, 1));
 }

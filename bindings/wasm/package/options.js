@@ -4,12 +4,21 @@ import { ScarpError } from './error.js';
 const EFFORTS = ['auto', 'fast', 'normal', 'high', 'max'];
 
 /// The kind of an object, such as DataView, whichever realm it is of.
-export const kindOf = value => Object.prototype.toString.call(value).slice(8, -1).replace(/^Object$/, 'object');
+export const kindOf = value =>
+  Object.prototype.toString
+    .call(value)
+    .slice(8, -1)
+    .replace(/^Object$/, 'object');
 
-const isArray = value => ArrayBuffer.isView(value) ? kindOf(value) !== 'DataView' : Array.isArray(value);
+const isArray = value => (ArrayBuffer.isView(value) ? kindOf(value) !== 'DataView' : Array.isArray(value));
 const number = (least = -Infinity, most = Infinity) => ({
   fits: value => Number.isFinite(value) && value >= least && value <= most,
-  is: most < Infinity ? `a number, ${least} to ${most}` : least === -Infinity ? 'a finite number' : `a number, at least ${least} and finite`,
+  is:
+    most < Infinity
+      ? `a number, ${least} to ${most}`
+      : least === -Infinity
+        ? 'a finite number'
+        : `a number, at least ${least} and finite`,
 });
 const whole = (least, most = Number.MAX_SAFE_INTEGER) => ({
   fits: value => Number.isSafeInteger(value) && value >= least && value <= most,
@@ -21,7 +30,10 @@ const kind = (fits, is) => ({ fits, is });
 const orNull = ({ fits, ...told }) => ({ fits: value => value === null || fits(value), ...told });
 /// An array of items that fit; a sentence names the first that does not.
 const items = (fits, item, is, count = undefined) => {
-  const findOdd = value => (isArray(value) && value.length === (count ?? value.length) ? Array.from(value).findIndex(one => !fits(one)) : undefined);
+  const findOdd = value =>
+    isArray(value) && value.length === (count ?? value.length)
+      ? Array.from(value).findIndex(one => !fits(one))
+      : undefined;
   return { fits: value => findOdd(value) === -1, is, item, findOdd };
 };
 
@@ -32,31 +44,79 @@ const numbers = count => items(Number.isFinite, 'finite number', `an array of ${
 const bySample = orNull(kind(isArray, 'an array of numbers, one for each sample'));
 
 const TABLE = {
-  maxError: number(0), maxTriangles: whole(1), maxVertices: whole(1),
-  effort: choice(...EFFORTS), vertices: choice('auto', 'samples', 'free'), order: choice('auto', 'greedy', 'dominant'), objective: choice('max', 'rms'),
+  maxError: number(0),
+  maxTriangles: whole(1),
+  maxVertices: whole(1),
+  effort: choice(...EFFORTS),
+  vertices: choice('auto', 'samples', 'free'),
+  order: choice('auto', 'greedy', 'dominant'),
+  objective: choice('max', 'rms'),
   duplicates: choice('first', 'last', 'highest', 'lowest', 'mean'),
-  minShape: number(0, 0.5), outlineTolerance: number(0),
-  normals: flag, uvs: flag, lattice: flag, doubles: flag, lockBorder: flag, compress: flag, degrees: flag, transfer: flag, warm: flag,
-  mask: bySample, tolerance: bySample,
-  nodata: orNull(kind(value => typeof value === 'number', 'a number')), transform: orNull(numbers(6)),
-  onProgress: work, worker: work, signal: orNull(kind(value => typeof value.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal')),
-  size: whole(1, 1024), height: whole(2), bounds: orNull(numbers(4)), crs: choice('degrees', 'mercator'), cells: whole(16), maxZoom: whole(0),
-  quality: number(0.5), background: number(), name: text, attribution: text, tiles: items(one => typeof one === 'string', 'text', 'an array of texts'),
-  meshMaxError: number(0), skirtHeight: orNull(number(0)),
-  elevationDecoder: kind(value => typeof value === 'string' || (typeof value === 'object' && value),
-    'terrarium, mapbox or { rScaler, gScaler, bScaler, offset }'),
+  minShape: number(0, 0.5),
+  outlineTolerance: number(0),
+  normals: flag,
+  uvs: flag,
+  lattice: flag,
+  doubles: flag,
+  lockBorder: flag,
+  compress: flag,
+  degrees: flag,
+  transfer: flag,
+  warm: flag,
+  mask: bySample,
+  tolerance: bySample,
+  nodata: orNull(kind(value => typeof value === 'number', 'a number')),
+  transform: orNull(numbers(6)),
+  onProgress: work,
+  worker: work,
+  signal: orNull(kind(value => typeof value.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal')),
+  size: whole(1, 1024),
+  height: whole(2),
+  bounds: orNull(numbers(4)),
+  crs: choice('degrees', 'mercator'),
+  cells: whole(16),
+  maxZoom: whole(0),
+  quality: number(0.5),
+  background: number(),
+  name: text,
+  attribution: text,
+  tiles: items(one => typeof one === 'string', 'text', 'an array of texts'),
+  meshMaxError: number(0),
+  skirtHeight: orNull(number(0)),
+  elevationDecoder: kind(
+    value => typeof value === 'string' || (typeof value === 'object' && value),
+    'terrarium, mapbox or { rScaler, gScaler, bScaler, offset }',
+  ),
 };
 
 const PLACE = ['nodata', 'transform', 'degrees'];
 const GOALS = ['maxError', 'maxTriangles', 'maxVertices'];
 const RUN = ['onProgress', 'signal'];
 /// The options that each entry accepts.
-const SIMPLIFY = [...GOALS, 'effort', 'vertices', 'order', 'objective', 'minShape', 'outlineTolerance', 'normals', 'uvs', 'lattice', 'doubles',
-  'lockBorder', 'mask', 'tolerance', ...PLACE, ...RUN];
+const SIMPLIFY = [
+  ...GOALS,
+  'effort',
+  'vertices',
+  'order',
+  'objective',
+  'minShape',
+  'outlineTolerance',
+  'normals',
+  'uvs',
+  'lattice',
+  'doubles',
+  'lockBorder',
+  'mask',
+  'tolerance',
+  ...PLACE,
+  ...RUN,
+];
 const POINTS = [...GOALS, 'duplicates', 'doubles', ...RUN];
 export const ENTRIES = {
-  simplify: [...SIMPLIFY, 'transfer'], simplifySync: SIMPLIFY,
-  simplifyPoints: [...POINTS, 'transfer'], simplifyPointsSync: POINTS,
+  simplify: [...SIMPLIFY, 'transfer'],
+  simplifySync: SIMPLIFY,
+  simplifyPoints: [...POINTS, 'transfer'],
+  simplifyPointsSync: POINTS,
   place: PLACE,
   refine: ['maxError', 'maxVertices'],
   pool: ['size', 'worker'],
@@ -71,7 +131,13 @@ export const ENTRIES = {
 const NARROWER = { tiler: { effort: choice('fast', 'normal', 'high') } };
 /// The goals that an entry requires.
 const GOAL = 'give a goal, such as { maxError: 1 }';
-const NEEDS = { simplify: GOAL, simplifySync: GOAL, simplifyPoints: GOAL, simplifyPointsSync: GOAL, tiler: 'give { bounds: [west, south, east, north] }' };
+const NEEDS = {
+  simplify: GOAL,
+  simplifySync: GOAL,
+  simplifyPoints: GOAL,
+  simplifyPointsSync: GOAL,
+  tiler: 'give { bounds: [west, south, east, north] }',
+};
 
 /// The number of a choice in the library's list of them.
 export const choose = (name, value) => TABLE[name].list.indexOf(value);
@@ -92,7 +158,8 @@ function distance(a, b) {
   let row = Array.from({ length: b.length + 1 }, (_, k) => k);
   for (let i = 1; i <= a.length; ++i) {
     const next = [i];
-    for (let j = 1; j <= b.length; ++j) next.push(Math.min(row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] === b[j - 1] ? 0 : 1)));
+    for (let j = 1; j <= b.length; ++j)
+      next.push(Math.min(row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] === b[j - 1] ? 0 : 1)));
     row = next;
   }
   return row[b.length];
@@ -108,23 +175,37 @@ function findNear(name, known) {
 /// The options of an entry that are given, checked.
 export function takeOptions(options, entry) {
   if (options === null || typeof options !== 'object' || isArray(options))
-    throw new ScarpError('usage', `the options are ${options === null ? 'null' : isArray(options) ? 'an array' : `a ${typeof options}`}, and no object: ` +
-      (NEEDS[entry] ?? 'leave them out, or give { name: value }'));
-  const known = ENTRIES[entry], taken = {};
+    throw new ScarpError(
+      'usage',
+      `the options are ${options === null ? 'null' : isArray(options) ? 'an array' : `a ${typeof options}`}, ` +
+        `and no object: ${NEEDS[entry] ?? 'leave them out, or give { name: value }'}`,
+    );
+  const known = ENTRIES[entry];
+  const taken = {};
   for (const [name, value] of Object.entries(options)) {
     if (!known.includes(name)) {
       const later = entry.replace(/Sync$/, '');
       if (later !== entry && ENTRIES[later].includes(name))
-        throw new ScarpError('usage', `option ${name} is for workers: leave it out, or take ${later}() in place of ${entry}()`);
+        throw new ScarpError(
+          'usage',
+          `option ${name} is for workers: leave it out, or take ${later}() in place of ${entry}()`,
+        );
       const near = findNear(name, known);
-      throw new ScarpError('usage', `option ${name} is unknown${near ? `: did you mean ${near}? Known are` : '; known are'} ${known.join(', ')}`);
+      throw new ScarpError(
+        'usage',
+        `option ${name} is unknown${near ? `: did you mean ${near}? Known are` : '; known are'} ${known.join(', ')}`,
+      );
     }
     if (value === undefined) continue;
     const { fits, is, item, findOdd } = NARROWER[entry]?.[name] ?? TABLE[name];
     if (!fits(value)) {
       const odd = findOdd?.(value);
-      throw new ScarpError('usage', odd === undefined ? `${name} is ${show(value)}; it is ${is}`
-                                                      : `index ${odd} of ${name} is ${show(value[odd])}, and no ${item}`);
+      throw new ScarpError(
+        'usage',
+        odd === undefined
+          ? `${name} is ${show(value)}; it is ${is}`
+          : `index ${odd} of ${name} is ${show(value[odd])}, and no ${item}`,
+      );
     }
     if (value !== null) taken[name] = value;
   }
@@ -141,10 +222,16 @@ const WORDS = [
   [/\b(effort|order|vertices|objective) = (\w+)/g, "$1: '$2'"],
   [/choose the frame 'source'/, 'leave degrees out'],
   [/choose a polar CRS such as EPSG:3413 or EPSG:3031/, 'leave degrees out if the transform is in other units'],
-  [/\(gdal_translate -a_ullr .*\), or their CRS if they are not degrees \(.*\)/, "in bounds, or take crs: 'mercator' if they are its metres"],
-  [/\b[a-z]+(?:_[a-z]+)+\b/g, word => {
-    const name = word.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
-    return TABLE[name] ? name : word;
-  }],
+  [
+    /\(gdal_translate -a_ullr .*\), or their CRS if they are not degrees \(.*\)/,
+    "in bounds, or take crs: 'mercator' if they are its metres",
+  ],
+  [
+    /\b[a-z]+(?:_[a-z]+)+\b/g,
+    word => {
+      const name = word.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+      return TABLE[name] ? name : word;
+    },
+  ],
 ];
 export const translate = sentence => WORDS.reduce((told, [theirs, ours]) => told.replace(theirs, ours), sentence);

@@ -14,27 +14,35 @@ function makeHere(make) {
     return make();
   } catch (cause) {
     if (!/TrustedScriptURL/.test(cause?.message)) throw make === defaults.worker ? explainAddress(cause) : cause;
-    throw new ScarpError('unsupported', `the page's policy require-trusted-types-for refuses the worker's address (${cause.message}): give ` +
-      'createPool({ worker: () => new Worker(policy.createScriptURL(address)) }) with a policy of your own', { cause });
+    throw new ScarpError(
+      'unsupported',
+      `the page's policy require-trusted-types-for refuses the worker's address (${cause.message}): give ` +
+        'createPool({ worker: () => new Worker(policy.createScriptURL(address)) }) with a policy of your own',
+      { cause },
+    );
   }
 }
 
-/// Node has its workers elsewhere. Bundlers find `new Worker()` of the global name alone, which is there during the call.
+/// Node has its workers elsewhere. Bundlers find `new Worker()` of the global name alone, which is there during the
+/// call.
 async function makeInNode(make) {
-  const name = 'node:worker_threads', threads = await import(/* webpackIgnore: true */ /* @vite-ignore */ name);
+  const name = 'node:worker_threads';
+  const threads = await import(/* webpackIgnore: true */ /* @vite-ignore */ name);
   const had = globalThis.Worker;
   globalThis.Worker = threads.Worker;
   try {
     return makeHere(make);
   } finally {
-    if (had) globalThis.Worker = had; else delete globalThis.Worker;
+    if (had) globalThis.Worker = had;
+    else delete globalThis.Worker;
   }
 }
 
 /// A worker of the browser or of Node, behind the same two functions.
 async function openWorker(make, onMessage, onFailure) {
   const worker = typeof Worker === 'undefined' ? await makeInNode(make) : makeHere(make);
-  if (typeof worker?.postMessage !== 'function') throw new ScarpError('usage', `createPool({ worker }) made ${show(worker)}, and no Worker`);
+  if (typeof worker?.postMessage !== 'function')
+    throw new ScarpError('usage', `createPool({ worker }) made ${show(worker)}, and no Worker`);
   if (worker.on) {
     worker.on('message', onMessage);
     worker.on('error', onFailure);
@@ -47,8 +55,9 @@ async function openWorker(make, onMessage, onFailure) {
   return worker;
 }
 
-const WORKER_ADVICE = "its script is scarp/worker, which a bundler may not have found, or a content policy refuses: it needs worker-src 'self'; " +
-  "give createPool({ worker }), or import 'scarp/inline'";
+const WORKER_ADVICE =
+  'its script is scarp/worker, which a bundler may not have found, or a content policy refuses: it needs ' +
+  "worker-src 'self'; give createPool({ worker }), or import 'scarp/inline'";
 const mayShare = () => typeof SharedArrayBuffer !== 'undefined' && globalThis.crossOriginIsolated !== false;
 const cancelled = signal => new ScarpError('cancelled', 'the call was cancelled', { cause: signal?.reason });
 
@@ -89,13 +98,29 @@ class Hand {
     const fail = error => {
       if (worker === this.#worker) this.end(error);
     };
-    const worker = await openWorker(this.#make, answer => {
-      if (answer.lock === undefined) this.#hear(answer);
-      else if (answer.lock) {
-        watchLock(answer.lock, () => fail(new ScarpError('memory', 'the browser ended a worker, most likely for lack of memory: take a ' +
-          'smaller raster or a larger error, or fewer workers by createPool({ size })')));
-      }
-    }, cause => fail(new ScarpError('internal', `a worker failed: ${cause.message}; ${defaults.workerAdvice ?? WORKER_ADVICE}`, { cause })));
+    const worker = await openWorker(
+      this.#make,
+      answer => {
+        if (answer.lock === undefined) this.#hear(answer);
+        else if (answer.lock) {
+          watchLock(answer.lock, () =>
+            fail(
+              new ScarpError(
+                'memory',
+                'the browser ended a worker, most likely for lack of memory: take a ' +
+                  'smaller raster or a larger error, or fewer workers by createPool({ size })',
+              ),
+            ),
+          );
+        }
+      },
+      cause =>
+        fail(
+          new ScarpError('internal', `a worker failed: ${cause.message}; ${defaults.workerAdvice ?? WORKER_ADVICE}`, {
+            cause,
+          }),
+        ),
+    );
     if (this.#isOver) return void worker.terminate();
     this.#worker = worker;
     await this.#exchange({ module: compiledModule() }, []);
@@ -124,7 +149,8 @@ class Hand {
   /// A busy worker receives no message: it checks shared memory, or is replaced.
   stop(job) {
     if (job !== this.#running) return;
-    if (job.flag) Atomics.store(new Int32Array(job.flag), 0, 1); else this.end(cancelled());
+    if (job.flag) Atomics.store(new Int32Array(job.flag), 0, 1);
+    else this.end(cancelled());
   }
 
   end(error) {
@@ -144,11 +170,16 @@ class Hand {
 function take(array, isMoved) {
   if (!isMoved) return array.slice();
   if (kindOf(array.buffer) === 'SharedArrayBuffer')
-    refuse('transfer moves the buffer of the heights, and theirs is a SharedArrayBuffer, which cannot be moved: leave transfer out');
+    refuse(
+      'transfer moves the buffer of the heights, and theirs is a SharedArrayBuffer, which cannot be moved: ' +
+        'leave transfer out',
+    );
   try {
     return globalThis.structuredClone ? structuredClone(array, { transfer: [array.buffer] }) : array;
   } catch (cause) {
-    throw new ScarpError('usage', `the buffer of the heights cannot be moved (${cause.message}): leave transfer out`, { cause });
+    throw new ScarpError('usage', `the buffer of the heights cannot be moved (${cause.message}): leave transfer out`, {
+      cause,
+    });
   }
 }
 
@@ -194,7 +225,8 @@ class Pool {
       job.reject = settle(reject);
       job.cancel = error => {
         job.reject(error);
-        if (job.hand) job.hand.stop(job); else this.#waiting = this.#waiting.filter(other => other !== job);
+        if (job.hand) job.hand.stop(job);
+        else this.#waiting = this.#waiting.filter(other => other !== job);
       };
       job.tell = progress => {
         if (job.isOver) return;

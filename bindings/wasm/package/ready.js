@@ -8,8 +8,12 @@ export const defaults = { source: null, worker: null, warm: null, workerAdvice: 
 /// Bundles of formats other than esm have no import.meta.url.
 export function explainAddress(cause) {
   if (!(cause instanceof TypeError && /URL/.test(cause.message))) return cause;
-  return new ScarpError('unsupported', 'the bundle does not know its own address, where its files lie: import.meta.url is undefined in formats ' +
-    "other than esm; take --format=esm, or import 'scarp/inline', or give ready(url) and createPool({ worker })", { cause });
+  return new ScarpError(
+    'unsupported',
+    'the bundle does not know its own address, where its files lie: import.meta.url is undefined in formats ' +
+      "other than esm; take --format=esm, or import 'scarp/inline', or give ready(url) and createPool({ worker })",
+    { cause },
+  );
 }
 
 function locate() {

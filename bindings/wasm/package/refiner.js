@@ -12,7 +12,7 @@ const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
 
 export class Refiner {
   #held;
-  #rounding;  // rounding of the heights, which each error counts
+  #rounding; // rounding of the heights, which each error counts
 
   constructor(z, width, height, options = {}) {
     const place = takeOptions(options, 'place');
@@ -41,10 +41,14 @@ export class Refiner {
 
   /// Inserts until the largest error is at most maxError, or there are maxVertices. Returns how many were inserted.
   run(goals = {}) {
-    const { maxError, maxVertices = 0 } = takeOptions(goals, 'refine'), rounding = this.#rounding;
+    const { maxError, maxVertices = 0 } = takeOptions(goals, 'refine');
+    const rounding = this.#rounding;
     if (maxError < rounding) {
-      throw new ScarpError('promise', `a maxError of ${maxError} cannot be kept: the heights do not fit float32 and are rounded by up to ` +
-        `${rounding}; ask for that or more, or subtract a base from the heights`);
+      throw new ScarpError(
+        'promise',
+        `a maxError of ${maxError} cannot be kept: the heights do not fit float32 and are rounded by up to ` +
+          `${rounding}; ask for that or more, or subtract a base from the heights`,
+      );
     }
     // A little less, so that the sum is not rounded above.
     const bound = rounding > 0 ? Math.max(0, maxError * (1 - 2 ** -52) - rounding) : maxError;
@@ -65,7 +69,9 @@ export class Refiner {
   }
   /// Has no report: only the refiner has measured it, which knows its largest error.
   mesh() {
-    const mesh = withBlocks(blocks => takeMesh(blocks, callOrThrow('scarp_refiner_mesh', [this.#handle]), { rounding: this.#rounding }));
+    const mesh = withBlocks(blocks =>
+      takeMesh(blocks, callOrThrow('scarp_refiner_mesh', [this.#handle]), { rounding: this.#rounding }),
+    );
     delete mesh.report;
     delete mesh.rmse;
     return mesh;

@@ -15,24 +15,56 @@ export function watch(onProgress, flag) {
 }
 
 export function checkSignal(signal) {
-  if (signal?.aborted) throw new ScarpError('cancelled', 'the call was cancelled before it began', { cause: signal.reason });
+  if (signal?.aborted)
+    throw new ScarpError('cancelled', 'the call was cancelled before it began', { cause: signal.reason });
 }
 
 /// Simplifies here and now. `flag`: an Int32Array over shared memory, whose first number cancels.
 export function simplifySync(z, width, height, options = {}, flag = undefined) {
   const taken = takeOptions(options, 'simplifySync');
   checkSignal(taken.signal);
-  const { effort = 'auto', vertices = 'auto', order = 'auto', objective = 'max', minShape = NaN, outlineTolerance = 0,
-    normals, uvs, lattice, doubles, lockBorder, mask, tolerance, onProgress } = taken;
+  const {
+    effort = 'auto',
+    vertices = 'auto',
+    order = 'auto',
+    objective = 'max',
+    minShape = NaN,
+    outlineTolerance = 0,
+    normals,
+    uvs,
+    lattice,
+    doubles,
+    lockBorder,
+    mask,
+    tolerance,
+    onProgress,
+  } = taken;
   const progress = watch(onProgress, flag);
   return withBlocks(blocks => {
     const { address, rounding } = putField(blocks, z, width, height, taken);
     const beside = (name, values) => (values ? blocks.put(takeBeside(name, values, width, height)) : 0);
-    const asked = putDoubles(blocks, listGoals(taken), choose('effort', effort), choose('vertices', vertices), choose('order', order),
-      choose('objective', objective), minShape, outlineTolerance, Number(Boolean(normals)), Number(Boolean(uvs)),
-      Number(Boolean(lattice)), Number(Boolean(doubles)), Number(Boolean(lockBorder)),
-      beside('mask', mask), beside('tolerance', tolerance), Number(Boolean(progress)));
-    return takeMesh(blocks, callOrThrow('scarp_simplify', [address, asked], progress), { doubles: doubles || lattice, rounding });
+    const asked = putDoubles(
+      blocks,
+      listGoals(taken),
+      choose('effort', effort),
+      choose('vertices', vertices),
+      choose('order', order),
+      choose('objective', objective),
+      minShape,
+      outlineTolerance,
+      Number(Boolean(normals)),
+      Number(Boolean(uvs)),
+      Number(Boolean(lattice)),
+      Number(Boolean(doubles)),
+      Number(Boolean(lockBorder)),
+      beside('mask', mask),
+      beside('tolerance', tolerance),
+      Number(Boolean(progress)),
+    );
+    return takeMesh(blocks, callOrThrow('scarp_simplify', [address, asked], progress), {
+      doubles: doubles || lattice,
+      rounding,
+    });
   });
 }
 
@@ -43,8 +75,15 @@ export function measure(z, width, height, mesh, options = {}) {
   return withBlocks(blocks => {
     const { address, rounding } = putField(blocks, z, width, height, place);
     const out = blocks.allocate(8 * REPORT_DOUBLES);
-    callOrThrow('scarp_measure', [address, putDoubles(blocks, Array.from(origin)), blocks.put(Float64Array.from(positions)), positions.length / 3, blocks.put(Uint32Array.from(indices)),
-      indices.length / 3, out]);
+    callOrThrow('scarp_measure', [
+      address,
+      putDoubles(blocks, Array.from(origin)),
+      blocks.put(Float64Array.from(positions)),
+      positions.length / 3,
+      blocks.put(Uint32Array.from(indices)),
+      indices.length / 3,
+      out,
+    ]);
     return readReport(view(Float64Array, out, REPORT_DOUBLES).slice(), rounding);
   });
 }
@@ -52,7 +91,8 @@ export function measure(z, width, height, mesh, options = {}) {
 /// Scattered points, checked.
 export function checkPoints(points) {
   const given = checkArray('the points', points);
-  if (given.length === 0 || given.length % 3) refuse(`the points have ${given.length} numbers, and are x, y, z in turn`);
+  if (given.length === 0 || given.length % 3)
+    refuse(`the points have ${given.length} numbers, and are x, y, z in turn`);
   return given;
 }
 
@@ -64,8 +104,15 @@ export function simplifyPointsSync(points, options = {}, flag = undefined) {
   const given = checkPoints(points);
   const progress = watch(onProgress, flag);
   return withBlocks(blocks => {
-    const asked = putDoubles(blocks, blocks.put(Float64Array.from(given)), given.length / 3, listGoals(taken),
-      choose('duplicates', duplicates), Number(Boolean(doubles)), Number(Boolean(progress)));
+    const asked = putDoubles(
+      blocks,
+      blocks.put(Float64Array.from(given)),
+      given.length / 3,
+      listGoals(taken),
+      choose('duplicates', duplicates),
+      Number(Boolean(doubles)),
+      Number(Boolean(progress)),
+    );
     return takeMesh(blocks, callOrThrow('scarp_simplify_points', [asked], progress), { doubles });
   });
 }

@@ -4,10 +4,13 @@
 export function buildSkirts(indices, vertexCount) {
   const edges = new Map();
   for (let k = 0; k < indices.length; ++k) {
-    const a = indices[k], b = indices[k % 3 === 2 ? k - 2 : k + 1];
+    const a = indices[k];
+    const b = indices[k % 3 === 2 ? k - 2 : k + 1];
     if (!edges.delete(`${b} ${a}`)) edges.set(`${a} ${b}`, [a, b]);
   }
-  const tops = [], below = new Map(), walls = [];
+  const tops = [];
+  const below = new Map();
+  const walls = [];
   const copy = v => {
     if (!below.has(v)) below.set(v, vertexCount + tops.push(v) - 1);
     return below.get(v);

@@ -26,7 +26,8 @@ async function answer({ id, work, module, args, flag, tells }, post) {
 
 if (typeof postMessage === 'function') {
   onmessage = event => answer(event.data, (data, moved = []) => postMessage(data, moved));
-} else {  // Node's
+} else {
+  // Node's
   const name = 'node:worker_threads';
   import(/* webpackIgnore: true */ /* @vite-ignore */ name).then(({ parentPort }) => {
     parentPort.on('message', message => answer(message, (data, moved = []) => parentPort.postMessage(data, moved)));

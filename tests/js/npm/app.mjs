@@ -5,7 +5,9 @@ import { hashOf } from './canonical.mjs';
 import { hills } from './rasters.mjs';
 
 export async function use() {
-  const width = 120, height = 90, z = hills(width, height, 5);
+  const width = 120;
+  const height = 90;
+  const z = hills(width, height, 5);
   await ready();
   const mesh = simplifySync(z, width, height, { maxError: 2 });
   const pool = createPool({ size: 2 });
@@ -20,4 +22,5 @@ export async function use() {
   return told;
 }
 
-if (typeof document === 'undefined') use().then(console.log); else window.told = use().catch(error => `FAILED: ${error.code} ${error.message}`);
+if (typeof document === 'undefined') use().then(console.log);
+else window.told = use().catch(error => `FAILED: ${error.code} ${error.message}`);

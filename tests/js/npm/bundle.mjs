@@ -3,31 +3,66 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 
 const [name] = process.argv.slice(2);
-const page = script => `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>${name}</title><script type="module" src="${script}"></script>\n`;
+const head = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>${name}</title>`;
+const page = script => `${head}<script type="module" src="${script}"></script>\n`;
 fs.mkdirSync(name, { recursive: true });
 switch (name) {
-  case 'esbuild': {  // does not change new URL(): the module and the worker go next to the script
+  case 'esbuild': {
+    // does not change new URL(): the module and the worker go next to the script
     const { build } = await import('esbuild');
-    await build({ entryPoints: ['app.mjs', 'node_modules/scarp/worker.js'], entryNames: '[name]', bundle: true, format: 'esm', minify: true, outdir: name });
+    await build({
+      entryPoints: ['app.mjs', 'node_modules/scarp/worker.js'],
+      entryNames: '[name]',
+      bundle: true,
+      format: 'esm',
+      minify: true,
+      outdir: name,
+    });
     fs.copyFileSync('node_modules/scarp/scarp.wasm', `${name}/scarp.wasm`);
     fs.writeFileSync(`${name}/index.html`, page('app.js'));
     break;
   }
-  case 'inline': {  // one page that opens from a file
+  case 'inline': {
+    // one page that opens from a file
     const { build } = await import('esbuild');
-    const { outputFiles: [script] } = await build({ entryPoints: ['app.mjs'], bundle: true, format: 'esm', minify: true, write: false,
-      alias: { scarp: 'scarp/inline' } });
-    fs.writeFileSync(`${name}/index.html`, `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>inline</title><script type="module">${script.text.replaceAll('</script', '<\\/script')}</script>\n`);
+    const {
+      outputFiles: [script],
+    } = await build({
+      entryPoints: ['app.mjs'],
+      bundle: true,
+      format: 'esm',
+      minify: true,
+      write: false,
+      alias: { scarp: 'scarp/inline' },
+    });
+    const text = script.text.replaceAll('</script', '<\\/script');
+    fs.writeFileSync(`${name}/index.html`, `${head}<script type="module">${text}</script>\n`);
     break;
   }
-  case 'formats': {  // without import.meta.url
+  case 'formats': {
+    // without import.meta.url
     const { build } = await import('esbuild');
     for (const format of ['cjs', 'iife']) {
-      for (const [entry, told] of [['scarp', /^FAILED unsupported .*--format=esm, or import 'scarp\/inline'.*ready\(url\)/], ['scarp/inline', /^2 triangles$/]]) {
+      for (const [entry, told] of [
+        ['scarp', /^FAILED unsupported .*--format=esm, or import 'scarp\/inline'.*ready\(url\)/],
+        ['scarp/inline', /^2 triangles$/],
+      ]) {
         const contents = `import { simplify } from '${entry}';
-          simplify([0, 0, 0, 9], 2, 2, { maxError: 1 }).then(mesh => console.log(mesh.triangleCount + ' triangles'), ({ code, message }) => console.log('FAILED', code, message));`;
-        await build({ stdin: { contents, resolveDir: '.' }, bundle: true, format, platform: 'node', outfile: `${name}/app.cjs`, logLevel: 'error' });
-        const answer = execFileSync(process.execPath, [`${name}/app.cjs`]).toString().trim();
+          simplify([0, 0, 0, 9], 2, 2, { maxError: 1 }).then(
+            mesh => console.log(mesh.triangleCount + ' triangles'),
+            ({ code, message }) => console.log('FAILED', code, message),
+          );`;
+        await build({
+          stdin: { contents, resolveDir: '.' },
+          bundle: true,
+          format,
+          platform: 'node',
+          outfile: `${name}/app.cjs`,
+          logLevel: 'error',
+        });
+        const answer = execFileSync(process.execPath, [`${name}/app.cjs`])
+          .toString()
+          .trim();
         if (!told.test(answer)) throw new Error(`${entry} as ${format}: ${answer}`);
       }
     }
@@ -36,14 +71,29 @@ switch (name) {
   case 'vite': {
     const { build } = await import('vite');
     fs.writeFileSync('vite.html', page('/app.mjs'));
-    await build({ root: process.cwd(), base: './', logLevel: 'warn', configFile: false, build: { outDir: name, emptyOutDir: true,
-      target: 'es2022', rollupOptions: { input: 'vite.html' } } });
+    await build({
+      root: process.cwd(),
+      base: './',
+      logLevel: 'warn',
+      configFile: false,
+      build: { outDir: name, emptyOutDir: true, target: 'es2022', rollupOptions: { input: 'vite.html' } },
+    });
     break;
   }
   case 'webpack': {
     const { default: webpack } = await import('webpack');
-    const stats = await new Promise((resolve, reject) => webpack({ mode: 'production', context: process.cwd(), entry: './app.mjs', performance: false,
-      output: { path: `${process.cwd()}/webpack`, filename: 'app.js' } }, (error, done) => (error ? reject(error) : resolve(done))));
+    const stats = await new Promise((resolve, reject) =>
+      webpack(
+        {
+          mode: 'production',
+          context: process.cwd(),
+          entry: './app.mjs',
+          performance: false,
+          output: { path: `${process.cwd()}/webpack`, filename: 'app.js' },
+        },
+        (error, done) => (error ? reject(error) : resolve(done)),
+      ),
+    );
     if (stats.hasErrors() || stats.hasWarnings()) throw new Error(stats.toString());
     fs.writeFileSync(`${name}/index.html`, page('app.js'));
     break;

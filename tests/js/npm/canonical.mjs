@@ -17,7 +17,8 @@ export async function hashOf({ positions, indices, origin }) {
   }
   triangles.sort(compare);
   const numbers = Float64Array.from([...origin, ...triangles.flat()].map(value => value + 0));
-  const { subtle } = globalThis.crypto ?? (await import(/* webpackIgnore: true */ /* @vite-ignore */ NODE)).webcrypto;  // Node 18
+  // Node 18 has no global `crypto`.
+  const { subtle } = globalThis.crypto ?? (await import(/* webpackIgnore: true */ /* @vite-ignore */ NODE)).webcrypto;
   const hash = new Uint8Array(await subtle.digest('SHA-256', numbers));
   return `${triangles.length} ${Array.from(hash.subarray(0, 8), byte => byte.toString(16).padStart(2, '0')).join('')}`;
 }

@@ -2,15 +2,33 @@
 import fs from 'node:fs';
 import { encodeGlb, measure, ready, simplifySync } from 'scarp';
 
-const [name, ...words] = process.argv.slice(2), [width, height, maxError] = words.map(Number);
+const [name, ...words] = process.argv.slice(2);
+const [width, height, maxError] = words.map(Number);
 await ready();
 const z = new Float32Array(new Uint8Array(fs.readFileSync(`${name}.f32`)).buffer);
 const options = { maxError, normals: true, uvs: true, effort: 'high' };
-const [plain, lattice] = [simplifySync(z, width, height, options), simplifySync(z, width, height, { ...options, lattice: true })];
+const [plain, lattice] = [
+  simplifySync(z, width, height, options),
+  simplifySync(z, width, height, { ...options, lattice: true }),
+];
 if (measure(z, width, height, lattice).maxError > maxError) throw new Error('the lattice breaks the bound');
-const files = { 'plain.glb': encodeGlb(plain), 'packed.glb': encodeGlb(lattice, { compress: true }), 'loose.glb': encodeGlb(plain, { compress: true }) };
+const files = {
+  'plain.glb': encodeGlb(plain),
+  'packed.glb': encodeGlb(lattice, { compress: true }),
+  'loose.glb': encodeGlb(plain, { compress: true }),
+};
 for (const [file, bytes] of Object.entries(files)) fs.writeFileSync(file, bytes);
 // A cell whose multiples float32 does not hold.
-const fine = simplifySync(z, width, height, { maxError, effort: 'high', lattice: true, transform: [400000, 0.1, 0, 5000000, 0, -0.1] });
+const fine = simplifySync(z, width, height, {
+  maxError,
+  effort: 'high',
+  lattice: true,
+  transform: [400000, 0.1, 0, 5000000, 0, -0.1],
+});
 fs.writeFileSync('fine.glb', encodeGlb(fine, { compress: true }));
-console.log(fine.maxError, plain.triangleCount, lattice.triangleCount, ...Object.values(files).map(bytes => bytes.length));
+console.log(
+  fine.maxError,
+  plain.triangleCount,
+  lattice.triangleCount,
+  ...Object.values(files).map(bytes => bytes.length),
+);

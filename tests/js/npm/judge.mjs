@@ -11,7 +11,8 @@ export function judge(samples, width, height, { columns, rows, z, triangles }) {
     const area = (columns[b] - columns[a]) * (rows[c] - rows[a]) - (rows[b] - rows[a]) * (columns[c] - columns[a]);
     if (area === 0) throw new Error(`triangle ${t / 3} has no area`);
     const corners = [a, b, c];
-    const from = list => Math.ceil(Math.min(...corners.map(v => list[v]))), to = list => Math.floor(Math.max(...corners.map(v => list[v])));
+    const from = list => Math.ceil(Math.min(...corners.map(v => list[v])));
+    const to = list => Math.floor(Math.max(...corners.map(v => list[v])));
     for (let y = from(rows); y <= to(rows); ++y) {
       for (let x = from(columns); x <= to(columns); ++x) {
         const v = ((x - columns[a]) * (rows[c] - rows[a]) - (y - rows[a]) * (columns[c] - columns[a])) / area;
@@ -22,10 +23,12 @@ export function judge(samples, width, height, { columns, rows, z, triangles }) {
       }
     }
   }
-  let max = 0, uncovered = 0;
+  let max = 0;
+  let uncovered = 0;
   for (let k = 0; k < worst.length; ++k) {
     if (Number.isNaN(samples[k])) continue;
-    if (worst[k] < 0) ++uncovered; else max = Math.max(max, worst[k]);
+    if (worst[k] < 0) ++uncovered;
+    else max = Math.max(max, worst[k]);
   }
   return { max, uncovered };
 }

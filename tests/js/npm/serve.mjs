@@ -3,8 +3,16 @@ import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
 
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.json': 'application/json', '.wasm': 'application/wasm' };
-const policy = more => ({ 'Content-Security-Policy': `default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; ${more}` });
+const TYPES = {
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '.mjs': 'text/javascript',
+  '.json': 'application/json',
+  '.wasm': 'application/wasm',
+};
+const policy = more => ({
+  'Content-Security-Policy': `default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; ${more}`,
+});
 const HEADERS = {
   isolated: { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' },
   strict: { 'Content-Security-Policy': "default-src 'self'" },
@@ -23,12 +31,14 @@ export async function serve(folder) {
     const file = path.join(folder, path.normalize(pathname));
     if (!fs.existsSync(file) || !fs.statSync(file).isFile()) return void response.writeHead(404).end();
     const headers = { 'Content-Type': TYPES[path.extname(file)] ?? 'application/octet-stream', ...HEADERS[first] };
-    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? ''), { size } = fs.statSync(file);
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? '');
+    const { size } = fs.statSync(file);
     if (!range || Number(range[1]) >= size) {
       response.writeHead(200, headers);
       return void fs.createReadStream(file).pipe(response);
     }
-    const start = Number(range[1]), end = Math.min(Number(range[2]), size - 1);
+    const start = Number(range[1]);
+    const end = Math.min(Number(range[2]), size - 1);
     response.writeHead(206, { ...headers, 'Content-Range': `bytes ${start}-${end}/${size}` });
     fs.createReadStream(file, { start, end }).pipe(response);
   });

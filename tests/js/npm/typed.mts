@@ -1,5 +1,17 @@
 // The declarations as an editor sees them; compiled, never run.
-import { Refiner, ScarpError, createPool, decodeTile, encodeGlb, measure, ready, simplify, simplifySync, type Mesh, type Report } from 'scarp';
+import {
+  Refiner,
+  ScarpError,
+  createPool,
+  decodeTile,
+  encodeGlb,
+  measure,
+  ready,
+  simplify,
+  simplifySync,
+  type Mesh,
+  type Report,
+} from 'scarp';
 import { Tiler, simplifyPointsSync, type LayerJson } from 'scarp/full';
 import { Refiner as Lite } from 'scarp/lite';
 import { simplify as inlined } from 'scarp/inline';
@@ -9,15 +21,28 @@ import { TerrainLoader, makeTerrainMesh } from 'scarp/loaders';
 
 const z = new Float32Array(65 * 65);
 await ready(new URL('https://example.org/scarp.wasm'));
-const mesh: Mesh = simplifySync(z, 65, 65, { maxError: 1, effort: 'high', onProgress: ({ fraction }) => fraction < 0.5 });
+const mesh: Mesh = simplifySync(z, 65, 65, {
+  maxError: 1,
+  effort: 'high',
+  onProgress: ({ fraction }) => fraction < 0.5,
+});
 const report: Report = measure(z, 65, 65, mesh);
-const later: Promise<Mesh> = simplify(z, 65, 65, { maxTriangles: 100, signal: new AbortController().signal, transfer: true });
+const later: Promise<Mesh> = simplify(z, 65, 65, {
+  maxTriangles: 100,
+  signal: new AbortController().signal,
+  transfer: true,
+});
 const pool = createPool({ size: 2 });
-const glb = encodeGlb(await pool.simplify(decodeTile(new Uint8ClampedArray(16), 2, 2, 'mapbox'), 2, 2, { maxError: 1 }));
+const glb = encodeGlb(
+  await pool.simplify(decodeTile(new Uint8ClampedArray(16), 2, 2, 'mapbox'), 2, 2, { maxError: 1 }),
+);
 const files: BlobPart[] = [glb, mesh.positions, mesh.indices];
-const blob = new Blob(files), file = new File([encodeGlb(mesh)], 'a.glb'), response = new Response(encodeGlb(mesh));
+const blob = new Blob(files),
+  file = new File([encodeGlb(mesh)], 'a.glb'),
+  response = new Response(encodeGlb(mesh));
 postMessage(mesh, '*', mesh.transferables());
-const refiner = new Refiner([1, null, 3, 4], 2, 2, { nodata: null }), lite = new Lite(z, 65, 65);
+const refiner = new Refiner([1, null, 3, 4], 2, 2, { nodata: null }),
+  lite = new Lite(z, 65, 65);
 const inserted: number = refiner.run({ maxError: 1 }) + lite.run({ maxVertices: 10 });
 const tile: Uint8Array = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).tile(0, 1, 0).bytes;
 const layer: LayerJson = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).layerJson({ name: 'land' });
@@ -30,4 +55,21 @@ const code: 'usage' | string = new ScarpError('usage', 'a sentence').code;
 simplifySync(z, 65, 65, { maxError: 1, effort: 'best' });
 // @ts-expect-error: no such option
 simplifySync(z, 65, 65, { maxEror: 1 });
-export { blob, file, response, code, coords, glb, inlined, inserted, later, layer, loaded, points, report, tile, vertices, TerrainLoader };
+export {
+  blob,
+  file,
+  response,
+  code,
+  coords,
+  glb,
+  inlined,
+  inserted,
+  later,
+  layer,
+  loaded,
+  points,
+  report,
+  tile,
+  vertices,
+  TerrainLoader,
+};

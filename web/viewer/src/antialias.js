@@ -4,23 +4,32 @@ import * as THREE from 'three';
 
 const MANY = 200_000;
 
-function draws_by_software(gl) {
+function drawsBySoftware(gl) {
   const words = gl.getExtension('WEBGL_debug_renderer_info');
-  return words !== null && /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(words.UNMASKED_RENDERER_WEBGL));
+  return (
+    words !== null &&
+    /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(words.UNMASKED_RENDERER_WEBGL))
+  );
 }
 
 export class Antialias {
   constructor(renderer) {
     this.renderer = renderer;
-    this.is_slow = draws_by_software(renderer.getContext());
+    this.isSlow = drawsBySoftware(renderer.getContext());
     this.target = new THREE.WebGLRenderTarget(1, 1, { samples: 4 });
     this.target.scissorTest = true;
     this.camera = new THREE.Camera();
-    this.sheet = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new THREE.ShaderMaterial({
-      uniforms: { picture: { value: this.target.texture } }, depthTest: false, depthWrite: false,
-      vertexShader: 'varying vec2 at; void main() { at = uv; gl_Position = vec4(position.xy, 0., 1.); }',
-      fragmentShader: 'uniform sampler2D picture; varying vec2 at; void main() { gl_FragColor = texture2D(picture, at); }',
-    }));
+    this.sheet = new THREE.Mesh(
+      new THREE.PlaneGeometry(2, 2),
+      new THREE.ShaderMaterial({
+        uniforms: { picture: { value: this.target.texture } },
+        depthTest: false,
+        depthWrite: false,
+        vertexShader: 'varying vec2 at; void main() { at = uv; gl_Position = vec4(position.xy, 0., 1.); }',
+        fragmentShader:
+          'uniform sampler2D picture; varying vec2 at; void main() { gl_FragColor = texture2D(picture, at); }',
+      }),
+    );
     this.sheet.frustumCulled = false;
   }
 
@@ -30,20 +39,25 @@ export class Antialias {
 
   /** Returns the target of viewports, in CSS pixels. */
   begin(triangles) {
-    const { renderer, target } = this, ratio = renderer.getPixelRatio();
-    this.is_on = !(this.is_slow && triangles > MANY);
-    if (!this.is_on) return renderer;
+    const { renderer, target } = this;
+    const ratio = renderer.getPixelRatio();
+    this.isOn = !(this.isSlow && triangles > MANY);
+    if (!this.isOn) return renderer;
     renderer.setRenderTarget(target);
-    const place = area => (...sides) => {
-      area.set(...sides.map(side => Math.round(side * ratio)));
-      renderer.setRenderTarget(target);  // also applies the settings made before
-    };
+    const place =
+      area =>
+      (...sides) => {
+        area.set(...sides.map(side => Math.round(side * ratio)));
+        renderer.setRenderTarget(target); // also applies the settings made before
+      };
     return { setViewport: place(target.viewport), setScissor: place(target.scissor) };
   }
 
   end() {
-    if (!this.is_on) return;
-    const { renderer, target } = this, ratio = renderer.getPixelRatio(), whole = [0, 0, target.width / ratio, target.height / ratio];
+    if (!this.isOn) return;
+    const { renderer, target } = this;
+    const ratio = renderer.getPixelRatio();
+    const whole = [0, 0, target.width / ratio, target.height / ratio];
     renderer.setRenderTarget(null);
     renderer.setViewport(...whole);
     renderer.setScissor(...whole);

@@ -9,21 +9,30 @@ function quote(name) {
 const EFFORTS = { greedy: '--effort fast --order greedy', high: '--effort high' };
 
 /** How the raster was read for the file that the page began with: only words that no shell reads. */
-function options_of({ command = '' }) {
-  const found = String(command).matchAll(/ --(?:band|te|resolution|decode|nodata|z-scale|z-offset|cell-size|crs)(?: [A-Za-z0-9.:+-]+)+?(?= --| -[a-z] |$)/g);
+function optionsOf({ command = '' }) {
+  const found = String(command).matchAll(
+    / --(?:band|te|resolution|decode|nodata|z-scale|z-offset|cell-size|crs)(?: [A-Za-z0-9.:+-]+)+?(?= --| -[a-z] |$)/g,
+  );
   return [...found].map(([words]) => words).join('');
 }
 
 /** Null for the mesh of a file. The page's meshes hold float32, as a GLB does, and the program's own OBJ does not. */
-export function command_of({ field, goal, name, extras }, format) {
+export function commandOf({ field, goal, name, extras }, format) {
   if (!goal) return null;
-  const asked = goal.maxTriangles ? `-t ${goal.maxTriangles}` : `-e ${goal.maxError}`, decode = field.decoding && field.decoding !== 'grey' ? ` --decode ${field.decoding}` : '';
-  return `scarp simplify ${quote(field.name)} mesh.${format === 'obj' ? 'glb' : format} ${asked} ${EFFORTS[name]}${decode}${options_of(extras)}`;
+  const asked = goal.maxTriangles ? `-t ${goal.maxTriangles}` : `-e ${goal.maxError}`;
+  const decode = field.decoding && field.decoding !== 'grey' ? ` --decode ${field.decoding}` : '';
+  const files = `${quote(field.name)} mesh.${format === 'obj' ? 'glb' : format}`;
+  return `scarp simplify ${files} ${asked} ${EFFORTS[name]}${decode}${optionsOf(extras)}`;
 }
 
 /** Notes on what the command does not express. */
-export function command_notes({ field }, format) {
+export function commandNotes({ field }, format) {
   if (!field) return '';
-  return [field.step > 1 && 'It is of the full raster: more samples, another mesh.', format === 'obj' && 'It writes the mesh as GLB: the program fits an OBJ in doubles, and may find another.',
-    /\p{Cc}/u.test(field.name) && 'It has ? for what no line shows in the name: write that, or rename the file.'].filter(Boolean).join(' ');
+  return [
+    field.step > 1 && 'It is of the full raster: more samples, another mesh.',
+    format === 'obj' && 'It writes the mesh as GLB: the program fits an OBJ in doubles, and may find another.',
+    /\p{Cc}/u.test(field.name) && 'It has ? for what no line shows in the name: write that, or rename the file.',
+  ]
+    .filter(Boolean)
+    .join(' ');
 }

@@ -1,61 +1,72 @@
 // Files dropped on the page or chosen: a GLB replaces the mesh, and is judged if it lies where the raster does; a
 // raster is simplified here. Nothing is sent from the page.
-import { document_of_raster, fits, make_document } from './document.js';
-import { read_fragment } from './fragment.js';
+import { documentOfRaster, fits, makeDocument } from './document.js';
+import { readFragment } from './fragment.js';
 import { Sentence } from './sentence.js';
 
 const MOST_BYTES = 2 ** 30;
 const RASTERS = /\.(tiff?|hgt|png)$/i;
-const FIRST_SHARE = 0.02;  // max error of the first mesh, of the relief
+const FIRST_SHARE = 0.02; // max error of the first mesh, of the relief
 
 /** The document of a raster: {document, decode}, the latter to read it again; null if another opening has begun
  * meanwhile. */
-async function read_document(page, file, is_last, decoding) {
-  if (!HAS_ENGINE) throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
-  const { read_raster } = await import('./rasters.js');
-  const raster = await read_raster(file, decoding);
-  if (!is_last()) return null;
-  const document = document_of_raster(raster, await page.live.make_first(raster.field, FIRST_SHARE));
-  return { document, decode: other => begin(page, last => read_document(page, file, last, other)) };
+async function readDocument(page, file, isLast, decoding) {
+  if (!HAS_ENGINE)
+    throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
+  const { readRaster } = await import('./rasters.js');
+  const raster = await readRaster(file, decoding);
+  if (!isLast()) return null;
+  const document = documentOfRaster(raster, await page.live.makeFirst(raster.field, FIRST_SHARE));
+  return { document, decode: other => begin(page, last => readDocument(page, file, last, other)) };
 }
 
 /** The last opening wins: results and messages of earlier ones are dropped. */
 export async function begin(page, read) {
-  const turn = page.turn = (page.turn ?? 0) + 1, is_last = () => turn === page.turn;
-  page.live.cancel_first();
+  const turn = (page.turn = (page.turn ?? 0) + 1);
+  const isLast = () => turn === page.turn;
+  page.live.cancelFirst();
   page.say('');
   try {
-    const found = await read(is_last);
-    if (!is_last()) return;
-    page.open(found.document, found.state ?? state_of_first(page, found.document));
+    const found = await read(isLast);
+    if (!isLast()) return;
+    page.open(found.document, found.state ?? stateOfFirst(page, found.document));
     page.decode = found.decode ?? page.decode;
   } catch (error) {
-    if (is_last()) page.complain(error);
+    if (isLast()) page.complain(error);
   }
 }
 
 /** A page that began empty shows its first file by its address, unless that names a raster of other dimensions. */
-function state_of_first(page, { field }) {
-  const state = page.document ? {} : read_fragment(), [cols, rows] = state.samples ?? [];
+function stateOfFirst(page, { field }) {
+  const state = page.document ? {} : readFragment();
+  const [cols, rows] = state.samples ?? [];
   return cols === undefined || (field?.cols === cols && field.rows === rows) ? state : {};
 }
 
 /** Handles a drop. */
-async function read_files(page, files, is_last) {
-  const large = files.find(file => file.size > MOST_BYTES), wrong = files.find(file => !/\.glb$/i.test(file.name) && !RASTERS.test(file.name));
-  if (wrong) throw new Sentence(`${wrong.name} is no file that this page reads: .glb${HAS_ENGINE ? ', .tif, .hgt or .png' : ''}.`);
+async function readFiles(page, files, isLast) {
+  const large = files.find(file => file.size > MOST_BYTES);
+  const wrong = files.find(file => !/\.glb$/i.test(file.name) && !RASTERS.test(file.name));
+  if (wrong)
+    throw new Sentence(
+      `${wrong.name} is no file that this page reads: .glb${HAS_ENGINE ? ', .tif, .hgt or .png' : ''}.`,
+    );
   if (large) throw new Sentence(`${large.name} is too large for this page, which takes 1 GiB.`);
   if (files.length > 1) throw new Sentence('One file at a time, please.');
   const [file] = files;
-  if (RASTERS.test(file.name)) return read_document(page, file, is_last, null);
+  if (RASTERS.test(file.name)) return readDocument(page, file, isLast, null);
   const read = [{ name: file.name, bytes: file.size, buffer: await file.arrayBuffer() }];
-  const old = page.document, field = old?.field ?? null, opened = await make_document(read, null);
-  return { document: field && fits(field, opened) ? await make_document(read, field, old.place.metres, old.unit) : opened };
+  const old = page.document;
+  const field = old?.field ?? null;
+  const opened = await makeDocument(read, null);
+  return {
+    document: field && fits(field, opened) ? await makeDocument(read, field, old.place.metres, old.unit) : opened,
+  };
 }
 
 /** `page.load` is for who brings files in another way. */
-export function accept_drops(page) {
-  page.load = files => begin(page, is_last => read_files(page, files, is_last));
+export function acceptDrops(page) {
+  page.load = files => begin(page, isLast => readFiles(page, files, isLast));
   const decoding = document.getElementById('decoding');
   decoding.addEventListener('change', () => page.decode(decoding.value));
   addEventListener('dragover', event => event.preventDefault());

@@ -7,7 +7,8 @@ function narrow(samples) {
 }
 
 export class Field {
-  /** `affine`: from column and row of a sample's centre to x and y of the mesh, in GDAL's order of terms; `decoding`: how the heights lie in colours, null where they do not; `step`: each such sample of the file is here. */
+  /** `affine`: from column and row of a sample's centre to x and y of the mesh, in GDAL's order of terms; `decoding`:
+   * how the heights lie in colours, null where they do not; `step`: each such sample of the file is here. */
   constructor({ name, cols, rows, affine, samples, unit = '', decoding = null, step = 1 }) {
     Object.assign(this, { name, cols, rows, affine, samples: narrow(samples), unit, decoding, step });
     this.determinant = affine[1] * affine[5] - affine[2] * affine[4];
@@ -20,41 +21,47 @@ export class Field {
   }
 
   /** Triangles of a mesh of all samples. */
-  get full_triangles() {
+  get fullTriangles() {
     return 2 * (this.cols - 1) * (this.rows - 1);
   }
 
-  to_place(col, row) {
+  toPlace(col, row) {
     const a = this.affine;
     return [a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row];
   }
 
   /** Vertices that a file rounded to float32 lie on their samples again. */
-  to_grid(x, y) {
-    const a = this.affine, dx = x - a[0], dy = y - a[3];
+  toGrid(x, y) {
+    const a = this.affine;
+    const dx = x - a[0];
+    const dy = y - a[3];
     return [snap((a[5] * dx - a[2] * dy) / this.determinant), snap((a[1] * dy - a[4] * dx) / this.determinant)];
   }
 
   /** Grid positions of all vertices: column, row, column, … */
-  to_grids(positions) {
-    const grid = new Float64Array(positions.length / 3 * 2);
-    for (let v = 0, k = 0; k < grid.length; v += 3, k += 2) [grid[k], grid[k + 1]] = this.to_grid(positions[v], positions[v + 1]);
+  toGrids(positions) {
+    const grid = new Float64Array((positions.length / 3) * 2);
+    for (let v = 0, k = 0; k < grid.length; v += 3, k += 2)
+      [grid[k], grid[k + 1]] = this.toGrid(positions[v], positions[v + 1]);
     return grid;
   }
 
   /** Bilinear between samples; NaN outside and next to voids. */
-  height_at(x, y) {
-    const [col, row] = this.to_grid(x, y);
+  heightAt(x, y) {
+    const [col, row] = this.toGrid(x, y);
     if (!(col >= 0 && row >= 0 && col <= this.cols - 1 && row <= this.rows - 1)) return NaN;
-    const c = Math.min(Math.floor(col), this.cols - 2), r = Math.min(Math.floor(row), this.rows - 2), u = col - c, v = row - r;
+    const c = Math.min(Math.floor(col), this.cols - 2);
+    const r = Math.min(Math.floor(row), this.rows - 2);
+    const u = col - c;
+    const v = row - r;
     const at = (dc, dr) => this.samples[(r + dr) * this.cols + c + dc];
-    const mix = (a, b, t) => t === 0 ? a : t === 1 ? b : a + t * (b - a);
+    const mix = (a, b, t) => (t === 0 ? a : t === 1 ? b : a + t * (b - a));
     return mix(mix(at(0, 0), at(1, 0), u), mix(at(0, 1), at(1, 1), u), v);
   }
 }
 
 /** Vertices of the engine, which are offsets from an origin. */
-export function place_mesh({ positions, origin }) {
+export function placeMesh({ positions, origin }) {
   return Float64Array.from(positions, (value, k) => value + origin[k % 3]);
 }
 

@@ -1,25 +1,27 @@
 // The position of samples: the frame that the program gives a raster unless it is asked for another
-// (src/grid/local_frame.cpp explains why cells are rounded). {affine, metres, extras, knows_metres}: from columns and
+// (src/grid/local_frame.cpp explains why cells are rounded). {affine, metres, extras, knowsMetres}: from columns and
 // rows to x and y, metres of a unit of x, y and z, a mesh file's metadata about the frame.
-export const WGS84 = { semi_major: 6378137, inverse_flattening: 298.257223563 };
+export const WGS84 = { semiMajor: 6378137, inverseFlattening: 298.257223563 };
 
-function metres_per_radian({ semi_major, inverse_flattening }, latitude) {
-  const f = inverse_flattening > 0 ? 1 / inverse_flattening : 0, e2 = f * (2 - f), w2 = 1 - e2 * Math.sin(latitude) ** 2;
-  return [semi_major / Math.sqrt(w2) * Math.cos(latitude), semi_major * (1 - e2) / (w2 * Math.sqrt(w2))];
+function metresPerRadian({ semiMajor, inverseFlattening }, latitude) {
+  const f = inverseFlattening > 0 ? 1 / inverseFlattening : 0;
+  const e2 = f * (2 - f);
+  const w2 = 1 - e2 * Math.sin(latitude) ** 2;
+  return [(semiMajor / Math.sqrt(w2)) * Math.cos(latitude), (semiMajor * (1 - e2)) / (w2 * Math.sqrt(w2))];
 }
 
 /** Ties to even, as C rounds. */
-function round_even(value) {
+function roundEven(value) {
   const near = Math.round(value);
   return Math.abs(value % 1) === 0.5 && near % 2 ? near - 1 : near;
 }
 
 /** Multiples of a power of two so coarse that all their sums over the raster are float32. */
-function round_pair(pair, reach) {
+function roundPair(pair, reach) {
   const span = Math.abs(pair[0]) * reach[0] + Math.abs(pair[1]) * reach[1];
   if (span === 0 || !Number.isFinite(span)) return pair;
-  for (let unit = 2 ** (Math.floor(Math.log2(span)) - 25);; unit *= 2) {
-    const [p, q] = pair.map(value => round_even(value / unit));
+  for (let unit = 2 ** (Math.floor(Math.log2(span)) - 25); ; unit *= 2) {
+    const [p, q] = pair.map(value => roundEven(value / unit));
     if (Math.abs(p) * reach[0] + Math.abs(q) * reach[1] <= 2 ** 24) return [p * unit, q * unit];
   }
 }
@@ -27,32 +29,60 @@ function round_pair(pair, reach) {
 const at = (a, col, row) => [a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row];
 
 /** From x and y around the centre sample to the coordinates of the raster's CRS. */
-function back_to_source([, a, b, , c, d], samples, centre) {
-  const [, e, f, , g, h] = samples, determinant = a * d - b * c, [x, y] = at(samples, ...centre);
-  return [x, (e * d - f * c) / determinant, (f * a - e * b) / determinant, y, (g * d - h * c) / determinant, (h * a - g * b) / determinant];
+function backToSource([, a, b, , c, d], samples, centre) {
+  const [, e, f, , g, h] = samples;
+  const determinant = a * d - b * c;
+  const [x, y] = at(samples, ...centre);
+  return [
+    x,
+    (e * d - f * c) / determinant,
+    (f * a - e * b) / determinant,
+    y,
+    (g * d - h * c) / determinant,
+    (h * a - g * b) / determinant,
+  ];
 }
 
 /** For each `step`th column and row: where they lie in the whole raster. */
-export function thin_frame(frame, step) {
-  return { ...frame, affine: frame.affine.map((value, k) => k % 3 ? value * step : value) };
+export function thinFrame(frame, step) {
+  return { ...frame, affine: frame.affine.map((value, k) => (k % 3 ? value * step : value)) };
 }
 
-export function grid_frame(rows) {
-  return { affine: [0, 1, 0, rows - 1, 0, -1], metres: [1, 1, 1], knows_metres: false, extras: { crs_option: 'grid' } };
+export function gridFrame(rows) {
+  return { affine: [0, 1, 0, rows - 1, 0, -1], metres: [1, 1, 1], knowsMetres: false, extras: { crs_option: 'grid' } };
 }
 
 /**
  * `samples`: from columns and rows to the coordinates of the CRS, in GDAL's order. `radians`: one unit of these, if
  * they are longitude and latitude; else `metres`, null where unknown. `height`: metres of a unit of the heights.
  * */
-export function local_frame(samples, cols, rows, { radians = null, ellipsoid = WGS84, metres = null, height = 1, crs = null }) {
-  const centre = [Math.floor(cols / 2), Math.floor(rows / 2)], latitude = radians && at(samples, ...centre)[1] * radians;
-  const [east, north] = radians ? metres_per_radian(ellipsoid, latitude).map(length => length * radians) : Array(2).fill(metres ?? 1);
-  const [xc, xr] = round_pair([samples[1] * east, samples[2] * east], centre), [yc, yr] = round_pair([samples[4] * north, samples[5] * north], centre);
+export function localFrame(
+  samples,
+  cols,
+  rows,
+  { radians = null, ellipsoid = WGS84, metres = null, height = 1, crs = null },
+) {
+  const centre = [Math.floor(cols / 2), Math.floor(rows / 2)];
+  const latitude = radians && at(samples, ...centre)[1] * radians;
+  const [east, north] = radians
+    ? metresPerRadian(ellipsoid, latitude).map(length => length * radians)
+    : Array(2).fill(metres ?? 1);
+  const [xc, xr] = roundPair([samples[1] * east, samples[2] * east], centre);
+  const [yc, yr] = roundPair([samples[4] * north, samples[5] * north], centre);
   const affine = [-(xc * centre[0] + xr * centre[1]), xc, xr, -(yc * centre[0] + yr * centre[1]), yc, yr];
-  const is_at_pole = radians && !(Math.abs(latitude) < Math.PI / 2 && east > 1e-3 * north), area = xc * yr - xr * yc;
-  if (is_at_pole || area === 0 || !Number.isFinite(area)) return grid_frame(rows);
-  const to_source = back_to_source(affine, samples, centre);
-  return { affine, metres: [1, 1, height], knows_metres: Boolean(radians) || metres !== null,
-    extras: { crs_option: 'local', origin: [to_source[0], to_source[3]], ...(crs ? { origin_crs: crs } : {}), to_source } };
+  const isAtPole = radians && !(Math.abs(latitude) < Math.PI / 2 && east > 1e-3 * north);
+  const area = xc * yr - xr * yc;
+  if (isAtPole || area === 0 || !Number.isFinite(area)) return gridFrame(rows);
+  const toSource = backToSource(affine, samples, centre);
+  return {
+    affine,
+    metres: [1, 1, height],
+    knowsMetres: Boolean(radians) || metres !== null,
+    extras: {
+      crs_option: 'local',
+      origin: [toSource[0], toSource[3]],
+      ...(crs ? { origin_crs: crs } : {}),
+      to_source: toSource,
+    },
+  };
 }

@@ -1,21 +1,32 @@
 // Images that lie over a mesh: their settings in a material of a GLB, and their pixels.
 
-const SLACK = 1e-3;  // share of the image's side
+const SLACK = 1e-3; // share of the image's side
 
-const to_srgb = linear => linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055;
+const toSrgb = linear => (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
 
-/** {texture, places, ground, has_normal_map, is_moved} of a primitive: the texture's index or null, the name of an attribute, the colour where there is no texture. */
-export function surface_of(json, primitive) {
-  const material = json.materials?.[primitive.material] ?? {}, { baseColorTexture: base, baseColorFactor = [] } = material.pbrMetallicRoughness ?? {};
-  const places = `TEXCOORD_${base?.texCoord ?? 0}`, has_places = base && primitive.attributes?.[places] !== undefined;
-  return { texture: has_places ? base.index : null, places, ground: has_places ? null : [0, 1, 2].map(k => to_srgb(baseColorFactor[k] ?? 1)), has_normal_map: Boolean(material.normalTexture), is_moved: Boolean(base?.extensions?.KHR_texture_transform) };
+/** {texture, places, ground, hasNormalMap, isMoved} of a primitive: the texture's index or null, the name of an
+ * attribute, the colour where there is no texture. */
+export function surfaceOf(json, primitive) {
+  const material = json.materials?.[primitive.material] ?? {};
+  const { baseColorTexture: base, baseColorFactor = [] } = material.pbrMetallicRoughness ?? {};
+  const places = `TEXCOORD_${base?.texCoord ?? 0}`;
+  const hasPlaces = base && primitive.attributes?.[places] !== undefined;
+  return {
+    texture: hasPlaces ? base.index : null,
+    places,
+    ground: hasPlaces ? null : [0, 1, 2].map(k => toSrgb(baseColorFactor[k] ?? 1)),
+    hasNormalMap: Boolean(material.normalTexture),
+    isMoved: Boolean(base?.extensions?.KHR_texture_transform),
+  };
 }
 
-/** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for the single pixel that stands in for an image; or {why} there is none. */
-export async function read_image(json, index, bytes_of) {
-  const texture = json.textures?.[index] ?? {}, source = json.images?.[texture.extensions?.EXT_texture_webp?.source ?? texture.source];
+/** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for the single pixel that stands in for an
+ * image; or {why} there is none. */
+export async function readImage(json, index, bytesOf) {
+  const texture = json.textures?.[index] ?? {};
+  const source = json.images?.[texture.extensions?.EXT_texture_webp?.source ?? texture.source];
   if (source?.bufferView === undefined) return { why: 'it does not lie in the file' };
-  const blob = new Blob([bytes_of(source.bufferView)], { type: source.mimeType });
+  const blob = new Blob([bytesOf(source.bufferView)], { type: source.mimeType });
   try {
     const bitmap = await createImageBitmap(blob, { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
     const { wrapS = 10497, wrapT = 10497 } = json.samplers?.[texture.sampler] ?? {};
@@ -26,20 +37,31 @@ export async function read_image(json, index, bytes_of) {
 }
 
 /** The map from x and y of a mesh to its image, if it is affine: (x, y) => [u, v]; null if it is none. */
-export function find_placing({ positions, uvs }) {
-  const count = uvs.length / 2, row = v => [positions[3 * v], positions[3 * v + 1], uvs[2 * v], uvs[2 * v + 1]];
-  const mean = [0, 0, 0, 0], products = Array.from({ length: 2 }, () => [0, 0, 0, 0]);  // sums for x and for y, with
-                                                                                        // each of the four
-  for (let v = 0; v < count; ++v) row(v).forEach((value, k) => { mean[k] += value / count; });
+export function findPlacing({ positions, uvs }) {
+  const count = uvs.length / 2;
+  const row = v => [positions[3 * v], positions[3 * v + 1], uvs[2 * v], uvs[2 * v + 1]];
+  const mean = [0, 0, 0, 0];
+  // Sums for x and for y, with each of the four.
+  const products = Array.from({ length: 2 }, () => [0, 0, 0, 0]);
+  for (let v = 0; v < count; ++v)
+    row(v).forEach((value, k) => {
+      mean[k] += value / count;
+    });
   for (let v = 0; v < count; ++v) {
-    const from_mean = row(v).map((value, k) => value - mean[k]);
-    for (let j = 0; j < 2; ++j) for (let k = 0; k < 4; ++k) products[j][k] += from_mean[j] * from_mean[k];
+    const fromMean = row(v).map((value, k) => value - mean[k]);
+    for (let j = 0; j < 2; ++j) for (let k = 0; k < 4; ++k) products[j][k] += fromMean[j] * fromMean[k];
   }
-  const [[xx, xy], [, yy]] = products, determinant = xx * yy - xy * xy;
-  const slopes = [2, 3].map(k => [products[0][k] * yy - products[1][k] * xy, products[1][k] * xx - products[0][k] * xy].map(sum => sum / determinant));
+  const [[xx, xy], [, yy]] = products;
+  const determinant = xx * yy - xy * xy;
+  const slopes = [2, 3].map(k =>
+    [products[0][k] * yy - products[1][k] * xy, products[1][k] * xx - products[0][k] * xy].map(
+      sum => sum / determinant,
+    ),
+  );
   const place = (x, y) => slopes.map(([a, b], k) => mean[2 + k] + a * (x - mean[0]) + b * (y - mean[1]));
   for (let v = 0; v < count; ++v) {
-    const [x, y, u, w] = row(v), [a, b] = place(x, y);
+    const [x, y, u, w] = row(v);
+    const [a, b] = place(x, y);
     if (!(Math.abs(a - u) < SLACK && Math.abs(b - w) < SLACK)) return null;
   }
   return place;

@@ -1,17 +1,21 @@
 // Vertices at one place: files keep them apart where parts, tiles or images meet, the eye does not.
 
 /** The first power of two that holds as many twice. */
-function slots_for(count) {
+function slotsFor(count) {
   return 2 ** Math.ceil(Math.log2(2 * count + 1));
 }
 
 /** For each vertex the first one at its place. `places`: x, y, z in single precision. */
-export function join_places(places) {
-  const count = places.length / 3, bits = new Int32Array(places.buffer, places.byteOffset, places.length);
-  const mask = slots_for(count) - 1, slots = new Int32Array(mask + 1).fill(-1), firsts = new Uint32Array(count);
+export function joinPlaces(places) {
+  const count = places.length / 3;
+  const bits = new Int32Array(places.buffer, places.byteOffset, places.length);
+  const mask = slotsFor(count) - 1;
+  const slots = new Int32Array(mask + 1).fill(-1);
+  const firsts = new Uint32Array(count);
   for (let v = 0; v < count; ++v) {
     const [x, y, z] = [bits[3 * v], bits[3 * v + 1], bits[3 * v + 2]];
-    let hash = Math.imul(x, 0x9e3779b1) ^ Math.imul(y, 0x85ebca6b) ^ Math.imul(z, 0xc2b2ae35), at = (hash ^= hash >>> 15) & mask;
+    let hash = Math.imul(x, 0x9e3779b1) ^ Math.imul(y, 0x85ebca6b) ^ Math.imul(z, 0xc2b2ae35);
+    let at = (hash ^= hash >>> 15) & mask;
     for (; slots[at] >= 0; at = (at + 1) & mask) {
       const other = 3 * slots[at];
       if (bits[other] === x && bits[other + 1] === y && bits[other + 2] === z) break;
@@ -23,17 +27,26 @@ export function join_places(places) {
 }
 
 /** Each edge once, as pairs of vertices. */
-export function list_edges(indices, firsts) {
-  const begins = new Uint32Array(firsts.length + 1), each_side = use => {
+export function listEdges(indices, firsts) {
+  const begins = new Uint32Array(firsts.length + 1);
+  const eachSide = use => {
     for (let k = 0; k < indices.length; ++k) {
-      const a = firsts[indices[k]], b = firsts[indices[k % 3 === 2 ? k - 2 : k + 1]];
+      const a = firsts[indices[k]];
+      const b = firsts[indices[k % 3 === 2 ? k - 2 : k + 1]];
       if (a !== b) use(Math.min(a, b), Math.max(a, b));
     }
   };
-  each_side(low => { ++begins[low + 1]; });
+  eachSide(low => {
+    ++begins[low + 1];
+  });
   for (let v = 0; v < firsts.length; ++v) begins[v + 1] += begins[v];
-  const ends = begins.slice(), highs = new Uint32Array(begins[firsts.length]), seen = new Uint32Array(firsts.length).fill(firsts.length), pairs = new Uint32Array(2 * highs.length);
-  each_side((low, high) => { highs[ends[low]++] = high; });
+  const ends = begins.slice();
+  const highs = new Uint32Array(begins[firsts.length]);
+  const seen = new Uint32Array(firsts.length).fill(firsts.length);
+  const pairs = new Uint32Array(2 * highs.length);
+  eachSide((low, high) => {
+    highs[ends[low]++] = high;
+  });
   let count = 0;
   for (let low = 0; low < firsts.length; ++low) {
     for (let at = begins[low]; at < ends[low]; ++at) {
@@ -46,12 +59,21 @@ export function list_edges(indices, firsts) {
   return pairs.subarray(0, count);
 }
 
-/** By length, roughly: {pairs, count_from}, the longest first, and how many there are, at least, of a length or more. */
-export function rank_edges(pairs, places) {
-  const SHIFT = 21, ranks = 2 ** (31 - SHIFT), count = pairs.length / 2, squares = new Float32Array(count), bits = new Int32Array(squares.buffer);
-  const ends = new Uint32Array(ranks + 1), ranked = new Uint32Array(pairs.length);
+/** By length, roughly: {pairs, countFrom}, the longest first, and how many there are, at least, of a length or more. */
+export function rankEdges(pairs, places) {
+  const SHIFT = 21;
+  const ranks = 2 ** (31 - SHIFT);
+  const count = pairs.length / 2;
+  const squares = new Float32Array(count);
+  const bits = new Int32Array(squares.buffer);
+  const ends = new Uint32Array(ranks + 1);
+  const ranked = new Uint32Array(pairs.length);
   for (let k = 0; k < count; ++k) {
-    const a = 3 * pairs[2 * k], b = 3 * pairs[2 * k + 1], x = places[a] - places[b], y = places[a + 1] - places[b + 1], z = places[a + 2] - places[b + 2];
+    const a = 3 * pairs[2 * k];
+    const b = 3 * pairs[2 * k + 1];
+    const x = places[a] - places[b];
+    const y = places[a + 1] - places[b + 1];
+    const z = places[a + 2] - places[b + 2];
     squares[k] = x * x + y * y + z * z;
     ++ends[ranks - (bits[k] >> SHIFT)];
   }
@@ -62,17 +84,27 @@ export function rank_edges(pairs, places) {
     ranked[at] = pairs[2 * k];
     ranked[at + 1] = pairs[2 * k + 1];
   }
-  return { pairs: ranked, count_from: length => ends[ranks - (new Int32Array(Float32Array.of(length * length).buffer)[0] >> SHIFT)] };
+  return {
+    pairs: ranked,
+    countFrom: length => ends[ranks - (new Int32Array(Float32Array.of(length * length).buffer)[0] >> SHIFT)],
+  };
 }
 
 /** For each vertex the sum of the normals of all triangles at its place, by their areas. */
-export function sum_normals(places, indices, firsts) {
-  const sums = new Float64Array(places.length), normals = new Float32Array(places.length);
+export function sumNormals(places, indices, firsts) {
+  const sums = new Float64Array(places.length);
+  const normals = new Float32Array(places.length);
   for (let k = 0; k < indices.length; k += 3) {
     const [a, b, c] = [3 * firsts[indices[k]], 3 * firsts[indices[k + 1]], 3 * firsts[indices[k + 2]]];
-    const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
-    const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
-    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    const ux = places[b] - places[a];
+    const uy = places[b + 1] - places[a + 1];
+    const uz = places[b + 2] - places[a + 2];
+    const vx = places[c] - places[a];
+    const vy = places[c + 1] - places[a + 1];
+    const vz = places[c + 2] - places[a + 2];
+    const x = uy * vz - uz * vy;
+    const y = uz * vx - ux * vz;
+    const z = ux * vy - uy * vx;
     for (const at of [a, b, c]) {
       sums[at] += x;
       sums[at + 1] += y;
@@ -80,7 +112,8 @@ export function sum_normals(places, indices, firsts) {
     }
   }
   for (let v = 0; v < firsts.length; ++v) {
-    const at = 3 * firsts[v], length = Math.hypot(sums[at], sums[at + 1], sums[at + 2]) || 1;
+    const at = 3 * firsts[v];
+    const length = Math.hypot(sums[at], sums[at + 1], sums[at + 2]) || 1;
     for (let k = 0; k < 3; ++k) normals[3 * v + k] = sums[at + k] / length;
   }
   return normals;

@@ -3,7 +3,7 @@ import SOURCE from 'judge-source';
 import { judge } from './errors.js';
 
 /** The result of judge(). If the browser starts no worker the page waits for it. */
-export function judge_beside(field, { positions, indices }) {
+export function judgeBeside(field, { positions, indices }) {
   return new Promise(done => {
     let worker = null;
     const address = URL.createObjectURL(new Blob([SOURCE], { type: 'text/javascript' }));
@@ -12,18 +12,18 @@ export function judge_beside(field, { positions, indices }) {
       URL.revokeObjectURL(address);
       done(judged);
     };
-    const judge_here = event => {
+    const judgeHere = event => {
       event.preventDefault?.();
       end(judge(field, { positions, indices }));
     };
     try {
       worker = new Worker(address);
       worker.onmessage = ({ data }) => end(data);
-      worker.onerror = judge_here;
+      worker.onerror = judgeHere;
       const { samples, cols, rows, affine } = field;
       worker.postMessage({ field: { samples, cols, rows, affine }, mesh: { positions, indices } });
     } catch (error) {
-      judge_here(error);
+      judgeHere(error);
     }
   });
 }

@@ -1,20 +1,23 @@
 // The effects of keys.
-const TURNED = 5;  // degrees
-const MOVED = 0.1;  // share of the picture's height
+const TURNED = 5; // degrees
+const MOVED = 0.1; // share of the picture's height
 
-export function listen_to_keys(page) {
+export function listenToKeys(page) {
   addEventListener('keydown', event => {
-    const { target, key } = event, is_control = target.matches?.('input, select, button, dialog, [role=slider]');
-    if (event.ctrlKey || event.metaKey || event.altKey || !page.document || document.querySelector('dialog[open]')) return;
-    if (is_control && /^(Arrow|Enter|Page| )/.test(key)) return;
-    const arrow = (x, y) => event.shiftKey ? page.scene.move(x * MOVED, y * MOVED) : page.scene.turn(-x * TURNED, y * TURNED);
+    const { target, key } = event;
+    const isControl = target.matches?.('input, select, button, dialog, [role=slider]');
+    if (event.ctrlKey || event.metaKey || event.altKey || !page.document || document.querySelector('dialog[open]'))
+      return;
+    if (isControl && /^(Arrow|Enter|Page| )/.test(key)) return;
+    const arrow = (x, y) =>
+      event.shiftKey ? page.scene.move(x * MOVED, y * MOVED) : page.scene.turn(-x * TURNED, y * TURNED);
     const action = {
       w: () => page.change({ edges: !page.look.edges }),
       e: () => page.document.field && page.change({ errors: !page.look.errors }),
-      i: () => page.has_image && page.change({ image: page.look.errors || !page.look.image, errors: false }),
+      i: () => page.hasImage && page.change({ image: page.look.errors || !page.look.image, errors: false }),
       n: () => page.change({ smooth: !page.look.smooth }),
-      s: () => page.live.toggle_both(),
-      m: () => page.measuring.turn(!page.measuring.is_on),
+      s: () => page.live.toggleBoth(),
+      m: () => page.measuring.turn(!page.measuring.isOn),
       r: () => page.reset(),
       '?': () => document.getElementById('help').click(),
       '+': () => page.live.step(1),
@@ -26,7 +29,7 @@ export function listen_to_keys(page) {
       ArrowDown: () => arrow(0, -1),
       PageUp: () => page.scene.approach(0.8),
       PageDown: () => page.scene.approach(1.25),
-      Enter: () => page.measuring.is_on && page.measuring.click(innerWidth / 2, innerHeight / 2, page),
+      Enter: () => page.measuring.isOn && page.measuring.click(innerWidth / 2, innerHeight / 2, page),
       Escape: () => page.measuring.turn(false),
     }[key.length === 1 ? key.toLowerCase() : key];
     if (!action) return;

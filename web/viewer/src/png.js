@@ -1,11 +1,20 @@
-// PNG, as the numbers that lie in it: a canvas would cut 16 bits to 8, put colours for a palette's numbers, and manage colours.
+// PNG, as the numbers that lie in it: a canvas would cut 16 bits to 8, put colours for a palette's numbers, and manage
+// colours.
 import { Sentence } from './sentence.js';
 
 const CHANNELS = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 };
 const WHOLE = [[0, 0, 1, 1]];
-const INTERLACED = [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
+const INTERLACED = [
+  [0, 0, 8, 8],
+  [4, 0, 8, 8],
+  [0, 4, 4, 8],
+  [2, 0, 4, 4],
+  [0, 2, 2, 4],
+  [1, 0, 2, 2],
+  [0, 1, 1, 2],
+];
 
-function* chunks_of(bytes) {
+function* chunksOf(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   for (let at = 8; at + 12 <= bytes.length;) {
     const length = view.getUint32(at);
@@ -17,7 +26,8 @@ function* chunks_of(bytes) {
 
 /** At most `size` bytes of what is packed. */
 async function inflate(parts, size) {
-  const out = new Uint8Array(size), reader = new Blob(parts).stream().pipeThrough(new DecompressionStream('deflate')).getReader();
+  const out = new Uint8Array(size);
+  const reader = new Blob(parts).stream().pipeThrough(new DecompressionStream('deflate')).getReader();
   let filled = 0;
   while (filled < size) {
     const { done, value } = await reader.read();
@@ -30,60 +40,85 @@ async function inflate(parts, size) {
 }
 
 /** One row, from what it differs from its neighbours by. */
-function undo_filter(kind, row, above, pixel) {
+function undoFilter(kind, row, above, pixel) {
   for (let k = 0; k < row.length; ++k) {
-    const left = k < pixel ? 0 : row[k - pixel], up = above ? above[k] : 0, corner = above && k >= pixel ? above[k - pixel] : 0;
+    const left = k < pixel ? 0 : row[k - pixel];
+    const up = above ? above[k] : 0;
+    const corner = above && k >= pixel ? above[k - pixel] : 0;
     if (kind === 1) row[k] += left;
     else if (kind === 2) row[k] += up;
     else if (kind === 3) row[k] += (left + up) >> 1;
     else {
-      const a = Math.abs(up - corner), b = Math.abs(left - corner), c = Math.abs(left + up - 2 * corner);
+      const a = Math.abs(up - corner);
+      const b = Math.abs(left - corner);
+      const c = Math.abs(left + up - 2 * corner);
       row[k] += a <= b && a <= c ? left : b <= c ? up : corner;
     }
   }
 }
 
 /** The values that stand for no sample; null: none. */
-function find_missing(color, transparency) {
+function findMissing(color, transparency) {
   if (!transparency) return null;
-  if (color !== 3) return color === 0 || color === 2 ? Array.from({ length: CHANNELS[color] }, (_, k) => transparency[2 * k] << 8 | transparency[2 * k + 1]) : null;
+  if (color !== 3)
+    return color === 0 || color === 2
+      ? Array.from({ length: CHANNELS[color] }, (_, k) => (transparency[2 * k] << 8) | transparency[2 * k + 1])
+      : null;
   const clear = transparency.indexOf(0);
   return clear >= 0 && transparency.every((alpha, k) => alpha === 255 || k === clear) ? [clear] : null;
 }
 
-/** {width, height, depth, channels, is_palette, values, missing}. Throws a Sentence. */
-export async function read_png(name, bytes, most_pixels) {
+/** {width, height, depth, channels, isPalette, values, missing}. Throws a Sentence. */
+export async function readPng(name, bytes, mostPixels) {
   const damaged = () => new Sentence(`${name} is damaged or cut off: its pixels cannot be read.`);
-  if (bytes.length < 8 || [0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10].some((byte, k) => bytes[k] !== byte)) throw new Sentence(`${name} is no PNG image.`);
+  if (bytes.length < 8 || [0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10].some((byte, k) => bytes[k] !== byte))
+    throw new Sentence(`${name} is no PNG image.`);
   const packed = [];
   let header, transparency;
-  for (const [kind, data] of chunks_of(bytes)) {
+  for (const [kind, data] of chunksOf(bytes)) {
     if (kind === 'IHDR' && data.length === 13) header = data;
     else if (kind === 'tRNS') transparency = data;
     else if (kind === 'IDAT') packed.push(data);
   }
   if (!header) throw damaged();
-  const view = new DataView(header.buffer, header.byteOffset), [width, height] = [view.getUint32(0), view.getUint32(4)], [depth, color, , , interlace] = header.subarray(8);
-  const channels = CHANNELS[color], bits = channels * depth, pixel = Math.max(1, bits >> 3);
+  const view = new DataView(header.buffer, header.byteOffset);
+  const [width, height] = [view.getUint32(0), view.getUint32(4)];
+  const [depth, color, , , interlace] = header.subarray(8);
+  const channels = CHANNELS[color];
+  const bits = channels * depth;
+  const pixel = Math.max(1, bits >> 3);
   if (!channels || ![1, 2, 4, 8, 16].includes(depth) || !width || !height || interlace > 1) throw damaged();
-  if (width * height > most_pixels) throw new Sentence(`${name} has ${width} x ${height} pixels, too many for a page.`);
-  const passes = (interlace ? INTERLACED : WHOLE).map(([x, y, dx, dy]) => ({ x, y, dx, dy, cols: Math.ceil((width - x) / dx), rows: Math.ceil((height - y) / dy) })).filter(pass => pass.cols > 0 && pass.rows > 0);
-  const row_bytes = pass => Math.ceil(pass.cols * bits / 8);
-  const raw = await inflate(packed, passes.reduce((sum, pass) => sum + pass.rows * (1 + row_bytes(pass)), 0)).catch(() => null);
+  if (width * height > mostPixels) throw new Sentence(`${name} has ${width} x ${height} pixels, too many for a page.`);
+  const passes = (interlace ? INTERLACED : WHOLE)
+    .map(([x, y, dx, dy]) => ({ x, y, dx, dy, cols: Math.ceil((width - x) / dx), rows: Math.ceil((height - y) / dy) }))
+    .filter(pass => pass.cols > 0 && pass.rows > 0);
+  const rowBytes = pass => Math.ceil((pass.cols * bits) / 8);
+  const raw = await inflate(
+    packed,
+    passes.reduce((sum, pass) => sum + pass.rows * (1 + rowBytes(pass)), 0),
+  ).catch(() => null);
   if (!raw) throw damaged();
-  const values = new (depth === 16 ? Uint16Array : Uint8Array)(width * height * channels), mask = (1 << Math.min(depth, 8)) - 1;
+  const values = new (depth === 16 ? Uint16Array : Uint8Array)(width * height * channels);
+  const mask = (1 << Math.min(depth, 8)) - 1;
   let at = 0;
   for (const pass of passes) {
     for (let r = 0, above = null; r < pass.rows; ++r) {
-      const kind = raw[at], row = raw.subarray(at + 1, at += 1 + row_bytes(pass));
+      const kind = raw[at];
+      const row = raw.subarray(at + 1, (at += 1 + rowBytes(pass)));
       if (kind > 4) throw damaged();
-      if (kind > 0) undo_filter(kind, row, above, pixel);
+      if (kind > 0) undoFilter(kind, row, above, pixel);
       above = row;
       for (let k = 0; k < pass.cols * channels; ++k) {
-        const to = ((pass.y + r * pass.dy) * width + pass.x + Math.floor(k / channels) * pass.dx) * channels + k % channels;
-        values[to] = depth === 16 ? row[2 * k] << 8 | row[2 * k + 1] : depth === 8 ? row[k] : row[k * depth >> 3] >> (8 - depth - (k * depth & 7)) & mask;
+        const to =
+          ((pass.y + r * pass.dy) * width + pass.x + Math.floor(k / channels) * pass.dx) * channels + (k % channels);
+        values[to] =
+          depth === 16
+            ? (row[2 * k] << 8) | row[2 * k + 1]
+            : depth === 8
+              ? row[k]
+              : (row[(k * depth) >> 3] >> (8 - depth - ((k * depth) & 7))) & mask;
       }
     }
   }
-  return { width, height, depth, channels, is_palette: color === 3, values, missing: find_missing(color, transparency) };
+  return { width, height, depth, channels, isPalette: color === 3, values, missing: findMissing(color, transparency) };
 }

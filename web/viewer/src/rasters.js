@@ -1,25 +1,34 @@
 // Rasters dropped on the page: GeoTIFF, .hgt, and PNG tiles of the web, in the frame that the program gives them.
 import { Field } from './field.js';
-import { grid_frame, local_frame } from './frame.js';
-import { read_geotiff } from './geotiff.js';
-import { read_png } from './png.js';
+import { gridFrame, localFrame } from './frame.js';
+import { readGeotiff } from './geotiff.js';
+import { readPng } from './png.js';
 import { Sentence } from './sentence.js';
-import { warn_of_undeclared } from './undeclared.js';
+import { warnOfUndeclared } from './undeclared.js';
 
 const MOST_SAMPLES = 2 ** 24;
 
-function read_hgt(name, buffer) {
-  const side = Math.round(Math.sqrt(buffer.byteLength / 2)), place = /^([NS])(\d\d)([EW])(\d{3})/i.exec(name);
-  if (side < 2 || side * side * 2 !== buffer.byteLength) throw new Sentence(`${name} is no square of 16-bit heights, as a .hgt file is.`);
-  const view = new DataView(buffer), samples = new Float32Array(side * side);
+function readHgt(name, buffer) {
+  const side = Math.round(Math.sqrt(buffer.byteLength / 2));
+  const place = /^([NS])(\d\d)([EW])(\d{3})/i.exec(name);
+  if (side < 2 || side * side * 2 !== buffer.byteLength)
+    throw new Sentence(`${name} is no square of 16-bit heights, as a .hgt file is.`);
+  const view = new DataView(buffer);
+  const samples = new Float32Array(side * side);
   for (let k = 0; k < samples.length; ++k) {
     const z = view.getInt16(2 * k);
     samples[k] = z === -32768 ? NaN : z;
   }
   const raster = { cols: side, rows: side, samples, unit: 'm', notes: [] };
-  if (!place) return { ...raster, frame: grid_frame(side) };
-  const [, ns, south, ew, west] = place, cell = 1 / (side - 1), x = Number(west) * (/w/i.test(ew) ? -1 : 1), y = Number(south) * (/s/i.test(ns) ? -1 : 1) + 1;
-  return { ...raster, frame: local_frame([x, cell, 0, y, 0, -cell], side, side, { radians: Math.PI / 180, crs: 'EPSG:4326' }) };
+  if (!place) return { ...raster, frame: gridFrame(side) };
+  const [, ns, south, ew, west] = place;
+  const cell = 1 / (side - 1);
+  const x = Number(west) * (/w/i.test(ew) ? -1 : 1);
+  const y = Number(south) * (/s/i.test(ns) ? -1 : 1) + 1;
+  return {
+    ...raster,
+    frame: localFrame([x, cell, 0, y, 0, -cell], side, side, { radians: Math.PI / 180, crs: 'EPSG:4326' }),
+  };
 }
 
 const DECODINGS = {
@@ -27,40 +36,88 @@ const DECODINGS = {
   mapbox: (r, g, b) => -10000 + (r * 65536 + g * 256 + b) * 0.1,
   grey: r => r,
 };
-const LOWEST = -12000, HIGHEST = 9000;  // limits of heights of the earth
-const MOST_ODD = 0.1;  // share of a tile's pixels that stand for nodata
+// Limits of heights of the earth.
+const LOWEST = -12000;
+const HIGHEST = 9000;
+const MOST_ODD = 0.1; // share of a tile's pixels that stand for nodata
 
 /** The decoding whose heights are of the earth. Both never are: terrarium's have a red of 81 to 163, mapbox's of 0 to
  * 2. */
-function guess_decoding(pixels, decode) {
-  return ['terrarium', 'mapbox'].find(key => {
+function guessDecoding(pixels, decode) {
+  const found = ['terrarium', 'mapbox'].find(key => {
     const heights = decode(key);
-    let there = 0, odd = 0;
-    for (const z of heights) if (z === z) ++there, odd += !(z >= LOWEST && z <= HIGHEST);
+    let there = 0;
+    let odd = 0;
+    for (const z of heights) {
+      if (z !== z) continue;
+      ++there;
+      odd += !(z >= LOWEST && z <= HIGHEST);
+    }
     return there > 0 && odd <= MOST_ODD * there;
-  }) ?? 'grey';
+  });
+  return found ?? 'grey';
 }
 
-const NOTES = { terrarium: 'Colours are taken for heights as of terrarium tiles.', mapbox: 'Colours are taken for heights as of mapbox tiles.',
-  grey: 'This is a colour picture, and its red is taken as height.' };
+const NOTES = {
+  terrarium: 'Colours are taken for heights as of terrarium tiles.',
+  mapbox: 'Colours are taken for heights as of mapbox tiles.',
+  grey: 'This is a colour picture, and its red is taken as height.',
+};
 
 /** A grey PNG or one with a palette is heights as they stand. `asked`: a decoding; null: the one that fits. */
-async function read_png_heights(name, buffer, asked) {
-  const image = await read_png(name, new Uint8Array(buffer), MOST_SAMPLES), { width, height, channels, values, missing } = image;
-  const is_missing = at => (channels % 2 === 0 && values[at + channels - 1] === 0) || (missing !== null && missing.every((value, k) => values[at + k] === value));
-  const decode = key => Float64Array.from({ length: width * height }, (_, k) => is_missing(channels * k) ? NaN : DECODINGS[key](values[channels * k], values[channels * k + 1], values[channels * k + 2]));
-  const is_packed = channels >= 3 && image.depth === 8, key = is_packed ? asked ?? guess_decoding(image, decode) : 'grey';
-  const note = channels >= 3 ? NOTES[key] : image.is_palette ? 'The numbers of the palette are taken for heights.' : 'Grey levels are taken for heights.';
-  return { cols: width, rows: height, samples: decode(key), frame: grid_frame(height), unit: key === 'grey' ? '' : 'm', notes: [note], decoding: is_packed ? key : null };
+async function readPngHeights(name, buffer, asked) {
+  const image = await readPng(name, new Uint8Array(buffer), MOST_SAMPLES);
+  const { width, height, channels, values, missing } = image;
+  const isMissing = at =>
+    (channels % 2 === 0 && values[at + channels - 1] === 0) ||
+    (missing !== null && missing.every((value, k) => values[at + k] === value));
+  const decode = key =>
+    Float64Array.from({ length: width * height }, (_, k) =>
+      isMissing(channels * k)
+        ? NaN
+        : DECODINGS[key](values[channels * k], values[channels * k + 1], values[channels * k + 2]),
+    );
+  const isPacked = channels >= 3 && image.depth === 8;
+  const key = isPacked ? (asked ?? guessDecoding(image, decode)) : 'grey';
+  const note =
+    channels >= 3
+      ? NOTES[key]
+      : image.isPalette
+        ? 'The numbers of the palette are taken for heights.'
+        : 'Grey levels are taken for heights.';
+  return {
+    cols: width,
+    rows: height,
+    samples: decode(key),
+    frame: gridFrame(height),
+    unit: key === 'grey' ? '' : 'm',
+    notes: [note],
+    decoding: isPacked ? key : null,
+  };
 }
 
 /** {field, frame, unit, notes}. `decoding`: of heights packed into colours. Throws a Sentence. */
-export async function read_raster(file, decoding = null) {
-  const { name } = file, buffer = await file.arrayBuffer();
-  const raster = /\.png$/i.test(name) ? await read_png_heights(name, buffer, decoding) : /\.hgt$/i.test(name) ? read_hgt(name, buffer) : await read_geotiff(name, buffer, MOST_SAMPLES);
+export async function readRaster(file, decoding = null) {
+  const { name } = file;
+  const buffer = await file.arrayBuffer();
+  const raster = /\.png$/i.test(name)
+    ? await readPngHeights(name, buffer, decoding)
+    : /\.hgt$/i.test(name)
+      ? readHgt(name, buffer)
+      : await readGeotiff(name, buffer, MOST_SAMPLES);
   const { cols, rows, frame, unit, notes, step = 1 } = raster;
-  if (cols < 2 || rows < 2) throw new Sentence(`${name} is ${cols} x ${rows} samples: a mesh needs two of each at least.`);
-  const field = new Field({ name, cols, rows, samples: raster.samples, affine: frame.affine, unit, decoding: raster.decoding ?? null, step });
+  if (cols < 2 || rows < 2)
+    throw new Sentence(`${name} is ${cols} x ${rows} samples: a mesh needs two of each at least.`);
+  const field = new Field({
+    name,
+    cols,
+    rows,
+    samples: raster.samples,
+    affine: frame.affine,
+    unit,
+    decoding: raster.decoding ?? null,
+    step,
+  });
   if (field.low > field.high) throw new Sentence(`${name} holds no height.`);
-  return { field, frame, unit, notes: [...notes, ...warn_of_undeclared(field)] };
+  return { field, frame, unit, notes: [...notes, ...warnOfUndeclared(field)] };
 }

@@ -1,29 +1,44 @@
 // The numbers of a mesh, judged here against every sample of the raster.
-import { bytes, count, number, share, with_unit } from './words.js';
+import { bytes, count, number, share, withUnit } from './words.js';
 
 /** `shown`: which mesh these are of, where there are several. */
-export function fill_readout(list, terrain, unit, shown) {
-  const { field, judged, told } = terrain, rows = shown ? [['shown', shown]] : [];
+export function fillReadout(list, terrain, unit, shown) {
+  const { field, judged, told } = terrain;
+  const rows = shown ? [['shown', shown]] : [];
   rows.push(['triangles', count(terrain.triangles)]);
-  if (field) rows.push(['of the full grid', share(terrain.triangles, field.full_triangles)]);
+  if (field) rows.push(['of the full grid', share(terrain.triangles, field.fullTriangles)]);
   if (field?.decoding) rows.push(['heights decoded as', field.decoding]);
   if (terrain.bytes !== null) rows.push(['file', bytes(terrain.bytes)]);
   if (judged && judged.covered === 0) rows.push(['max error', 'none: no sample is covered']);
-  else if (judged) rows.push(['max error', with_unit(judged.max_error, unit)], ['at column, row', judged.worst.join(', ')], ['RMSE', with_unit(judged.rmse, unit)]);
-  else if (field) rows.push(['max error', 'measuring'], ...['at column, row', 'RMSE', 'samples judged'].map(name => [name, '…']));
-  else if (told?.max_error !== undefined) rows.push(['max error, its file says', with_unit(told.max_error, unit)]);
+  else if (judged)
+    rows.push(
+      ['max error', withUnit(judged.maxError, unit)],
+      ['at column, row', judged.worst.join(', ')],
+      ['RMSE', withUnit(judged.rmse, unit)],
+    );
+  else if (field)
+    rows.push(['max error', 'measuring'], ...['at column, row', 'RMSE', 'samples judged'].map(name => [name, '…']));
+  else if (told?.max_error !== undefined) rows.push(['max error, its file says', withUnit(told.max_error, unit)]);
   if (judged) rows.push(['samples judged', count(judged.covered)]);
   if (judged?.uncovered) rows.push(['samples uncovered', count(judged.uncovered)]);
   if (judged?.stray) rows.push(['samples stray', count(judged.stray)]);
-  list.replaceChildren(...rows.flatMap(([name, value]) => [['dt', name], ['dd', value]]).map(([kind, text]) => {
-    const item = document.createElement(kind);
-    item.textContent = text;
-    return item;
-  }));
+  list.replaceChildren(
+    ...rows
+      .flatMap(([name, value]) => [
+        ['dt', name],
+        ['dd', value],
+      ])
+      .map(([kind, text]) => {
+        const item = document.createElement(kind);
+        item.textContent = text;
+        return item;
+      }),
+  );
 }
 
 /** The same in one line. */
 export function summarize(terrain, unit) {
-  const { judged } = terrain, words = `${terrain.name}: ${count(terrain.triangles)} triangles`;
-  return judged ? `${words}, max error ${with_unit(judged.max_error, unit)}, RMSE ${number(judged.rmse)}` : words;
+  const { judged } = terrain;
+  const words = `${terrain.name}: ${count(terrain.triangles)} triangles`;
+  return judged ? `${words}, max error ${withUnit(judged.maxError, unit)}, RMSE ${number(judged.rmse)}` : words;
 }

@@ -2,20 +2,30 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Antialias } from './antialias.js';
-import { make_pyramid } from './errors.js';
+import { makePyramid } from './errors.js';
 import { EDGE_FRAGMENT, EDGE_VERTEX, SURFACE_FRAGMENT, SURFACE_VERTEX } from './shaders.js';
 import { Sentence } from './sentence.js';
 
-THREE.ColorManagement.enabled = false;  // colours go to the screen as they are
+THREE.ColorManagement.enabled = false; // colours go to the screen as they are
 const UNCOVERED = 1e30;
-const SHORTEST = 4;  // pixels of an edge that is seen, as shaders.js has it
-const MOST_TEXELS = 4096;  // a side; what is larger is reduced by largest errors
+const SHORTEST = 4; // pixels of an edge that is seen, as shaders.js has it
+const MOST_TEXELS = 4096; // a side; what is larger is reduced by largest errors
 
-function error_texture(judged, { cols, rows }) {
-  let levels = make_pyramid(judged.errors, cols, rows);
+function errorTexture(judged, { cols, rows }) {
+  let levels = makePyramid(judged.errors, cols, rows);
   while (levels[0].width > MOST_TEXELS || levels[0].height > MOST_TEXELS) levels = levels.slice(1);
-  const mipmaps = levels.map(({ data, width, height }) => ({ data: data.map(error => error === error ? error : UNCOVERED), width, height }));
-  const texture = new THREE.DataTexture(mipmaps[0].data, mipmaps[0].width, mipmaps[0].height, THREE.RedFormat, THREE.FloatType);
+  const mipmaps = levels.map(({ data, width, height }) => ({
+    data: data.map(error => (error === error ? error : UNCOVERED)),
+    width,
+    height,
+  }));
+  const texture = new THREE.DataTexture(
+    mipmaps[0].data,
+    mipmaps[0].width,
+    mipmaps[0].height,
+    THREE.RedFormat,
+    THREE.FloatType,
+  );
   texture.mipmaps = mipmaps;
   texture.minFilter = THREE.NearestMipmapNearestFilter;
   texture.magFilter = THREE.NearestFilter;
@@ -24,7 +34,7 @@ function error_texture(judged, { cols, rows }) {
 }
 
 const WRAPS = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
-function image_texture({ bitmap, wraps }) {
+function imageTexture({ bitmap, wraps }) {
   const texture = new THREE.Texture(bitmap);
   texture.flipY = false;
   [texture.wrapS, texture.wrapT] = wraps.map(number => WRAPS[number] ?? THREE.RepeatWrapping);
@@ -40,21 +50,38 @@ class View {
     this.group = new THREE.Group();
     this.scene.add(this.group);
     this.uniforms = { ...shared, errors: { value: null } };
-    this.materials = [];  // kept for the next terrain: a new one would be compiled
+    this.materials = []; // kept for the next terrain: a new one would be compiled
     this.surface = new THREE.Mesh(new THREE.BufferGeometry());
-    this.edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
-      uniforms: { pixels: shared.pixels, ink: shared.ink, weight: shared.weight }, vertexShader: EDGE_VERTEX, fragmentShader: EDGE_FRAGMENT,
-      transparent: true, depthWrite: false,
-    }));
+    this.edges = new THREE.LineSegments(
+      new THREE.BufferGeometry(),
+      new THREE.ShaderMaterial({
+        uniforms: { pixels: shared.pixels, ink: shared.ink, weight: shared.weight },
+        vertexShader: EDGE_VERTEX,
+        fragmentShader: EDGE_FRAGMENT,
+        transparent: true,
+        depthWrite: false,
+      }),
+    );
     this.group.add(this.surface, this.edges);
   }
 
   /** The material of the k-th image. */
   material(k) {
-    return this.materials[k] ??= new THREE.ShaderMaterial({
-      uniforms: { ...this.uniforms, image: { value: null }, shows_image: { value: false }, ground: { value: [1, 1, 1] }, shows_ground: { value: false } }, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT,
-      side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-    });
+    return (this.materials[k] ??= new THREE.ShaderMaterial({
+      uniforms: {
+        ...this.uniforms,
+        image: { value: null },
+        showsImage: { value: false },
+        ground: { value: [1, 1, 1] },
+        showsGround: { value: false },
+      },
+      vertexShader: SURFACE_VERTEX,
+      fragmentShader: SURFACE_FRAGMENT,
+      side: THREE.DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    }));
   }
 
   /** The browser compiles while this page reads the mesh. */
@@ -73,7 +100,7 @@ class View {
       texture.value = null;
     }
     this.ranked = null;
-    this.edges_there = 0;
+    this.edgesThere = 0;
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(terrain.scene, 3));
     if (terrain.uvs) geometry.setAttribute('uv', new THREE.BufferAttribute(terrain.uvs, 2));
@@ -86,36 +113,44 @@ class View {
 
   /** Made when they are first shown. */
   prepare(look) {
-    const { terrain, uniforms } = this, { geometry } = this.surface;
+    const { terrain, uniforms } = this;
+    const { geometry } = this.surface;
     if (look.errors && terrain.judged && !uniforms.errors.value) {
-      uniforms.errors.value = error_texture(terrain.judged, terrain.field);
+      uniforms.errors.value = errorTexture(terrain.judged, terrain.field);
       geometry.setAttribute('sampled', new THREE.BufferAttribute(terrain.sampled, 2));
     }
     terrain.sheets.forEach((sheet, k) => {
-      const { image, shows_image, ground, shows_ground } = this.materials[k].uniforms;
-      shows_image.value = look.image && sheet.image !== null;
-      shows_ground.value = look.image && sheet.ground !== null;
-      if (shows_ground.value) ground.value = sheet.ground;
-      if (shows_image.value) image.value ??= image_texture(sheet.image);
+      const { image, showsImage, ground, showsGround } = this.materials[k].uniforms;
+      showsImage.value = look.image && sheet.image !== null;
+      showsGround.value = look.image && sheet.ground !== null;
+      if (showsGround.value) ground.value = sheet.ground;
+      if (showsImage.value) image.value ??= imageTexture(sheet.image);
     });
-    if (look.smooth && !geometry.attributes.normal) geometry.setAttribute('normal', new THREE.BufferAttribute(terrain.normals, 3));
+    if (look.smooth && !geometry.attributes.normal)
+      geometry.setAttribute('normal', new THREE.BufferAttribute(terrain.normals, 3));
     this.edges.visible = look.edges;
   }
 
   /** Prepares only edges that may be long enough to be seen: `shortest`, in the scene's units. */
-  prepare_edges(shortest) {
-    const { terrain, edges } = this, { pairs, count_from } = this.ranked ??= terrain.edges(), count = count_from(shortest);
-    if (count > this.edges_there) {
-      this.edges_there = Math.min(pairs.length / 2, Math.max(2 * this.edges_there, count));
-      const here = new Float32Array(this.edges_there * 6), there = new Float32Array(this.edges_there * 6), { scene } = terrain;
-      for (let k = 0; k < 2 * this.edges_there; ++k) {
+  prepareEdges(shortest) {
+    const { terrain, edges } = this;
+    const { pairs, countFrom } = (this.ranked ??= terrain.edges());
+    const count = countFrom(shortest);
+    if (count > this.edgesThere) {
+      this.edgesThere = Math.min(pairs.length / 2, Math.max(2 * this.edgesThere, count));
+      const here = new Float32Array(this.edgesThere * 6);
+      const there = new Float32Array(this.edgesThere * 6);
+      const { scene } = terrain;
+      for (let k = 0; k < 2 * this.edgesThere; ++k) {
         for (let c = 0, from = 3 * pairs[k], to = 3 * pairs[k ^ 1]; c < 3; ++c) {
           here[3 * k + c] = scene[from + c];
           there[3 * k + c] = scene[to + c];
         }
       }
       edges.geometry.dispose();
-      edges.geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(here, 3)).setAttribute('other', new THREE.BufferAttribute(there, 3));
+      edges.geometry = new THREE.BufferGeometry()
+        .setAttribute('position', new THREE.BufferAttribute(here, 3))
+        .setAttribute('other', new THREE.BufferAttribute(there, 3));
       edges.geometry.boundingSphere = this.surface.geometry.boundingSphere;
     }
     edges.geometry.setDrawRange(0, 2 * count);
@@ -124,11 +159,13 @@ class View {
 }
 
 export class Scene {
-  /** `look`: {errors, image, edges, smooth, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller changes. */
+  /** `look`: {errors, image, edges, smooth, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller
+   * changes. */
   constructor(canvas, look) {
     Object.assign(this, { canvas, look, listeners: [], views: [] });
     const { width, height, ratio } = this.size();
-    Object.assign(canvas, { width: width * ratio, height: height * ratio });  // before there is a buffer, which would be made twice
+    // Before there is a buffer, which would be made twice.
+    Object.assign(canvas, { width: width * ratio, height: height * ratio });
     try {
       this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
     } catch {
@@ -143,58 +180,69 @@ export class Scene {
     this.controls.zoomToCursor = true;
     this.controls.maxPolarAngle = Math.PI * 0.52;
     this.controls.addEventListener('change', () => this.invalidate());
-    this.shared = { shows_errors: { value: false }, is_smooth: { value: false }, scale: { value: 1 }, range: { value: new THREE.Vector2() }, sun: { value: new THREE.Vector3() },
-      pixels: { value: new THREE.Vector2() }, ink: { value: new THREE.Color() }, weight: { value: 0.5 } };
-    new ResizeObserver(() => this.size().text === this.drawn_size || this.invalidate()).observe(canvas);
+    this.shared = {
+      showsErrors: { value: false },
+      isSmooth: { value: false },
+      scale: { value: 1 },
+      range: { value: new THREE.Vector2() },
+      sun: { value: new THREE.Vector3() },
+      pixels: { value: new THREE.Vector2() },
+      ink: { value: new THREE.Color() },
+      weight: { value: 0.5 },
+    };
+    new ResizeObserver(() => this.size().text === this.drawnSize || this.invalidate()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.invalidate());
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
-    this.add_view().compile(this.renderer, this.camera);
+    this.addView().compile(this.renderer, this.camera);
   }
 
   /** In CSS pixels, and how many of the screen's a side of one is. */
   size() {
-    const { clientWidth: width, clientHeight: height } = this.canvas, ratio = Math.min(devicePixelRatio, 2);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const ratio = Math.min(devicePixelRatio, 2);
     return { width, height, ratio, text: `${width} ${height} ${ratio}` };
   }
 
   fit() {
     const { width, height, ratio, text } = this.size();
-    if (this.drawn_size === text) return;
+    if (this.drawnSize === text) return;
     this.renderer.setDrawingBufferSize(width, height, ratio);
     this.antialias.fit(width * ratio, height * ratio);
-    this.drawn_size = text;
+    this.drawnSize = text;
   }
 
-  add_view() {
+  addView() {
     this.views.push(new View(this.shared));
     return this.views.at(-1);
   }
 
-  on_draw(listener) {
+  onDraw(listener) {
     this.listeners.push(listener);
   }
 
   /** When the one that has been asked for is on the screen. */
-  next_picture() {
+  nextPicture() {
     return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
   }
 
   /** One terrain or two. */
   show(terrains) {
-    while (this.views.length < terrains.length) this.add_view();
+    while (this.views.length < terrains.length) this.addView();
     terrains.forEach((terrain, k) => this.views[k].show(terrain));
     if (this.count !== terrains.length) this.divide(terrains.length);
     this.invalidate();
   }
 
   /** The same part of the terrain stays in sight when one view becomes two, for which the free space has equal room.
-   * `is_for_two`: the orbit is already one of two. */
+   * `isForTwo`: the orbit is already one of two. */
   divide(count) {
-    const before = this.count && Math.tan(this.fov() / 2), { right, top } = this.look.covered(), { clientWidth: width, clientHeight: height } = this.canvas;
+    const before = this.count && Math.tan(this.fov() / 2);
+    const { right, top } = this.look.covered();
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     this.count = count;
     this.look.divider = top > 0.3 * height ? 0.5 : Math.min(0.8, (1 + right / width) / 2);
-    if (before && !this.is_for_two) this.approach(before / Math.tan(this.fov() / 2));
-    this.is_for_two = false;
+    if (before && !this.isForTwo) this.approach(before / Math.tan(this.fov() / 2));
+    this.isForTwo = false;
   }
 
   invalidate() {
@@ -207,19 +255,21 @@ export class Scene {
   reset() {
     const first = { azimuth: -20, altitude: 38, target: [0, 0, 0] };
     this.controls.target.set(0, 0, 0);
-    this.set_orbit({ ...first, distance: 1 });
+    this.setOrbit({ ...first, distance: 1 });
     this.camera.updateMatrixWorld();
-    this.set_orbit({ ...first, distance: this.distance_to_see() });
+    this.setOrbit({ ...first, distance: this.distanceToSee() });
   }
 
   /** The distance from which each corner of the terrain's box is in sight, in the camera's direction. */
-  distance_to_see() {
-    const { place } = this.views[0].terrain, half = Math.tan(this.camera.fov * Math.PI / 360) / Math.max(1, this.canvas.clientHeight);
+  distanceToSee() {
+    const { place } = this.views[0].terrain;
+    const half = Math.tan((this.camera.fov * Math.PI) / 360) / Math.max(1, this.canvas.clientHeight);
     const [right, up, back] = [0, 1, 2].map(k => new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, k));
     const reaches = [...Array(this.count).keys()].flatMap(k => {
       const [, , wide, high] = this.free(k);
       return Array.from({ length: 8 }, (_, corner) => {
-        const [x, y, z] = place.to_scene(...[0, 1, 2].map(c => (corner >> c & 1 ? place.high : place.low)[c])), at = new THREE.Vector3(x, y, z * this.look.exaggeration);
+        const [x, y, z] = place.toScene(...[0, 1, 2].map(c => ((corner >> c) & 1 ? place.high : place.low)[c]));
+        const at = new THREE.Vector3(x, y, z * this.look.exaggeration);
         return at.dot(back) + Math.max(Math.abs(at.dot(right)) / (half * wide), Math.abs(at.dot(up)) / (half * high));
       });
     });
@@ -228,51 +278,71 @@ export class Scene {
 
   /** The smallest angle that is free, of a view's width or height. */
   fov() {
-    const half = Math.tan(this.camera.fov * Math.PI / 360) / Math.max(1, this.canvas.clientHeight);
+    const half = Math.tan((this.camera.fov * Math.PI) / 360) / Math.max(1, this.canvas.clientHeight);
     const sides = [...Array(this.count).keys()].flatMap(k => this.free(k).slice(2));
     return 2 * Math.atan(half * Math.min(...sides));
   }
 
   /** Degrees clockwise from north to the camera's direction, degrees above the horizon, metres. */
   orbit() {
-    const { target } = this.controls, away = this.camera.position.clone().sub(target), distance = away.length();
-    return { azimuth: Math.atan2(-away.x, -away.y) * 180 / Math.PI, altitude: Math.asin(away.z / distance) * 180 / Math.PI, distance, target: target.toArray() };
+    const { target } = this.controls;
+    const away = this.camera.position.clone().sub(target);
+    const distance = away.length();
+    return {
+      azimuth: (Math.atan2(-away.x, -away.y) * 180) / Math.PI,
+      altitude: (Math.asin(away.z / distance) * 180) / Math.PI,
+      distance,
+      target: target.toArray(),
+    };
   }
 
-  set_orbit({ azimuth, altitude, distance, target }) {
-    const a = azimuth * Math.PI / 180, h = Math.max(0.5, Math.min(89.9, altitude)) * Math.PI / 180;
+  setOrbit({ azimuth, altitude, distance, target }) {
+    const a = (azimuth * Math.PI) / 180;
+    const h = (Math.max(0.5, Math.min(89.9, altitude)) * Math.PI) / 180;
     this.controls.target.fromArray(target);
-    this.camera.position.set(-Math.sin(a) * Math.cos(h), -Math.cos(a) * Math.cos(h), Math.sin(h)).multiplyScalar(distance).add(this.controls.target);
+    this.camera.position
+      .set(-Math.sin(a) * Math.cos(h), -Math.cos(a) * Math.cos(h), Math.sin(h))
+      .multiplyScalar(distance)
+      .add(this.controls.target);
     this.controls.update();
     this.invalidate();
   }
 
   turn(azimuth, altitude) {
     const orbit = this.orbit();
-    this.set_orbit({ ...orbit, azimuth: orbit.azimuth + azimuth, altitude: orbit.altitude + altitude });
+    this.setOrbit({ ...orbit, azimuth: orbit.azimuth + azimuth, altitude: orbit.altitude + altitude });
   }
 
   /** The camera over the ground, to its right and ahead: shares of the picture's height. */
   move(right, ahead) {
-    const { azimuth, target: [x, y, z], ...orbit } = this.orbit(), a = azimuth * Math.PI / 180, length = this.metres_per_pixel() * this.canvas.clientHeight;
+    const {
+      azimuth,
+      target: [x, y, z],
+      ...orbit
+    } = this.orbit();
+    const a = (azimuth * Math.PI) / 180;
+    const length = this.metresPerPixel() * this.canvas.clientHeight;
     const [east, north] = [right * Math.cos(a) + ahead * Math.sin(a), ahead * Math.cos(a) - right * Math.sin(a)];
-    this.set_orbit({ ...orbit, azimuth, target: [x + east * length, y + north * length, z] });
+    this.setOrbit({ ...orbit, azimuth, target: [x + east * length, y + north * length, z] });
   }
 
   approach(factor) {
     const orbit = this.orbit();
-    this.set_orbit({ ...orbit, distance: orbit.distance * factor });
+    this.setOrbit({ ...orbit, distance: orbit.distance * factor });
   }
 
   /** Left edge and width of a view, in CSS pixels. */
   part(k) {
-    const width = this.canvas.clientWidth, middle = Math.round(width * this.look.divider);
+    const width = this.canvas.clientWidth;
+    const middle = Math.round(width * this.look.divider);
     return this.count < 2 ? [0, width] : k === 0 ? [0, middle] : [middle, width - middle];
   }
 
   /** The part of a view that the panel does not cover: left, top, width and height. */
   free(k) {
-    const [left, width] = this.part(k), height = this.canvas.clientHeight, panel = this.look.covered();
+    const [left, width] = this.part(k);
+    const height = this.canvas.clientHeight;
+    const panel = this.look.covered();
     if (panel.top > 0.3 * height) return [0, 0, width, Math.max(1, panel.top)];
     const hidden = Math.min(Math.max(0, panel.right - left), width * 0.6);
     return [hidden, 0, Math.max(1, width - hidden), height];
@@ -280,7 +350,9 @@ export class Scene {
 
   /** The camera's target is in the middle of what is free. */
   aim(k) {
-    const width = Math.max(1, this.part(k)[1]), height = Math.max(1, this.canvas.clientHeight), [left, top, wide, high] = this.free(k);
+    const width = Math.max(1, this.part(k)[1]);
+    const height = Math.max(1, this.canvas.clientHeight);
+    const [left, top, wide, high] = this.free(k);
     this.camera.aspect = width / height;
     this.camera.setViewOffset(width, height, width / 2 - left - wide / 2, height / 2 - top - high / 2, width, height);
     this.camera.updateProjectionMatrix();
@@ -290,26 +362,45 @@ export class Scene {
   draw() {
     this.asked = false;
     if (!this.count) return;
-    const { canvas, renderer, camera, look, shared } = this, { place } = this.views[0].terrain, width = canvas.clientWidth, height = canvas.clientHeight;
+    const { canvas, renderer, camera, look, shared } = this;
+    const { place } = this.views[0].terrain;
+    const width = canvas.clientWidth;
+    const height = canvas.clientHeight;
     this.fit();
-    const style = getComputedStyle(document.documentElement), azimuth = look.sun.azimuth * Math.PI / 180, altitude = look.sun.altitude * Math.PI / 180;
+    const style = getComputedStyle(document.documentElement);
+    const azimuth = (look.sun.azimuth * Math.PI) / 180;
+    const altitude = (look.sun.altitude * Math.PI) / 180;
     renderer.setClearColor(style.getPropertyValue('--sky').trim());
-    shared.shows_errors.value = look.errors && this.views.slice(0, this.count).every(({ terrain }) => terrain.judged);
-    shared.is_smooth.value = look.smooth;
+    shared.showsErrors.value = look.errors && this.views.slice(0, this.count).every(({ terrain }) => terrain.judged);
+    shared.isSmooth.value = look.smooth;
     shared.scale.value = Math.max(look.scale, 1e-12);
-    shared.sun.value.set(Math.sin(azimuth) * Math.cos(altitude), Math.cos(azimuth) * Math.cos(altitude), Math.sin(altitude));
-    shared.range.value.set(place.to_scene(0, 0, place.low[2])[2], place.to_scene(0, 0, place.high[2])[2]);
+    shared.sun.value.set(
+      Math.sin(azimuth) * Math.cos(altitude),
+      Math.cos(azimuth) * Math.cos(altitude),
+      Math.sin(altitude),
+    );
+    shared.range.value.set(place.toScene(0, 0, place.low[2])[2], place.toScene(0, 0, place.high[2])[2]);
     shared.ink.value.setRGB(0.05, 0.06, 0.08);
     shared.weight.value = look.errors ? 0.3 : 0.5;
-    const radius = Math.max(...this.views.slice(0, this.count).map(view => view.terrain.reach)) * Math.max(1, look.exaggeration), away = camera.position.length();
+    const radius =
+      Math.max(...this.views.slice(0, this.count).map(view => view.terrain.reach)) * Math.max(1, look.exaggeration);
+    const away = camera.position.length();
     camera.near = Math.max(away - radius * 1.1, radius * 1e-4);
     camera.far = away + radius * 1.1;
-    const target = this.antialias.begin(this.views.slice(0, this.count).reduce((sum, { terrain }) => sum + terrain.triangles, 0));
+    const target = this.antialias.begin(
+      this.views.slice(0, this.count).reduce((sum, { terrain }) => sum + terrain.triangles, 0),
+    );
     for (let k = 0; k < this.count; ++k) {
-      const view = this.views[k], [left, wide] = this.part(k);
+      const view = this.views[k];
+      const [left, wide] = this.part(k);
       if (wide < 1) continue;
       view.prepare(look);
-      if (look.edges) view.prepare_edges(SHORTEST * camera.near * 2 * Math.tan(camera.fov * Math.PI / 360) / height / Math.max(1, look.exaggeration));
+      if (look.edges)
+        view.prepareEdges(
+          (SHORTEST * camera.near * 2 * Math.tan((camera.fov * Math.PI) / 360)) /
+            height /
+            Math.max(1, look.exaggeration),
+        );
       view.group.scale.z = look.exaggeration;
       this.aim(k);
       shared.pixels.value.set(wide, height);
@@ -324,25 +415,30 @@ export class Scene {
   /** The projection of a place in the scene, exaggerated as drawn: CSS pixels in view `k`; null behind the camera. */
   project(point, k = 0) {
     this.aim(k);
-    const [left, width] = this.part(k), at = new THREE.Vector3(point[0], point[1], point[2] * this.look.exaggeration).project(this.camera);
-    return Math.abs(at.z) > 1 ? null : [left + (at.x + 1) / 2 * width, (1 - at.y) / 2 * this.canvas.clientHeight];
+    const [left, width] = this.part(k);
+    const at = new THREE.Vector3(point[0], point[1], point[2] * this.look.exaggeration).project(this.camera);
+    return Math.abs(at.z) > 1 ? null : [left + ((at.x + 1) / 2) * width, ((1 - at.y) / 2) * this.canvas.clientHeight];
   }
 
   /** The point below a pixel: the scene's coordinates without exaggeration; null for the sky. */
   pick(x, y) {
-    const k = this.count > 1 && x >= this.part(1)[0] ? 1 : 0, [left, width] = this.part(k);
+    const k = this.count > 1 && x >= this.part(1)[0] ? 1 : 0;
+    const [left, width] = this.part(k);
     this.aim(k);
     const ray = new THREE.Raycaster();
-    ray.setFromCamera(new THREE.Vector2((x - left) / width * 2 - 1, 1 - y / this.canvas.clientHeight * 2), this.camera);
+    ray.setFromCamera(
+      new THREE.Vector2(((x - left) / width) * 2 - 1, 1 - (y / this.canvas.clientHeight) * 2),
+      this.camera,
+    );
     this.views[k].group.updateMatrixWorld();
     const [hit] = ray.intersectObject(this.views[k].surface);
     return hit ? [hit.point.x, hit.point.y, hit.point.z / this.look.exaggeration] : null;
   }
 
   /** Metres of a pixel in the middle of the scene. */
-  metres_per_pixel() {
+  metresPerPixel() {
     const distance = this.camera.position.distanceTo(this.controls.target);
-    return 2 * distance * Math.tan(this.camera.fov * Math.PI / 360) / this.canvas.clientHeight;
+    return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / this.canvas.clientHeight;
   }
 
   png() {

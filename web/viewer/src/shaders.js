@@ -5,26 +5,27 @@ varying vec2 at;
 varying vec3 seen;
 varying float height;
 varying vec3 facing;
-varying vec2 in_image;
+varying vec2 inImage;
 void main() {
   at = sampled;
   facing = normalMatrix * normal;
-  in_image = uv;
+  inImage = uv;
   height = position.z;
   vec4 view = modelViewMatrix * vec4(position, 1.0);
   seen = view.xyz;
   gl_Position = projectionMatrix * view;
 }`;
 
-// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent the relief shows.
+// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent the relief
+// shows.
 export const SURFACE_FRAGMENT = `
 uniform sampler2D errors;
-uniform bool shows_errors;
+uniform bool showsErrors;
 uniform sampler2D image;
-uniform bool shows_image;
-uniform bool shows_ground;
+uniform bool showsImage;
+uniform bool showsGround;
 uniform vec3 ground;
-uniform bool is_smooth;
+uniform bool isSmooth;
 uniform float scale;
 uniform vec2 range;
 uniform vec3 sun;
@@ -32,7 +33,7 @@ varying vec2 at;
 varying vec3 seen;
 varying float height;
 varying vec3 facing;
-varying vec2 in_image;
+varying vec2 inImage;
 vec3 ramp(float t) {
   vec3 a = vec3(.36, .47, .35), b = vec3(.66, .63, .47), c = vec3(.62, .55, .49), d = vec3(.97, .97, .98);
   return t < .35 ? mix(a, b, t / .35) : t < .7 ? mix(b, c, (t - .35) / .35) : mix(c, d, (t - .7) / .3);
@@ -41,19 +42,19 @@ vec3 diverge(float t) {
   return t < 0. ? mix(vec3(.95), vec3(.13, .40, .67), -t) : mix(vec3(.95), vec3(.70, .09, .17), t);
 }
 void main() {
-  vec3 normal = normalize(is_smooth ? facing : cross(dFdx(seen), dFdy(seen)));
+  vec3 normal = normalize(isSmooth ? facing : cross(dFdx(seen), dFdy(seen)));
   vec3 up = (viewMatrix * vec4(0., 0., 1., 0.)).xyz;
   if (dot(normal, up) < 0.) normal = -normal;
   float lit = max(dot(normal, (viewMatrix * vec4(sun, 0.)).xyz), 0.);
   vec3 color;
-  if (shows_errors) {
+  if (showsErrors) {
     float error = texture2D(errors, at).r;
     color = abs(error) > 1e29 ? vec3(.55) : diverge(clamp(error / scale, -1., 1.));
     color *= .72 + .28 * lit;
   } else {
     color = ramp(clamp((height - range.x) / max(range.y - range.x, 1e-9), 0., 1.)) * (.34 + .90 * lit);
-    vec4 texel = shows_ground ? vec4(ground, 1.) : texture2D(image, in_image);
-    if (shows_image || shows_ground) color = mix(color, texel.rgb * (.5 + .6 * lit), texel.a);
+    vec4 texel = showsGround ? vec4(ground, 1.) : texture2D(image, inImage);
+    if (showsImage || showsGround) color = mix(color, texel.rgb * (.5 + .6 * lit), texel.a);
   }
   gl_FragColor = vec4(color, 1.);
 }`;
@@ -64,9 +65,11 @@ attribute vec3 other;
 uniform vec2 pixels;
 varying float shown;
 void main() {
-  vec4 here = projectionMatrix * modelViewMatrix * vec4(position, 1.0), there = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
-  float length_on_screen = there.w <= 0. || here.w <= 0. ? 1e4 : length((here.xy / here.w - there.xy / there.w) * .5 * pixels);
-  shown = smoothstep(4., 12., length_on_screen);
+  vec4 here = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  vec4 there = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
+  vec2 apart = (here.xy / here.w - there.xy / there.w) * .5 * pixels;
+  float lengthOnScreen = there.w <= 0. || here.w <= 0. ? 1e4 : length(apart);
+  shown = smoothstep(4., 12., lengthOnScreen);
   gl_Position = shown > 0. ? here : vec4(0., 0., 2., 1.);
 }`;
 

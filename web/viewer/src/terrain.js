@@ -1,7 +1,7 @@
 // A mesh in place: in metres around the page's centre for drawing, in columns and rows for judging.
-import { judge_beside } from './judging.js';
-import { find_placing } from './images.js';
-import { join_places, list_edges, rank_edges, sum_normals } from './joins.js';
+import { judgeBeside } from './judging.js';
+import { findPlacing } from './images.js';
+import { joinPlaces, listEdges, rankEdges, sumNormals } from './joins.js';
 
 /** The position of the page's scene: `metres` a unit of x, y and z. */
 export class Place {
@@ -10,7 +10,8 @@ export class Place {
     this.low = [Infinity, Infinity, Infinity];
     this.high = [-Infinity, -Infinity, -Infinity];
     for (let c = 0; c < 3; ++c) {
-      let low = Infinity, high = -Infinity;
+      let low = Infinity;
+      let high = -Infinity;
       for (let k = c; k < positions.length; k += 3) {
         low = Math.min(low, positions[k]);
         high = Math.max(high, positions[k]);
@@ -18,22 +19,24 @@ export class Place {
       [this.low[c], this.high[c]] = [low, high];
     }
     this.center = this.low.map((low, k) => (low + this.high[k]) / 2);
-    this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => (this.high[k] - this.low[k]) / 2 * metres[k])));
+    this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => ((this.high[k] - this.low[k]) / 2) * metres[k])));
   }
 
   /** At most 1: with it heights stay below a quarter of the width, where that is not below 0.1. */
-  get low_exaggeration() {
+  get lowExaggeration() {
     const [wide, deep, high] = [0, 1, 2].map(k => (this.high[k] - this.low[k]) * this.metres[k]);
     return Math.min(1, Math.max(0.1, Number((Math.max(wide, deep) / 4 / Math.max(high, 1e-9)).toPrecision(2))));
   }
 
-  to_scene(x, y, z) {
-    const [cx, cy, cz] = this.center, [mx, my, mz] = this.metres;
+  toScene(x, y, z) {
+    const [cx, cy, cz] = this.center;
+    const [mx, my, mz] = this.metres;
     return [(x - cx) * mx, (y - cy) * my, (z - cz) * mz];
   }
 
-  from_scene(x, y, z) {
-    const [cx, cy, cz] = this.center, [mx, my, mz] = this.metres;
+  fromScene(x, y, z) {
+    const [cx, cy, cz] = this.center;
+    const [mx, my, mz] = this.metres;
     return [x / mx + cx, y / my + cy, z / mz + cz];
   }
 }
@@ -44,68 +47,88 @@ export class Terrain {
    * runs of indices under one image, or of one ground. `extras`: metadata of its file; `goal`: the request to the
    * engine; `judged`: the result of judge(), if it is known: of every sample; null without a raster.
    * */
-  constructor({ name, positions, indices, bytes = null, told = null, extras = {}, goal = null, judged = null, normals = null, uvs = null, sheets = [{ image: null, ground: null, start: 0, count: indices.length }] }, place, field) {
+  constructor(
+    {
+      name,
+      positions,
+      indices,
+      bytes = null,
+      told = null,
+      extras = {},
+      goal = null,
+      judged = null,
+      normals = null,
+      uvs = null,
+      sheets = [{ image: null, ground: null, start: 0, count: indices.length }],
+    },
+    place,
+    field,
+  ) {
     Object.assign(this, { name, positions, indices, bytes, told, extras, goal, place, field, judged, uvs, sheets });
     this.scene = new Float32Array(positions.length);
     let reach = 0;
     for (let k = 0; k < positions.length; k += 3) {
-      const [x, y, z] = place.to_scene(positions[k], positions[k + 1], positions[k + 2]);
+      const [x, y, z] = place.toScene(positions[k], positions[k + 1], positions[k + 2]);
       this.scene[k] = x;
       this.scene[k + 1] = y;
       this.scene[k + 2] = z;
       reach = Math.max(reach, x * x + y * y + z * z);
     }
-    this.reach = Math.max(place.radius, Math.sqrt(reach));  // from the scene's middle: other levels may be wider than the first
-    this.given_normals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
+    // From the scene's middle: other levels may be wider than the first.
+    this.reach = Math.max(place.radius, Math.sqrt(reach));
+    this.givenNormals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
 
   get triangles() {
     return this.indices.length / 3;
   }
 
-  get is_judged() {
+  get isJudged() {
     return !this.field || this.judged !== null;
   }
 
   /** Judges it once, in the background. */
   judge() {
-    return this.judging ??= judge_beside(this.field, this).then(judged => { this.judged = judged; });
+    return (this.judging ??= judgeBeside(this.field, this).then(judged => {
+      this.judged = judged;
+    }));
   }
 
   /** Positions of vertices in the raster, as shares of its columns and rows. */
   get sampled() {
     const { cols, rows } = this.field;
-    return Float32Array.from(this.field.to_grids(this.positions), (value, k) => (value + 0.5) / (k % 2 ? rows : cols));
+    return Float32Array.from(this.field.toGrids(this.positions), (value, k) => (value + 0.5) / (k % 2 ? rows : cols));
   }
 
-  get has_image() {
+  get hasImage() {
     return this.sheets.some(({ image }) => image);
   }
 
   /** The map from x and y to the image; null where that is no affine map, or not of one image. */
   get placing() {
-    if (this.known_placing === undefined) this.known_placing = this.sheets.length === 1 && this.has_image ? find_placing(this) : null;
-    return this.known_placing;
+    if (this.knownPlacing === undefined)
+      this.knownPlacing = this.sheets.length === 1 && this.hasImage ? findPlacing(this) : null;
+    return this.knownPlacing;
   }
 
   /** Those of the file, or else of the triangles around each place. */
   get normals() {
-    return this.given_normals ??= sum_normals(this.scene, this.indices, this.firsts);
+    return (this.givenNormals ??= sumNormals(this.scene, this.indices, this.firsts));
   }
 
   get firsts() {
-    return this.known_firsts ??= join_places(this.scene);
+    return (this.knownFirsts ??= joinPlaces(this.scene));
   }
 
-  /** Longest first, as rank_edges() has them. */
+  /** Longest first, as rankEdges() has them. */
   edges() {
-    return rank_edges(list_edges(this.indices, this.firsts), this.scene);
+    return rankEdges(listEdges(this.indices, this.firsts), this.scene);
   }
 
   /** Height of the mesh over a place of its frame; NaN where it has none. */
-  height_at(x, y) {
+  heightAt(x, y) {
     this.cells ??= new Cells(this);
-    return this.cells.height_at(x, y);
+    return this.cells.heightAt(x, y);
   }
 }
 
@@ -116,12 +139,13 @@ class Cells {
     this.side = Math.max(1, Math.min(1024, Math.ceil(Math.sqrt(indices.length / 6))));
     this.lists = new Map();
     for (let t = 0; t < indices.length; t += 3) {
-      const corners = [0, 1, 2].map(k => this.cell_of(positions[3 * indices[t + k]], positions[3 * indices[t + k] + 1]));
+      const corners = [0, 1, 2].map(k => this.cellOf(positions[3 * indices[t + k]], positions[3 * indices[t + k] + 1]));
       const [x0, x1] = [Math.min(...corners.map(c => c[0])), Math.max(...corners.map(c => c[0]))];
       const [y0, y1] = [Math.min(...corners.map(c => c[1])), Math.max(...corners.map(c => c[1]))];
       for (let y = y0; y <= y1; ++y) {
         for (let x = x0; x <= x1; ++x) {
-          const key = y * this.side + x, list = this.lists.get(key);
+          const key = y * this.side + x;
+          const list = this.lists.get(key);
           if (list) list.push(t);
           else this.lists.set(key, [t]);
         }
@@ -129,20 +153,27 @@ class Cells {
     }
   }
 
-  cell_of(x, y) {
+  cellOf(x, y) {
     const { low, high } = this.place;
-    return [[x, 0], [y, 1]].map(([value, k]) => Math.min(this.side - 1, Math.max(0, Math.floor((value - low[k]) / (high[k] - low[k] || 1) * this.side))));
+    return [
+      [x, 0],
+      [y, 1],
+    ].map(([value, k]) =>
+      Math.min(this.side - 1, Math.max(0, Math.floor(((value - low[k]) / (high[k] - low[k] || 1)) * this.side))),
+    );
   }
 
-  height_at(x, y) {
-    const [cx, cy] = this.cell_of(x, y), p = this.positions;
+  heightAt(x, y) {
+    const [cx, cy] = this.cellOf(x, y);
+    const p = this.positions;
     for (const t of this.lists.get(cy * this.side + cx) ?? []) {
       const [a, b, c] = [0, 1, 2].map(k => 3 * this.indices[t + k]);
       const area = (p[b] - p[a]) * (p[c + 1] - p[a + 1]) - (p[b + 1] - p[a + 1]) * (p[c] - p[a]);
       if (area === 0) continue;
       const v = ((x - p[a]) * (p[c + 1] - p[a + 1]) - (y - p[a + 1]) * (p[c] - p[a])) / area;
       const w = ((p[b] - p[a]) * (y - p[a + 1]) - (p[b + 1] - p[a + 1]) * (x - p[a])) / area;
-      if (v > -1e-9 && w > -1e-9 && v + w < 1 + 1e-9) return p[a + 2] + v * (p[b + 2] - p[a + 2]) + w * (p[c + 2] - p[a + 2]);
+      if (v > -1e-9 && w > -1e-9 && v + w < 1 + 1e-9)
+        return p[a + 2] + v * (p[b + 2] - p[a + 2]) + w * (p[c + 2] - p[a + 2]);
     }
     return NaN;
   }

@@ -10,7 +10,7 @@ export function count(value) {
 }
 
 export function share(part, whole) {
-  return `${Number((100 * part / whole).toPrecision(3))} %`;
+  return `${Number(((100 * part) / whole).toPrecision(3))} %`;
 }
 
 export function bytes(value) {
@@ -18,11 +18,13 @@ export function bytes(value) {
   return `${Number((value / unit[1]).toPrecision(3))} ${unit[0]}`;
 }
 
-export function with_unit(value, unit) {
+export function withUnit(value, unit) {
   return unit ? `${number(value)} ${unit}` : number(value);
 }
 
 /** A length in metres, or in the mesh's units where these are not known. */
 export function distance(value, unit = 'm') {
-  return unit === 'm' && value >= 1000 ? `${Number((value / 1000).toPrecision(4))} km` : `${Number(value.toPrecision(4))} ${unit}`;
+  return unit === 'm' && value >= 1000
+    ? `${Number((value / 1000).toPrecision(4))} km`
+    : `${Number(value.toPrecision(4))} ${unit}`;
 }

@@ -2,19 +2,27 @@
 import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
-import { Field, place_mesh } from './field.js';
+import { Field, placeMesh } from './field.js';
 
-let field = null, place = null, refiner = null, failed = null;
-const loaded = ready().then(warm_up).catch(error => { failed = `this browser refuses WebAssembly, which the slider needs (${error.message})`; });
+let field = null;
+let place = null;
+let refiner = null;
+let failed = null;
+const loaded = ready()
+  .then(warmUp)
+  .catch(error => {
+    failed = `this browser refuses WebAssembly, which the slider needs (${error.message})`;
+  });
 
 /** The first mesh of a fresh module needs ten times as long as the next. */
-function warm_up() {
-  const side = 65, z = Float32Array.from({ length: side * side }, (_, k) => Math.sin(k) * (k % side));
+function warmUp() {
+  const side = 65;
+  const z = Float32Array.from({ length: side * side }, (_, k) => Math.sin(k) * (k % side));
   simplifySync(z, side, side, { maxError: 1, effort: 'fast' });
 }
 
-const AT_THE_BOUND = 1 + 1e-12;  // factor of an error: the refiner's doubles would continue where an exact decision
-                                 // ends
+// Factor of an error: the refiner's doubles would continue where an exact decision ends.
+const AT_THE_BOUND = 1 + 1e-12;
 
 /** Finer meshes continue from the last; for a coarser one it begins again. */
 function refine(error) {
@@ -27,9 +35,16 @@ function refine(error) {
 }
 
 function answer({ kind, error, goal, effort, order = 'auto' }) {
-  const mesh = kind === 'refine' ? refine(error) : simplifySync(field.samples, field.cols, field.rows, { ...place, ...goal, effort, order });
-  const { positions, indices } = mesh, origin = [...mesh.origin];
-  return { mesh: { positions, indices, origin }, judged: judge(field, { positions: place_mesh({ positions, origin }), indices }) };
+  const mesh =
+    kind === 'refine'
+      ? refine(error)
+      : simplifySync(field.samples, field.cols, field.rows, { ...place, ...goal, effort, order });
+  const { positions, indices } = mesh;
+  const origin = [...mesh.origin];
+  return {
+    mesh: { positions, indices, origin },
+    judged: judge(field, { positions: placeMesh({ positions, origin }), indices }),
+  };
 }
 
 const lock = holdLock();
