@@ -82,7 +82,7 @@ constexpr CommandRow kCommandRows[] = {
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kServe, "serve", "Serve tiles over HTTP, of a set or made of a raster, on this machine alone by default",
      "INPUT [OPTIONS]",
-     "Tiles are sent with the headers that clients need; a set in one file is sent by ranges of bytes, too.\n"
+     "Tiles have the headers that clients need; a set in one file is also sent by ranges of bytes.\n"
      "Tiles of a raster, or of a plan, are made when they are asked for. Ctrl-C ends it.\n"
      "Examples:\n"
      "  scarp serve globe                                    at http://127.0.0.1:8080/\n"
