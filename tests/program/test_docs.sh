@@ -9,7 +9,7 @@ bash_completions=share/bash-completion/completions/scarp
 zsh_completions=share/zsh/site-functions/_scarp
 fish_completions=share/fish/vendor_completions.d/scarp.fish
 # The build has made the same; a folder that holds the program alone has none.
-if [ -e "$SCARP_BUILD/share/man" ]; then
+if [ -e "$SCARP_BUILD/CMakeCache.txt" ]; then
   for file in $(cd share && find . -type f); do
     cmp "share/$file" "$SCARP_BUILD/share/$file" || fail "the build has made another $file"
   done
