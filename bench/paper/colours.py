@@ -113,7 +113,8 @@ def resize(pixels, cols, rows):
         covered = numpy.minimum(edges[1:, None], old + 1) - numpy.maximum(edges[:-1, None], old)
         return numpy.maximum(covered, 0) * new_count / count
 
-    mixed = numpy.einsum("yr,rcb,xc->yxb", shares(pixels.shape[0], rows), pixels.astype(float), shares(pixels.shape[1], cols))
+    by_rows, by_cols = shares(pixels.shape[0], rows), shares(pixels.shape[1], cols)
+    mixed = numpy.einsum("yr,rcb,xc->yxb", by_rows, pixels.astype(float), by_cols, optimize=True)
     return numpy.floor(mixed + 0.5).astype(numpy.uint8)
 
 
@@ -164,7 +165,7 @@ def trace(subject, colour, plot):
     """PSNR against vertices; from where on greedy insertion is better than the grid, if it is."""
     curves, vertices = {"squares": [], "greedy": [], "uniform": []}, 100
     overtakes = None
-    while vertices <= subject.pixels.shape[0] * subject.pixels.shape[1] / 3:
+    while vertices <= (100 if subject.study.is_fast else subject.pixels.shape[0] * subject.pixels.shape[1] / 3):
         subject.study.note(f"images: {subject.name}, {vertices} vertices")
         points = subject.grid(vertices)[0]
         for name, painted in (("squares", subject.paint(len(points), TREATMENTS[SQUARES])),

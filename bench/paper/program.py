@@ -39,7 +39,8 @@ class Run:
 
     def __post_init__(self):
         self.vertices, self.triangles = self.report["vertices"], self.report["triangles"]
-        self.max_error, self.rmse = self.report["max_error"] / self.scale, self.report["rmse"] / self.scale
+        if "rmse" in self.report:  # errors of heights, which an image has not
+            self.max_error, self.rmse = self.report["max_error"] / self.scale, self.report["rmse"] / self.scale
         self.work, self.seconds = self.report["work"], self.report["seconds"]["refine"]
         if self.mesh is not None and self.scale != 1:
             self.mesh.positions = self.mesh.positions / numpy.float32([1, 1, self.scale])

@@ -9,7 +9,7 @@ from page import Differences, compare, change_in_percent, number
 from plots import Plot
 
 SHARES = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-LEAST_ROUNDS, MOST_ROUNDS, SECONDS_OF_ROUNDS = 3, 25, 0.5  # short runs are disturbed more
+LEAST_ROUNDS, MOST_ROUNDS, SECONDS_OF_ROUNDS = 3, 9, 0.5  # short runs are disturbed more
 MILLION_VERTICES = 10486  # 1 % of a million samples
 
 
@@ -76,7 +76,7 @@ def add_error_curves(study):
     for colour, field in enumerate(study.fields):
         study.note(f"error curves: {field.key}")
         of_field = [row for row in figures.reference_rows() if row.field == field.key and row.vertices <= field.samples / 10 + 1]
-        for error, (name, steps, style) in {"rmse": ("rms_error", 4, "both"), "max_error": ("max_error", 12, "line")}.items():
+        for error, (name, steps, style) in {"rmse": ("rms_error", 4, "both"), "max_error": ("max_error", 8, "line")}.items():
             runs = [(m, study.delaunay(field, m)) for m in stations(10, field.samples / 10, steps)]
             percent = [(m, 100 * getattr(run, error) / field.relief) for m, run in runs if getattr(run, error) > 0]
             plots[error].curve(percent, style, colour, field.key)
