@@ -35,7 +35,7 @@ class Texture:
 
     def __init__(self, study, heights, photo, name):
         self.study, self.photo = study, photo
-        self.path, self.render = study.program.folder / f"{name}_photo.tif", study.program.folder / "render.png"
+        self.path = study.program.folder / f"{name}_photo.tif"
         Image.fromarray(photo).save(self.path)
         Image.fromarray(heights).save(study.program.folder / f"{name}.tif")
         self.field = study.program.field(name, study.program.folder / f"{name}.tif")
@@ -50,13 +50,14 @@ class Texture:
         if emphasis < 1:
             share = emphasis / (1 - emphasis) * size / self.field.relief * sum(ranges) / (3 * 255)
             weight = share / (1 + share)
+        render = self.study.program.folder / f"{self.field.key}_{emphasis}_{size}.png"  # kept, as the run is
         options = ("--texture", self.path, "--texture-weight", repr(weight), "--channel-weights", ",".join(map(str, ranges)),
-                   "--render", self.render)
+                   "--render", render)
         if points:
             run = self.study.program.through_points(self.field, points, *options)
         else:
             run = self.study.program.exactly(self.field, self.field.samples // 20, *options)
-        picture = read_image(self.render)
+        picture = read_image(render)
         return run, picture, find_psnr(self.photo, picture)
 
 
