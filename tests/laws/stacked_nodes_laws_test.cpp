@@ -116,12 +116,20 @@ RC_GTEST_PROP(stacked_nodes, are_the_first_height_at_each_place_for_any_window, 
   window.rows = static_cast<int>(std::min<std::int64_t>(*rc::gen::inRange(1, 90), window.last_row() + 1 - window.row));
   std::vector<float> heights(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows));
   RC_ASSERT(stack.nodes->read(window, heights).has_value());
+  const NodeWindow land = stack.nodes->land(window);
+  const bool is_within = land.col >= window.col && land.col + land.cols <= window.col + window.cols &&
+                         land.row >= window.row && land.row + land.rows <= window.row + window.rows;
+  RC_ASSERT(is_within && (land.cols > 0) == (land.rows > 0));
   std::size_t k = 0;
   for (int j = 0; j < window.rows; ++j) {
     const std::int64_t row = window.row + j;
     for (int i = 0; i < window.cols; ++i, ++k) {
       const float chosen = stack.at(window.longitude(window.is_pole(row) ? 0 : window.col + i), window.latitude(row));
       RC_ASSERT(heights[k] == chosen || (std::isnan(heights[k]) && std::isnan(chosen)));
+      const std::int64_t col = window.col + i;
+      const bool is_land =
+          col >= land.col && col < land.col + land.cols && row >= land.row && row < land.row + land.rows;
+      RC_ASSERT(is_land || std::isnan(chosen));
     }
   }
 }
