@@ -103,7 +103,7 @@ class Program:
         return done.stdout
 
     def field(self, key, path):
-        raster = json.loads(self.call("info", path, "--json"))["input"]
+        raster = json.loads(self.call("info", path, "--no-suggest", "--json"))["input"]
         return Field(key, str(path), raster["cols"], raster["rows"], raster["min"], raster["max"])
 
     def generate(self, style, cols, rows, *options, name=None):
