@@ -32,7 +32,7 @@ pictures=$(grep -oE 'images/paper/[a-z_]+\.png' out/paper.md)
 [ "$(wc -w <<< "$pictures")" = 13 ] || fail "other pictures: $pictures"
 for picture in $pictures; do
   head -c 8 "out/$picture" | tail -c 7 | grep -q '^PNG' || fail "$picture is no picture"
-  [ "$(wc -c < "out/$picture")" -gt 5000 ] || fail "$picture shows nothing"
+  [ "$(wc -c < "out/$picture")" -gt 2000 ] || fail "$picture shows nothing"
 done
 
 # The vertices are exactly those that a row asks for, the algorithms agree, and a number far from Scape's is explained.
