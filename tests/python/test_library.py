@@ -203,6 +203,7 @@ class Library(unittest.TestCase):
             sys.path.insert(0, %r)
             import scarp
             from fixtures import plain_hills
+            signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell in the background ignores it
             z = plain_hills(1025, 1025)
             refiner = scarp.Refiner(z)
             threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
