@@ -16,7 +16,7 @@ MAX_LINES = 600
 # room: (floor, rooms it may include, public headers it may include, what it holds).
 # Rooms on one floor are strangers: none includes another.
 ANY = None
-SESSION = [f"session/{room}" for room in ("text", "table", "options", "inputs", "plan", "reports", "work")]
+SESSION = [f"session/{room}" for room in ("text", "table", "options", "inputs", "plan", "reports", "tasks")]
 ROOMS = {
     "door": (0, [], ANY, "`include/scarp`: the public headers, each a manual"),
     "base": (0, [], ["alike", "result", "progress", "version"], "lattice points, exact integers, arrays, threads, memory budget, progress"),
@@ -60,7 +60,7 @@ ROOMS = {
     "session/inputs": (10, ["session/text", "session/options"], ANY, "the files that options name, read: channels, companions, lines, waters, zones"),
     "session/plan": (10, ["session/text", "session/table", "session/options"], ANY, "what a command will do, decided before its work: plans, conflicts, outputs"),
     "session/reports": (11, ["session/text", "session/options", "session/inputs", "session/plan"], ANY, "what a run came to, as JSON, lines of a summary and warnings"),
-    "session/work": (12, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
+    "session/tasks": (12, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
                      "the commands without their terminal: simplify, measure, points, tiles"),
     "apps": (13, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
 }

@@ -9,9 +9,9 @@
 #include "session/reports/measure_report.h"
 #include "session/reports/points_report.h"
 #include "session/table/option_table.h"
-#include "session/work/measure_work.h"
-#include "session/work/points_work.h"
-#include "session/work/runner.h"
+#include "session/tasks/measure_work.h"
+#include "session/tasks/points_work.h"
+#include "session/tasks/runner.h"
 #include "settings.h"
 
 namespace scarp::door {

@@ -9,7 +9,7 @@
 
 #include "door.h"
 #include "scarp/io.h"
-#include "session/work/mesh_output.h"
+#include "session/tasks/mesh_output.h"
 
 const float* scarp_mesh::rounded() const {
   std::call_once(once_, [&] { rounded_.assign(mesh.positions.begin(), mesh.positions.end()); });

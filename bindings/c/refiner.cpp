@@ -9,8 +9,8 @@
 #include "inputs.h"
 #include "mesh.h"
 #include "scarp/simplify.h"
+#include "session/tasks/mesh_output.h"
 #include "session/text/clock.h"
-#include "session/work/mesh_output.h"
 
 struct scarp_refiner {
   scarp::OwnedHeightField field;  ///< whose samples are the caller's, but where they had to be cleaned

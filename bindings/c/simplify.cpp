@@ -19,10 +19,10 @@
 #include "session/reports/simplify_outcome.h"
 #include "session/reports/simplify_run.h"
 #include "session/table/option_table.h"
-#include "session/work/points_work.h"
-#include "session/work/runner.h"
-#include "session/work/simplify_files.h"
-#include "session/work/simplify_work.h"
+#include "session/tasks/points_work.h"
+#include "session/tasks/runner.h"
+#include "session/tasks/simplify_files.h"
+#include "session/tasks/simplify_work.h"
 #include "settings.h"
 
 namespace scarp::door {

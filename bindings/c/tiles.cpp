@@ -14,9 +14,9 @@
 #include "session/plan/tile_plan.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
+#include "session/tasks/tile_work.h"
 #include "session/text/json_text.h"
 #include "session/text/tile_counts.h"
-#include "session/work/tile_work.h"
 #include "settings.h"
 
 struct scarp_tiles {

@@ -40,7 +40,7 @@ expect_fault include/scarp/new.h '#pragma GCC visibility push(default)' 'scarp.h
 expect_fault apps/scarp/main.cpp '#include "grid/raster.h"' 'apps may include'
 expect_fault src/session/options/values.h '#include "session/reports/report.h"' 'a step upwards from session/options (floor 9)'
 expect_fault src/session/inputs/lines.h '#include "session/plan/outputs.h"' 'session/inputs and session/plan are strangers'
-expect_fault src/session/work/runner.h '#include "grid/raster.h"' 'session/work must not know the room grid'
+expect_fault src/session/tasks/runner.h '#include "grid/raster.h"' 'session/tasks must not know the room grid'
 expect_fault src/session/plan/outputs.h '#include <CLI/CLI.hpp>' 'command lines'
 expect_fault src/tiles/ground.h '#include "session/text/text.h"' 'a step upwards from tiles'
 expect_fault src/io/raster/stm.cpp '#include <gdal.h>' 'GDAL'

@@ -5,11 +5,11 @@
 #include "commands/points_command.h"
 #include "session/reports/measure_report.h"
 #include "session/table/option_table.h"
+#include "session/tasks/measure_work.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
-#include "session/work/measure_work.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
 

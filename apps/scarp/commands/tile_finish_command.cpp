@@ -10,12 +10,12 @@
 #include "session/reports/report.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
+#include "session/tasks/counted_set.h"
+#include "session/tasks/tile_work.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
 #include "session/text/tile_counts.h"
-#include "session/work/counted_set.h"
-#include "session/work/tile_work.h"
 #include "terminal/progress_display.h"
 
 namespace scarp::cli {

@@ -14,8 +14,8 @@
 #include "session/plan/tile_parts.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
+#include "session/tasks/slurm_script.h"
 #include "session/text/text.h"
-#include "session/work/slurm_script.h"
 #include "terminal/progress_display.h"
 
 namespace scarp::cli {

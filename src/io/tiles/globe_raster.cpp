@@ -102,7 +102,7 @@ FileStamp stamp_lines(std::string& file) {
   return stamp;
 }
 
-/// The EPSG code of its CRS, or a placeholder if it has none.
+/// The EPSG code of its CRS; EPSG:CODE, for the reader to complete, if it has none.
 std::string code_of(const RasterInfo& info) { return info.crs.starts_with("EPSG:") ? info.crs : "EPSG:CODE"; }
 
 /// Sources of one stack lie on one globe, and a setting for all must not contradict one of them.

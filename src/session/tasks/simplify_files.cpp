@@ -1,4 +1,4 @@
-#include "session/work/simplify_files.h"
+#include "session/tasks/simplify_files.h"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 #include "session/inputs/zones.h"
 #include "session/reports/pictures.h"
 #include "session/reports/view_page.h"
+#include "session/tasks/mesh_output.h"
+#include "session/tasks/simplify_work.h"
+#include "session/tasks/with_level.h"
 #include "session/text/json_text.h"
-#include "session/work/mesh_output.h"
-#include "session/work/simplify_work.h"
-#include "session/work/with_level.h"
 
 namespace scarp::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "session/work/measure_work.h"
+#include "session/tasks/measure_work.h"
 
 #include <fmt/format.h>
 

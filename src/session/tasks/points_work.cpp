@@ -1,4 +1,4 @@
-#include "session/work/points_work.h"
+#include "session/tasks/points_work.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include "session/inputs/mesh_place.h"
 #include "session/options/error_goal.h"
 #include "session/table/option_table.h"
+#include "session/tasks/mesh_output.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
-#include "session/work/mesh_output.h"
 
 namespace scarp::cli {
 namespace {

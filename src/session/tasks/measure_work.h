@@ -9,7 +9,7 @@
 #include "scarp/picture.h"
 #include "session/options/measure_options.h"
 #include "session/reports/measure_report.h"
-#include "session/work/runner.h"
+#include "session/tasks/runner.h"
 
 namespace scarp::cli {
 

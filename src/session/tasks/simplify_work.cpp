@@ -1,4 +1,4 @@
-#include "session/work/simplify_work.h"
+#include "session/tasks/simplify_work.h"
 
 #include <fmt/format.h>
 
@@ -20,10 +20,10 @@
 #include "session/reports/feature_report.h"
 #include "session/reports/shape_report.h"
 #include "session/reports/verdict.h"
+#include "session/tasks/mesh_output.h"
+#include "session/tasks/with_level.h"
 #include "session/text/clock.h"
 #include "session/text/text.h"
-#include "session/work/mesh_output.h"
-#include "session/work/with_level.h"
 
 namespace scarp::cli {
 namespace {

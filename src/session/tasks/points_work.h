@@ -6,7 +6,7 @@
 #include "session/options/simplify_options.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/points_report.h"
-#include "session/work/runner.h"
+#include "session/tasks/runner.h"
 
 namespace CLI {
 class App;

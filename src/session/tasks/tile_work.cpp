@@ -1,12 +1,12 @@
-#include "session/work/tile_work.h"
+#include "session/tasks/tile_work.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "session/reports/tile_report.h"
+#include "session/tasks/counted_set.h"
 #include "session/text/paths.h"
-#include "session/work/counted_set.h"
 
 namespace scarp::cli {
 

@@ -5,7 +5,7 @@
 #include "session/options/simplify_options.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_outcome.h"
-#include "session/work/runner.h"
+#include "session/tasks/runner.h"
 
 namespace scarp::cli {
 

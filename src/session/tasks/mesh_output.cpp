@@ -1,4 +1,4 @@
-#include "session/work/mesh_output.h"
+#include "session/tasks/mesh_output.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "session/work/slurm_script.h"
+#include "session/tasks/slurm_script.h"
 
 #include <fmt/format.h>
 
