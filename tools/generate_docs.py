@@ -32,11 +32,20 @@ class Table:
         return [option for option in self.options if option["command"] == command]
 
     def named(self, command):
-        """The options, without arguments such as INPUT."""
-        return [option for option in self.of(command) if option["name"].startswith("-")]
+        """The options, without arguments such as INPUT and parts such as --cutline's inset."""
+        return [option for option in self.of(command) if option["name"].startswith("-") and not option["part_of"]]
+
+    def listed(self, command):
+        """The options that pages list: those of simplify once, not for classic, too."""
+        return [option for option in self.of(command) if command != "classic" or "strategies" in option["group"]]
 
     def arguments(self, command):
         return [option for option in self.of(command) if not option["name"].startswith("-")]
+
+
+def spelling(option):
+    """--max-error; of a part, as it stands behind its option: --cutline ...,inset"""
+    return f"{option['part_of']} ...,{option['key']}" if option["part_of"] else option["name"]
 
 
 def first_sentence(option):
@@ -68,17 +77,17 @@ def man_lines(table):
     for command in table.commands:
         yield f".SH OPTIONS OF {command.upper()}"
         group = None
-        for option in table.of(command):
+        for option in table.listed(command):
             if option["group"] != group:
                 group = option["group"]
                 yield f'.SS "{group}"'
             yield ".TP"
-            names = [name for name in (option["short"], option["name"]) if name]
+            names = [name for name in (option["short"], spelling(option)) if name]
             text = ", ".join("\\fB" + name.replace("-", "\\-") + "\\fR" for name in names)
             if not option["name"].startswith("-"):
                 text = f"\\fI{option['name']}\\fR"
             if option["value"]:
-                text += " \\fI" + option["value"].replace("-", "\\-") + "\\fR"
+                text += ("=" if option["part_of"] else " ") + "\\fI" + option["value"].replace("-", "\\-") + "\\fR"
             yield text
             for sentence in re.split(r"(?<=\.) ", sentences(option)):
                 line = roff(sentence)
@@ -118,8 +127,8 @@ def option_rows(options):
     yield "| option | meaning | default |" if has_default else "| option | meaning |"
     yield "|---|---|---|" if has_default else "|---|---|"
     for option in options:
-        value = " " + option["value"].replace("|", "\\|") if option["value"] else ""
-        name = (f"`{option['short']}`, " if option["short"] else "") + f"`{option['name']}{value}`"
+        value = ("=" if option["part_of"] else " ") + option["value"].replace("|", "\\|") if option["value"] else ""
+        name = (f"`{option['short']}`, " if option["short"] else "") + f"`{spelling(option)}{value}`"
         default = f" {cell(option['default'] or '', option['choices'])} |" if has_default else ""
         yield f"| {name} | {cell(sentences(option, False), option['choices'])} |{default}".replace("|  |", "| |")
 
@@ -129,8 +138,8 @@ def options_page(table):
     for command in table.commands:
         usage = " ".join(["scarp", command, table.usages[command]]).strip()
         lines += ["", f"## {command}", "", f"    {usage}", "", f"{table.summaries[command]}."]
-        for group in dict.fromkeys(option["group"] for option in table.of(command)):
-            options = [option for option in table.of(command) if option["group"] == group]
+        for group in dict.fromkeys(option["group"] for option in table.listed(command)):
+            options = [option for option in table.listed(command) if option["group"] == group]
             lines += ["", f"### {command}: {group[0].lower()}{group[1:]}", "", *option_rows(options)]
     return "\n".join(lines) + "\n"
 

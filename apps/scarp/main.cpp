@@ -5,24 +5,15 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "commands/generate_command.h"
-#include "commands/help_command.h"
-#include "commands/info_command.h"
-#include "commands/measure_command.h"
-#include "commands/serve_command.h"
-#include "commands/simplify_command.h"
-#include "commands/tile_check_command.h"
-#include "commands/tile_command.h"
-#include "commands/tile_finish_command.h"
-#include "commands/tile_plan_command.h"
-#include "commands/tile_run_command.h"
-#include "commands/view_command.h"
+#include "commands/commands.h"
 #include "scarp/version.h"
 #include "session/table/help.h"
 #include "session/table/missing_value.h"
@@ -36,6 +27,7 @@ namespace {
 using namespace scarp::cli;
 using scarp::Error;
 using scarp::ErrorKind;
+using scarp::Result;
 
 std::string join_command_line(int argc, char** argv) {
   std::string line = "scarp";
@@ -106,6 +98,19 @@ std::vector<std::string> join_command(int argc, char** argv) {
   return words;
 }
 
+struct RunnableCommand {
+  Commands command;
+  Result<void> (*run)(const GivenOptions& given, const std::string& command_line);
+};
+
+constexpr RunnableCommand kRunners[] = {{kSimplify, run_simplify},      {kClassic, run_simplify},
+                               {kMeasure, run_measure},        {kView, run_view},
+                               {kTile, run_tile},              {kTilePlan, run_tile_plan},
+                               {kTileRun, run_tile_run},       {kTileFinish, run_tile_finish},
+                               {kTileCheck, run_tile_check},   {kServe, run_serve},
+                               {kInfo, run_info},              {kGenerate, run_generate},
+                               {kHelpCommand, run_help},       {kVersionCommand, run_version}};
+
 int run_program(int count, char** words) {
   std::vector<std::string> joined = join_command(count, words);
   std::vector<char*> arguments;
@@ -118,19 +123,12 @@ int run_program(int count, char** words) {
   program.set_help_flag("-h,--help");
   program.set_help_all_flag("--help-all");
   program.require_subcommand(1);
-  SimplifyCommand simplify(program);
-  MeasureCommand measure(program);
-  ViewCommand view(program);
-  TileCommand tile(program);
-  TilePlanCommand tile_plan(program);
-  TileRunCommand tile_run(program);
-  TileFinishCommand tile_finish(program);
-  TileCheckCommand tile_check(program);
-  ServeCommand serve(program);
-  InfoCommand info(program);
-  GenerateCommand generate(program);
-  HelpCommand help(program);
-  const CLI::App* const version_command = add_command(program, kVersionCommand);
+  std::vector<std::unique_ptr<GivenOptions>> options;
+  std::vector<const CLI::App*> commands;
+  for (const RunnableCommand& runner : kRunners) {
+    options.push_back(std::make_unique<GivenOptions>(runner.command));
+    commands.push_back(options.back()->add_to(program));
+  }
 
   if (const auto complaint = find_foreign_option(program, argc, argv))
     return report_end(tl::unexpected(end_usage(*complaint, std::string(" ") + argv[1])));
@@ -148,20 +146,11 @@ int run_program(int count, char** words) {
     return report_end(tl::unexpected(describe(error, program)));
   }
 
-  if (version_command->parsed()) return report_end(print_to_stdout(fmt::format("scarp {}\n", scarp::version())));
   const std::string command_line = join_command_line(count, words);
-  return report_end(simplify.is_chosen()      ? simplify.run(command_line)
-                    : measure.is_chosen()     ? measure.run(command_line)
-                    : view.is_chosen()        ? view.run()
-                    : tile.is_chosen()        ? tile.run(command_line)
-                    : tile_plan.is_chosen()   ? tile_plan.run()
-                    : tile_run.is_chosen()    ? tile_run.run()
-                    : tile_finish.is_chosen() ? tile_finish.run(command_line)
-                    : tile_check.is_chosen()  ? tile_check.run(command_line)
-                    : serve.is_chosen()       ? serve.run()
-                    : info.is_chosen()        ? info.run(command_line)
-                    : generate.is_chosen()    ? generate.run()
-                                              : help.run());
+  const std::size_t chosen = static_cast<std::size_t>(
+      std::find_if(commands.begin(), commands.end(), [](const CLI::App* command) { return command->parsed(); }) -
+      commands.begin());
+  return report_end(kRunners[chosen].run(*options[chosen], command_line));
 }
 
 /// A standard stream that the caller has closed would lend its number to the next file that is opened, which messages

@@ -44,6 +44,13 @@ const cli::OptionRow* option_at(const std::string& sentence, std::size_t at, std
     return nullptr;
   const std::string clause = sentence.substr(0, at);
   if (end == at + 2 && clause.find("gdal", clause.find_last_of("('") + 1) != std::string::npos) return nullptr;
+  for (const cli::OptionRow* row : cli::rows_of(cli::kEveryCommand)) {  // "--cutline inset"
+    const std::string title = row->title();
+    const bool is_there = row->part_of != cli::OptionId::kNone && sentence.compare(at, title.size(), title) == 0;
+    if (!is_there || (at + title.size() < sentence.size() && is_of_name(sentence[at + title.size()]))) continue;
+    end = at + title.size();
+    return row;
+  }
   return cli::find_option(cli::kEveryCommand, sentence.substr(at, end - at));
 }
 

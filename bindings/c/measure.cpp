@@ -5,7 +5,7 @@
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
-#include "session/options/measure_options.h"
+#include "session/options/given_options.h"
 #include "session/reports/measure_report.h"
 #include "session/reports/points_report.h"
 #include "session/table/option_table.h"
@@ -33,22 +33,21 @@ scarp_status judge(const std::string& input, std::optional<bool> are_points, con
                    const scarp_options& asked, scarp_report* out) {
   const Lent lent(kMeshName, mesh);
   CLI::App program;
-  CLI::App* const command = cli::add_command(program, cli::kMeasure);
-  cli::MeasureArguments given;
-  given.add_to(*command);
+  cli::GivenOptions given(cli::kMeasure);
+  given.add_to(program);
   std::vector<std::string> beside;
-  if (are_points.value_or(false)) beside.emplace_back("--points");
+  if (are_points.value_or(false)) beside.push_back(cli::name_of(cli::OptionId::kPoints));
   if (auto parsed = parse_options(program, cli::kMeasure, {"measure", input, kMeshName}, asked, beside); !parsed)
     return report(parsed.error());
   const cli::Runner runner{progress_of(asked)};
-  if (are_points.value_or(given.are_points())) {
+  if (are_points.value_or(cli::are_points_meant(given))) {
     cli::JudgedPoints judged;
-    if (auto done = cli::judge_points(*command, given, runner, judged); !done) return report(done.error());
+    if (auto done = cli::judge_points(given, runner, judged); !done) return report(done.error());
     return finish(judged.measured, judged.measured.over_tolerance, judged.seconds_measure, judged.broken, out);
   }
   cli::Judged judged;
   cli::StreamedErrors errors;
-  if (auto done = cli::judge_inputs(given, cli::files_read(*command), runner, judged, errors); !done)
+  if (auto done = cli::judge_inputs(given, runner, judged, errors); !done)
     return report(done.error());
   const std::uint64_t over = judged.judgement.weighted ? judged.judgement.weighted->over : 0;
   return finish(judged.judgement.heights, over, judged.seconds_measure, judged.broken, out);

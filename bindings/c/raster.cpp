@@ -5,7 +5,7 @@
 
 #include "door.h"
 #include "scarp/io.h"
-#include "session/options/simplify_options.h"
+#include "session/options/raster_options.h"
 #include "session/options/values.h"
 #include "session/table/option_table.h"
 #include "settings.h"
@@ -26,15 +26,14 @@ scarp_status scarp_raster_read(const char* path, const scarp_options* options, s
     if (path == nullptr || *path == '\0') return report(ErrorKind::kUsage, "the path is empty");
     const scarp_options asked = known(options, scarp_options_init);
     CLI::App program;
-    CLI::App* const command = scarp::cli::add_command(program, scarp::cli::kSimplify);
-    scarp::cli::SimplifyArguments given;
-    given.add_to(*command);
+    scarp::cli::GivenOptions given(scarp::cli::kSimplify);
+    given.add_to(program);
     if (auto parsed = parse_options(program, scarp::cli::kSimplify, {"simplify", path, "-"}, asked); !parsed)
       return report(parsed.error());
-    auto read = given.raster.parse();
+    auto read = scarp::cli::parse_reading(given);
     if (!read) return report(read.error());
     read->run.progress = progress_of(asked);
-    const auto threads = scarp::cli::parse_threads(given.threads);
+    const auto threads = given.threads();
     if (!threads) return report(threads.error());
     read->run.threads = *threads;
     auto field = scarp::read_height_field(path, *read);

@@ -19,7 +19,7 @@ using cli::OptionId;
 using cli::OptionRow;
 using cli::OptionType;
 
-constexpr Commands kDoorCommands = cli::kSimplify | cli::kMeasure | cli::kTile;
+constexpr Commands kDoorCommands = cli::kClassic | cli::kMeasure | cli::kTile;
 
 /// True for options of a program alone: its terminal, its files, more than one mesh.
 bool is_of_program(const OptionRow& row) {
@@ -50,7 +50,7 @@ Result<void> check_name(const std::string& name) {
                 "option " + bare + " is unknown: a mesh is in memory, and scarp_mesh_write() makes a file of it");
   CLI::App program;
   for (const Commands command : {cli::kSimplify, cli::kMeasure, cli::kTile}) {
-    const std::string sentence = cli::describe_unknown_option(cli::add_command(program, command), name);
+    const std::string sentence = cli::describe_unknown_option(program.add_subcommand(cli::command_name(command)), name);
     if (command == cli::kTile || sentence.ends_with(")"))
       return fail(ErrorKind::kUsage, "option " + without_dashes(name) + sentence.substr(sentence.find(" is unknown")));
   }

@@ -13,7 +13,7 @@
 #include "scarp/picture.h"
 #include "session/options/output_kind.h"
 #include "session/options/points_options.h"
-#include "session/options/simplify_options.h"
+#include "session/options/given_options.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/points_report.h"
 #include "session/reports/simplify_outcome.h"
@@ -33,15 +33,14 @@ enum class InputKind { kField, kPoints, kFile };  // a file holds either
 /// The request in the words of a call.
 struct Request {
   std::vector<std::string> words;
-  cli::SimplifyArguments given;
-  cli::PointsArguments points;
+  cli::GivenOptions given{cli::kSimplify};
   std::optional<cli::SimplifyPlan> plan;  ///< request for a raster; no file is written that could be one of those that
                                           ///< are read
 };
 
-Result<void> check_goal(const cli::SimplifyArguments& given) {
-  if (given.max_error || given.max_triangles || given.max_points || given.companions.find_tolerance() != nullptr)
-    return {};
+Result<void> check_goal(const cli::GivenOptions& given) {
+  using enum cli::OptionId;
+  if (given.first_of({kMaxError, kMaxTriangles, kMaxPoints, kTolerance, kRoi})) return {};
   return fail(ErrorKind::kUsage,
               "no goal is given: say how good the mesh must be with max_error, or how small with max_triangles or "
               "max_points");
@@ -51,32 +50,24 @@ Result<void> check_goal(const cli::SimplifyArguments& given) {
 /// them: to make them anew needs longer than to simplify a small field.
 class SimplifyWords {
  public:
-  SimplifyWords() {
-    given_.add_to(*command_);
-    points_.add_to(*command_);
-  }
-
-  /// The words parsed last, if points are meant.
-  const CLI::App& command() const { return *command_; }
+  SimplifyWords() { given_.add_to(program_); }
 
   Result<std::shared_ptr<const Request>> parse(const std::string& input, InputKind kind, const scarp_options& asked) {
     std::vector<std::string> beside;
-    if (kind == InputKind::kPoints) beside.emplace_back("--points");
+    if (kind == InputKind::kPoints) beside.push_back(cli::name_of(cli::OptionId::kPoints));
     if (!has_setting(asked, "--of")) beside.emplace_back("--of=glb");
     SCARP_TRY(auto&& words, words_of(cli::kSimplify, {"simplify", input, "-"}, asked, beside));
     for (const auto& request : last_) {
       if (kind == InputKind::kField && request && request->words == words) return request;
     }
     auto request = std::make_shared<Request>();
-    given_ = {};
-    points_ = {};
+    given_.clear();
     SCARP_RETURN_IF_ERROR(parse_words(program_, words));
     request->words = std::move(words);
     request->given = given_;
-    request->points = points_;
     SCARP_RETURN_IF_ERROR(check_goal(given_));
-    if (kind != InputKind::kField && points_.are_meant(input)) return request;
-    SCARP_RETURN_IF_ERROR(points_.check_unused(input));
+    if (kind != InputKind::kField && cli::are_points_meant(given_)) return request;
+    SCARP_RETURN_IF_ERROR(cli::check_kind_of_input(given_));
     SCARP_TRY(request->plan, cli::plan_simplify(given_, {}));
     if (kind == InputKind::kField) last_[next_++ % last_.size()] = request;
     return request;
@@ -84,9 +75,7 @@ class SimplifyWords {
 
  private:
   CLI::App program_;
-  CLI::App* command_ = cli::add_command(program_, cli::kSimplify);
-  cli::SimplifyArguments given_;
-  cli::PointsArguments points_;
+  cli::GivenOptions given_{cli::kSimplify};
   std::array<std::shared_ptr<const Request>, 8> last_;
   std::size_t next_ = 0;
 };
@@ -103,13 +92,12 @@ void choose_frame(const scarp_options& asked, ReadOptions& read) {
   read.heights_in = HeightsIn::kFrame;
 }
 
-std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, const cli::SimplifyArguments& given,
-                                      cli::SimplifyRun& run) {
+std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, cli::SimplifyRun& run) {
   auto mesh = std::make_unique<scarp_mesh>();
   mesh->report = describe_run(run.simplified);
   mesh->mesh = std::move(run.simplified.mesh);
   mesh->format = plan.format;
-  mesh->up = given.up;
+  mesh->up = plan.given[cli::OptionId::kUp];
   mesh->crs = plan.read.crs;
   mesh->is_print = plan.solid.has_value();
   mesh->doubles = plan.doubles;
@@ -133,23 +121,21 @@ Result<void> take_print(cli::Outcome& outcome, scarp_mesh& mesh) {
   return {};
 }
 
-Result<std::unique_ptr<scarp_mesh>> simplify_points_of(const CLI::App& command, const Request& request,
-                                                       const scarp_options& asked) {
+Result<std::unique_ptr<scarp_mesh>> simplify_points_of(const Request& request, const scarp_options& asked) {
   cli::Runner runner{progress_of(asked)};
   runner.on_plan = [&](ReadOptions& read) { choose_frame(asked, read); };
   cli::SimplifyPlan plan;
   cli::PointsOutcome outcome;
-  SCARP_RETURN_IF_ERROR(cli::make_points_mesh(command, request.given, request.points, runner, plan, outcome));
-  SCARP_RETURN_IF_ERROR(cli::complete_mesh(plan, request.points, outcome));
-  return hand_over(plan, request.given, outcome);
+  SCARP_RETURN_IF_ERROR(cli::make_points_mesh(request.given, runner, plan, outcome));
+  SCARP_RETURN_IF_ERROR(cli::complete_mesh(plan, outcome));
+  return hand_over(plan, outcome);
 }
 
 Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, InputKind kind,
                                                    const scarp_options& asked) {
-  SimplifyWords& words = words_of_thread();
-  SCARP_TRY(const auto& parsed, words.parse(input, kind, asked));
+  SCARP_TRY(const auto& parsed, words_of_thread().parse(input, kind, asked));
   const Request& request = *parsed;
-  if (!request.plan) return simplify_points_of(words.command(), request, asked);
+  if (!request.plan) return simplify_points_of(request, asked);
   cli::SimplifyPlan plan = *request.plan;
   if (plan.format.kind == cli::OutputKind::kDem)
     return fail(ErrorKind::kUsage, "of dem is a raster, and a mesh is asked for: choose glb, obj, ply, stl ...");
@@ -159,7 +145,7 @@ Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, Inp
   if (!outcome.channels.empty()) color_by_channels(outcome.simplified.mesh, outcome.channels.bands);
   SCARP_TRY(auto&& glb, cli::glb_options(plan, outcome));
   SCARP_RETURN_IF_ERROR(cli::complete_mesh(plan, outcome));
-  auto mesh = hand_over(plan, request.given, outcome);
+  auto mesh = hand_over(plan, outcome);
   mesh->glb = std::move(glb);
   SCARP_RETURN_IF_ERROR(take_print(outcome, *mesh));
   return mesh;

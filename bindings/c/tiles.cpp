@@ -46,24 +46,17 @@ std::vector<std::vector<std::uint32_t>> list_tiles(const LiveTileSet& set) {
 /// The command's options, as a run of the program would hold them.
 struct TileWords {
   CLI::App program;
-  CLI::App* command = cli::add_command(program, cli::kTile);
-  cli::TileArguments given;
-  std::string output;
-  cli::Given threads;
+  cli::GivenOptions given{cli::kTile};
   Run run;
 
-  TileWords() {
-    cli::add_arguments(*command, cli::OptionId::kInput, given.raster.paths, cli::OptionId::kOutput, output);
-    given.add_to(*command);
-    cli::add_option(*command, cli::OptionId::kThreads, threads);
-  }
+  TileWords() { given.add_to(program); }
   Result<void> parse(const std::vector<std::string>& inputs, const std::string& to, const scarp_options& asked,
                      const cli::TileCounts* counts = nullptr) {
     std::vector<std::string> words{"tile"};
     words.insert(words.end(), inputs.begin(), inputs.end());
     words.push_back(to);
     SCARP_RETURN_IF_ERROR(parse_options(program, cli::kTile, words, asked));
-    SCARP_TRY(run.threads, cli::parse_threads(threads));
+    SCARP_TRY(run.threads, given.threads());
     run.progress = progress_of(asked, counts);
     return {};
   }
@@ -72,7 +65,7 @@ struct TileWords {
 scarp_status open_tiles(const std::string& input, const scarp_options& asked, scarp_tiles** out) {
   TileWords words;
   if (auto parsed = words.parse({input}, "-", asked); !parsed) return report(parsed.error());
-  if (words.given.format && *words.given.format != "qm")
+  if (words.given[cli::OptionId::kOf].value_or("qm") != "qm")
     return report(ErrorKind::kUsage, "tiles that are made as they are asked for are quantized-mesh: leave of out");
   auto opened = cli::open_tiles(words.given, words.run.progress);
   if (!opened) return report(opened.error());

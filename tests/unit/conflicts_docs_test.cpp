@@ -47,7 +47,8 @@ std::string word_of(Field field) {
     default:
       break;
   }
-  if (const char* option = cli::option_of(field)) return "`" + std::string(option) + "`";
+  if (const cli::OptionTerm option = cli::option_of(field); option.id != cli::OptionId::kNone)
+    return "`" + cli::name_of(option) + "`";
   return "`" + std::string(name_of(field)) + "`";
 }
 

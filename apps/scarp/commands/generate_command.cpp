@@ -1,4 +1,4 @@
-#include "commands/generate_command.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,6 +18,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 /// "tif", "tiff" or "pgm", of a name or of a path's extension.
 std::optional<RasterFormat> find_raster_format(std::string name) {
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -31,23 +33,9 @@ Result<RasterFormat> choose_format(const Given& asked, const std::string& output
   if (!asked && !name.empty()) name.erase(0, 1);
   if (const auto format = find_raster_format(name)) return *format;
   return fail(ErrorKind::kUsage,
-              asked ? fmt::format("--of {} is unknown: choose tif or pgm", shell_word(*asked))
-                    : fmt::format("the extension of OUTPUT {} tells no format: end it in .tif or .pgm, or give --of",
-                                  shell_word(output)));
-}
-
-Result<int> parse_side(std::string_view option, const std::string& text) {
-  SCARP_TRY(const std::uint64_t side, parse_count(option, text, 2));
-  return static_cast<int>(std::min<std::uint64_t>(side, 1 << 30));
-}
-
-/// A number above 0.
-Result<double> parse_positive(std::string_view option, const std::string& text) {
-  const Result<double> value = parse_number(option, text);
-  if (value && !(*value > 0)) {
-    return fail(ErrorKind::kUsage, fmt::format("{} {} must be above 0", option, shell_word(text)));
-  }
-  return value;
+              asked ? fmt::format("{} {} is unknown: choose tif or pgm", kOf, shell_word(*asked))
+                    : fmt::format("the extension of OUTPUT {} tells no format: end it in .tif or .pgm, or give {}",
+                                  shell_word(output), kOf));
 }
 
 /// Heights from 0 to `range`.
@@ -71,53 +59,40 @@ void place(OwnedHeightField& field, double size) {
 
 }  // namespace
 
-GenerateCommand::GenerateCommand(CLI::App& program) : command_(add_command(program, kGenerate)) {
-  add_option(*command_, OptionId::kStyle, style_);
-  add_option(*command_, OptionId::kCols, cols_);
-  add_option(*command_, OptionId::kRows, rows_);
-  add_option(*command_, OptionId::kOutput, output_);
-  add_option(*command_, OptionId::kSeed, seed_);
-  add_option(*command_, OptionId::kRange, range_);
-  add_option(*command_, OptionId::kSize, size_);
-  add_option(*command_, OptionId::kOf, format_);
-  add_flag(*command_, OptionId::kOverwrite, overwrite_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-}
-
-Result<void> GenerateCommand::run() const {
-  const std::optional<FieldStyle> style = find_field_style(style_);
+Result<void> run_generate(const GivenOptions& given, const std::string&) {
+  const std::optional<FieldStyle> style = find_field_style(*given[kStyle]);
   if (!style) {
-    return fail(ErrorKind::kUsage, fmt::format("STYLE {} is unknown: choose {}", shell_word(style_),
+    return fail(ErrorKind::kUsage, fmt::format("STYLE {} is unknown: choose {}", shell_word(*given[kStyle]),
                                                fmt::join(field_style_names(), ", ")));
   }
-  SCARP_TRY(const int cols, parse_side("COLS", cols_));
-  SCARP_TRY(const int rows, parse_side("ROWS", rows_));
-  SCARP_TRY(const std::uint64_t seed, parse_count("--seed", seed_.value_or("0"), 0));
-  if (seed_ && *style != FieldStyle::kFractal && *style != FieldStyle::kSmooth) {
-    return fail(ErrorKind::kUsage, fmt::format("--seed is for fractal and smooth only: {} is always the same", style_));
+  SCARP_TRY(const auto cols, given.count(kCols));
+  SCARP_TRY(const auto rows, given.count(OptionId::kRows));
+  SCARP_TRY(const auto seed, given.count(kSeed));
+  if (seed && *style != FieldStyle::kFractal && *style != FieldStyle::kSmooth)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is for fractal and smooth only: {} is always the same", kSeed, *given[kStyle]));
+  SCARP_TRY(const auto range, given.number(OptionId::kRange));
+  SCARP_TRY(const auto size, given.number(kSize));
+  SCARP_TRY(const RasterFormat format, choose_format(given[kOf], *given[kOutput]));
+  if (size && format == RasterFormat::kPgm) {
+    return fail(ErrorKind::kUsage, fmt::format("{} needs a GeoTIFF: PGM has no room for coordinates", kSize));
   }
-  SCARP_TRY(const double range, parse_positive("--range", range_.value_or("1")));
-  SCARP_TRY(const double size, parse_positive("--size", size_.value_or("1")));
-  SCARP_TRY(const RasterFormat format, choose_format(format_, output_));
-  if (size_ && format == RasterFormat::kPgm) {
-    return fail(ErrorKind::kUsage, "--size needs a GeoTIFF: PGM has no room for coordinates");
-  }
-  SCARP_RETURN_IF_ERROR(check_outputs({{"OUTPUT", output_}}, {}, overwrite_));
+  SCARP_RETURN_IF_ERROR(check_outputs({{name_of(kOutput), *given[kOutput]}}, {}, given.has(kOverwrite)));
 
-  SCARP_TRY(OwnedHeightField field, generate_field(*style, cols, rows, seed));
-  if (range_) stretch(field, range);
-  if (size_) place(field, size);
+  SCARP_TRY(OwnedHeightField field, generate_field(*style, static_cast<int>(*cols), static_cast<int>(*rows), seed.value_or(0)));
+  if (range) stretch(field, *range);
+  if (size) place(field, *size);
   const Result<std::vector<std::uint8_t>> bytes =
       encode_raster({field.samples, field.cols, field.rows, &field.info}, format);
   if (!bytes) {
-    return fail(bytes.error().kind, fmt::format("{} cannot be written: {}", output_, bytes.error().message));
+    return fail(bytes.error().kind, fmt::format("{} cannot be written: {}", *given[kOutput], bytes.error().message));
   }
-  const Result<void> written = write_file(output_, *bytes, overwrite_);
-  if (!written || quiet_) return written;
+  const Result<void> written = write_file(*given[kOutput], *bytes, given.has(kOverwrite));
+  if (!written || given.has(kQuiet)) return written;
   const std::string summary =
       fmt::format("{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field.info.path, field.cols, field.rows,
-                  format_number(field.info.min), format_number(field.info.max), output_, format_bytes(bytes->size()));
-  if (is_stdout(output_)) {
+                  format_number(field.info.min), format_number(field.info.max), *given[kOutput], format_bytes(bytes->size()));
+  if (is_stdout(*given[kOutput])) {
     print_to_stderr(summary);
     return {};
   }

@@ -1,23 +1,27 @@
-#include "commands/help_command.h"
+#include "commands/commands.h"
 
+#include <fmt/format.h>
+
+#include "scarp/version.h"
 #include "session/table/help.h"
 #include "session/table/option_table.h"
 #include "session/table/unknown_words.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
-
-HelpCommand::HelpCommand(CLI::App& program) : command_(add_command(program, kHelpCommand)) {
-  add_option(*command_, OptionId::kCommand, about_);
-  add_flag(*command_, OptionId::kAll, all_);
-  add_flag(*command_, OptionId::kJson, json_);
+namespace {
+using enum OptionId;
 }
 
-Result<void> HelpCommand::run() const {
-  const CommandRow* const about = about_ ? find_command(*about_) : nullptr;
-  if (about_ && about == nullptr) return tl::unexpected(unknown_command(*about_));
-  if (json_) return print_to_stdout(help_json(about));
-  return print_to_stdout(about != nullptr ? command_help(*about, all_) : program_help());
+Result<void> run_help(const GivenOptions& given, const std::string&) {
+  const CommandRow* const about = given[kCommand] ? find_command(*given[kCommand]) : nullptr;
+  if (given[kCommand] && about == nullptr) return tl::unexpected(unknown_command(*given[kCommand]));
+  if (given.has(kJson)) return print_to_stdout(help_json(about));
+  return print_to_stdout(about != nullptr ? command_help(*about, given.has(kAll)) : program_help());
+}
+
+Result<void> run_version(const GivenOptions&, const std::string&) {
+  return print_to_stdout(fmt::format("scarp {}\n", version()));
 }
 
 }  // namespace scarp::cli

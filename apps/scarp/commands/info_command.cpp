@@ -1,4 +1,4 @@
-#include "commands/info_command.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +18,8 @@
 
 namespace scarp::cli {
 namespace {
+
+using enum OptionId;
 
 constexpr std::array<double, 3> kShares{0.01, 0.05, 0.20};
 
@@ -39,100 +41,79 @@ Error name_raster(Error error, const std::string& path) {
   return error;
 }
 
-}  // namespace
-
-InfoCommand::InfoCommand(CLI::App& program) : command_(add_command(program, kInfo)) {
-  add_arguments(*command_, OptionId::kRaster, raster_.paths);
-  raster_.add_to(*command_);
-  add_flag(*command_, OptionId::kPoints, points_);
-  add_option(*command_, OptionId::kLayer, layer_);
-  add_option(*command_, OptionId::kZField, z_field_);
-  add_option(*command_, OptionId::kColumns, columns_);
-  add_flag(*command_, OptionId::kNoSuggest, no_suggest_);
-  add_flag(*command_, OptionId::kJson, json_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
-}
-
-Result<void> InfoCommand::run(const std::string& command_line) const {
-  const bool is_one = raster_.paths.size() == 1;
-  if (points_ || columns_ || (is_one && !raster_.path().empty() && is_point_file(raster_.path())))
-    return run_points(command_line);
-  for (const auto& [name, value] : {std::pair{"--layer", &layer_}, std::pair{"--z-field", &z_field_}}) {
-    if (*value) return fail(ErrorKind::kUsage, fmt::format("{} is for points: leave it out, or say --points", name));
-  }
-  if (const auto format = is_one ? find_mesh(raster_.path()) : std::nullopt) return run_mesh(*format, command_line);
-  SCARP_TRY(ReadOptions read, raster_.parse());
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  read.run.progress = display.callback();
-  read.heights_in = HeightsIn::kFile;
-  Result<OwnedHeightField> field = read_height_field(raster_.path(), read);
-  if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
-  if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
-  for (std::string& warning : warn_of_undeclared_nodata(field->info, *field))
-    field->info.warnings.push_back(std::move(warning));
-  if (!json_) {
-    display.finish();
-    if (!quiet_) print_warnings(field->info.warnings);
-    if (auto printed = print_to_stdout(raster_facts(*field)); !printed || no_suggest_) return printed;
-  }
-  Suggestions suggestions;
-  if (!no_suggest_) {
-    Result<Suggestions> found = suggest_errors(*field, kShares, display.callback());
-    if (!found) return tl::unexpected(name_raster(std::move(found.error()), raster_.path()));
-    suggestions = std::move(*found);
-  }
-  display.finish();
-  if (!json_) return print_to_stdout(suggestion_table(*field, suggestions));
-  if (!quiet_) print_warnings(field->info.warnings);
-  return print_to_stdout(to_text(raster_report(*field, suggestions, read.band, command_line)));
-}
-
-Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
-  const std::pair<const char*, bool> given[] = {{"--band", raster_.band.has_value()},
-                                                {"--nodata", raster_.nodata.has_value() && !takes_crs},
-                                                {"--decode", raster_.decode.has_value()},
-                                                {"--z-scale", raster_.z_scale.has_value() && !takes_crs},
-                                                {"--z-offset", raster_.z_offset.has_value() && !takes_crs},
-                                                {"--z-unit", raster_.z_unit.has_value() && !takes_crs},
-                                                {"--cell-size", raster_.cell_size.has_value()},
-                                                {"--te", !raster_.extent.empty()},
-                                                {"--resolution", raster_.resolution.has_value()},
-                                                {"--crs", raster_.crs.has_value() && !takes_crs}};
-  for (const auto& [name, is_given] : given) {
-    if (is_given)
-      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, and {} holds {}: leave it out", name,
-                                                 shell_word(base_name(raster_.path())), kind));
+/// Fails if an option was given that the file's contents have no use for. `also`: what they have in addition.
+Result<void> refuse(const GivenOptions& given, const char* kind, std::initializer_list<OptionId> also) {
+  for (const OptionRow* row : given.given()) {
+    const bool is_of_raster = row->group == OptionGroup::kInput || row->group == OptionGroup::kNodata;
+    if (is_of_raster && std::find(also.begin(), also.end(), row->id) == also.end())
+      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, and {} holds {}: omit it", row->title(),
+                                                 shell_word(base_name(given.input())), kind));
   }
   return {};
 }
 
-Result<void> InfoCommand::run_points(const std::string& command_line) const {
-  SCARP_RETURN_IF_ERROR(refuse("points", true));
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  SCARP_TRY(const auto& as, raster_.parse());
-  SCARP_TRY(const PointSet& points, read_points(raster_.path(), {.layer = layer_.value_or(""),
-                                                                 .z_field = z_field_.value_or(""),
+Result<void> run_points(const GivenOptions& given, const std::string& command_line) {
+  SCARP_RETURN_IF_ERROR(refuse(given, "points", {kCrs, kNodata, kZScale, kZOffset, kZUnit}));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
+  SCARP_TRY(const auto& as, parse_reading(given));
+  SCARP_TRY(const PointSet& points, read_points(given.input(), {.layer = given[kLayer].value_or(""),
+                                                                 .z_field = given[kZField].value_or(""),
                                                                  .crs = as.crs,
                                                                  .progress = display.callback(),
-                                                                 .columns = columns_.value_or(""),
+                                                                 .columns = given[kColumns].value_or(""),
                                                                  .nodata = as.nodata,
                                                                  .z_scale = as.z_scale,
                                                                  .z_offset = as.z_offset,
                                                                  .z_unit = as.z_unit,
                                                                  .heights_in = HeightsIn::kFile}));
   display.finish();
-  if (!quiet_) print_warnings(points.warnings);
-  return print_to_stdout(json_ ? to_text(points_facts_report(points, command_line)) : points_facts(points));
+  if (!given.has(kQuiet)) print_warnings(points.warnings);
+  return print_to_stdout(given.has(kJson) ? to_text(points_facts_report(points, command_line)) : points_facts(points));
 }
 
-Result<void> InfoCommand::run_mesh(const std::string& format, const std::string& command_line) const {
-  SCARP_RETURN_IF_ERROR(refuse("a mesh", false));
+Result<void> run_mesh(const GivenOptions& given, const std::string& format, const std::string& command_line) {
+  SCARP_RETURN_IF_ERROR(refuse(given, "a mesh", {}));
   MeshFileAxes axes;
-  SCARP_TRY(Mesh mesh, read_mesh(raster_.path(), &axes));
+  SCARP_TRY(Mesh mesh, read_mesh(given.input(), &axes));
   std::error_code ignored;
-  MeshFile file{raster_.path(), format, std::filesystem::file_size(raster_.path(), ignored), std::move(mesh), axes};
-  return print_to_stdout(json_ ? to_text(mesh_facts_report(file, command_line)) : mesh_facts(file));
+  MeshFile file{given.input(), format, std::filesystem::file_size(given.input(), ignored), std::move(mesh), axes};
+  return print_to_stdout(given.has(kJson) ? to_text(mesh_facts_report(file, command_line)) : mesh_facts(file));
+}
+
+}  // namespace
+
+Result<void> run_info(const GivenOptions& given, const std::string& command_line) {
+  const bool is_one = given.inputs().size() == 1;
+  if (given.has(kPoints) || given.has(kColumns) ||
+      (is_one && !given.input().empty() && is_point_file(given.input())))
+    return run_points(given, command_line);
+  if (const auto option = given.first_of({kLayer, kZField}))
+    return fail(ErrorKind::kUsage, fmt::format("{} is for points: omit it, or give {}", *option, kPoints));
+  if (const auto format = is_one ? find_mesh(given.input()) : std::nullopt) return run_mesh(given, *format, command_line);
+  SCARP_TRY(ReadOptions read, parse_reading(given));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
+  read.run.progress = display.callback();
+  read.heights_in = HeightsIn::kFile;
+  Result<OwnedHeightField> field = read_height_field(given.input(), read);
+  if (!field) return tl::unexpected(explain_reading(given, std::move(field.error())));
+  if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
+  for (std::string& warning : warn_of_undeclared_nodata(field->info, *field))
+    field->info.warnings.push_back(std::move(warning));
+  if (!given.has(kJson)) {
+    display.finish();
+    if (!given.has(kQuiet)) print_warnings(field->info.warnings);
+    if (auto printed = print_to_stdout(raster_facts(*field)); !printed || given.has(kNoSuggest)) return printed;
+  }
+  Suggestions suggestions;
+  if (!given.has(kNoSuggest)) {
+    Result<Suggestions> found = suggest_errors(*field, kShares, display.callback());
+    if (!found) return tl::unexpected(name_raster(std::move(found.error()), given.input()));
+    suggestions = std::move(*found);
+  }
+  display.finish();
+  if (!given.has(kJson)) return print_to_stdout(suggestion_table(*field, suggestions));
+  if (!given.has(kQuiet)) print_warnings(field->info.warnings);
+  return print_to_stdout(to_text(raster_report(*field, suggestions, read.band, command_line)));
 }
 
 }  // namespace scarp::cli

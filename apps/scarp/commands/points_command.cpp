@@ -1,6 +1,5 @@
-#include "commands/points_command.h"
+#include "commands/commands.h"
 
-#include <CLI/CLI.hpp>
 #include <utility>
 #include <vector>
 
@@ -21,8 +20,10 @@
 namespace scarp::cli {
 namespace {
 
-Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
-  SCARP_RETURN_IF_ERROR(complete_mesh(plan, arguments, outcome));
+using enum OptionId;
+
+Result<ReadyFile> encode(const SimplifyPlan& plan, PointsOutcome& outcome) {
+  SCARP_RETURN_IF_ERROR(complete_mesh(plan, outcome));
   turn_as_planned(plan, outcome.simplified.mesh);
   SCARP_TRY(auto&& bytes, encode_as(plan.format, outcome.simplified.mesh,
                                     {.compress = plan.compress, .threads = plan.simplify.run.threads}, plan.doubles));
@@ -31,16 +32,15 @@ Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& argume
 
 }  // namespace
 
-Result<void> run_simplify_points(const CLI::App& command, const SimplifyArguments& given,
-                                 const PointsArguments& arguments, const std::string& command_line) {
+Result<void> run_simplify_points(const GivenOptions& given, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   SimplifyPlan plan;
   PointsOutcome outcome;
-  SCARP_RETURN_IF_ERROR(make_points_mesh(command, given, arguments, {display.callback()}, plan, outcome));
+  SCARP_RETURN_IF_ERROR(make_points_mesh(given, {display.callback()}, plan, outcome));
 
   const Clock::time_point write_start = Clock::now();
-  SCARP_TRY(ReadyFile file, encode(plan, arguments, outcome));
+  SCARP_TRY(ReadyFile file, encode(plan, outcome));
   std::vector<ReadyFile> files{std::move(file)};
   for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
@@ -55,7 +55,7 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   }
   display.finish();
 
-  if (given.quiet) return {};
+  if (given.has(kQuiet)) return {};
   print_warnings(outcome.warnings);
   const std::string summary = make_summary(plan, outcome, files);
   if (!is_stdout(plan.output) && !is_stdout(plan.report.value_or(""))) return print_summary(summary);
@@ -63,23 +63,22 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   return {};
 }
 
-Result<void> run_measure_points(const CLI::App& command, const MeasureArguments& given,
-                                const std::string& command_line) {
+Result<void> run_measure_points(const GivenOptions& given, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   JudgedPoints judged;
-  SCARP_RETURN_IF_ERROR(judge_points(command, given, {display.callback()}, judged));
+  SCARP_RETURN_IF_ERROR(judge_points(given, {display.callback()}, judged));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   display.finish();
   judged.seconds_total = seconds_since(start);
 
-  if (!given.quiet) print_warnings(judged.points.warnings);
-  if (given.json) {
-    SCARP_RETURN_IF_ERROR(print_to_stdout(to_text(make_report(judged, given.mesh, command_line))));
-  } else if (!given.quiet) {
-    SCARP_RETURN_IF_ERROR(print_to_stdout(make_table(judged, given.mesh)));
+  if (!given.has(kQuiet)) print_warnings(judged.points.warnings);
+  if (given.has(kJson)) {
+    SCARP_RETURN_IF_ERROR(print_to_stdout(to_text(make_report(judged, *given[kMesh], command_line))));
+  } else if (!given.has(kQuiet)) {
+    SCARP_RETURN_IF_ERROR(print_to_stdout(make_table(judged, *given[kMesh])));
   }
-  if (judged.broken) return fail(ErrorKind::kPromise, fmt::format("{}: {}", given.mesh, *judged.broken));
+  if (judged.broken) return fail(ErrorKind::kPromise, fmt::format("{}: {}", *given[kMesh], *judged.broken));
   return {};
 }
 

@@ -1,4 +1,4 @@
-#include "commands/serve_command.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -22,10 +22,11 @@
 namespace scarp::cli {
 namespace {
 
-constexpr const char* kPort = "8080";
-constexpr const char* kHost = "127.0.0.1";
-constexpr const char* kMemory = "1G";
-constexpr std::uint64_t kMostPort = 65535;
+using enum OptionId;
+
+constexpr std::uint64_t kDefaultPort = 8080;
+constexpr const char* kDefaultHost = "127.0.0.1";
+constexpr const char* kDefaultMemory = "1G";
 
 std::string describe(const std::string& input, const TileSetReader& set, const LiveTileSet* live,
                      const std::string& heights_above, const std::string& url) {
@@ -43,56 +44,46 @@ std::string describe(const std::string& input, const TileSetReader& set, const L
   return text + "  until     Ctrl-C\n";
 }
 
-}  // namespace
+struct Served {
+  OpenedJob job;  ///< job of a raster or a plan
+  LiveTileSet* live = nullptr;
+  std::unique_ptr<TileAnswers> answers;
+};
 
-ServeCommand::ServeCommand(CLI::App& program) : command_(add_command(program, kServe)) {
-  tiles_.default_effort = Effort::kFast;
-  tiles_.takes_local = false;
-  add_arguments(*command_, OptionId::kInput, tiles_.raster.paths);
-  tiles_.add_to(*command_);
-  add_option(*command_, OptionId::kMemory, memory_);
-  add_option(*command_, OptionId::kPort, port_);
-  add_option(*command_, OptionId::kHost, host_);
-  add_option(*command_, OptionId::kThreads, threads_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
-}
-
-Result<void> ServeCommand::check_alone() const {
-  const bool is_plan = lower_extension(tiles_.raster.path()) == ".json";
-  for (const CLI::Option* option : command_->get_options()) {
-    const std::string name = option->get_name();
-    constexpr std::array kFree{"--port", "--host", "--num-threads", "--quiet", "--json-progress"};
-    if (option->count() == 0 || name.rfind("--", 0) != 0 || std::ranges::count(kFree, name) > 0) continue;
-    if (is_plan && name == "--memory") continue;
+/// Fails where options are given that a finished set or a plan has decided.
+Result<void> check_alone(const GivenOptions& given) {
+  const bool is_plan = lower_extension(given.input()) == ".json";
+  constexpr std::array kFree{kPort, kHost, kThreads, kQuiet, kJsonProgress};
+  for (const OptionRow* row : given.given()) {
+    if (std::ranges::count(kFree, row->id) > 0 || (is_plan && row->id == OptionId::kDefaultMemory)) continue;
     return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, whose tiles are made when they are asked for: {} is "
                                                "finished, or a plan that has decided it",
-                                               name, tiles_.raster.path()));
+                                               row->title(), given.input()));
   }
-  if (tiles_.raster.paths.size() > 1)
+  if (given.inputs().size() > 1)
     return fail(ErrorKind::kUsage,
-                fmt::format("{} is no raster: one set or plan is served at a time", tiles_.raster.path()));
+                fmt::format("{} is no raster: one set or plan is served at a time", given.input()));
   return {};
 }
 
-Result<ServeCommand::Served> ServeCommand::open(int threads) const {
+Result<Served> open(const GivenOptions& given, int threads) {
   Served served;
-  const std::string& path = tiles_.raster.path();
+  const std::string& path = given.input();
   const bool is_plan = lower_extension(path) == ".json";
   if (is_plan || names_tile_set(path)) {
-    SCARP_RETURN_IF_ERROR(check_alone());
+    SCARP_RETURN_IF_ERROR(check_alone(given));
   }
   if (!is_plan && names_tile_set(path)) {
     SCARP_TRY(served.answers, TileAnswers::open(path));
     return served;
   }
-  SCARP_TRY(const std::uint64_t memory, parse_bytes("--memory", memory_.value_or(kMemory)));
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  SCARP_TRY(const std::uint64_t memory, parse_bytes(name_of(OptionId::kMemory), given[OptionId::kMemory].value_or(kDefaultMemory)));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   if (is_plan) {
     SCARP_TRY(auto&& job, read_tile_job(path));
     SCARP_TRY(served.job, open_job(std::move(job), memory / 2, threads));
   } else {
-    SCARP_TRY(served.job, open_tiles(tiles_, display.callback(), memory / 2));
+    SCARP_TRY(served.job, open_tiles(given, display.callback(), memory / 2));
   }
   Run run;
   run.threads = threads;
@@ -104,18 +95,19 @@ Result<ServeCommand::Served> ServeCommand::open(int threads) const {
   return served;
 }
 
-Result<void> ServeCommand::run() const {
-  SCARP_TRY(const std::uint64_t port, parse_count("--port", port_.value_or(kPort), 0));
-  if (port > kMostPort) return fail(ErrorKind::kUsage, fmt::format("--port {} must be at most {}", port, kMostPort));
-  SCARP_TRY(const int threads, parse_threads(threads_));
-  SCARP_TRY(const Served& served, open(threads));
+}  // namespace
+
+Result<void> run_serve(const GivenOptions& given, const std::string&) {
+  SCARP_TRY(const auto port, given.count(kPort));
+  SCARP_TRY(const int threads, given.threads());
+  SCARP_TRY(const Served& served, open(given, threads));
   const TileAnswers& answers = *served.answers;
-  SCARP_TRY(auto&& server, HttpServer::listen(host_.value_or(kHost), static_cast<int>(port)));
-  if (!quiet_) {
+  SCARP_TRY(auto&& server, HttpServer::listen(given[kHost].value_or(kDefaultHost), static_cast<int>(port.value_or(kDefaultPort))));
+  if (!given.has(kQuiet)) {
     if (served.job.raster) print_warnings(warnings_of_raster(*served.job.raster));
     print_warnings(served.job.warnings);
     SCARP_RETURN_IF_ERROR(print_summary(
-        describe(tiles_.raster.path(), *answers.set(), served.live, served.job.job.facts.heights_above, server.url())));
+        describe(given.input(), *answers.set(), served.live, served.job.job.facts.heights_above, server.url())));
   }
   std::optional<Preparation> preparation;
   if (served.live != nullptr) preparation.emplace(*served.live, threads);

@@ -1,4 +1,4 @@
-#include "commands/simplify_command.h"
+#include "commands/commands.h"
 
 #include <utility>
 #include <vector>
@@ -20,23 +20,20 @@
 #include "terminal/signals.h"
 
 namespace scarp::cli {
-
-SimplifyCommand::SimplifyCommand(CLI::App& program) : command_(add_command(program, kSimplify)) {
-  given_.add_to(*command_);
-  points_.add_to(*command_);
+namespace {
+using enum OptionId;
 }
 
-Result<void> SimplifyCommand::run(const std::string& command_line) const {
+Result<void> run_simplify(const GivenOptions& given, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  SCARP_RETURN_IF_ERROR(points_.check_single(given_.raster.paths));
-  if (points_.are_meant(given_.raster.path())) return run_simplify_points(*command_, given_, points_, command_line);
-  SCARP_RETURN_IF_ERROR(points_.check_unused(given_.raster.path()));
-  SCARP_TRY(SimplifyPlan plan, plan_simplify(given_, files_read(*command_)));
+  SCARP_RETURN_IF_ERROR(check_kind_of_input(given));
+  if (are_points_meant(given)) return run_simplify_points(given, command_line);
+  SCARP_TRY(SimplifyPlan plan, plan_simplify(given, given.files_read()));
 
   Outcome outcome;
-  ProgressDisplay display(ProgressDisplay::choose(given_.json_progress, given_.quiet));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   const Runner runner{display.callback(), content_with_interrupt, [&] { display.let_interrupt_finish("fit"); }};
-  SCARP_RETURN_IF_ERROR(make_mesh(given_, plan, runner, outcome));
+  SCARP_RETURN_IF_ERROR(make_mesh(given, plan, runner, outcome));
 
   const Clock::time_point write_start = Clock::now();
   const bool go_on = display.callback()(
@@ -57,10 +54,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   }
   display.finish();
 
-  if (given_.quiet) return {};
+  if (given.has(kQuiet)) return {};
   outcome.was_ended = outcome.simplified.is_cut_short && content_with_interrupt();
   print_warnings(outcome.warnings);
-  const std::string summary = make_summary(plan, outcome, files) + (given_.timing ? timing_lines(outcome) : "");
+  const std::string summary = make_summary(plan, outcome, files) + (given.has(kTiming) ? timing_lines(outcome) : "");
   bool stdout_is_data = is_stdout(plan.report.value_or(""));
   for (const ReadyFile& file : files) stdout_is_data = stdout_is_data || is_stdout(file.path);
   if (stdout_is_data) {

@@ -1,4 +1,4 @@
-#include "commands/tile_check_command.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +16,8 @@
 
 namespace scarp::cli {
 namespace {
+
+using enum OptionId;
 
 /// Limit for the source: one that is larger stays in its file.
 constexpr std::uint64_t kSourceBytes = std::uint64_t{1} << 30;
@@ -35,92 +37,83 @@ std::optional<CheckedPlace> place_of(const RasterOnPlane& plane, const LocalRast
                       globe.ellipsoid};
 }
 
-}  // namespace
-
-TileCheckCommand::TileCheckCommand(CLI::App& program) : command_(add_command(program, kTileCheck)) {
-  add_option(*command_, OptionId::kInput, set_);
-  add_option(*command_, OptionId::kSource, source_);
-  tiles_.add_nodes_to(*command_);
-  add_option(*command_, OptionId::kGrid, tiles_.grid);
-  add_flag(*command_, OptionId::kJson, json_);
-  add_option(*command_, OptionId::kThreads, threads_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
-}
-
-Result<void> TileCheckCommand::check_unused() const {
-  if (source_ && lower_extension(*source_) != ".json") return {};
-  for (const CLI::Option* option : command_->get_options()) {
-    const std::string name = option->get_name();
-    constexpr std::array kFree{"--source", "--grid", "--json", "--num-threads", "--quiet", "--json-progress"};
-    if (option->count() == 0 || name.rfind("--", 0) != 0 || std::ranges::count(kFree, name) > 0) continue;
-    return fail(ErrorKind::kUsage, source_ ? fmt::format("{} is for rasters: {} has decided it", name, *source_)
-                                           : fmt::format("{} is for the raster of --source: give that too", name));
+/// Fails for options of a raster where there is none, or a plan that has decided them.
+Result<void> check_unused(const GivenOptions& given) {
+  if (given[kSource] && lower_extension(*given[kSource]) != ".json") return {};
+  constexpr std::array kFree{kSource, kGrid, kJson, kThreads, kQuiet, kJsonProgress};
+  for (const OptionRow* row : given.given()) {
+    if (std::ranges::count(kFree, row->id) > 0) continue;
+    return fail(ErrorKind::kUsage,
+                given.has(kSource)
+                    ? fmt::format("{} is for rasters: {} has decided it", row->title(), *given[kSource])
+                    : fmt::format("{} is for the raster of {}: give that too", row->title(), kSource));
   }
   return {};
 }
 
-Result<OpenedJob> TileCheckCommand::open_source(const TileSetReader& set, const TileGrid& of_set,
-                                                const ProgressCallback& progress, int threads) const {
-  if (lower_extension(*source_) == ".json") {
-    SCARP_TRY(auto&& job, read_tile_job(*source_));
+Result<OpenedJob> open_source(const GivenOptions& given, const TileSetReader& set, const TileGrid& of_set,
+                                                const ProgressCallback& progress, int threads) {
+  if (lower_extension(*given[kSource]) == ".json") {
+    SCARP_TRY(auto&& job, read_tile_job(*given[kSource]));
     return open_job(std::move(job), kSourceBytes, threads);
   }
-  TileArguments tiles = tiles_;
-  tiles.raster.paths = {*source_};
-  if (!tiles.grid) tiles.grid = std::string(of_set.name());
-  if (of_set.is_flat()) tiles.format = "3dtiles";
-  const std::string said = find_vertical(set);
-  if (!said.empty() && !tiles.vertical && !tiles.geoid) tiles.vertical = said;
+  GivenOptions tiles = given.as(kTile);
+  tiles.set(kInput, std::vector{*given[kSource]});
+  if (!given.has(kGrid)) tiles.set(kGrid, std::string(of_set.name()));
+  if (of_set.is_flat()) tiles.set(kOf, "3dtiles");
+  const std::string declared = find_vertical(set);
+  if (!declared.empty() && !given.first_of({kVertical, kGeoid})) tiles.set(kVertical, declared);
   return open_tiles(tiles, progress, kSourceBytes);
 }
 
-Result<void> TileCheckCommand::run(const std::string& command_line) const {
+}  // namespace
+
+Result<void> run_tile_check(const GivenOptions& given, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
   TileCheckOptions options;
-  SCARP_TRY(const int threads, parse_threads(threads_));
+  SCARP_TRY(const int threads, given.threads());
   options.run.threads = threads;
-  SCARP_RETURN_IF_ERROR(check_unused());
-  SCARP_TRY(const auto& set, open_tile_set(set_));
+  SCARP_RETURN_IF_ERROR(check_unused(given));
+  SCARP_TRY(const auto& set, open_tile_set(*given[kInput]));
   const TileGrid of_set = find_grid(*set);
-  if (tiles_.grid) {
-    SCARP_TRY(const GridKind kind, parse_grid(*tiles_.grid, false));
+  SCARP_TRY(const auto kind, parse_grid(given));
+  if (kind) {
     if (of_set.is_flat())
-      return fail(ErrorKind::kUsage, "--grid is for sets that do not name theirs, and those of a local grid do");
-    options.grid = TileGrid{.kind = kind};
+      return fail(ErrorKind::kUsage, fmt::format("{} is for sets that do not name theirs, and those of a local grid do", kGrid));
+    options.grid = TileGrid{.kind = *kind};
   }
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   OpenedJob opened;
-  if (source_) {
-    SCARP_TRY(opened, open_source(*set, of_set, display.callback(), threads));
+  if (given[kSource]) {
+    SCARP_TRY(opened, open_source(given, *set, of_set, display.callback(), threads));
     const PyramidPlan& plan = opened.job.plan;
     const LocalRaster &mine = plan.grid.local, &theirs = of_set.local;
     if (mine.cols != theirs.cols || mine.rows != theirs.rows || mine.cell_x != theirs.cell_x ||
         mine.cell_y != theirs.cell_y)
       return fail(ErrorKind::kUsage, fmt::format("the local grid of {} is that of another raster than {}: their rows, "
                                                  "columns or cells differ",
-                                                 set_, *source_));
+                                                 *given[kInput], *given[kSource]));
     options.nodes.source = &opened.raster->nodes();
     options.nodes.covered = plan.covered;
     options.ellipsoid = plan.ellipsoid;
     if (opened.raster->plane()) options.nodes.place = place_of(*opened.raster->plane(), theirs);
-    const bool is_plan = lower_extension(*source_) == ".json";
-    if (is_plan || tiles_.cells) options.nodes.cells = plan.cells;
-    if (is_plan || tiles_.background) options.nodes.background = plan.background;
+    const bool is_plan = lower_extension(*given[kSource]) == ".json";
+    if (is_plan || given.has(kCells)) options.nodes.cells = plan.cells;
+    if (is_plan || given.has(kBackground)) options.nodes.background = plan.background;
   }
   options.run.progress = display.callback();
   SCARP_TRY(const TileCheck& check, check_tiles(*set, options));
   display.finish();
-  if (json_) {
-    Json report{{"command", command_line}, {"set", set_}};
+  if (given.has(kJson)) {
+    Json report{{"command", command_line}, {"set", *given[kInput]}};
     add_tile_check(report, check);
     report["seconds"] = seconds_since(start);
     SCARP_RETURN_IF_ERROR(print_to_stdout(to_text(report)));
-  } else if (!quiet_) {
-    SCARP_RETURN_IF_ERROR(print_to_stdout(make_check_summary(set_, check, seconds_since(start))));
+  } else if (!given.has(kQuiet)) {
+    SCARP_RETURN_IF_ERROR(print_to_stdout(make_check_summary(*given[kInput], check, seconds_since(start))));
   }
   if (check.holds()) return {};
-  return fail(ErrorKind::kPromise, describe_faults(set_, check));
+  return fail(ErrorKind::kPromise, describe_faults(*given[kInput], check));
 }
 
 }  // namespace scarp::cli

@@ -1,4 +1,4 @@
-#include "commands/tile_command.h"
+#include "commands/commands.h"
 
 #include <utility>
 #include <vector>
@@ -15,44 +15,37 @@
 #include "terminal/progress_display.h"
 
 namespace scarp::cli {
-
-TileCommand::TileCommand(CLI::App& program) : command_(add_command(program, kTile)) {
-  add_arguments(*command_, OptionId::kInput, tiles_.raster.paths, OptionId::kOutput, output_);
-  tiles_.add_to(*command_);
-  add_option(*command_, OptionId::kReport, report_);
-  add_flag(*command_, OptionId::kOverwrite, overwrite_);
-  add_option(*command_, OptionId::kThreads, threads_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
+namespace {
+using enum OptionId;
 }
 
-Result<void> TileCommand::run(const std::string& command_line) const {
+Result<void> run_tile(const GivenOptions& given, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  SCARP_TRY(const int threads, parse_threads(threads_));
+  SCARP_TRY(const int threads, given.threads());
   std::vector<PlannedOutput> outputs;
-  if (report_) outputs.push_back({"--report", *report_});
-  SCARP_RETURN_IF_ERROR(check_outputs(outputs, files_read(*command_), overwrite_));
+  if (given.has(kReport)) outputs.push_back({name_of(kReport), *given[kReport]});
+  SCARP_RETURN_IF_ERROR(check_outputs(outputs, given.files_read(), given.has(kOverwrite)));
 
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   TileCounts counts;
   display.show_tiles(counts);
   Run run;
   run.threads = threads;
   run.progress = display.callback();
-  SCARP_TRY(const MadeTiles& made, make_tiles(tiles_, output_, overwrite_, run, counts));
+  SCARP_TRY(const MadeTiles& made, make_tiles(given, *given[kOutput], given.has(kOverwrite), run, counts));
   display.finish();
-  if (!quiet_) print_warnings(made.warnings);
+  if (!given.has(kQuiet)) print_warnings(made.warnings);
   const TileJob& job = made.opened.job;
   const double seconds = seconds_since(start);
-  if (report_) {
-    Json json{{"command", command_line}, {"input", tiles_.raster.paths}};
-    add_tiles(json, job, output_, made.report);
+  if (given[kReport]) {
+    Json json{{"command", command_line}, {"input", given.inputs()}};
+    add_tiles(json, job, *given[kOutput], made.report);
     json["warnings"] = made.warnings;
     json["seconds"] = seconds;
-    SCARP_RETURN_IF_ERROR(write_report(json, *report_, overwrite_, output_));
+    SCARP_RETURN_IF_ERROR(write_report(json, *given[kReport], given.has(kOverwrite), *given[kOutput]));
   }
-  if (quiet_) return {};
-  return print_summary(make_tile_summary(job, output_, made.report, seconds));
+  if (given.has(kQuiet)) return {};
+  return print_summary(make_tile_summary(job, *given[kOutput], made.report, seconds));
 }
 
 }  // namespace scarp::cli

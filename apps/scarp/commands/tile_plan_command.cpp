@@ -1,4 +1,4 @@
-#include "commands/tile_plan_command.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +20,8 @@
 
 namespace scarp::cli {
 namespace {
+
+using enum OptionId;
 
 /// The number of tasks that clusters accept in an array by default.
 constexpr std::uint64_t kMostShards = 1000;
@@ -59,78 +61,62 @@ std::string make_summary(const TileJob& job, const std::string& plan, const Tile
   return text;
 }
 
-}  // namespace
-
-TilePlanCommand::TilePlanCommand(CLI::App& program) : command_(add_command(program, kTilePlan)) {
-  add_arguments(*command_, OptionId::kInput, tiles_.raster.paths, OptionId::kPlan, plan_);
-  tiles_.add_to(*command_);
-  add_option(*command_, OptionId::kChangedSince, changed_since_);
-  add_option(*command_, OptionId::kHash, hash_);
-  add_flag(*command_, OptionId::kSurvey, survey_);
-  add_option(*command_, OptionId::kShards, shards_);
-  add_option(*command_, OptionId::kSlurm, slurm_);
-  add_flag(*command_, OptionId::kOverwrite, overwrite_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
+/// By the earlier plan.
+Result<OpenedJob> follow(const GivenOptions& given, const ProgressCallback& progress) {
+  constexpr std::array kFree{kChangedSince, kHash, kSurvey, kShards, kSlurm, kOverwrite, kQuiet, kJsonProgress};
+  for (const OptionRow* row : given.given()) {
+    if (std::ranges::count(kFree, row->id) == 0)
+      return fail(ErrorKind::kUsage, fmt::format("{} does not go with {}: {} has decided it", row->title(),
+                                                 kChangedSince, *given[kChangedSince]));
+  }
+  SCARP_TRY(const TileJob& earlier, read_tile_job(*given[kChangedSince]));
+  SCARP_TRY(auto&& opened, follow_tiles(given, earlier, progress));
+  std::error_code error;
+  opened.job.parts =
+      std::filesystem::absolute(parts_folder(*given[kChangedSince], {}, earlier), error).lexically_normal().string();
+  return opened;
 }
 
-Result<OpenedJob> TilePlanCommand::open(const ProgressCallback& progress) const {
+Result<OpenedJob> open(const GivenOptions& given, const ProgressCallback& progress) {
   constexpr Choice<bool> kHashes[] = {{"stamp", false}, {"content", true}};
-  SCARP_TRY(const bool reads_all, choose("--hash", hash_.value_or("stamp"), kHashes));
-  Result<OpenedJob> opened = changed_since_ ? follow(progress) : open_tiles(tiles_, progress);
-  if (opened && reads_all) {
+  SCARP_TRY(const auto reads_all, given.choice(kHash, kHashes));
+  Result<OpenedJob> opened = given[kChangedSince] ? follow(given, progress) : open_tiles(given, progress);
+  if (opened && reads_all.value_or(false)) {
     SCARP_RETURN_IF_ERROR(add_contents(opened->job));
   }
   return opened;
 }
 
-Result<OpenedJob> TilePlanCommand::follow(const ProgressCallback& progress) const {
-  constexpr std::array kFree{"--changed-since", "--hash",      "--survey", "--shards",
-                             "--slurm",         "--overwrite", "--quiet",  "--json-progress"};
-  for (const CLI::Option* option : command_->get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && name.starts_with("--") && std::ranges::count(kFree, name) == 0)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("{} does not go with --changed-since: {} has decided it", name, *changed_since_));
-  }
-  SCARP_TRY(const TileJob& earlier, read_tile_job(*changed_since_));
-  SCARP_TRY(auto&& opened, follow_tiles(tiles_, earlier, progress));
-  std::error_code error;
-  opened.job.parts =
-      std::filesystem::absolute(parts_folder(*changed_since_, {}, earlier), error).lexically_normal().string();
-  return opened;
-}
+}  // namespace
 
-Result<void> TilePlanCommand::run() const {
-  std::vector<PlannedOutput> outputs{{"PLAN", plan_}};
-  if (slurm_) outputs.push_back({"--slurm", *slurm_});
-  SCARP_RETURN_IF_ERROR(check_outputs(outputs, files_read(*command_), overwrite_));
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  SCARP_TRY(OpenedJob opened, open(display.callback()));
+Result<void> run_tile_plan(const GivenOptions& given, const std::string&) {
+  std::vector<PlannedOutput> outputs{{name_of(kPlan), *given[kPlan]}};
+  if (given[kSlurm]) outputs.push_back({name_of(kSlurm), *given[kSlurm]});
+  SCARP_RETURN_IF_ERROR(check_outputs(outputs, given.files_read(), given.has(kOverwrite)));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
+  SCARP_TRY(OpenedJob opened, open(given, display.callback()));
   SCARP_TRY(const TileEstimate& estimate, estimate_tiles(opened.job, opened.raster->nodes()));
   opened.job.estimate = estimate;
-  if (survey_) {
+  if (given.has(kSurvey)) {
     Run run;
     run.progress = display.callback();
     SCARP_RETURN_IF_ERROR(survey_blocks(opened.job, opened.raster->nodes(), run));
   }
   const std::uint64_t blocks = std::max<std::uint64_t>(estimate.blocks, 1);
   std::uint64_t shards = std::min(blocks, kMostShards);
-  if (shards_) {
-    SCARP_TRY(const std::uint64_t count, parse_count("--shards", *shards_, 1));
-    shards = std::min(count, blocks);
-  }
+  SCARP_TRY(const auto asked, given.count(kShards));
+  if (asked) shards = std::min(*asked, blocks);
   const std::vector<std::uint8_t> plan = encode_tile_job(opened.job);
-  const std::string script = slurm_script(plan_, shards, estimate.memory + kShareRasterBytes);
-  std::vector<FileBytes> files{{plan_, plan}};
-  if (slurm_)
-    files.push_back({*slurm_, std::span(reinterpret_cast<const std::uint8_t*>(script.data()), script.size())});
-  SCARP_RETURN_IF_ERROR(write_files(files, overwrite_));
+  const std::string script = slurm_script(*given[kPlan], shards, estimate.memory + kShareRasterBytes);
+  std::vector<FileBytes> files{{*given[kPlan], plan}};
+  if (given[kSlurm])
+    files.push_back({*given[kSlurm], std::span(reinterpret_cast<const std::uint8_t*>(script.data()), script.size())});
+  SCARP_RETURN_IF_ERROR(write_files(files, given.has(kOverwrite)));
   display.finish();
-  if (quiet_) return {};
+  if (given.has(kQuiet)) return {};
   print_warnings(warnings_of_raster(*opened.raster));
   print_warnings(opened.warnings);
-  return print_summary(make_summary(opened.job, plan_, estimate, shards));
+  return print_summary(make_summary(opened.job, *given[kPlan], estimate, shards));
 }
 
 }  // namespace scarp::cli

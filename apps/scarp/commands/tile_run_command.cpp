@@ -1,4 +1,4 @@
-#include "commands/tile_run_command.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -18,53 +18,46 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 /// "3/200".
-Result<Shard> parse_shard(const Given& text) {
+Result<Shard> parse_shard(const GivenOptions& given) {
+  const Given& text = given[kShard];
   if (!text) return Shard{};
   const std::size_t slash = text->find('/');
   if (slash == std::string::npos)
-    return fail(ErrorKind::kUsage, fmt::format("--shard {}: give its number and how many there are, as 3/200", *text));
-  SCARP_TRY(const std::uint64_t number, parse_count("--shard", text->substr(0, slash), 1));
-  SCARP_TRY(const std::uint64_t of, parse_count("--shard", text->substr(slash + 1), 1));
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {}: give its number and how many there are, as 3/200", kShard, *text));
+  SCARP_TRY(const std::uint64_t number, parse_count(name_of(kShard), text->substr(0, slash), 1));
+  SCARP_TRY(const std::uint64_t of, parse_count(name_of(kShard), text->substr(slash + 1), 1));
   if (number > of || of > 1'000'000)
-    return fail(ErrorKind::kUsage, fmt::format("--shard {}: there is no such share", *text));
+    return fail(ErrorKind::kUsage, fmt::format("{} {}: there is no such share", kShard, *text));
   return Shard{static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(of)};
 }
 
 }  // namespace
 
-TileRunCommand::TileRunCommand(CLI::App& program) : command_(add_command(program, kTileRun)) {
-  add_option(*command_, OptionId::kPlan, plan_);
-  add_option(*command_, OptionId::kShard, shard_);
-  add_option(*command_, OptionId::kOnly, only_);
-  add_option(*command_, OptionId::kParts, parts_);
-  add_option(*command_, OptionId::kMemory, memory_);
-  add_option(*command_, OptionId::kThreads, threads_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
-}
-
-Result<void> TileRunCommand::run() const {
+Result<void> run_tile_run(const GivenOptions& given, const std::string&) {
   const Clock::time_point start = Clock::now();
-  SCARP_TRY(const Shard& shard, parse_shard(shard_));
-  SCARP_TRY(const std::optional<DegreeBox>& only, parse_box(only_));
+  SCARP_TRY(const Shard& shard, parse_shard(given));
+  SCARP_TRY(const std::optional<DegreeBox>& only, parse_box(given));
   Run run;
-  SCARP_TRY(const int threads, parse_threads(threads_));
+  SCARP_TRY(const int threads, given.threads());
   run.threads = threads;
   std::uint64_t memory = kShareRasterBytes;
-  if (memory_) {
-    SCARP_TRY(memory, parse_bytes("--memory", *memory_));
+  if (given[OptionId::kMemory]) {
+    SCARP_TRY(memory, parse_bytes(name_of(OptionId::kMemory), *given[OptionId::kMemory]));
   }
-  SCARP_TRY(TileJob job, read_tile_job(plan_));
+  SCARP_TRY(TileJob job, read_tile_job(*given[kPlan]));
   if (only && job.plan.grid.is_flat())
-    return fail(ErrorKind::kUsage, "--only does not go with a local grid: it is a box in degrees");
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+    return fail(ErrorKind::kUsage, fmt::format("{} does not go with a local grid: it is a box in degrees", kOnly));
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   SCARP_TRY(const OpenedJob& opened, open_job(std::move(job), memory, threads));
   TileCounts counts;
   display.show_tiles(counts);
   run.progress = display.callback();
   const Result<PartsReport> made =
-      make_parts(opened.job, opened.raster->nodes(), parts_folder(plan_, parts_, opened.job), shard, run, only,
+      make_parts(opened.job, opened.raster->nodes(), parts_folder(*given[kPlan], given[kParts], opened.job), shard, run, only,
                  [&](const PartsReport& so_far) {
                    counts = {so_far.tiles, so_far.bytes};
                  });
@@ -74,13 +67,13 @@ Result<void> TileRunCommand::run() const {
     return fail(ErrorKind::kCancelled, "interrupted; the blocks made so far stay, the same command goes on");
   }
   display.finish();
-  if (quiet_) return {};
+  if (given.has(kQuiet)) return {};
   if (made->has_company)
     print_warnings({fmt::format("another process made share {} of {} at the same time: each block is kept once",
                                 shard.number, shard.of)});
   const std::string unchanged =
       made->unchanged == 0 ? "" : fmt::format(", {} of the same nodes as before", made->unchanged);
-  return print_summary(fmt::format("{}, share {} of {}: {} made, {} there before{}; {}, {}; {} s\n", plan_,
+  return print_summary(fmt::format("{}, share {} of {}: {} made, {} there before{}; {}, {}; {} s\n", *given[kPlan],
                                    shard.number, shard.of, format_plural(made->blocks, "block"), made->there, unchanged,
                                    format_plural(made->tiles, "tile"), format_bytes(made->bytes),
                                    format_seconds(seconds_since(start))));

@@ -1,4 +1,4 @@
-#include "commands/view_command.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -24,6 +24,8 @@
 
 namespace scarp::cli {
 namespace {
+
+using enum OptionId;
 
 std::string without_slash(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();
@@ -79,33 +81,22 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
   return encode_levels(without_slash(path), *levels);
 }
 
-}  // namespace
-
-ViewCommand::ViewCommand(CLI::App& program) : command_(add_command(program, kView)) {
-  add_option(*command_, OptionId::kMesh, mesh_);
-  add_arguments(*command_, OptionId::kRaster, raster_.paths);
-  raster_.add_to(*command_);
-  add_option(*command_, OptionId::kUp, up_);
-  add_option(*command_, OptionId::kPage, page_);
-  add_flag(*command_, OptionId::kOpen, open_);
-  add_flag(*command_, OptionId::kOverwrite, overwrite_);
-  add_flag(*command_, OptionId::kQuiet, quiet_);
-}
-
-std::vector<std::string> ViewCommand::mesh_paths() const {
-  std::vector<std::string> paths{mesh_};
-  const std::size_t at = mesh_.rfind("_lod0.");
+/// MESH; of OUT_lod0.glb the other levels, too.
+std::vector<std::string> mesh_paths(const GivenOptions& given) {
+  std::vector<std::string> paths{*given[kMesh]};
+  const std::size_t at = *given[kMesh].rfind("_lod0.");
   if (at == std::string::npos) return paths;
   for (int level = 1;; ++level) {
-    const std::string path = fmt::format("{}_lod{}{}", mesh_.substr(0, at), level, mesh_.substr(at + 5));
+    const std::string path = fmt::format("{}_lod{}{}", *given[kMesh].substr(0, at), level, *given[kMesh].substr(at + 5));
     if (!std::filesystem::exists(path)) return paths;
     paths.push_back(path);
   }
 }
 
-Result<std::vector<PageMesh>> ViewCommand::read_meshes(bool is_y_up, Mesh& first) const {
+/// The page without a raster: the meshes, of which `first` is read.
+Result<std::vector<PageMesh>> read_meshes(const GivenOptions& given, bool is_y_up, Mesh& first) {
   std::vector<PageMesh> meshes;
-  for (const std::string& path : mesh_paths()) {
+  for (const std::string& path : mesh_paths(given)) {
     SCARP_TRY(auto&& bytes, read_file(path));
     SCARP_TRY(Mesh mesh, decode_mesh(bytes, path));
     turn_up(is_y_up, path, mesh);
@@ -120,71 +111,74 @@ Result<std::vector<PageMesh>> ViewCommand::read_meshes(bool is_y_up, Mesh& first
   return meshes;
 }
 
-Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<std::string>& warnings) const {
-  const RasterArguments asked = remember_options(raster_, mesh);
-  SCARP_TRY(ReadOptions read, asked.parse());
-  read.heights_in = heights_in(mesh_);
-  Result<OwnedHeightField> field = read_height_field(raster_.path(), read);
-  if (!field && is_point_file(raster_.path())) {
+/// In the coordinates of the mesh.
+Result<OwnedHeightField> read_raster(const GivenOptions& given, const Mesh& mesh, std::vector<std::string>& warnings) {
+  const GivenOptions asked = remember_options(given, mesh);
+  SCARP_TRY(ReadOptions read, parse_reading(asked));
+  read.heights_in = heights_in(*given[kMesh]);
+  Result<OwnedHeightField> field = read_height_field(given.input(), read);
+  if (!field && is_point_file(given.input())) {
     return fail(ErrorKind::kInput,
                 fmt::format("{} holds points, and a page judges by a raster alone: 'scarp view {}' shows the mesh, "
                             "'scarp measure {} {}' judges it",
-                            raster_.path(), shell_word(mesh_), shell_word(raster_.path()), shell_word(mesh_)));
+                            given.input(), shell_word(*given[kMesh]), shell_word(given.input()), shell_word(*given[kMesh])));
   }
-  if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
-  if (!asked.crs && fit_frame(mesh, *field)) {
+  if (!field) return tl::unexpected(explain_reading(given, std::move(field.error())));
+  if (!asked.has(kCrs) && fit_frame(mesh, *field)) {
     read.crs = "source";
-    if (field = read_height_field(raster_.path(), read); !field) return field;
+    if (field = read_height_field(given.input(), read); !field) return field;
   }
-  if (!raster_.crs) warnings = place_frame(mesh, *field);
+  if (!given.has(kCrs)) warnings = place_frame(mesh, *field);
   return field;
 }
 
-Result<void> ViewCommand::check_place(const Mesh& mesh, const OwnedHeightField& field) const {
+/// kPromise where the mesh covers no sample, as measure has it.
+Result<void> check_place(const GivenOptions& given, const Mesh& mesh, const OwnedHeightField& field) {
   SCARP_TRY(const auto& measured, measure(field.view(), mesh, {.topology = false}));
   if (measured.samples > 0) return {};
   return fail(ErrorKind::kPromise,
-              mesh_ + ": " + describe_elsewhere(extent_of(mesh), extent_of(field.view()), raster_.path()));
+              *given[kMesh] + ": " + describe_elsewhere(extent_of(mesh), extent_of(field.view()), given.input()));
 }
 
-Result<void> ViewCommand::run() const {
-  if (raster_.paths.empty() && !raster_.canonical().empty()) {
+}  // namespace
+
+Result<void> run_view(const GivenOptions& given, const std::string&) {
+  if (given.inputs().empty() && !given.canonical().empty()) {
     return fail(ErrorKind::kUsage,
                 fmt::format("options of a raster are given ({}), and no RASTER: scarp view {} RASTER",
-                            raster_.canonical().substr(1), shell_word(mesh_)));
+                            given.canonical().substr(1), shell_word(*given[kMesh])));
   }
-  if (!raster_.paths.empty()) {
-    SCARP_RETURN_IF_ERROR(raster_.parse());
+  if (!given.inputs().empty()) {
+    SCARP_RETURN_IF_ERROR(parse_reading(given));
   }
-  SCARP_TRY(const bool is_y_up, parse_up(up_));
-  const bool is_set = is_tile_set(mesh_);
-  if (is_set && !raster_.paths.empty()) {
+  SCARP_TRY(const bool is_y_up, parse_up(given[kUp]));
+  const bool is_set = is_tile_set(*given[kMesh]);
+  if (is_set && !given.inputs().empty()) {
     return fail(ErrorKind::kUsage,
-                fmt::format("{} is a set of tiles, which is shown without a raster: 'scarp tile check {} "
-                            "--source {}' judges it",
-                            mesh_, shell_word(mesh_), shell_word(raster_.path())));
+                fmt::format("{} is a set of tiles, which is shown without a raster: 'scarp tile check {} {} {}' judges it",
+                            *given[kMesh], shell_word(*given[kMesh]), kSource, shell_word(given.input())));
   }
-  if (std::error_code error; !is_set && std::filesystem::is_directory(mesh_, error)) {
+  if (std::error_code error; !is_set && std::filesystem::is_directory(*given[kMesh], error)) {
     return fail(ErrorKind::kInput, fmt::format("{} is a folder without layer.json or tileset.json, so no set of tiles: "
                                                "name the folder that holds one of them, or a mesh",
-                                               mesh_));
+                                               *given[kMesh]));
   }
   SCARP_TRY(const auto& page_template, read_page_template());
   const std::string path =
-      page_.value_or(std::filesystem::path(without_slash(mesh_)).replace_extension(".html").string());
-  SCARP_RETURN_IF_ERROR(check_outputs({{"--output", path}}, files_read(*command_), overwrite_));
+      given[kPage].value_or(std::filesystem::path(without_slash(*given[kMesh])).replace_extension(".html").string());
+  SCARP_RETURN_IF_ERROR(check_outputs({{name_of(kPage), path}}, given.files_read(), given.has(kOverwrite)));
   Mesh mesh;
   std::vector<std::string> warnings;
-  SCARP_TRY(const auto& meshes, is_set ? read_levels(mesh_, warnings) : read_meshes(is_y_up, mesh));
+  SCARP_TRY(const auto& meshes, is_set ? read_levels(*given[kMesh], warnings) : read_meshes(given, is_y_up, mesh));
   std::optional<OwnedHeightField> field;
-  if (!raster_.paths.empty()) {
-    SCARP_TRY(field, read_raster(mesh, warnings));
-    SCARP_RETURN_IF_ERROR(check_place(mesh, *field));
+  if (!given.inputs().empty()) {
+    SCARP_TRY(field, read_raster(given, mesh, warnings));
+    SCARP_RETURN_IF_ERROR(check_place(given, mesh, *field));
   }
-  SCARP_TRY(const auto& page, make_view_page(page_template, without_slash(mesh_), meshes, field ? &*field : nullptr));
+  SCARP_TRY(const auto& page, make_view_page(page_template, without_slash(*given[kMesh]), meshes, field ? &*field : nullptr));
   if (page.left_out) warnings.push_back(*page.left_out);
-  SCARP_RETURN_IF_ERROR(write_file(path, page.html, overwrite_));
-  if (!quiet_) {
+  SCARP_RETURN_IF_ERROR(write_file(path, page.html, given.has(kOverwrite)));
+  if (!given.has(kQuiet)) {
     print_warnings(warnings);
     const std::string summary = fmt::format("{}: {}; open it in a browser\n", path, format_bytes(page.html.size()));
     if (is_stdout(path)) {
@@ -193,7 +187,7 @@ Result<void> ViewCommand::run() const {
       SCARP_RETURN_IF_ERROR(print_summary(summary));
     }
   }
-  return open_ ? open_in_browser(path) : Result<void>();
+  return given.has(OptionId::kOpen) ? open_in_browser(path) : Result<void>();
 }
 
 }  // namespace scarp::cli

@@ -15,10 +15,12 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 Result<void> check_weight_count(const ChannelPlan& plan, std::size_t channels) {
   if (plan.weights.empty() || plan.weights.size() == channels) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("--channel-weights has {} for {}: give one a band",
+              fmt::format("{} has {} for {}: give one a band", kChannelWeights,
                           format_plural(plan.weights.size(), "weight"), format_plural(channels, "band")));
 }
 
@@ -75,9 +77,9 @@ Result<void> check_coverage(const OwnedChannels& texture, const OwnedHeightField
       if (std::isfinite(values[k]) || !std::isfinite(heights.samples[k])) continue;
       const std::size_t cols = static_cast<std::size_t>(heights.cols);
       return fail(ErrorKind::kInput,
-                  fmt::format("--texture {}: band {} has no value at column {}, row {}, where {} has a height: fill it "
+                  fmt::format("{} {}: band {} has no value at column {}, row {}, where {} has a height: fill it "
                               "first (gdal_fillnodata.py -b {} {} {})",
-                              texture.info.path, band + 1, k % cols, k / cols, heights.info.path, band + 1,
+                              kTexture, texture.info.path, band + 1, k % cols, k / cols, heights.info.path, band + 1,
                               file_word(texture.info.path), new_file(".tif")));
     }
   }
@@ -113,17 +115,17 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
     options.run.progress = progress;
     Result<OwnedChannels> texture = read_channels(path, options);
     if (!texture) {
-      texture.error().message = fmt::format("--texture: {}", texture.error().message);
+      texture.error().message = fmt::format("{}: {}", kTexture, texture.error().message);
       return tl::unexpected(std::move(texture.error()));
     }
     SCARP_RETURN_IF_ERROR(
-        check_grid(heights.info, heights.cols, heights.rows, "--texture", texture->info, texture->cols, texture->rows));
+        check_grid(heights.info, heights.cols, heights.rows, name_of(kTexture).c_str(), texture->info, texture->cols, texture->rows));
     SCARP_RETURN_IF_ERROR(check_coverage(*texture, heights));
     append(channels.bands, std::move(*texture));
   }
   if (channels.count() > kMaxChannels) {
-    return fail(ErrorKind::kInput, fmt::format("--texture: the files hold {} bands, more than {}: leave some out",
-                                               channels.count(), kMaxChannels));
+    return fail(ErrorKind::kInput, fmt::format("{}: the files hold {} bands, more than {}: leave some out",
+                                               kTexture, channels.count(), kMaxChannels));
   }
   SCARP_RETURN_IF_ERROR(check_weight_count(plan, channels.count()));
 

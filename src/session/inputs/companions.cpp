@@ -12,14 +12,16 @@
 namespace scarp::cli {
 namespace {
 
-/// Names the option that named a file: "--tolerance FILE…".
-tl::unexpected<Error> name_option(const char* option, const char* between, Error error) {
+using enum OptionId;
+
+/// Names the option that named a file, as "--tolerance FILE".
+tl::unexpected<Error> name_option(OptionId option, const char* between, Error error) {
   if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}{}{}", option, between, error.message);
   return tl::unexpected(std::move(error));
 }
 
 /// The raster's values, on the grid of `raster`, whole or within the limit.
-Result<OwnedHeightField> read_values(const char* option, const std::string& path, const RasterInfo& raster,
+Result<OwnedHeightField> read_values(OptionId option, const std::string& path, const RasterInfo& raster,
                                      const OwnedHeightField& field, const CompanionRun& run, bool in_windows,
                                      double scale = 1) {
   ReadOptions options;
@@ -30,7 +32,7 @@ Result<OwnedHeightField> read_values(const char* option, const std::string& path
   Result<OwnedHeightField> values =
       in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
   if (!values) return name_option(option, ": ", std::move(values.error()));
-  SCARP_RETURN_IF_ERROR(check_grid(raster, field.cols, field.rows, option, values->info, values->cols, values->rows));
+  SCARP_RETURN_IF_ERROR(check_grid(raster, field.cols, field.rows, name_of(option), values->info, values->cols, values->rows));
   return values;
 }
 
@@ -66,15 +68,15 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
                      rows, beyond, file, new_file(".tif"));
 }
 
-/// In the order of CompanionArguments::roi.
-Result<std::vector<Region>> read_regions(const CompanionArguments& given, const RasterInfo& raster,
+/// In the order in which they were given.
+Result<std::vector<Region>> read_regions(const GivenOptions& given, const RasterInfo& raster,
                                          const ProgressCallback& progress, Companions& companions) {
   ReadLinesOptions options;
   options.crs = raster.crs;
   options.ignore_z = true;
   options.progress = progress;
   std::vector<Region> regions;
-  for (const std::string& text : given.roi) {
+  for (const std::string& text : given.all(kRoi)) {
     SCARP_TRY(const RegionFile& file, parse_region(text));
     SCARP_TRY(auto&& set, read_lines(file.path, options));
     companions.warnings.insert(companions.warnings.end(), set.warnings.begin(), set.warnings.end());
@@ -83,21 +85,21 @@ Result<std::vector<Region>> read_regions(const CompanionArguments& given, const 
   return regions;
 }
 
-RegionGrid grid_of(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+RegionGrid grid_of(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                    std::optional<double> bound) {
   RegionGrid grid{field.cols, field.rows, map_affine(raster, field.rows)};
   const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0;
   grid.cell_x = has_metres ? raster.cell_x_m : raster.cell_x;
   grid.cell_y = has_metres ? raster.cell_y_m : raster.cell_y;
   grid.beyond = bound;
-  if (given.falloff) grid.falloff = *parse_non_negative("--falloff", *given.falloff);
+  grid.falloff = given.number(kFalloff)->value_or(0);
   return grid;
 }
 
-void warn_of_missing(const CompanionArguments& given, const std::vector<bool>& found, Companions& companions) {
+void warn_of_missing(const GivenOptions& given, const std::vector<bool>& found, Companions& companions) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k])
-      companions.warnings.push_back(fmt::format("--roi {} lies beside the raster: it changes nothing", given.roi[k]));
+      companions.warnings.push_back(fmt::format("{} {} lies beside the raster: it changes nothing", kRoi, given.all(kRoi)[k]));
   }
 }
 
@@ -108,19 +110,19 @@ Result<void> check_regions(const OwnedHeightField& field, const std::vector<Regi
     for (const Line& line : region.lines) vertices += line.points.size();
   }
   constexpr std::uint64_t kBytesPerVertex = 100;
-  return check_room(field, memory, kBytesPerVertex * vertices, "--roi");
+  return check_room(field, memory, kBytesPerVertex * vertices, name_of(kRoi));
 }
 
 /// The tolerances of --tolerance and --roi, in windows where the heights are.
-Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+Result<void> read_tolerances(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                              std::optional<double> bound, const CompanionRun& run, Companions& companions) {
   const bool in_windows = field.source != nullptr;
   std::optional<OwnedHeightField> values;
   std::uint64_t bytes = 0;
-  if (given.tolerance) {
-    SCARP_TRY(auto&& read, read_values("--tolerance", *given.tolerance, raster, field, run, in_windows));
+  if (given.has(kTolerance)) {
+    SCARP_TRY(auto&& read, read_values(kTolerance, *given[kTolerance], raster, field, run, in_windows));
     if (const double scale = units_of(read.info, raster); scale != 1) {
-      SCARP_TRY(read, read_values("--tolerance", *given.tolerance, raster, field, run, in_windows, scale));
+      SCARP_TRY(read, read_values(kTolerance, *given[kTolerance], raster, field, run, in_windows, scale));
     }
     add_warnings(read, companions);
     if (in_windows) bytes = bytes_beside(read, field, run.memory);
@@ -132,29 +134,29 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
   }
   auto made = make_tolerances(std::move(values), regions, grid_of(given, raster, field, bound),
                               {in_windows, {run.threads, {}, run.progress}});
-  if (!made) return name_option("--tolerance", " ", std::move(made.error()));
-  if (given.tolerance && !made->has_values) {
-    companions.warnings.push_back(fmt::format("--tolerance {} holds no value: it changes nothing", *given.tolerance));
+  if (!made) return name_option(kTolerance, " ", std::move(made.error()));
+  if (given.has(kTolerance) && !made->has_values) {
+    companions.warnings.push_back(fmt::format("{} {} holds no value: it changes nothing", kTolerance, *given[kTolerance]));
     if (regions.empty()) return {};
   }
   warn_of_missing(given, made->found, companions);
   companions.bytes += made->bytes + bytes;
   companions.tolerances = std::move(*made);
-  return in_windows ? check_room(field, run.memory, companions.bytes, given.find_tolerance()) : Result<void>();
+  return in_windows ? check_room(field, run.memory, companions.bytes, name_of(*find_tolerance(given))) : Result<void>();
 }
 
 /// The weights of --mask, in windows where the heights are.
 Result<void> read_weights(const std::string& path, const RasterInfo& raster, const OwnedHeightField& field,
                           const CompanionRun& run, Companions& companions) {
   const bool in_windows = field.source != nullptr;
-  SCARP_TRY(OwnedHeightField values, read_values("--mask", path, raster, field, run, in_windows));
+  SCARP_TRY(OwnedHeightField values, read_values(kMask, path, raster, field, run, in_windows));
   add_warnings(values, companions);
   if (in_windows) {
     companions.bytes += bytes_beside(values, field, run.memory);
-    SCARP_RETURN_IF_ERROR(check_room(field, run.memory, companions.bytes, "--mask"));
+    SCARP_RETURN_IF_ERROR(check_room(field, run.memory, companions.bytes, name_of(kMask)));
   }
   Result<OwnedWeights> mask = make_weights(std::move(values), {in_windows, {run.threads, {}, run.progress}});
-  if (!mask) return name_option("--mask", " ", std::move(mask.error()));
+  if (!mask) return name_option(kMask, " ", std::move(mask.error()));
   companions.mask = std::move(*mask);
   return {};
 }
@@ -164,12 +166,12 @@ Result<void> read_steps(const std::string& path, const OwnedHeightField& field, 
                         Companions& companions) {
   SCARP_TRY(companions.script, read_script(path, field.cols, field.rows));
   if (companions.script.size() == 0)
-    companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", path));
+    companions.warnings.push_back(fmt::format("{} {} holds no step: it changes nothing", kScript, path));
   if (!field.source) return {};
   constexpr std::uint64_t kBytesToRead = 100, kBytesPerStep = 24;
   const std::uint64_t before = companions.bytes, steps = companions.script.size();
   companions.bytes += kBytesPerStep * steps;
-  return check_room(field, run.memory, before + kBytesToRead * steps, "--script");
+  return check_room(field, run.memory, before + kBytesToRead * steps, name_of(kScript));
 }
 
 }  // namespace
@@ -178,23 +180,23 @@ Tolerances Companions::bounds() const {
   return {tolerances.values, tolerances.source.get(), mask.values, mask.source.get(), script.ignored};
 }
 
-Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
+Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster,
                                    const OwnedHeightField& field, std::optional<double> bound,
                                    const CompanionRun& run) {
   Companions companions;
-  if (given.mask) {
-    SCARP_RETURN_IF_ERROR(read_weights(*given.mask, raster, field, run, companions));
+  if (given.has(kMask)) {
+    SCARP_RETURN_IF_ERROR(read_weights(*given[kMask], raster, field, run, companions));
   }
-  if (given.find_tolerance() != nullptr) {
+  if (find_tolerance(given)) {
     SCARP_RETURN_IF_ERROR(read_tolerances(given, raster, field, bound, run, companions));
   }
-  if (given.script) {
-    SCARP_RETURN_IF_ERROR(read_steps(*given.script, field, run, companions));
+  if (given.has(kScript)) {
+    SCARP_RETURN_IF_ERROR(read_steps(*given[kScript], field, run, companions));
   }
   return companions;
 }
 
-Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const std::string& option, const RasterInfo& other,
                         int other_cols, int other_rows) {
   const std::optional<std::string> difference = find_grid_difference(raster, cols, rows, other, other_cols, other_rows);
   if (!difference) return {};

@@ -13,6 +13,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 std::uint64_t count_polygons(const std::vector<Line>& rings) {
   return static_cast<std::uint64_t>(
       std::count_if(rings.begin(), rings.end(), [](const Line& ring) { return ring.role == LineRole::kOuter; }));
@@ -27,33 +29,33 @@ std::array<double, 2> unit_of(const RasterInfo& raster) {
 
 }  // namespace
 
-Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, const ProgressCallback& progress,
+Result<Cut> read_cut(const GivenOptions& given, const RasterInfo& raster, const ProgressCallback& progress,
                      OwnedHeightField& field, std::vector<std::string>& warnings) {
   Cut cut;
-  if (given.files.empty()) return cut;
+  if (!given.has(kCutline)) return cut;
   ReadLinesOptions options;
   options.crs = raster.crs;
   options.ignore_z = true;
   options.progress = progress;
-  SCARP_TRY(auto&& lines, read_files(given.files, options, warnings));
+  SCARP_TRY(auto&& lines, read_files(given.all(kCutline), options, warnings));
   SCARP_TRY(auto&& rings, close_rings(std::move(lines)));
   cut.polygons = count_polygons(rings);
   cut.cutline.affine = map_affine(raster, field.rows);
   cut.cutline.rings = std::move(rings);
-  if (given.inset) {
+  if (given.has(kInset)) {
     const std::array<double, 2> unit = unit_of(raster);
     const double sample = std::min(raster.cell_x * unit[0], raster.cell_y * unit[1]);
-    auto moved = inset_polygons(cut.cutline.rings, *parse_number("--inset", *given.inset), unit, sample);
+    auto moved = inset_polygons(cut.cutline.rings, **given.number(kInset), unit, sample);
     if (!moved) {
-      moved.error().message = fmt::format("--inset {}: {}", shell_word(*given.inset), moved.error().message);
+      moved.error().message = fmt::format("{} {}: {}", kInset, shell_word(*given[kInset]), moved.error().message);
       return tl::unexpected(std::move(moved.error()));
     }
     if (moved->empty())
-      return fail(ErrorKind::kInput, fmt::format("--inset {}: nothing of the polygons is left, they are not that wide",
-                                                 shell_word(*given.inset)));
+      return fail(ErrorKind::kInput, fmt::format("{} {}: nothing of the polygons is left, they are not that wide",
+                                                 kInset, shell_word(*given[kInset])));
     cut.cutline.rings = std::move(*moved);
   }
-  if (!given.mask_outside) return cut;
+  if (!given.has(kMaskOutside)) return cut;
   SCARP_TRY(const auto& left, mask_outside(field, cut.cutline, progress));
   cut.masked = left.lost;
   cut.bytes = left.bytes;
@@ -61,9 +63,10 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
   const bool is_empty = left.kept == 0;
   if (is_empty || (cut.masked > 0 && !left.has_surface))
     return fail(ErrorKind::kInput,
-                fmt::format("--cutline {} --mask-outside: no {} of {} lies in the polygons{}",
-                            shell_word(given.files.front()), is_empty ? "height" : "cell with three heights",
-                            raster.path, is_empty ? "" : ": leave --mask-outside out to cut through cells"));
+                fmt::format("{} {},{}: no {} of {} lies in the polygons{}",
+                            kCutline, shell_word(given.all(kCutline).front()), find_option(kSimplify, kMaskOutside)->key,
+                            is_empty ? "height" : "cell with three heights", raster.path,
+                            is_empty ? "" : fmt::format(": omit {} to cut through cells", kMaskOutside)));
   return cut;
 }
 

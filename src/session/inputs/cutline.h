@@ -7,7 +7,7 @@
 
 #include "scarp/cutline.h"
 #include "scarp/io.h"
-#include "session/options/cutline_options.h"
+#include "session/options/line_options.h"
 
 namespace scarp::cli {
 
@@ -24,7 +24,7 @@ struct Cut {
 
 /// Reads the polygons in the CRS of the raster, `raster` being its file's metadata, and makes the samples of `field`
 /// outside nodata where that was asked for. Sentences for the user in `warnings`.
-Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, const ProgressCallback& progress,
+Result<Cut> read_cut(const GivenOptions& given, const RasterInfo& raster, const ProgressCallback& progress,
                      OwnedHeightField& field, std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

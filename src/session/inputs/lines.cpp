@@ -9,6 +9,9 @@
 #include "session/text/text.h"
 
 namespace scarp::cli {
+namespace {
+using enum OptionId;
+}
 
 Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
                                      std::vector<std::string>& warnings) {
@@ -18,17 +21,17 @@ Result<std::vector<Line>> read_files(const std::vector<std::string>& files, cons
   return std::move(set->lines);
 }
 
-Result<LineConstraints> read_breaklines(const LineArguments& given, const RasterInfo& raster, int rows,
+Result<LineConstraints> read_breaklines(const GivenOptions& given, const RasterInfo& raster, int rows,
                                         const ProgressCallback& progress, std::vector<std::string>& warnings) {
   LineConstraints constraints;
   constraints.affine = map_affine(raster, rows);
-  constraints.conflict = given.conflict_rule().value_or(constraints.conflict);
+  constraints.conflict = conflict_rule(given).value_or(constraints.conflict);
   ReadLinesOptions options;
   options.crs = raster.crs;
-  options.z_field = given.z_field.value_or("");
-  options.ignore_z = given.are_soft;
+  options.z_field = given[OptionId::kBreaklineZ].value_or("");
+  options.ignore_z = given.has(OptionId::kSoftBreaklines);
   options.progress = progress;
-  auto set = read_lines(given.breaklines, options, raster);
+  auto set = read_lines(given.all(kBreaklines), options, raster);
   if (!set) return tl::unexpected(std::move(set.error()));
   warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
   constraints.lines = std::move(set->lines);
@@ -39,15 +42,15 @@ Result<LineConstraints> read_breaklines(const LineArguments& given, const Raster
   return constraints;
 }
 
-Result<void> check_frame_of_lines(const char* lines, const Frame& frame, const std::string& crs_option,
+Result<void> check_frame_of_lines(const std::string& lines, const Frame& frame, const std::string& crs_option,
                                   const std::string& input) {
-  if (lines == nullptr || frame.is_affine()) return {};
+  if (lines.empty() || frame.is_affine()) return {};
   const std::string crs = shell_word(crs_option);
   return fail(
       ErrorKind::kUsage,
-      fmt::format("{} cannot be combined with --crs {}: lines are inserted where the grid is regular, and in that "
-                  "CRS it is bent. Leave --crs out, or bend the raster first ({})",
-                  lines, crs, warp_command("-t_srs " + crs, input)));
+      fmt::format("{} cannot be combined with {} {}: lines are inserted where the grid is regular, and in that CRS it is "
+                  "bent. Omit {}, or bend the raster first ({})",
+                  lines, OptionId::kCrs, crs, OptionId::kCrs, warp_command("-t_srs " + crs, input)));
 }
 
 }  // namespace scarp::cli

@@ -16,12 +16,12 @@ Result<std::vector<Line>> read_files(const std::vector<std::string>& files, cons
                                      std::vector<std::string>& warnings);
 
 /// The lines of --breaklines, in the CRS of the raster; sentences for the user in `warnings`.
-Result<LineConstraints> read_breaklines(const LineArguments& given, const RasterInfo& raster, int rows,
+Result<LineConstraints> read_breaklines(const GivenOptions& given, const RasterInfo& raster, int rows,
                                         const ProgressCallback& progress, std::vector<std::string>& warnings);
 
 /// Refuses lines where the CRS that --crs names bends the grid of the raster.
-/// `lines`: the option that asks for them; null: there are none.
-Result<void> check_frame_of_lines(const char* lines, const Frame& frame, const std::string& crs_option,
+/// `lines`: the option that asks for them; empty: there are none.
+Result<void> check_frame_of_lines(const std::string& lines, const Frame& frame, const std::string& crs_option,
                                   const std::string& input);
 
 }  // namespace scarp::cli

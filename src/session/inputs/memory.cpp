@@ -76,13 +76,13 @@ std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField
   return has_cache ? 0 : kCacheBytes + samples_share(limit, 0) / 2;
 }
 
-Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const char* options) {
+Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const std::string& options) {
   const std::uint64_t taken = bytes_taken(field, limit);
   if (taken + bytes <= limit) return {};
   const bool has_cache = field.source && !field.source->is_in_memory();  // a share of half of what the program allows
   const std::uint64_t needed = has_cache ? kProgramBytes + 2 * bytes : taken + bytes;
-  return fail(ErrorKind::kUsage, fmt::format("--memory is too little: {} takes {}M; allow {}M and what the mesh needs",
-                                             options, megabytes(bytes), megabytes(needed)));
+  return fail(ErrorKind::kUsage, fmt::format("{} is too little: {} takes {}M; allow {}M and what the mesh needs",
+                                             OptionId::kMemory, options, megabytes(bytes), megabytes(needed)));
 }
 
 int picture_side(const OwnedHeightField& field, const MemoryShare& memory, std::uint64_t vertices) {
@@ -102,11 +102,11 @@ Result<void> check_in_memory(const OwnedHeightField& field, const std::string& o
                           option, field.cols, field.rows, option, megabytes_in_memory(field, needs)));
 }
 
-Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, Error error) {
+Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Error error) {
   constexpr std::string_view kLimit = "the memory limit", kWhole = "read the raster as a whole";
-  if (!given.memory) return error;
+  if (!given.has(OptionId::kMemory)) return error;
   if (error.message.starts_with(kLimit))
-    error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given.memory));
+    error.message.replace(0, kLimit.size(), fmt::format("{} {}", OptionId::kMemory, shell_word(*given[OptionId::kMemory])));
   if (const std::size_t at = error.message.find(kWhole); at != std::string::npos)
     error.message.replace(at, kWhole.size(),
                           fmt::format("leave --memory out, or allow {}M", megabytes_in_memory(field)));

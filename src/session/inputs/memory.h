@@ -43,7 +43,7 @@ Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions option
 std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField& field, std::uint64_t limit);
 
 /// Fails with kUsage if the limit has no room for so many bytes more of what `options` name.
-Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const char* options);
+Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const std::string& options);
 
 /// The side of a picture that memory has room for in addition to a mesh: 1400 pixels, less where samples are streamed.
 int picture_side(const OwnedHeightField& field, const MemoryShare& memory, std::uint64_t vertices);
@@ -54,7 +54,7 @@ Result<void> check_in_memory(const OwnedHeightField& field, const std::string& o
 
 /// Rewrites the library's errors about a memory limit, and about rasters that were not read as a whole, in terms of
 /// --memory.
-Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, Error error);
+Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Error error);
 
 /// Gives a raster that was not read before the range that the judge has found.
 void complete_info(const HeightRange& judged, RasterInfo& info);

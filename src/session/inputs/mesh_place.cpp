@@ -14,6 +14,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 /// The six numbers; nothing if the file does not hold them, or in a wrong form.
 std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh) {
   const auto entry = mesh.metadata.find("to_source");
@@ -117,17 +119,17 @@ Extent extent_of(const PointSet& points) {
   return extent;
 }
 
-RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh) {
-  RasterArguments asked = given;
-  const std::pair<const char*, Given*> options[] = {{"crs_option", &asked.crs},
-                                                    {"z_scale", &asked.z_scale},
-                                                    {"z_offset", &asked.z_offset},
-                                                    {"unit", &asked.z_unit},
-                                                    {"cell_size", &asked.cell_size}};
-  for (const auto& [key, option] : options) {
-    if (option == &asked.z_scale && given.z_unit) continue;  // it may hold the way from that unit to metres
+GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh) {
+  GivenOptions asked = given;
+  constexpr std::pair<const char*, OptionId> kKeys[] = {{"crs_option", kCrs},
+                                                        {"z_scale", kZScale},
+                                                        {"z_offset", kZOffset},
+                                                        {"unit", kZUnit},
+                                                        {"cell_size", kCellSize}};
+  for (const auto& [key, option] : kKeys) {
+    if (option == kZScale && given.has(kZUnit)) continue;  // it may hold the way from that unit to metres
     const auto entry = mesh.metadata.find(key);
-    if (!*option && entry != mesh.metadata.end()) *option = entry->second;
+    if (!given.has(option) && entry != mesh.metadata.end()) asked.set(option, Given(entry->second));
   }
   return asked;
 }
@@ -173,8 +175,8 @@ std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field) 
 std::string describe_elsewhere(const Extent& mesh, const Extent& reference, const std::string& what) {
   return fmt::format(
       "it covers no sample of {}: its vertices lie at {}, the samples at {}; give the CRS it was made in "
-      "(--crs), or its own raster",
-      what, mesh.text(), reference.text());
+      "({}), or its own raster",
+      what, mesh.text(), reference.text(), kCrs);
 }
 
 }  // namespace scarp::cli

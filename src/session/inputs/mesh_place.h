@@ -9,7 +9,7 @@
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/points.h"
-#include "session/options/raster_options.h"
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
@@ -29,7 +29,7 @@ Extent extent_of(const HeightField& field);
 Extent extent_of(const PointSet& points);
 
 /// The raster's options, completed by the mesh's metadata where they were not given.
-RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh);
+GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh);
 /// Turns a mesh whose file, `path`, does not declare which axis is up, if y is.
 void turn_up(bool is_y_up, const std::string& path, Mesh& mesh);
 

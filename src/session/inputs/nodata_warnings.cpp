@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scarp/commands.h"
+#include "session/options/given_options.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -12,10 +13,11 @@ namespace {
 
 /// The remedy. --nodata names one value, in place of the one that counts already (NaN always does).
 std::string remedy_of(const std::string& value, const std::string& kept, const RasterInfo& info) {
-  if (kept.empty()) return "give --nodata " + value;
+  if (kept.empty()) return fmt::format("give {} {}", OptionId::kNodata, value);
   const char* placeless = info.has_georeference ? "" : "-to SRC_METHOD=NO_GEOTRANSFORM -to DST_METHOD=NO_GEOTRANSFORM ";
   return fmt::format(
-      "--nodata takes one value, and gdalwarp -srcnodata {} -dstnodata {} {}{} {} makes one value of both", value, kept,
+      "{} accepts one value, and gdalwarp -srcnodata {} -dstnodata {} {}{} {} makes one value of both",
+      OptionId::kNodata, value, kept,
       placeless, file_word(info.path), new_file(".tif"));
 }
 

@@ -9,6 +9,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 ReadLinesOptions plan_reading(const OwnedHeightField& field, const ProgressCallback& progress) {
   ReadLinesOptions reading;
   reading.crs = field.info.crs;
@@ -17,39 +19,39 @@ ReadLinesOptions plan_reading(const OwnedHeightField& field, const ProgressCallb
   return reading;
 }
 
-Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCallback& progress,
+Result<std::vector<Lake>> add_lakes(const GivenOptions& given, const ProgressCallback& progress,
                                     const MemoryShare& memory, OwnedHeightField& field,
                                     const std::array<double, 6>& affine, std::vector<std::string>& warnings) {
-  if (given.flats) {
+  if (given.has(kDetectFlats)) {
     auto flats = find_flats(field, {affine,
-                                    *parse_count("--detect-flats", *given.flats, 3),
+                                    **given.count(kDetectFlats),
                                     {.memory = {memory.limit, memory.taken}, .progress = progress}});
-    if (flats && flats->empty()) warnings.push_back("--detect-flats finds no flat area: it changes nothing");
+    if (flats && flats->empty()) warnings.push_back(fmt::format("{} finds no flat area: it changes nothing", kDetectFlats));
     return flats;
   }
-  if (given.water.empty()) return std::vector<Lake>();
-  SCARP_TRY(const auto& polygons, read_files(given.water, plan_reading(field, progress), warnings));
-  SCARP_RETURN_IF_ERROR(check_polygons(polygons, "--water", "--rivers"));
+  if (given.all(kWater).empty()) return std::vector<Lake>();
+  SCARP_TRY(const auto& polygons, read_files(given.all(kWater), plan_reading(field, progress), warnings));
+  SCARP_RETURN_IF_ERROR(check_polygons(polygons, name_of(kWater).c_str(), name_of(kRivers).c_str()));
   WaterOptions options;
   options.affine = affine;
   options.run.memory.limit = memory.limit;
   options.run.memory.taken = memory.taken;
   options.run.progress = progress;
-  if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
+  options.percentile = given.number(kWaterPercentile)->value_or(options.percentile);
   auto lakes = flatten_lakes(field, polygons, options);
-  if (lakes && lakes->empty()) warnings.push_back("--water names no lake in the raster: it changes nothing");
+  if (lakes && lakes->empty()) warnings.push_back(fmt::format("{} names no lake in the raster: it changes nothing", kWater));
   return lakes;
 }
 
-Result<std::vector<Line>> read_streams(const LineArguments& given, const ProgressCallback& progress,
+Result<std::vector<Line>> read_streams(const GivenOptions& given, const ProgressCallback& progress,
                                        const OwnedHeightField& field, std::vector<std::string>& warnings) {
-  if (given.rivers.empty()) return std::vector<Line>();
-  return read_files(given.rivers, plan_reading(field, progress), warnings);
+  if (given.all(kRivers).empty()) return std::vector<Line>();
+  return read_files(given.all(kRivers), plan_reading(field, progress), warnings);
 }
 
 }  // namespace
 
-Result<void> read_waters(const LineArguments& given, const ProgressCallback& progress, const MemoryShare& memory,
+Result<void> read_waters(const GivenOptions& given, const ProgressCallback& progress, const MemoryShare& memory,
                          OwnedHeightField& field, Features& features, std::vector<std::string>& warnings) {
   SCARP_TRY(features.lakes, add_lakes(given, progress, memory, field, features.breaklines.affine, warnings));
   SCARP_TRY(features.rivers, read_streams(given, progress, field, warnings));

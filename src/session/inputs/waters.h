@@ -13,7 +13,7 @@ namespace scarp::cli {
 
 /// Makes the lakes of --water flat, or finds those of --detect-flats, and reads the lines of --rivers. `memory`:
 /// without that of the lakes.
-Result<void> read_waters(const LineArguments& given, const ProgressCallback& progress, const MemoryShare& memory,
+Result<void> read_waters(const GivenOptions& given, const ProgressCallback& progress, const MemoryShare& memory,
                          OwnedHeightField& field, Features& features, std::vector<std::string>& warnings);
 
 /// Bytes that the field keeps for the lakes, where its samples are not in memory as one array.

@@ -58,7 +58,7 @@ std::array<double, 6> between(const std::array<double, 6>& first, const std::arr
 
 }  // namespace
 
-Result<ZonePlan> read_zones(const ZoneArguments& given, const RasterInfo& raster, int rows,
+Result<ZonePlan> read_zones(const GivenOptions& given, const RasterInfo& raster, int rows,
                             const ProgressCallback& progress, LineConstraints& breaklines,
                             std::vector<std::string>& warnings) {
   ZonePlan plan;
@@ -66,13 +66,13 @@ Result<ZonePlan> read_zones(const ZoneArguments& given, const RasterInfo& raster
   ReadLinesOptions options;
   options.crs = raster.crs;
   options.progress = progress;
-  if (given.materials) {
-    options.z_field = given.field.value_or("");
-    options.ignore_z = !given.field;
-    SCARP_TRY(auto lines, read_files({*given.materials}, options, warnings));
-    const std::string user = "--materials " + shell_word(base_name(*given.materials));
+  if (given.has(OptionId::kMaterials)) {
+    options.z_field = given[OptionId::kMaterialField].value_or("");
+    options.ignore_z = !given.has(OptionId::kMaterialField);
+    SCARP_TRY(auto lines, read_files({*given[OptionId::kMaterials]}, options, warnings));
+    const std::string user = fmt::format("{} ", OptionId::kMaterials) + shell_word(base_name(*given[OptionId::kMaterials]));
     SCARP_RETURN_IF_ERROR(check_polygons(lines, user));
-    SCARP_TRY(plan.zones, make_zones(lines, given.field));
+    SCARP_TRY(plan.zones, make_zones(lines, given[OptionId::kMaterialField]));
     for (Line& line : lines) {
       drop_heights(line);
       breaklines.lines.push_back(std::move(line));
@@ -80,7 +80,7 @@ Result<ZonePlan> read_zones(const ZoneArguments& given, const RasterInfo& raster
   }
   options.z_field.clear();
   options.ignore_z = true;
-  SCARP_TRY(auto lines, read_files(given.strings, options, warnings));
+  SCARP_TRY(auto lines, read_files(given.all(OptionId::kNodeStrings), options, warnings));
   breaklines.lines.insert(breaklines.lines.end(), lines.begin(), lines.end());
   plan.strings = std::move(lines);
   return plan;

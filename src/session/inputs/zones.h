@@ -9,7 +9,7 @@
 #include "scarp/features.h"
 #include "scarp/io.h"
 #include "scarp/zones.h"
-#include "session/options/zone_options.h"
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
@@ -24,7 +24,7 @@ struct ZonePlan {
 };
 
 /// Reads the files, and adds their lines to the breaklines of a mesh, without heights.
-Result<ZonePlan> read_zones(const ZoneArguments& given, const RasterInfo& raster, int rows,
+Result<ZonePlan> read_zones(const GivenOptions& given, const RasterInfo& raster, int rows,
                             const ProgressCallback& progress, LineConstraints& breaklines,
                             std::vector<std::string>& warnings);
 

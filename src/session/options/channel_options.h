@@ -4,13 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "scarp/goals.h"
-#include "session/options/raster_options.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "scarp/simplify.h"
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
@@ -25,15 +20,7 @@ struct ChannelPlan {
   bool has_channels() const { return image || !textures.empty(); }
 };
 
-struct ChannelArguments {
-  bool image = false;
-  std::vector<std::string> textures;
-  Given texture_weight, norm, weights;
-
-  void add_to(CLI::App& command);
-  Result<ChannelPlan> parse(const RasterArguments& raster) const;
-  std::string canonical() const;
-};
+Result<ChannelPlan> parse_channels(const GivenOptions& given);
 
 /// "l1", "l2" or "linf".
 const char* norm_name(Norm norm);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "session/options/values.h"
+#include "session/options/given_options.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -21,7 +21,7 @@ constexpr GoalUnit kGoalUnits[] = {{"%", "", 1}, {"mm", "", 1}, {"cm", "m", 100}
 
 }  // namespace
 
-Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text) {
+Result<ErrorGoal> parse_error_goal(OptionId option, const std::string& text) {
   ErrorGoal goal;
   std::string_view number = text;
   double divisor = 1;
@@ -35,7 +35,7 @@ Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& t
     break;
   }
   std::optional<double> value = find_number(number);
-  SCARP_RETURN_IF_ERROR(check_size(option, text, value));
+  SCARP_RETURN_IF_ERROR(check_size(name_of(option), text, value));
   if (!value || !std::isfinite(*value)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is neither a finite number, in the units of the heights, nor a "
                                                "percentage of the relief such as 0.5%, nor a length such as 1m",
@@ -51,22 +51,22 @@ Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& t
   return goal;
 }
 
-Result<void> refuse_print(std::string_view option, const ErrorGoal& goal) {
+Result<void> refuse_print(OptionId option, const ErrorGoal& goal) {
   if (!goal.is_on_print) return {};
   return fail(ErrorKind::kUsage, fmt::format("{} {}mm is an error on a print, and there is none here: give it in the "
                                              "units of the heights",
                                              option, format_number(goal.value)));
 }
 
-Result<void> settle_goal(std::string_view option, const RasterInfo& heights, ErrorGoal& goal,
+Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& goal,
                          std::vector<std::string>& warnings) {
   if (goal.unit.empty()) return {};
   const double metres = heights.unit_in_metres;
   if (metres == 0)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is in {}, and the heights are in '{}', which is no unit of length that is "
-                            "known here: give a number without a unit, or name their unit (--z-unit)",
-                            option, goal.unit, heights.unit));
+                            "known here: give a number without a unit, or name their unit ({})",
+                            option, goal.unit, heights.unit, OptionId::kZUnit));
   constexpr double kFoot = 0.3048;
   const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // any kind: the heights' own feet are meant
   const double of_goal = goal.unit == "m" ? 1 : are_feet ? metres : kFoot;
@@ -75,8 +75,9 @@ Result<void> settle_goal(std::string_view option, const RasterInfo& heights, Err
   if (heights.unit_is_assumed && heights.unit.empty())
     warnings.push_back(fmt::format(
         "the file does not tell the unit of its heights, which are taken for {}: {} {}{} is {} of "
-        "them; --z-unit names another",
-        metres == 1 ? "metres" : heights.crs_unit, option, format_number(given), goal.unit, format_number(goal.value)));
+        "them; {} names another",
+        metres == 1 ? "metres" : heights.crs_unit, option, format_number(given), goal.unit, format_number(goal.value),
+        OptionId::kZUnit));
   return {};
 }
 

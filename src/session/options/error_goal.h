@@ -7,6 +7,7 @@
 
 #include "scarp/height_field.h"
 #include "scarp/result.h"
+#include "session/table/option_table.h"
 
 namespace scarp::cli {
 
@@ -20,12 +21,12 @@ struct ErrorGoal {
   double absolute(double relief) const { return percent_of_relief ? value / 100 * relief : value; }
 };
 /// A number, perhaps with % or a unit behind it: m, cm, ft, or mm of a print.
-Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text);
+Result<ErrorGoal> parse_error_goal(OptionId option, const std::string& text);
 /// Fails for a goal in millimetres of a print, where there is none.
-Result<void> refuse_print(std::string_view option, const ErrorGoal& goal);
+Result<void> refuse_print(OptionId option, const ErrorGoal& goal);
 /// Puts a goal that names its unit into that of the heights. A warning reports if theirs is assumed; kUsage if it is no
 /// length.
-Result<void> settle_goal(std::string_view option, const RasterInfo& heights, ErrorGoal& goal,
+Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& goal,
                          std::vector<std::string>& warnings);
 /// Adds the share of the relief that was asked for to the library's error about a max error.
 Error name_goal(const ErrorGoal& goal, double relief, Error error);

@@ -8,68 +8,32 @@
 namespace scarp::cli {
 namespace {
 
-/// More pixels than any GPU shows.
-constexpr std::uint64_t kMostPixels = 16384;
+using enum OptionId;
 
-Result<int> parse_side(const char* option, const std::string& text) {
-  SCARP_TRY(const std::uint64_t side, parse_count(option, text, 1));
-  if (side > kMostPixels) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {} is above {}, the most pixels that graphics cards show", option, text, kMostPixels));
-  }
-  return static_cast<int>(side);
-}
+constexpr Choice<ImageFormat> kImages[] = {
+    {"jpeg", ImageFormat::kJpeg}, {"png", ImageFormat::kPng}, {"webp", ImageFormat::kWebp}};
 
 }  // namespace
 
-void ImageArguments::add_to(CLI::App& command) {
-  add_option(command, OptionId::kDrape, drape);
-  add_option(command, OptionId::kDrapeSize, drape_size);
-  add_option(command, OptionId::kDrapeFormat, drape_format);
-  add_option(command, OptionId::kNormalMap, normal_map);
-}
-
-const char* ImageArguments::find_image() const {
-  if (drape) return "--drape";
-  return normal_map ? "--normal-map" : nullptr;
-}
-
-Result<ImagePlan> ImageArguments::parse(const OutputFormat& format) const {
+Result<ImagePlan> parse_images(const GivenOptions& given, const OutputFormat& format) {
   ImagePlan plan;
-  for (const auto& [name, value] :
-       {std::pair{"--drape-size", &drape_size}, std::pair{"--drape-format", &drape_format}}) {
-    if (*value && !drape) return fail(ErrorKind::kUsage, fmt::format("{} needs an image: --drape FILE", name));
-  }
-  if (const char* image = find_image(); image != nullptr && !format.is_glb()) {
+  if (const auto image = given.first_of({kDrape, kNormalMap}); image && !format.is_glb())
     return fail(ErrorKind::kUsage, fmt::format("{} puts an image into a GLB, and OUTPUT is {}, which has no place for "
                                                "one: choose .glb",
-                                               image, format.title()));
-  }
-  if (drape && drape->empty()) return fail(ErrorKind::kUsage, "the name of the image to drape is empty");
-  plan.drape = drape;
-  if (drape_size) {
-    SCARP_TRY(plan.drape_size, parse_side("--drape-size", *drape_size));
-  }
-  SCARP_TRY(plan.drape_format, parse_image_format(drape_format));
-  if (normal_map) {
-    SCARP_TRY(plan.normal_map, parse_side("--normal-map", *normal_map));
-  }
+                                               *image, format.title()));
+  if (given[kDrape] == "") return fail(ErrorKind::kUsage, "the name of the image to drape is empty");
+  plan.drape = given[kDrape];
+  SCARP_TRY(const auto size, given.count(kDrapeSize));
+  plan.drape_size = static_cast<int>(size.value_or(0));
+  SCARP_TRY(plan.drape_format, parse_image_format(given));
+  SCARP_TRY(const auto normals, given.count(kNormalMap));
+  if (normals) plan.normal_map = static_cast<int>(*normals);
   return plan;
 }
 
-std::string ImageArguments::canonical() const {
-  return canonical_option("--drape", drape ? Given(base_name(*drape)) : drape) +
-         canonical_option("--drape-size", drape_size) + canonical_option("--drape-format", drape_format) +
-         canonical_option("--normal-map", normal_map);
-}
-
-Result<ImageFormat> parse_image_format(const Given& name) {
-  const std::string named = name.value_or("jpeg");
-  if (named == "jpeg") return ImageFormat::kJpeg;
-  if (named == "png") return ImageFormat::kPng;
-  if (named == "webp") return ImageFormat::kWebp;
-  return fail(ErrorKind::kUsage,
-              fmt::format("--drape-format {} is unknown: choose jpeg, png or webp", shell_word(named)));
+Result<ImageFormat> parse_image_format(const GivenOptions& given) {
+  SCARP_TRY(const auto format, given.choice(kDrapeFormat, kImages));
+  return format.value_or(ImageFormat::kJpeg);
 }
 
 const char* mime_type_of(ImageFormat format) {

@@ -5,12 +5,8 @@
 #include <string>
 
 #include "scarp/io.h"
+#include "session/options/given_options.h"
 #include "session/options/output_kind.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
 
 namespace scarp::cli {
 
@@ -24,19 +20,10 @@ struct ImagePlan {
   bool any() const { return drape || normal_map; }
 };
 
-struct ImageArguments {
-  Given drape, drape_size, drape_format, normal_map;
-
-  void add_to(CLI::App& command);
-  /// Fails with kUsage for values out of range, and for OUTPUT without a place for images.
-  Result<ImagePlan> parse(const OutputFormat& format) const;
-  /// The first that was given; null if none was.
-  const char* find_image() const;
-  std::string canonical() const;
-};
-
+/// Fails with kUsage for values out of range, and for OUTPUT without a place for images.
+Result<ImagePlan> parse_images(const GivenOptions& given, const OutputFormat& format);
 /// jpeg, png or webp. DEFAULT: jpeg. Fails with kUsage.
-Result<ImageFormat> parse_image_format(const Given& name);
+Result<ImageFormat> parse_image_format(const GivenOptions& given);
 
 /// "image/png", …
 const char* mime_type_of(ImageFormat format);

@@ -5,24 +5,13 @@
 #include <string>
 
 #include "scarp/levels.h"
+#include "session/options/given_options.h"
 #include "session/options/output_kind.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
 
 namespace scarp::cli {
 
-struct LevelArguments {
-  Given lods;
-  bool in_one = false, locks_border = false;
-
-  void add_to(CLI::App& command);
-  /// Nothing without --lods. Fails where the value is none, and for an OUTPUT that holds no levels.
-  Result<std::optional<Levels>> parse(const OutputFormat& format, const std::string& output) const;
-  std::string canonical() const;
-};
+/// Nothing without --lods. Fails where the value is none, and for an OUTPUT that holds no levels.
+Result<std::optional<Levels>> parse_levels(const GivenOptions& given, const OutputFormat& format);
 
 /// hills.glb → hills_lod0.glb, the finest.
 std::string level_path(const std::string& output, int level);

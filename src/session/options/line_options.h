@@ -1,35 +1,26 @@
-// Vector files whose lines the mesh must hold.
+// Lines, lakes and rivers, as options name them.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "scarp/lines.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "scarp/ridges.h"
+#include "scarp/cliffs.h"
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
-struct LineArguments {
-  std::vector<std::string> breaklines, water, rivers;  ///< FILE or FILE:LAYER
-  Given z_field, conflict, percentile, flats;
-  bool are_soft = false;
+/// The option that puts lines of a file into the mesh; nothing if there is none.
+std::optional<OptionId> find_lines(const GivenOptions& given);
+/// The option that asks for lakes; nothing if there is none.
+std::optional<OptionId> find_lakes(const GivenOptions& given);
+/// The option that asks for a cut along polygons; nothing if there is none.
+std::optional<OptionId> find_cut(const GivenOptions& given);
+/// Fails with kUsage for a value of these options that is none.
+Result<void> check_lines(const GivenOptions& given);
 
-  void add_to(CLI::App& command);
-  /// Refuses options that need others, and words that are unknown.
-  Result<void> check() const;
-  /// The option that asks for lines in the mesh; null if there is none.
-  const char* find_lines() const;
-  /// The option that asks for lakes; null if there is none.
-  const char* find_lakes() const;
-  /// The options as they can change the mesh, for the canonical command.
-  std::string canonical() const;
-  /// The rule of --line-conflict; nothing without. REQUIRES: check() has passed.
-  std::optional<LineConflict> conflict_rule() const;
-};
+/// The rule where lines of different heights meet; nothing if it was not given. REQUIRES: check_lines() has passed, here
+/// and below.
+std::optional<LineConflict> conflict_rule(const GivenOptions& given);
+std::optional<WallGoals> wall_goals(const GivenOptions& given);
+std::optional<RidgeGoals> ridge_goals(const GivenOptions& given);
 
 }  // namespace scarp::cli

@@ -28,15 +28,13 @@ std::optional<double> find_unit(std::string unit) {
 
 }  // namespace
 
-void MemoryArguments::add_to(CLI::App& command) { add_option(command, OptionId::kMemory, memory); }
-
-Result<std::optional<std::uint64_t>> MemoryArguments::parse() const {
-  if (!memory) return std::nullopt;
-  SCARP_TRY(const std::uint64_t limit, parse_bytes("--memory", *memory));
-  if (limit < kProgramBytes) {
-    return fail(ErrorKind::kUsage, fmt::format("--memory {} is too little: the program alone takes {}M", *memory,
-                                               kProgramBytes / 1000000));
-  }
+Result<std::optional<std::uint64_t>> parse_memory(const GivenOptions& given) {
+  const Given& text = given[OptionId::kMemory];
+  if (!text) return std::nullopt;
+  SCARP_TRY(const std::uint64_t limit, parse_bytes(name_of(OptionId::kMemory), *text));
+  if (limit < kProgramBytes)
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is too little: the program alone needs {}M", OptionId::kMemory,
+                                               *text, kProgramBytes / 1000000));
   return limit;
 }
 

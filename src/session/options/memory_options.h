@@ -7,21 +7,12 @@
 #include <string_view>
 
 #include "scarp/result.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
-struct MemoryArguments {
-  Given memory;
-
-  void add_to(CLI::App& command);
-  /// Limit of the process in bytes; nothing if not given.
-  Result<std::optional<std::uint64_t>> parse() const;
-};
+/// Limit of the process in bytes; nothing if not given.
+Result<std::optional<std::uint64_t>> parse_memory(const GivenOptions& given);
 
 /// The code, GDAL's included, and what it always needs.
 inline constexpr std::uint64_t kProgramBytes = 72'000'000;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "scarp/picture.h"
+#include "session/table/option_table.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
 
@@ -144,20 +145,20 @@ bool OutputFormat::has_projection_beside() const {
 
 Result<bool> parse_up(const Given& up) {
   constexpr Choice<bool> kAxes[] = {{"y", true}, {"z", false}};
-  return up ? choose("--up", *up, kAxes) : Result<bool>(false);
+  return up ? choose(name_of(OptionId::kUp), *up, kAxes) : Result<bool>(false);
 }
 
 Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print) {
   const MeshRow& row = row_of(format.mesh);
   if (!format.is_mesh()) {
-    if (up) return fail(ErrorKind::kUsage, fmt::format("--up is for meshes, and OUTPUT is {}", format.title()));
+    if (up) return fail(ErrorKind::kUsage, fmt::format("{} is for meshes, and OUTPUT is {}", OptionId::kUp, format.title()));
     return false;
   }
   if (!up) return row.has_choice_of_up && !is_print && *row.up == 'y';
   SCARP_TRY(const bool is_y, parse_up(up));
   if (!row.has_choice_of_up && *up != row.up) {
     return fail(ErrorKind::kUsage,
-                fmt::format("--up {}: {} is always {} up; choose .obj, .ply or .stl", *up, row.title, row.up));
+                fmt::format("{} {}: {} is always {} up; choose .obj, .ply or .stl", OptionId::kUp, *up, row.title, row.up));
   }
   return row.has_choice_of_up && is_y;
 }
@@ -168,21 +169,21 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
   if (of) {
     std::optional<OutputFormat> named = find_format(lower(*of));
     if (!named) {
-      return fail(ErrorKind::kUsage, fmt::format("--of {} is unknown: choose {}", shell_word(*of), kNames));
+      return fail(ErrorKind::kUsage, fmt::format("{} {} is unknown: choose {}", OptionId::kOf, shell_word(*of), kNames));
     }
     if (named->kind == OutputKind::kDem && extension == ".pgm") named->raster = RasterFormat::kPgm;
     return *named;
   }
   if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
   if (is_stdout(output))
-    return fail(ErrorKind::kUsage, fmt::format("OUTPUT {} is standard output, whose name tells no format: give --of "
+    return fail(ErrorKind::kUsage, fmt::format("OUTPUT {} is standard output, whose name tells no format: give {} "
                                                "FORMAT, one of {}",
-                                               output, kNames));
+                                               output, OptionId::kOf, kNames));
   return fail(
       ErrorKind::kUsage,
       fmt::format("cannot tell the format from {}: use .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, "
-                  ".gpkg, .3mf, .svg, .eps, .tif or .pgm, or --of FORMAT{}",
-                  shell_word(output), extension == ".gltf" ? "; glTF is written as .glb" : ""));
+                  ".gpkg, .3mf, .svg, .eps, .tif or .pgm, or {} FORMAT{}",
+                  shell_word(output), OptionId::kOf, extension == ".gltf" ? "; glTF is written as .glb" : ""));
 }
 
 }  // namespace scarp::cli

@@ -2,36 +2,19 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "scarp/io.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
-struct RasterArguments {
-  std::vector<std::string> paths;  ///< one, or those of a mosaic
-  Given band, nodata, decode, crs, z_scale, z_offset, z_unit, cell_size, resolution;
-  std::vector<std::string> extent;
-
-  const std::string& path() const { return paths.front(); }
-  /// Adds the options; the paths are arguments of their own.
-  void add_to(CLI::App& command);
-  Result<ReadOptions> parse() const;
-  /// " --band 2 --crs local": those that were given.
-  std::string canonical() const;
-  /// Completes the library's error about a raster that cannot be read: what else standard input and vector data can be.
-  Error explain(Error error) const;
-};
-
+/// How the rasters are read: band, extent, resolution, coding, CRS and heights.
+Result<ReadOptions> parse_reading(const GivenOptions& given);
+/// Completes the library's error about a raster that cannot be read: what else standard input and vector data can be.
+Error explain_reading(const GivenOptions& given, Error error);
 /// --nodata: a number or NaN, nothing where it is not given. Fails with kUsage for another word.
-Result<std::optional<double>> parse_nodata(const Given& nodata);
-/// --fill-distance in samples; without it 100 if nodata is filled, else 0. Fails with kUsage where nothing is filled.
-Result<double> parse_fill_distance(const Given& text, bool is_filled);
+Result<std::optional<double>> parse_nodata(const GivenOptions& given);
+/// The farthest sample to fill from; without the option 100 if nodata is filled, else 0.
+Result<double> parse_fill_distance(const GivenOptions& given, bool is_filled);
 
 }  // namespace scarp::cli

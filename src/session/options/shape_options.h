@@ -1,27 +1,13 @@
-// Shapes of triangles that are asked for, and what became of them.
+// The options for the shape of triangles.
 #pragma once
 
-#include <string>
-
 #include "scarp/shape.h"
-#include "scarp/simplify.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
-struct ShapeArguments {
-  Given min_angle, max_edge, grade, min_edge;
-
-  void add_to(CLI::App& command);
-  Result<ShapeGoals> parse() const;
-  /// The option that asks for shapes; null if there is none.
-  const char* find_goal() const;
-  /// The options for the canonical command.
-  std::string canonical() const;
-};
+Result<ShapeGoals> parse_shape(const GivenOptions& given);
+/// The first that was given; nothing if none was.
+std::optional<OptionId> find_shape(const GivenOptions& given);
 
 }  // namespace scarp::cli

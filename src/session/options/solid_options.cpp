@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "session/table/option_table.h"
 #include "session/text/paths.h"
 
 namespace scarp::cli {
 namespace {
+
+using enum OptionId;
 
 /// KEY=VALUE, or a word alone, whose value is empty.
 using Pair = std::pair<std::string, std::optional<std::string>>;
@@ -52,19 +53,19 @@ Result<Length> parse_length(const std::string& name, const std::string& text) {
   return length;
 }
 
-Result<void> refuse_key(const char* option, const std::string& key, const char* keys) {
+Result<void> refuse_key(OptionId option, const std::string& key, const char* keys) {
   return fail(ErrorKind::kUsage, fmt::format("{} has no key {}: choose {}", option, shell_word(key), keys));
 }
 
 Result<void> take_solid(const Pair& pair, PrintOptions& plan, std::vector<std::string>& warnings) {
   const auto& [key, value] = pair;
-  const std::string name = "--solid " + key;
+  const std::string name = fmt::format("{} {}", kSolid, key);
   if (key == "walls" && !value) return {};  // a solid always has them
   if (!value && parse_length(name, key))
     return fail(ErrorKind::kUsage,
-                fmt::format("--solid {} names no key: give size={}", shell_word(key), shell_word(key)));
+                fmt::format("{} {} names no key: give size={}", kSolid, shell_word(key), shell_word(key)));
   if (key != "base" && key != "thickness" && key != "size" && key != "exaggerate")
-    return refuse_key("--solid", key, "base, thickness, size, exaggerate or walls");
+    return refuse_key(kSolid, key, "base, thickness, size, exaggerate or walls");
   if (!value) return fail(ErrorKind::kUsage, fmt::format("{} needs a value: {}=VALUE", name, key));
   if (key == "base") {
     if (*value == "auto") return {};
@@ -107,52 +108,45 @@ Result<void> take_split(const Pair& pair, bool is_first, PrintOptions& plan, boo
   }
   if (is_first)
     return fail(ErrorKind::kUsage,
-                fmt::format("--split {} is no COLUMNSxROWS of print tiles, 1 to 100 each, such as 2x3",
+                fmt::format("{} {} is no COLUMNSxROWS of print tiles, 1 to 100 each, such as 2x3", kSplit,
                             shell_word(key + (value ? "=" + *value : ""))));
   if (key == "gap" && value) {
-    SCARP_TRY(const Length gap, parse_length("--split gap", *value));
+    SCARP_TRY(const Length gap, parse_length(fmt::format("{} gap", kSplit), *value));
     plan.gap = gap.value;
     is_gap_metric = gap.is_metric;
     return {};
   }
-  if (key != "joint" || !value) return refuse_key("--split", key, "joint or gap");
+  if (key != "joint" || !value) return refuse_key(kSplit, key, "joint or gap");
   constexpr Choice<bool> kJoints[] = {{"none", false}, {"dovetail", true}};
-  SCARP_TRY(plan.dovetail, choose("--split joint", *value, kJoints));
+  SCARP_TRY(plan.dovetail, choose(fmt::format("{} joint", kSplit), *value, kJoints));
   return {};
 }
 
 }  // namespace
 
-void SolidArguments::add_to(CLI::App& command) {
-  add_option(command, OptionId::kSolid, solid);
-  add_option(command, OptionId::kSplit, split);
-}
-
-Result<std::optional<PrintOptions>> SolidArguments::parse(std::vector<std::string>& warnings) const {
-  if (!solid) {
-    if (split)
-      return fail(ErrorKind::kUsage, "--split needs --solid: print tiles are solids, such as --solid size=120mm");
-    return std::optional<PrintOptions>();
-  }
+Result<std::optional<PrintOptions>> parse_solid(const GivenOptions& given, std::vector<std::string>& warnings) {
+  const Given &solid = given[kSolid], &split = given[kSplit];
+  if (!solid) return std::optional<PrintOptions>();
   PrintOptions plan;
   for (const Pair& pair : split_pairs(*solid)) {
     SCARP_RETURN_IF_ERROR(take_solid(pair, plan, warnings));
   }
   if (plan.base && (plan.thickness || plan.printed_thickness))
-    return fail(ErrorKind::kUsage, "--solid base cannot be combined with thickness; drop one of them");
+    return fail(ErrorKind::kUsage, fmt::format("{} base cannot be combined with thickness: drop one of them", kSolid));
   bool is_first = true, is_gap_metric = false;
   for (const Pair& pair : split ? split_pairs(*split) : std::vector<Pair>()) {
     SCARP_RETURN_IF_ERROR(take_split(pair, is_first, plan, is_gap_metric));
     is_first = false;
   }
   for (const auto& [name, is_metric] :
-       {std::pair{"--solid thickness", plan.printed_thickness.has_value()}, std::pair{"--split gap", is_gap_metric}}) {
+       {std::pair{fmt::format("{} thickness", kSolid), plan.printed_thickness.has_value()},
+        std::pair{fmt::format("{} gap", kSplit), is_gap_metric}}) {
     if (is_metric && !plan.size)
       return fail(ErrorKind::kUsage,
-                  fmt::format("{} in millimetres needs the size of the print: --solid size=120mm", name));
+                  fmt::format("{} in millimetres needs the size of the print: {} size=120mm", name, kSolid));
   }
   if ((plan.gap > 0 || plan.dovetail) && !plan.is_split())
-    return fail(ErrorKind::kUsage, "--split 1x1 has no neighbours: leave joint and gap out");
+    return fail(ErrorKind::kUsage, fmt::format("{} 1x1 has no neighbours: leave joint and gap out", kSplit));
   return std::optional(plan);
 }
 

@@ -5,22 +5,12 @@
 #include <string>
 
 #include "scarp/print.h"
-#include "session/options/values.h"
-
-namespace CLI {
-class App;
-}
+#include "session/options/given_options.h"
 
 namespace scarp::cli {
 
-struct SolidArguments {
-  Given solid, split;
-
-  void add_to(CLI::App& command);
-  /// Nothing without --solid.
-  Result<std::optional<PrintOptions>> parse(std::vector<std::string>& warnings) const;
-  std::string canonical() const { return canonical_option("--solid", solid) + canonical_option("--split", split); }
-};
+/// Nothing without --solid.
+Result<std::optional<PrintOptions>> parse_solid(const GivenOptions& given, std::vector<std::string>& warnings);
 
 /// "hills-r1-c2.stl": the file of a print tile.
 std::string tile_path(const std::string& output, int row, int column);

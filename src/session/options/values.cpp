@@ -75,18 +75,4 @@ Result<std::uint64_t> parse_count(std::string_view option, const std::string& te
   return value;
 }
 
-Result<int> parse_threads(const Given& text) {
-  if (!text) return 0;
-  SCARP_TRY(const std::uint64_t threads, parse_count("--num-threads", *text, 0));
-  if (threads > 1024) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("--num-threads {} is more than 1024: ask for fewer, or for 0, all cores", *text));
-  }
-  return static_cast<int>(threads);
-}
-
-std::string canonical_option(const char* name, const Given& text) {
-  return text ? fmt::format(" {} {}", name, shell_word(*text)) : "";
-}
-
 }  // namespace scarp::cli

@@ -29,9 +29,6 @@ Result<double> parse_non_negative(std::string_view option, const std::string& te
 
 /// A whole number that is at least `least`.
 Result<std::uint64_t> parse_count(std::string_view option, const std::string& text, std::uint64_t least);
-/// Threads: 0 (all cores, also if not given) to 1024.
-Result<int> parse_threads(const Given& text);
-
 /// A word that an option accepts, and its value.
 template <class T>
 struct Choice {
@@ -58,8 +55,5 @@ const char* name_of(T value, const Choice<T> (&choices)[N]) {
   }
   return "";
 }
-
-/// " --name value" if the option was given: a piece of a canonical command.
-std::string canonical_option(const char* name, const Given& text);
 
 }  // namespace scarp::cli

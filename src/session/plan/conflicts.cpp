@@ -1,109 +1,111 @@
 #include "session/plan/conflicts.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
+#include "session/options/line_options.h"
+#include "session/options/region_options.h"
+#include "session/options/shape_options.h"
+#include "session/options/strategy_options.h"
 #include "session/table/field_options.h"
 
 namespace scarp::cli {
 namespace {
 
-/// The settings that the options show; whether a script inserts or ignores samples stands in its file.
-Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  Fields fields = fields_of(HeightField(), plan.simplify);
-  const bool is_split = plan.solid && plan.solid->is_split();
-  const std::pair<Field, bool> others[] = {
-      {Field::kMaxError, given.max_error.has_value()},
-      {Field::kMask, given.companions.mask.has_value()},
-      {Field::kTolerance, given.companions.find_tolerance() != nullptr},
-      {Field::kBreaklines, plan.find_lines() != nullptr || given.cliff.height || given.ridges.height || is_split},
-      {Field::kWalls, given.cliff.height.has_value()},
-      {Field::kRidges, given.ridges.height.has_value()},
-      {Field::kCutline, given.cut.find_cut() != nullptr},
-      {Field::kStrategy, plan.by_paper},
-      {Field::kLevels, given.levels.lods.has_value()},
-      {Field::kSpaceFrame, is_in_space(plan.read.crs)},
-      {Field::kChannels, plan.channels.has_channels()}};
-  for (const auto& [field, is_given] : others) {
-    if (is_given) fields.add(field);
-  }
-  return fields;
-}
+using enum OptionId;
 
-/// The option that gave the setting.
-std::string option_of(Field field, const SimplifyArguments& given) {
-  const char* option = nullptr;
-  if (field == Field::kTolerance || field == Field::kToleranceSource) option = given.companions.find_tolerance();
-  if (field == Field::kBreaklines) {
-    option = given.lines.find_lines();
-    if (option == nullptr) option = given.zones.find_lines();
-    if (option == nullptr) option = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : "--split";
-  }
-  if (field == Field::kBorder && given.levels.lods) option = "--lods";
-  if (field == Field::kStrategy) option = given.strategy.find_strategy();
-  if (field == Field::kChannels && given.channels.image) option = "--image";
-  if (field == Field::kShape) option = given.shape.find_goal();
-  if ((field == Field::kCurvedFrame || field == Field::kSpaceFrame) && given.raster.crs)
-    return "--crs " + shell_word(*given.raster.crs);
-  if (option == nullptr) option = cli::option_of(field);
-  return option != nullptr ? option : std::string(name_of(field));
-}
-
-Result<void> refuse_first(const SimplifyArguments& given, const std::vector<Conflict>& conflicts) {
-  if (conflicts.empty()) return {};
-  const Conflict& first = conflicts.front();
-  const bool is_cut = first.one == Field::kCutline;
-  return fail(ErrorKind::kUsage, describe(first, [&](Field field) { return option_of(field, given); }) +
-                                     (is_cut ? "; --mask-outside cuts at cells of the grid instead" : ""));
-}
-
-Fields fields_given(const TileArguments& given, std::optional<GridKind> grid, std::optional<TileFormat> format) {
+Fields to_fields(std::initializer_list<std::pair<Field, bool>> settings) {
   Fields fields;
-  const std::pair<Field, bool> all[] = {{Field::kTileMercator, grid == GridKind::kMercator},
-                                        {Field::kTileLocal, grid == GridKind::kLocal},
-                                        {Field::kTileQuantizedMesh, format == TileFormat::kQuantizedMesh},
-                                        {Field::kTileGlb, format == TileFormat::kGlb},
-                                        {Field::kTileLakes, !given.water.empty()},
-                                        {Field::kTileRivers, !given.rivers.empty()},
-                                        {Field::kTileWaterMask, given.has_water_mask},
-                                        {Field::kTileLines, !given.breaklines.empty()},
-                                        {Field::kTileDrape, given.drape.has_value()},
-                                        {Field::kTileOnly, given.only.has_value()},
-                                        {Field::kTileGeoid, given.geoid.has_value()},
-                                        {Field::kTileVertical, given.vertical.has_value()}};
-  for (const auto& [field, is_given] : all) {
+  for (const auto& [field, is_given] : settings) {
     if (is_given) fields.add(field);
   }
   return fields;
+}
+
+/// The settings that the options show; whether a script inserts or ignores samples stands in its file.
+Fields fields_given(const GivenOptions& given, const SimplifyPlan& plan) {
+  const bool is_split = plan.solid && plan.solid->is_split();
+  return fields_of(HeightField(), plan.simplify) |
+         to_fields({{Field::kMaxError, given.has(kMaxError)},
+                    {Field::kMask, given.has(kMask)},
+                    {Field::kTolerance, find_tolerance(given).has_value()},
+                    {Field::kBreaklines, find_lines(given) || given.first_of({kCliff, kRidges}) || is_split},
+                    {Field::kWalls, given.has(kCliff)},
+                    {Field::kRidges, given.has(kRidges)},
+                    {Field::kCutline, find_cut(given).has_value()},
+                    {Field::kStrategy, plan.by_paper},
+                    {Field::kLevels, given.has(kLods)},
+                    {Field::kSpaceFrame, is_in_space(plan.read.crs)},
+                    {Field::kChannels, plan.channels.has_channels()}});
+}
+
+Fields fields_given(const GivenOptions& given, std::optional<GridKind> grid, std::optional<TileFormat> format) {
+  return to_fields({{Field::kTileMercator, grid == GridKind::kMercator},
+                    {Field::kTileLocal, grid == GridKind::kLocal},
+                    {Field::kTileQuantizedMesh, format == TileFormat::kQuantizedMesh},
+                    {Field::kTileGlb, format == TileFormat::kGlb},
+                    {Field::kTileLakes, given.has(kWater)},
+                    {Field::kTileRivers, given.has(kRivers)},
+                    {Field::kTileWaterMask, given.has(kWaterMask)},
+                    {Field::kTileLines, given.has(kBreaklines)},
+                    {Field::kTileDrape, given.has(kDrape)},
+                    {Field::kTileOnly, given.has(kOnly)},
+                    {Field::kTileGeoid, given.has(kGeoid)},
+                    {Field::kTileVertical, given.has(kVertical)}});
+}
+
+/// The options that can have given the setting, where it is not the one of the table.
+std::optional<OptionId> find_option_of(Field field, const GivenOptions& given) {
+  if (field == Field::kTolerance || field == Field::kToleranceSource) return find_tolerance(given);
+  if (field == Field::kBreaklines) {
+    const auto lines = find_lines(given);
+    return lines ? lines : given.first_of({kCliff, kRidges, kSplit});
+  }
+  if (field == Field::kBorder) return given.first_of({kLods});
+  if (field == Field::kChannels) return given.first_of({kImage});
+  return field == Field::kShape ? find_shape(given) : std::nullopt;
 }
 
 /// The option that gave the setting, or what the raster and the defaults made of it.
-std::string option_of(Field field, const TileArguments& given) {
-  if (field == Field::kTileLocal && !given.grid) return "a local grid";
-  if (field == Field::kTileQuantizedMesh && !given.format) return "--of qm, the default";
-  return cli::option_of(field);
+std::string option_of(Field field, const GivenOptions& given) {
+  if (field == Field::kTileLocal && !given.has(kGrid)) return "a local grid";
+  if (field == Field::kTileQuantizedMesh && !given.has(kOf)) return fmt::format("{} qm, the default", kOf);
+  if (const auto option = find_option_of(field, given)) return name_of(*option);
+  if (field == Field::kStrategy && !find_strategy(given).empty()) return find_strategy(given);
+  if ((field == Field::kCurvedFrame || field == Field::kSpaceFrame) && given.has(kCrs))
+    return fmt::format("{} {}", kCrs, shell_word(*given[kCrs]));
+  const OptionTerm option = cli::option_of(field);
+  return option.id != kNone ? name_of(option) : std::string(scarp::name_of(field));
+}
+
+Result<void> refuse_first(const GivenOptions& given, const std::vector<Conflict>& conflicts) {
+  if (conflicts.empty()) return {};
+  const Conflict& first = conflicts.front();
+  std::string sentence = describe(first, [&](Field field) { return option_of(field, given); });
+  if (first.one == Field::kCutline) sentence += fmt::format("; {} cuts at cells of the grid instead", kMaskOutside);
+  return fail(ErrorKind::kUsage, std::move(sentence));
 }
 
 }  // namespace
 
-Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan& plan) {
+Result<void> check_conflicts(const GivenOptions& given, const SimplifyPlan& plan) {
   return refuse_first(given, find_conflicts(fields_given(given, plan)));
 }
 
-Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options) {
+Result<void> check_conflicts(const GivenOptions& given, const HeightField& field, const SimplifyOptions& options) {
   return refuse_first(given, find_conflicts(field, options));
 }
 
-Result<void> check_conflicts(const TileArguments& given, std::optional<GridKind> grid,
+Result<void> check_conflicts(const GivenOptions& given, std::optional<GridKind> grid,
                              std::optional<TileFormat> format) {
-  const std::vector<Conflict> conflicts = find_conflicts(fields_given(given, grid, format));
-  if (conflicts.empty()) return {};
-  return fail(ErrorKind::kUsage, describe(conflicts.front(), [&](Field field) { return option_of(field, given); }));
+  return refuse_first(given, find_conflicts(fields_given(given, grid, format)));
 }
 
-std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan) {
+std::optional<std::string> find_unstreamed(const GivenOptions& given, const SimplifyPlan& plan) {
   Fields fields = fields_given(given, plan) | Fields(Field::kSource);
-  if (given.companions.script) fields.add(Field::kIgnored);
+  if (given.has(kScript)) fields.add(Field::kIgnored);
   // Tolerances and weights are read in windows then.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kTolerance) | Fields(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMask) | Fields(Field::kMaskSource);

@@ -5,25 +5,24 @@
 #include <string>
 
 #include "scarp/conflicts.h"
-#include "session/options/simplify_options.h"
 #include "session/options/tile_options.h"
 #include "session/plan/simplify_plan.h"
 
 namespace scarp::cli {
 
 /// Refuses options that conflict, as far as that is known before a file is read.
-Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan& plan);
+Result<void> check_conflicts(const GivenOptions& given, const SimplifyPlan& plan);
 
 /// The same of all that simplify() would refuse, once the files are read.
-Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options);
+Result<void> check_conflicts(const GivenOptions& given, const HeightField& field, const SimplifyOptions& options);
 
 /// The same of tiles. Without a grid or a format, which then depend on the raster, it checks what is known without
 /// them.
-Result<void> check_conflicts(const TileArguments& given, std::optional<GridKind> grid,
+Result<void> check_conflicts(const GivenOptions& given, std::optional<GridKind> grid,
                              std::optional<TileFormat> format);
 
 /// The first of the library's settings that does not go with streamed samples, as the options that gave it; nothing if
 /// there is none.
-std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan);
+std::optional<std::string> find_unstreamed(const GivenOptions& given, const SimplifyPlan& plan);
 
 }  // namespace scarp::cli

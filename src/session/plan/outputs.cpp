@@ -81,7 +81,7 @@ Result<void> check_output(const PlannedOutput& output, bool overwrite) {
   }
   if (is_device(status)) return {};
   if (fs::exists(status) && !overwrite) {
-    return fail(ErrorKind::kOutput, fmt::format("{} exists already: --overwrite replaces it", output.path));
+    return fail(ErrorKind::kOutput, fmt::format("{} exists already: {} replaces it", output.path, OptionId::kOverwrite));
   }
   if (fs::exists(status) && access(output.path.c_str(), W_OK) != 0) {
     return fail(ErrorKind::kOutput, fmt::format("{} cannot be replaced: {}", output.path, std::strerror(errno)));
@@ -143,17 +143,14 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
   return {};
 }
 
-Result<void> check_png_name(const PlannedOutput& output) {
-  if (names_device(output.path) || lower_extension(output.path) == ".png") return {};
+Result<void> check_ending(const OptionRow& row, const PlannedOutput& output) {
+  const std::vector<std::string> endings = row.list_choices();
+  const bool is_image = endings.front() == ".png" || endings.front() == ".tif";
+  if (!is_image || names_device(output.path) || std::ranges::count(endings, lower_extension(output.path)) > 0)
+    return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("{} {} does not end in .png, the only picture format", output.option, output.path));
-}
-
-Result<void> check_tiff_name(const PlannedOutput& output) {
-  const std::string extension = lower_extension(output.path);
-  if (names_device(output.path) || extension == ".tif" || extension == ".tiff") return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} {} does not end in .tif: it is written as GeoTIFF", output.option, output.path));
+              fmt::format("{} {} does not end in {}: it is written as {}", output.option, output.path, endings.front(),
+                          endings.front() == ".png" ? "PNG" : "GeoTIFF"));
 }
 
 }  // namespace scarp::cli

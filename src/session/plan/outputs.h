@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scarp/result.h"
+#include "session/table/option_table.h"
 
 namespace scarp::cli {
 
@@ -18,9 +19,7 @@ struct PlannedOutput {
 /// nothing is replaced without `overwrite`, none is an input or another output.
 Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
                            bool overwrite);
-/// Fails unless the path ends in .png or is a device.
-Result<void> check_png_name(const PlannedOutput& output);
-/// Fails unless the path ends in .tif or .tiff or is a device.
-Result<void> check_tiff_name(const PlannedOutput& output);
+/// Fails for a picture or a raster whose name does not end as its row names, and is no device.
+Result<void> check_ending(const OptionRow& row, const PlannedOutput& output);
 
 }  // namespace scarp::cli

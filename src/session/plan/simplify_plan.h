@@ -8,16 +8,14 @@
 
 #include "scarp/simplify.h"
 #include "session/options/channel_options.h"
-#include "session/options/cliff_options.h"
-#include "session/options/companion_options.h"
-#include "session/options/cutline_options.h"
 #include "session/options/error_goal.h"
+#include "session/options/given_options.h"
 #include "session/options/image_options.h"
+#include "session/options/level_options.h"
 #include "session/options/line_options.h"
 #include "session/options/output_kind.h"
-#include "session/options/ridge_options.h"
-#include "session/options/simplify_options.h"
-#include "session/options/zone_options.h"
+#include "session/options/region_options.h"
+#include "session/options/solid_options.h"
 #include "session/plan/outputs.h"
 
 namespace scarp::cli {
@@ -25,22 +23,16 @@ namespace scarp::cli {
 enum class NodataPolicy { kHole, kFill, kBackground };
 
 struct SimplifyPlan {
+  GivenOptions given{kSimplify};
   std::string input, output;
-  std::vector<std::string> files_read;  ///< by any option
   std::vector<PlannedOutput> outputs;
   OutputFormat format;
   ReadOptions read;
   std::optional<ErrorGoal> error_goal;
-  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
+  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what files hold
   Strategy strategy;
   bool by_paper = false;        ///< by simplify_by_paper(), with the strategy
   std::string strategy_option;  ///< option that asks for it
-  CompanionArguments companions;
-  LineArguments lines;
-  CliffArguments cliff;
-  RidgeArguments ridges;
-  CutlineArguments cut;
-  ZoneArguments zones;
   ChannelPlan channels;
   ImagePlan images;
   NodataPolicy policy = NodataPolicy::kHole;
@@ -59,15 +51,14 @@ struct SimplifyPlan {
   std::optional<std::uint64_t> memory;       ///< bytes that the process may use
   std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
   std::vector<std::string> warnings;
-  std::string canonical_command;  ///< see SimplifyArguments::canonical()
+  std::string canonical_command;  ///< see GivenOptions::canonical()
 
   /// True if each level has a file of its own; else OUTPUT holds them all.
   bool has_file_per_level() const { return levels && !levels_in_one; }
-  /// The option that puts lines of a file into the mesh; null if there is none.
-  const char* find_lines() const { return lines.find_lines() != nullptr ? lines.find_lines() : zones.find_lines(); }
   bool has_file_per_tile() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 
-Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<std::string> files_read);
+/// `files_read`: those that no output may replace.
+Result<SimplifyPlan> plan_simplify(const GivenOptions& given, const std::vector<std::string>& files_read);
 
 }  // namespace scarp::cli

@@ -12,6 +12,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 /// Missing samples in land far from the background's height.
 std::vector<std::string> warn_of_walls(const GlobeRaster& raster, const PyramidPlan& plan) {
   const VoidCount voids = raster.voids();
@@ -19,9 +21,10 @@ std::vector<std::string> warn_of_walls(const GlobeRaster& raster, const PyramidP
   constexpr double kHigh = 10;  // times the max error
   if (voids.left == 0 || !(wall > kHigh * plan.levels.back().max_error)) return {};
   return {fmt::format(
-      "{} at the raster's edge or in voids of more than {} samples a side get the height {} (--background), "
-      "up to {} m from the land around them, which makes walls: --nodata-policy fill interpolates them",
-      format_plural(voids.left, "missing sample"), kVoidSide, format_number(background), format_number(wall))};
+      "{} at the raster's edge or in voids of more than {} samples a side get the height {} ({}), "
+      "up to {} m from the land around them, which makes walls: {} fill interpolates them",
+      format_plural(voids.left, "missing sample"), kVoidSide, format_number(background), kBackground,
+      format_number(wall), kNodataPolicy)};
 }
 
 void add_plane(const GlobeRaster& raster, LayerFacts& facts) {
@@ -31,9 +34,9 @@ void add_plane(const GlobeRaster& raster, LayerFacts& facts) {
 }
 
 /// The format of tiles of a grid, or of one that is not known yet. Fails with kUsage where options do not go together.
-Result<TileFormat> choose_format(const TileArguments& given, std::optional<GridKind> grid_of_tiles) {
-  SCARP_TRY(const TileFormat kept, given.parse_format(grid_of_tiles));
-  const bool is_known = given.format || grid_of_tiles;
+Result<TileFormat> choose_format(const GivenOptions& given, std::optional<GridKind> grid_of_tiles) {
+  SCARP_TRY(const TileFormat kept, parse_tile_format(given, grid_of_tiles));
+  const bool is_known = given.has(kOf) || grid_of_tiles;
   SCARP_RETURN_IF_ERROR(check_conflicts(given, grid_of_tiles, is_known ? std::optional(kept) : std::nullopt));
   return kept;
 }
@@ -50,46 +53,46 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
   return OpenedJob{std::move(raster), std::move(job)};
 }
 
-Result<OpenedJob> open_tiles(const TileArguments& given, const ProgressCallback& progress, std::uint64_t memory) {
-  SCARP_TRY(PyramidSettings settings, given.parse_settings());
-  SCARP_TRY(const Datum datum, given.parse_datum());
-  SCARP_TRY(ReadOptions options, given.parse_reading());
-  SCARP_TRY(const WaterFiles waters, given.parse_waters());
-  SCARP_TRY(const std::optional<GridKind> kind, given.parse_kind());
+Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& progress, std::uint64_t memory) {
+  SCARP_TRY(PyramidSettings settings, parse_tile_settings(given));
+  SCARP_TRY(const Datum datum, parse_datum(given));
+  SCARP_TRY(ReadOptions options, parse_tile_reading(given));
+  SCARP_TRY(const WaterFiles waters, parse_waters(given));
+  SCARP_TRY(const std::optional<GridKind> kind, parse_grid(given));
   // checks what the options alone show; without --grid the rest depends on the raster
   SCARP_RETURN_IF_ERROR(choose_format(given, kind));
-  SCARP_TRY(auto image, given.parse_drape());
+  SCARP_TRY(auto image, parse_tile_drape(given));
   OpenedJob opened;
   TileJob& job = opened.job;
   job.drape = std::move(image);
   job.reading = options;
   job.datum = datum;
-  if (given.geoid) job.geoid = stamp_of(*given.geoid);
+  if (given[kGeoid]) job.geoid = stamp_of(*given[kGeoid]);
   options.with_range = true;
   options.run.progress = progress;
   options.run.memory.limit = memory;
-  const std::vector<std::vector<std::string>> mosaics = find_mosaics(given.raster.paths);
+  const std::vector<std::vector<std::string>> mosaics = find_mosaics(given.inputs());
   auto globe = GlobeRaster::open(mosaics, options, datum, kind);
-  if (!globe) return tl::unexpected(given.raster.explain(globe.error()));
+  if (!globe) return tl::unexpected(explain_reading(given, globe.error()));
   opened.raster = std::move(*globe);
   if (settings.binds_samples && opened.raster->grid(settings.cells).is_flat()) {  // nodes are samples
     settings.binds_samples = false;
-    if (!given.cells) settings.cells = PyramidSettings{}.cells;
+    if (!given[kCells]) settings.cells = PyramidSettings{}.cells;
   }
   settings.grid = opened.raster->grid(settings.cells);
   SCARP_TRY(const TileFormat kept, choose_format(given, settings.grid.kind));
   job.format = kept;
   settings.has_siblings = kept == TileFormat::kGlb;
   // Nodata of a plane that lies anywhere is no sea.
-  if (settings.grid.is_flat() && !given.background) settings.background = static_cast<float>(opened.raster->info().min);
+  if (settings.grid.is_flat() && !given[kBackground]) settings.background = static_cast<float>(opened.raster->info().min);
   settings.ellipsoid = opened.raster->place().ellipsoid;
   if (settings.binds_samples && !opened.raster->nodes().has_samples())
     return fail(ErrorKind::kUsage,
-                "--bound samples is for one raster or mosaic: of several nobody knows which samples are to be seen");
-  if (!given.breaklines.empty() && !opened.raster->place().body.empty())
+                fmt::format("{} samples is for one raster or mosaic: of several the visible samples are not known", kBound));
+  if (!given.all(kBreaklines).empty() && !opened.raster->place().body.empty())
     return fail(ErrorKind::kUsage,
-                "--breaklines is for tiles of the earth: nobody says on which other ellipsoid the lines lie");
-  for (const std::string& file : given.breaklines) {
+                fmt::format("{} is for tiles of the earth: the ellipsoid of the lines is not known elsewhere", kBreaklines));
+  for (const std::string& file : given.all(kBreaklines)) {
     SCARP_TRY(const auto lines, read_lines(file, {.crs = "EPSG:4326", .ignore_z = true}));
     for (const Line& line : lines.lines) {
       settings.lines.emplace_back();
@@ -105,27 +108,27 @@ Result<OpenedJob> open_tiles(const TileArguments& given, const ProgressCallback&
   }
   stamp_rasters(job, paths);
   job.waters = waters;
-  job.plan.has_water_mask = given.has_water_mask;
+  job.plan.has_water_mask = given.has(kWaterMask);
   SCARP_RETURN_IF_ERROR(find_waters(job, *opened.raster));
   for (std::string& one : warn_of_walls(*opened.raster, job.plan)) opened.warnings.push_back(std::move(one));
   job.filled = opened.raster->voids().filled;
-  if (!given.geoid && given.vertical != Given("auto")) job.facts.vertical = vertical_word(given.vertical.value_or(""));
+  if (!given[kGeoid] && given[kVertical] != Given("auto")) job.facts.vertical = vertical_word(given[kVertical].value_or(""));
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
   add_plane(*opened.raster, job.facts);
-  job.facts.name = base_name(given.raster.path());
+  job.facts.name = base_name(given.input());
   job.facts.description = fmt::format("heights above {}", job.facts.heights_above);
   return opened;
 }
 
-Result<OpenedJob> follow_tiles(const TileArguments& given, const TileJob& earlier, const ProgressCallback& progress) {
+Result<OpenedJob> follow_tiles(const GivenOptions& given, const TileJob& earlier, const ProgressCallback& progress) {
   ReadOptions options = earlier.reading;
   TileJob now;
   options.with_range = true;
   options.run.progress = progress;
-  const std::vector<std::vector<std::string>> mosaics = find_mosaics(given.raster.paths);
+  const std::vector<std::vector<std::string>> mosaics = find_mosaics(given.inputs());
   auto globe = GlobeRaster::open(mosaics, options, earlier.datum, earlier.plan.grid.kind);
-  if (!globe) return tl::unexpected(given.raster.explain(globe.error()));
+  if (!globe) return tl::unexpected(explain_reading(given, globe.error()));
   OpenedJob opened;
   opened.raster = std::move(*globe);
   PyramidSettings settings;
@@ -139,7 +142,7 @@ Result<OpenedJob> follow_tiles(const TileArguments& given, const TileJob& earlie
     return fail(ErrorKind::kUsage,
                 fmt::format("{} has other rows, columns or cells than the raster of the earlier plan, "
                             "whose grid is local: make the set anew",
-                            given.raster.path()));
+                            given.input()));
   SCARP_TRY(now.plan, plan_pyramid(opened.raster->facts(), settings));
   std::vector<std::string> paths;
   for (const std::vector<std::string>& mosaic : mosaics) {
@@ -156,7 +159,7 @@ Result<OpenedJob> follow_tiles(const TileArguments& given, const TileJob& earlie
   now.facts.heights_above = opened.raster->heights_above();
   now.facts.body = opened.raster->place().body;
   add_plane(*opened.raster, now.facts);
-  now.facts.name = base_name(given.raster.path());
+  now.facts.name = base_name(given.input());
   now.facts.description = fmt::format("heights above {}", now.facts.heights_above);
   SCARP_TRY(opened.job, follow_job(earlier, std::move(now)));
   return opened;

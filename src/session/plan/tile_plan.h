@@ -22,8 +22,8 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 
 /// The rasters and settings that the options name, opened and planned. `memory`: bytes for the raster, 0 for any. Fails
 /// as the options, GlobeRaster::open() and plan_pyramid() do.
-Result<OpenedJob> open_tiles(const TileArguments& given, const ProgressCallback& progress, std::uint64_t memory = 0);
+Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& progress, std::uint64_t memory = 0);
 /// Rasters that follow those of an earlier plan, with its settings. Fails as follow_job() and open_tiles() do.
-Result<OpenedJob> follow_tiles(const TileArguments& given, const TileJob& earlier, const ProgressCallback& progress);
+Result<OpenedJob> follow_tiles(const GivenOptions& given, const TileJob& earlier, const ProgressCallback& progress);
 
 }  // namespace scarp::cli

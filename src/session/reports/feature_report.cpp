@@ -15,6 +15,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 double largest_edit(const std::vector<SampleEdit>& edits) {
   double largest = 0;
   for (const SampleEdit& edit : edits) largest = std::max(largest, std::abs(double{edit.after} - double{edit.before}));
@@ -46,10 +48,10 @@ std::string rivers_line(const std::vector<River>& rivers) {
 
 }  // namespace
 
-Json describe_lines(const LineArguments& given, const Simplified& simplified) {
-  if (given.breaklines.empty()) return nullptr;
+Json describe_lines(const GivenOptions& given, const Simplified& simplified) {
+  if (given.all(kBreaklines).empty()) return nullptr;
   const FarthestLine& farthest = simplified.farthest_line;
-  return Json{{"files", given.breaklines},
+  return Json{{"files", given.all(kBreaklines)},
               {"lines", simplified.features.given_lines()},
               {"laid", simplified.lines_inserted},
               {"edited_samples", simplified.edits.size()},
@@ -78,26 +80,25 @@ void warn_of_far_lines(const Simplified& simplified, double error, std::vector<s
   // Zeros seldom are heights, so that they need not lie far from the raster.
   if (line.distance > (line.is_at_zero ? 1 : kMostErrors) * error) {
     warnings.push_back(fmt::format(
-        "--breaklines: {} lies up to {} from the raster{}: {}--soft-breaklines takes the "
-        "heights of lines from the raster",
-        line.name, format_number(line.distance), line.is_at_zero ? ", and all its heights are 0" : "",
-        line.is_at_zero ? "--breakline-z names an attribute with heights, and " : "if its heights are wrong, "));
+        "{}: {} lies up to {} from the raster{}: {}{} gives lines the heights of the raster", kBreaklines, line.name, format_number(line.distance), line.is_at_zero ? ", and all its heights are 0" : "",
+        line.is_at_zero ? fmt::format("{} names an attribute with heights, and ", kBreaklineZ)
+                        : "if its heights are wrong, ",
+        kSoftBreaklines));
   }
   const std::vector<River>& rivers = simplified.features.rivers;
   const auto deepest = std::max_element(rivers.begin(), rivers.end(),
                                         [](const River& a, const River& b) { return a.deepest_cut < b.deepest_cut; });
   if (deepest != rivers.end() && deepest->deepest_cut > kMostErrors * error) {
     warnings.push_back(
-        fmt::format("--rivers: {} runs up to {} below the raster, for it crosses higher ground: draw it "
-                    "along the valley, or give its file to --breaklines, with --soft-breaklines, which "
-                    "cuts nothing",
-                    deepest->name, format_number(deepest->deepest_cut)));
+        fmt::format("{}: {} runs up to {} below the raster, for it crosses higher ground: draw it along the valley, or "
+                    "give its file to {}, with {}, which cuts nothing",
+                    kRivers, deepest->name, format_number(deepest->deepest_cut), kBreaklines, kSoftBreaklines));
   }
 }
 
 void warn_of_dry_lines(const Features& features, const std::vector<River>& rivers, std::vector<std::string>& warnings) {
   if (rivers.size() == features.rivers.size()) return;
-  warnings.push_back(fmt::format("--rivers: {} beside the raster or closed: no river",
+  warnings.push_back(fmt::format("{}: {} outside the raster or closed: no river", kRivers,
                                  format_plural(features.rivers.size() - rivers.size(), "line")));
 }
 
@@ -127,9 +128,9 @@ std::string waters_lines(const std::vector<Lake>& lakes, const std::vector<River
   return lakes_line(lakes) + rivers_line(rivers);
 }
 
-Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs) {
+Json describe_cliffs(const GivenOptions& given, const std::optional<Cliffs>& cliffs) {
   if (!cliffs) return nullptr;
-  return Json{{"height", *parse_non_negative("--cliff", *given.height)},
+  return Json{{"height", **given.number(kCliff)},
               {"walls", cliffs->wall_count},
               {"lines", cliffs->lines.size()},
               {"line_vertices", cliffs->vertices}};
@@ -142,18 +143,18 @@ std::string cliffs_line(const std::optional<Cliffs>& cliffs) {
                                   cliffs->vertices == 1 ? "1 vertex" : format_count(cliffs->vertices) + " vertices"));
 }
 
-void warn_of_missing_walls(const CliffArguments& given, const std::optional<Cliffs>& cliffs,
+void warn_of_missing_walls(const GivenOptions& given, const std::optional<Cliffs>& cliffs,
                            std::vector<std::string>& warnings) {
   if (!cliffs || cliffs->wall_count > 0) return;
   warnings.push_back(fmt::format(
-      "--cliff {}: no wall was found; give the least height of one, the difference of two neighbouring samples",
-      *given.height));
+      "{} {}: no wall was found; give the least height of one, the difference of two neighbouring samples", kCliff,
+      *given[kCliff]));
 }
 
-Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges) {
+Json describe_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges) {
   if (!ridges) return nullptr;
-  return Json{{"height", *parse_non_negative("--ridges", *given.height)},
-              {"kept", given.are_kept},
+  return Json{{"height", **given.number(kRidges)},
+              {"kept", given.has(kKeepRidges)},
               {"ridges", ridges->ridges.size()},
               {"valleys", ridges->valleys.size()},
               {"line_vertices", ridges->vertices}};
@@ -166,21 +167,21 @@ std::string ridges_line(const std::optional<Ridges>& ridges) {
                                   format_plural(ridges->valleys.size(), "valley"), format_count(ridges->vertices)));
 }
 
-void warn_of_missing_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges,
+void warn_of_missing_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges,
                             std::vector<std::string>& warnings) {
   if (!ridges || !ridges->ridges.empty() || !ridges->valleys.empty()) return;
   warnings.push_back(
-      fmt::format("--ridges {}: no ridge or valley was found; give how far the land falls or rises from one on both "
+      fmt::format("{} {}: no ridge or valley was found; give how far the land falls or rises from one on both "
                   "sides, at least",
-                  *given.height));
+                  kRidges, *given[kRidges]));
 }
 
-Json describe_cut(const CutlineArguments& given, const Cut& cut, std::uint64_t outside) {
-  if (given.files.empty()) return nullptr;
-  return Json{{"files", given.files},
+Json describe_cut(const GivenOptions& given, const Cut& cut, std::uint64_t outside) {
+  if (!given.has(kCutline)) return nullptr;
+  return Json{{"files", given.all(kCutline)},
               {"polygons", cut.polygons},
-              {"inset", or_null(given.inset)},
-              {"mask_outside", given.mask_outside},
+              {"inset", or_null(given[kInset])},
+              {"mask_outside", given.has(kMaskOutside)},
               {"samples_outside", cut.masked + outside}};
 }
 
@@ -189,32 +190,32 @@ std::string cut_words(const Cut& cut, std::uint64_t outside) {
                      format_plural(cut.masked + outside, "sample"));
 }
 
-void add_zones(Json& report, const ZoneArguments& given, const MeshZones& zones) {
+void add_zones(Json& report, const GivenOptions& given, const MeshZones& zones) {
   report["materials"] = report["node_strings"] = nullptr;
-  if (given.materials) {
+  if (given.has(kMaterials)) {
     std::map<std::uint32_t, std::uint64_t> counts;
     for (const std::uint32_t material : zones.materials) ++counts[material];
     report["materials"] = Json::array();
     for (const auto& [material, count] : counts)
       report["materials"].push_back({{"material", material}, {"triangles", count}});
   }
-  if (given.strings.empty()) return;
+  if (!given.has(kNodeStrings)) return;
   report["node_strings"] = Json::array();
   for (std::size_t k = 0; k < zones.node_strings.size(); ++k)
     report["node_strings"].push_back(
         {{"number", k + 1}, {"name", zones.node_strings[k].name}, {"nodes", zones.node_strings[k].nodes.size()}});
 }
 
-std::string zones_lines(const ZoneArguments& given, const MeshZones& zones) {
+std::string zones_lines(const GivenOptions& given, const MeshZones& zones) {
   std::string text;
-  if (given.materials) {
+  if (given.has(kMaterials)) {
     std::map<std::uint32_t, std::uint64_t> counts;
     for (const std::uint32_t material : zones.materials) ++counts[material];
     const auto elsewhere = counts.contains(kElsewhere) ? counts[kElsewhere] : 0;
     text += summary_line("materials", fmt::format("{}; {} of material {}", format_plural(counts.size(), "number"),
                                                   format_plural(elsewhere, "triangle"), kElsewhere));
   }
-  if (!given.strings.empty()) {
+  if (given.has(kNodeStrings)) {
     std::size_t nodes = 0;
     for (const NodeString& string : zones.node_strings) nodes += string.nodes.size();
     text += summary_line(

@@ -10,17 +10,13 @@
 #include "scarp/simplify.h"
 #include "scarp/zones.h"
 #include "session/inputs/cutline.h"
-#include "session/options/cliff_options.h"
-#include "session/options/cutline_options.h"
-#include "session/options/line_options.h"
-#include "session/options/ridge_options.h"
-#include "session/options/zone_options.h"
+#include "session/options/given_options.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {
 
 /// The "breaklines" object of a report; null without lines.
-Json describe_lines(const LineArguments& given, const Simplified& simplified);
+Json describe_lines(const GivenOptions& given, const Simplified& simplified);
 /// Line of the summary; empty without lines.
 std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits);
 /// Sentences for breaklines and rivers that lie farther from the raster than any error explains: ten times `error`.
@@ -35,30 +31,30 @@ Json describe_rivers(const std::vector<River>& rivers);
 std::string waters_lines(const std::vector<Lake>& lakes, const std::vector<River>& rivers);
 
 /// The "cliffs" object of a report; null without --cliff.
-Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs);
+Json describe_cliffs(const GivenOptions& given, const std::optional<Cliffs>& cliffs);
 /// Line of the summary; empty without --cliff.
 std::string cliffs_line(const std::optional<Cliffs>& cliffs);
 /// Warns where walls were asked for and none was found.
-void warn_of_missing_walls(const CliffArguments& given, const std::optional<Cliffs>& cliffs,
+void warn_of_missing_walls(const GivenOptions& given, const std::optional<Cliffs>& cliffs,
                            std::vector<std::string>& warnings);
 
 /// The "ridges" object of a report; null without --ridges.
-Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges);
+Json describe_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges);
 /// Line of the summary; empty without --ridges.
 std::string ridges_line(const std::optional<Ridges>& ridges);
 /// Warns where ridges were asked for and none was found.
-void warn_of_missing_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges,
+void warn_of_missing_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges,
                             std::vector<std::string>& warnings);
 
 /// The "cutline" object of a report; null without. `outside`: samples that were cut off, besides those that are nodata
 /// now.
-Json describe_cut(const CutlineArguments& given, const Cut& cut, std::uint64_t outside);
+Json describe_cut(const GivenOptions& given, const Cut& cut, std::uint64_t outside);
 /// "2 polygons, 1,234 samples outside left out".
 std::string cut_words(const Cut& cut, std::uint64_t outside);
 
 /// For a report: "materials" and "node_strings", null where they were not asked for.
-void add_zones(Json& report, const ZoneArguments& given, const MeshZones& zones);
+void add_zones(Json& report, const GivenOptions& given, const MeshZones& zones);
 /// Lines of the summary.
-std::string zones_lines(const ZoneArguments& given, const MeshZones& zones);
+std::string zones_lines(const GivenOptions& given, const MeshZones& zones);
 
 }  // namespace scarp::cli

@@ -127,7 +127,7 @@ void decide(Judged& judged) {
                                       bounds_heights ? *judged.fail_above : HUGE_VAL, bounded.heights);
 }
 
-Json make_report(const Judged& judged, const std::string& mesh_path, const CutlineArguments& cutline,
+Json make_report(const Judged& judged, const std::string& mesh_path, const GivenOptions& cutline,
                  const std::string& command_line) {
   Json report;
   report["scarp"] = version();

@@ -12,8 +12,8 @@
 #include "session/inputs/companions.h"
 #include "session/inputs/cutline.h"
 #include "session/options/channel_options.h"
-#include "session/options/cutline_options.h"
 #include "session/options/error_goal.h"
+#include "session/options/given_options.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {
@@ -49,7 +49,7 @@ struct Judged {
 void decide(Judged& judged);
 
 /// The JSON of --json.
-Json make_report(const Judged& judged, const std::string& mesh_path, const CutlineArguments& cutline,
+Json make_report(const Judged& judged, const std::string& mesh_path, const GivenOptions& cutline,
                  const std::string& command_line);
 /// The table on standard output.
 std::string make_table(const Judged& judged, const std::string& raster_path, const std::string& mesh_path);

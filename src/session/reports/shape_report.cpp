@@ -76,15 +76,15 @@ void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::
   const ShapeReport& shape = *simplified.shape;
   if (shape.below > 0)
     warnings.push_back(fmt::format(
-        "--min-angle {}: smaller angles are left in {}, down to {} degrees ({}); lines, the outline and the "
+        "{} {}: smaller angles are left in {}, down to {} degrees ({}); lines, the outline and the "
         "max error come first, so simpler lines or a larger max error leave fewer",
-        format_number(goals.min_angle), format_plural(shape.below, "triangle"), format_number(shape.min_angle),
+        OptionId::kMinAngle, format_number(goals.min_angle), format_plural(shape.below, "triangle"), format_number(shape.min_angle),
         describe_below(shape)));
   if (shape.shorter > 0)
     warnings.push_back(fmt::format(
-        "--min-edge {}: {} left shorter, down to {} ({}); all other goals come first, so simpler lines or a "
+        "{} {}: {} left shorter, down to {} ({}); all other goals come first, so simpler lines or a "
         "larger max error leave fewer",
-        format_number(*goals.min_edge), format_plural(shape.shorter, "edge"), format_number(shape.shortest_edge),
+        OptionId::kMinEdge, format_number(*goals.min_edge), format_plural(shape.shorter, "edge"), format_number(shape.shortest_edge),
         describe_shorter(goals, shape)));
 }
 

@@ -20,6 +20,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 bool has_tolerance_and_budget(const SimplifyPlan& plan, const Outcome& outcome) {
   return outcome.companions.has_tolerance() && (plan.simplify.goals.max_triangles || plan.simplify.goals.max_vertices);
 }
@@ -165,6 +167,8 @@ GoalError find_goal_error(const Outcome& outcome) {
 
 namespace {
 
+using enum OptionId;
+
 /// STL holds offsets from an origin that only Scarp reads in its header.
 std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   const std::array<double, 3>& o = mesh.origin;
@@ -212,21 +216,19 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   add_offset(plan, outcome.simplified.mesh, report["frame"]);
   report["goal"] = describe_goal(plan, outcome);
   report["strategy"] = describe_strategy(plan.simplify, plan.strategy, outcome.simplified);
-  for (const auto& [key, file] : {std::pair{"mask", &plan.companions.mask},
-                                  {"tolerance", &plan.companions.tolerance},
-                                  {"script", &plan.companions.script}}) {
-    report["strategy"][key] = or_null(*file);
+  for (const auto& [key, option] : {std::pair{"mask", kMask}, {"tolerance", kTolerance}, {"script", kScript}}) {
+    report["strategy"][key] = or_null(plan.given[option]);
   }
-  report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
-  report["strategy"]["falloff"] = or_null(plan.companions.falloff);
-  report["breaklines"] = describe_lines(plan.lines, outcome.simplified);
+  report["strategy"]["roi"] = plan.given.all(kRoi).empty() ? Json(nullptr) : Json(plan.given.all(kRoi));
+  report["strategy"]["falloff"] = or_null(plan.given[kFalloff]);
+  report["breaklines"] = describe_lines(plan.given, outcome.simplified);
   report["water"] = describe_lakes(outcome.features.lakes);
   report["rivers"] = describe_rivers(outcome.simplified.features.rivers);
-  report["cliffs"] = describe_cliffs(plan.cliff, outcome.simplified.features.walls);
-  report["ridges"] = describe_ridges(plan.ridges, outcome.simplified.features.ridges);
+  report["cliffs"] = describe_cliffs(plan.given, outcome.simplified.features.walls);
+  report["ridges"] = describe_ridges(plan.given, outcome.simplified.features.ridges);
   report["shape"] = describe_shape(plan.simplify.quality.shape, outcome.simplified);
-  report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
-  add_zones(report, plan.zones, outcome.zones);
+  report["cutline"] = describe_cut(plan.given, outcome.cut, outcome.simplified.cut_off);
+  add_zones(report, plan.given, outcome.zones);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -278,10 +280,10 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
   text +=
       summary_line("frame", frame_of_output(plan, outcome).description + offset_words(plan, outcome.simplified.mesh));
   text += waters_lines(outcome.features.lakes, outcome.simplified.features.rivers);
-  if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
+  if (!plan.given.all(kCutline).empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_inserted,
                      outcome.simplified.edits);
-  text += zones_lines(plan.zones, outcome.zones);
+  text += zones_lines(plan.given, outcome.zones);
   text += cliffs_line(outcome.simplified.features.walls);
   text += ridges_line(outcome.simplified.features.ridges);
   text += shape_line(plan.simplify.quality.shape, outcome.simplified);

@@ -18,6 +18,13 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp simplify tile.png tile.glb -e 1 --decode terrarium    a tile from the web\n"
      "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kClassic, "classic", "Simplify by the strategies of the 1995 paper", "INPUT OUTPUT [OPTIONS]",
+     "All options of simplify hold, too; the error bound is proven alike.\n"
+     "Examples:\n"
+     "  scarp classic dem.tif hills.glb -e 1 --order greedy           the paper's algorithm III\n"
+     "  scarp classic dem.tif hills.glb -t 5k --edges data            data-dependent triangulation\n"
+     "  scarp classic dem.tif hills.glb -t 5k --importance curvature --one-pass\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kMeasure, "measure", "Judge a mesh file against its raster, sample by sample", "RASTER MESH [OPTIONS]",
      "Give --mask, --script, --cutline, --texture and --image as they were given to simplify.\n"
      "Errors are vertical, mesh minus sample, in the units of the heights.\n"

@@ -43,7 +43,8 @@ std::string entry(const std::string& left, const std::string& text) {
 /// The help with the range, the default and whether the option may be given again.
 std::string full_help(const OptionRow& row) {
   std::string text = row.help;
-  if (std::string_view(row.range).find(" to ") != std::string_view::npos) text += fmt::format(" From {}.", row.range);
+  if (const std::string range = row.range_text(); range.find(" to ") != std::string::npos)
+    text += fmt::format(" From {}.", range);
   if (row.by_default[0] != 0) text += fmt::format(" Default: {}.", row.by_default);
   if (row.is_repeatable) text += " May be given again.";
   return text;
@@ -53,6 +54,8 @@ std::string full_help(const OptionRow& row) {
 std::string left_of(const OptionRow& row) {
   if (row.is_argument()) return fmt::format("  {}", row.name);
   const std::string value = row.value_text();
+  if (row.part_of != OptionId::kNone)
+    return fmt::format("        ,{}{}{}", row.key, value.empty() ? "" : "=", value);
   return fmt::format("  {:<4}{}{}{}", row.short_name[0] != 0 ? std::string(row.short_name) + "," : "", row.name,
                      value.empty() ? "" : " ", value);
 }
@@ -72,6 +75,21 @@ std::string list_options(const std::vector<const OptionRow*>& rows) {
     if (!entries.empty()) text += title_of(group) + entries;
   }
   return text;
+}
+
+/// How options were spelled until 0.2, which is accepted until 0.4.
+std::string list_old_spellings(const CommandRow& command) {
+  std::string text;
+  if (command.command == kClassic) return "";
+  for (const OptionRow* row : accepted_rows(command.command)) {
+    const bool is_of_classic = (row->commands & command.command) == 0;
+    if (row->part_of == OptionId::kNone && !is_of_classic) continue;
+    const std::string value = row->value_text();
+    text += entry(fmt::format("  {}{}{}", row->name, value.empty() ? "" : " ", value),
+                  is_of_classic ? fmt::format("scarp {}", command_name(kClassic))
+                                : fmt::format("{} ...,{}{}{}", row->part_of, row->key, value.empty() ? "" : "=", value));
+  }
+  return text.empty() ? "" : "\nOld spellings (until 0.4):\n" + text;
 }
 
 /// True for a goal that -h lists.
@@ -122,12 +140,14 @@ nlohmann::ordered_json describe_option(const OptionRow& row, const CommandRow& c
   return {{"name", row.name},
           {"short", or_null(row.short_name)},
           {"command", command.name},
+          {"part_of", row.part_of == OptionId::kNone ? nlohmann::ordered_json() : name_of(row.part_of)},
+          {"key", or_null(row.key)},
           {"group", group.name},
           {"type", type_name(row.type)},
           {"value", or_null(row.value_text().c_str())},
           {"unit", or_null(row.unit)},
           {"default", or_null(row.by_default)},
-          {"range", or_null(row.range)},
+          {"range", or_null(row.range_text().c_str())},
           {"choices", row.list_choices()},
           {"repeatable", row.is_repeatable},
           {"required", row.is_required},
@@ -156,8 +176,12 @@ std::string program_help() {
 
 std::string command_help(const CommandRow& command, bool all) {
   const std::string head = fmt::format("{}.\n\nUsage: scarp {} {}\n", command.summary, command.name, command.usage);
-  const auto rows = rows_of(command.command);
-  const std::string page = head + list_options(rows) + "\n" + command.notes;
+  std::vector<const OptionRow*> rows = rows_of(command.command);
+  if (command.command == kClassic)  // the notes refer to simplify for the others
+    std::erase_if(rows, [](const OptionRow* row) {
+      return row->group != OptionGroup::kStrategies && row->group != OptionGroup::kArguments;
+    });
+  const std::string page = head + list_options(rows) + list_old_spellings(command) + "\n" + command.notes;
   if (all || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
   return head + list_briefly(rows) + "\n" + command.notes;
 }

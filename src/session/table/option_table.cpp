@@ -1,12 +1,8 @@
 #include "session/table/option_table.h"
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <stdexcept>
-
-#include "scarp/version.h"
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {
@@ -50,27 +46,6 @@ const std::vector<const OptionRow*>& all_rows() {
   return kAll;
 }
 
-const OptionRow& row_of(const CLI::App& command, OptionId id) {
-  const CommandRow* const owner = find_command(command.get_name());
-  if (owner != nullptr) {
-    for (const OptionRow* row : rows_of(owner->command)) {
-      if (row->id == id) return *row;
-    }
-  }
-  throw std::logic_error(fmt::format("option {} of {} is not in the table", static_cast<int>(id), command.get_name()));
-}
-
-/// The names as CLI11 expects them: "-e,--max-error".
-std::string names_of(const OptionRow& row) {
-  return std::string(row.short_name) + (row.short_name[0] != 0 ? "," : "") + row.name;
-}
-
-template <class T>
-CLI::Option* add(CLI::App& command, OptionId id, T& value) {
-  const OptionRow& row = row_of(command, id);
-  return command.add_option(names_of(row), value)->required(row.is_required);
-}
-
 }  // namespace
 
 std::vector<std::string> OptionRow::list_choices() const {
@@ -91,6 +66,22 @@ std::string OptionRow::value_text() const {
   return text;
 }
 
+std::string OptionRow::range_text() const {
+  if (range[0] != 0) return range;
+  if (above != -kNoLimit) return fmt::format("above {}", above) + (most != kNoLimit ? fmt::format(", at most {}", most) : "");
+  if (least == -kNoLimit) return "";
+  return most == kNoLimit ? fmt::format("at least {}", least) : fmt::format("{} to {}", least, most);
+}
+
+std::string OptionRow::title() const {
+  return part_of == OptionId::kNone ? name : fmt::format("{} {}", part_of, key);
+}
+
+int OptionRow::value_count() const {
+  if (type == OptionType::kFlag) return 0;
+  return 1 + static_cast<int>(std::count(value, value + std::string_view(value).size(), ' '));
+}
+
 std::span<const GroupRow> group_rows() { return kGroups; }
 
 std::vector<const OptionRow*> rows_of(Commands command) {
@@ -99,6 +90,17 @@ std::vector<const OptionRow*> rows_of(Commands command) {
     if ((row->commands & command) != 0) rows.push_back(row);
   }
   return rows;
+}
+
+std::vector<const OptionRow*> accepted_rows(Commands command) {
+  return rows_of(command == kSimplify ? kClassic : command);
+}
+
+const OptionRow* find_option(Commands commands, OptionId id) {
+  for (const OptionRow* row : accepted_rows(commands)) {
+    if (row->id == id) return row;
+  }
+  return nullptr;
 }
 
 const OptionRow* find_option(Commands commands, std::string_view name) {
@@ -116,67 +118,31 @@ const CommandRow* find_command(std::string_view name) {
   return nullptr;
 }
 
-void add_option(CLI::App& command, OptionId id, std::string& value) { add(command, id, value); }
-
-void add_option(CLI::App& command, OptionId id, std::optional<std::string>& value) { add(command, id, value); }
-
-void add_option(CLI::App& command, OptionId id, std::vector<std::string>& values) {
-  add(command, id, values)->allow_extra_args(false);  // one value each time that the option is given
-}
-
-void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values) { add(command, id, values); }
-
-void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values, OptionId last_id,
-                   std::string& last) {
-  add(command, id, values);
-  // CLI11 gives all arguments to the first that accepts several.
-  add(command, last_id, last)->required(false);
-  command.parse_complete_callback([&values, &last, name = row_of(command, last_id).name] {
-    if (values.empty()) return;  // CLI11 reports that
-    if (values.size() == 1) throw CLI::RequiredError(name);
-    last = std::move(values.back());
-    values.pop_back();
-  });
-}
-
-void add_numbers(CLI::App& command, OptionId id, std::vector<std::string>& values, int count) {
-  add(command, id, values)->expected(count);
-}
-
-void add_flag(CLI::App& command, OptionId id, bool& value) { command.add_flag(names_of(row_of(command, id)), value); }
-
-std::vector<std::string> files_read(const CLI::App& command) {
-  std::vector<std::string> files;
-  const CommandRow* const owner = find_command(command.get_name());
-  if (owner == nullptr) return files;
-  const std::vector<const OptionRow*> rows = rows_of(owner->command);
-  const auto is_output = [](const OptionRow* row) {
-    return row->is_argument() && row->type == OptionType::kOutputFile;
-  };
-  const bool ends_in_output = std::any_of(rows.begin(), rows.end(), is_output);
-  for (const OptionRow* row : rows) {
-    if (row->type != OptionType::kInputFile) continue;
-    const CLI::Option* const option = command.get_option_no_throw(row->name);
-    if (option == nullptr) continue;
-    std::vector<std::string> values = option->results();
-    // CLI11 gives all arguments to the first that accepts several: see add_arguments().
-    if (row->is_argument() && row->is_repeatable && ends_in_output && !values.empty()) values.pop_back();
-    for (std::string& value : values) {
-      if (std::string_view(row->value).ends_with("=M")) value.resize(std::min(value.rfind('='), value.size()));
-      files.push_back(std::move(value));
-    }
-  }
-  return files;
-}
-
-CLI::App* add_command(CLI::App& program, Commands command) {
+const char* command_name(Commands command) {
   for (const CommandRow& row : command_rows()) {
-    if (row.command != command) continue;
-    CLI::App* const added = program.add_subcommand(row.name);
-    added->set_version_flag("--version", fmt::format("scarp {}", scarp::version()));
-    return added;
+    if (row.command == command) return row.name;
   }
   throw std::logic_error("a command is not in the table");
+}
+
+std::string name_of(const OptionTerm& term) {
+  return name_of(term.id) + (term.value[0] != 0 ? std::string(" ") + term.value : "");
+}
+
+const std::string& name_of(OptionId id) {
+  constexpr auto kCount = static_cast<std::size_t>(OptionId::kNone);
+  static const std::array<std::string, kCount> kNames = [] {
+    std::array<std::string, kCount> names;
+    for (const bool are_parts : {false, true}) {  // the name of a part has its option's
+      for (const OptionRow* row : all_rows()) {
+        std::string& name = names[static_cast<std::size_t>(row->id)];
+        if ((row->part_of != OptionId::kNone) != are_parts || !name.empty()) continue;
+        name = are_parts ? names[static_cast<std::size_t>(row->part_of)] + " " + row->key : row->name;
+      }
+    }
+    return names;
+  }();
+  return kNames[static_cast<std::size_t>(id)];
 }
 
 }  // namespace scarp::cli

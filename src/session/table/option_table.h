@@ -1,16 +1,14 @@
-// The one table of options: `--help`, `scarp help --json`, CLI11's registration, the man page, the completions and the
-// page of all options are made from it.
+// The one table of options. Registration, parsing, ranges, the canonical command, `--help`, `scarp help --json`, the man
+// page, the completions, the page of all options and the settings of C and Python are made from it.
 #pragma once
 
-#include <optional>
+#include <fmt/format.h>
+
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace scarp::cli {
 
@@ -153,6 +151,7 @@ enum class OptionId {
   kHelpAll,
   kAll,
   kVersion,
+  kNone,  ///< no option; their number
 };
 
 /// In the order in which help lists them.
@@ -194,12 +193,20 @@ using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kHelpCommand = 16,
                           kVersionCommand = 32, kTile = 64, kServe = 128, kTilePlan = 256, kTileRun = 512,
                           kTileFinish = 1024, kTileCheck = 2048, kView = 4096;
-inline constexpr Commands kEveryCommand = 8191;
+/// What `scarp classic` has in addition to simplify. The rows of simplify accept it, too, until 0.4.
+inline constexpr Commands kStrategies = 8192;
+inline constexpr Commands kClassic = kSimplify | kStrategies;
+inline constexpr Commands kEveryCommand = 16383;
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 struct OptionRow {
   OptionId id;
   const char* name;             ///< "--max-error"; "INPUT" for an argument without a name
   const char* short_name = "";  ///< "-e"
+  /// The option whose value this is a KEY=VALUE of: `--cutline FILE,inset=2`. Its own name is the spelling of 0.2.
+  OptionId part_of = OptionId::kNone;
+  const char* key = "";
   Commands commands;
   OptionGroup group;
   OptionType type;
@@ -207,9 +214,15 @@ struct OptionRow {
   const char* choices = "";  ///< words, separated by blanks
   const char* unit = "";
   const char* by_default = "";  ///< empty: the option does nothing unless it is given
-  const char* range = "";
+  double least = -kNoLimit;   ///< the least number
+  double above = -kNoLimit;   ///< the number that all are above
+  double most = kNoLimit;     ///< the largest number
+  const char* too_much = "";  ///< what is wrong with a larger number, for the sentence that refuses it
+  const char* range = "";     ///< in words, where the three above do not express it
   bool is_repeatable = false;
   bool is_required = false;
+  bool is_of_mesh = true;      ///< can change the mesh: stands in the canonical command
+  bool is_for_points = false;  ///< holds where the input is scattered points, too
   const char* help;        ///< one or two sentences; completions use the first
   const char* brief = "";  ///< one line for -h, where all options do not fit a screen; empty: not among them
 
@@ -217,6 +230,18 @@ struct OptionRow {
   std::vector<std::string> list_choices() const;
   /// "M|P%", "hole|fill|background"; empty for a flag.
   std::string value_text() const;
+  /// "0 to 33", "above 0"; empty if any value will do.
+  std::string range_text() const;
+  /// "--cutline inset" for a part, else the name.
+  std::string title() const;
+  /// How many values follow the name: 4 for "XMIN YMIN XMAX YMAX".
+  int value_count() const;
+};
+
+/// An option, or one of its values.
+struct OptionTerm {
+  OptionId id = OptionId::kNone;
+  const char* value = "";  ///< empty: any; "!hole": any but hole
 };
 
 struct CommandRow {
@@ -237,26 +262,27 @@ std::span<const CommandRow> command_rows();
 std::span<const GroupRow> group_rows();
 /// Every row that the command has, in the order in which help lists them.
 std::vector<const OptionRow*> rows_of(Commands command);
+/// The same, and those that it accepts as they were spelled earlier.
+std::vector<const OptionRow*> accepted_rows(Commands command);
 /// The row of the option ("--max-error", "-e") if one of the commands has it; else null.
 const OptionRow* find_option(Commands commands, std::string_view name);
+/// The row of the option if one of the commands accepts it; else null.
+const OptionRow* find_option(Commands commands, OptionId id);
 /// Null if there is no such command.
 const CommandRow* find_command(std::string_view name);
-
-/// Registers the option as its row describes it. Throws std::logic_error if the command has no such row.
-void add_option(CLI::App& command, OptionId id, std::string& value);
-void add_option(CLI::App& command, OptionId id, std::optional<std::string>& value);
-void add_option(CLI::App& command, OptionId id, std::vector<std::string>& values);
-/// Arguments: as many as are given, but for the last one, which is another. Without `last`, all of them.
-void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values);
-void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values, OptionId last_id,
-                   std::string& last);
-/// An option with so many values.
-void add_numbers(CLI::App& command, OptionId id, std::vector<std::string>& values, int count);
-void add_flag(CLI::App& command, OptionId id, bool& value);
-/// Every file that the command line names to be read, in the order of the table: the values of all rows of
-/// OptionType::kInputFile, a layer behind a name included ("FILE:LAYER"), the number of a region ("=M") omitted.
-std::vector<std::string> files_read(const CLI::App& command);
-/// The command of the program, with its --version.
-CLI::App* add_command(CLI::App& program, Commands command);
+/// "--vertices free".
+std::string name_of(const OptionTerm& term);
+/// "tile-plan".
+const char* command_name(Commands command);
+/// The option as sentences name it: "--max-error", "--cutline inset".
+const std::string& name_of(OptionId id);
 
 }  // namespace scarp::cli
+
+/// An option is printed by its name.
+template <>
+struct fmt::formatter<scarp::cli::OptionId> : fmt::formatter<std::string_view> {
+  auto format(scarp::cli::OptionId id, fmt::format_context& context) const {
+    return fmt::formatter<std::string_view>::format(scarp::cli::name_of(id), context);
+  }
+};

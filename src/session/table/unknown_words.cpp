@@ -20,48 +20,48 @@ namespace {
 
 struct Foreign {
   const char* words;   ///< words of other programs, without dashes, separated by blanks
-  const char* meant;   ///< Scarp's option; empty if there is none
+  OptionId meant;      ///< Scarp's option; kNone if there is none
   const char* advice;  ///< in place of "did you mean"; may be empty
 };
 
 /// Names that users of GDAL, hmm, delatin, gltfpack and mesh programs type. An entry whose option the command does not
 /// have is passed over.
 constexpr Foreign kForeign[] = {
-    {"error err epsilon eps zerror z-error max-err maxerror tol threshold", "--max-error", ""},
-    {"percent percentage relative", "--max-error", "a share of the relief is an error with a % behind it: -e 1%"},
-    {"triangles faces target-faces target-triangles tris num-triangles", "--max-triangles", ""},
-    {"num-points num-vertices max-vertices", "--max-points", ""},
-    {"ratio si simplify-ratio decimate", "--max-triangles",
+    {"error err epsilon eps zerror z-error max-err maxerror tol threshold", OptionId::kMaxError, ""},
+    {"percent percentage relative", OptionId::kMaxError, "a share of the relief is an error with a % behind it: -e 1%"},
+    {"triangles faces target-faces target-triangles tris num-triangles", OptionId::kMaxTriangles, ""},
+    {"num-points num-vertices max-vertices", OptionId::kMaxPoints, ""},
+    {"ratio si simplify-ratio decimate", OptionId::kMaxTriangles,
      "give the number of triangles with -t, or the error with -e"},
-    {"a-srs s-srs", "",
+    {"a-srs s-srs", OptionId::kNone,
      "the input's CRS is the file's own: gdal_translate -a_srs EPSG:CODE FILE NEW.tif gives it another; --crs is the "
      "mesh's"},
-    {"t-srs srs epsg proj projection", "--crs", ""},
-    {"a-nodata srcnodata dstnodata no-data nodata-value nodatavalue", "--nodata", ""},
-    {"of f format output-format", "--of", ""},
-    {"o output out", "--report", "the output is the word behind the input: scarp simplify INPUT OUTPUT"},
-    {"i input in", "--crs", "the input is a word of its own, without an option"},
-    {"te bbox extent bounds projwin", "--te", ""},
-    {"tr res outsize", "--resolution", ""},
-    {"te bbox extent bounds projwin srcwin", "",
+    {"t-srs srs epsg proj projection", OptionId::kCrs, ""},
+    {"a-nodata srcnodata dstnodata no-data nodata-value nodatavalue", OptionId::kNodata, ""},
+    {"of f format output-format", OptionId::kOf, ""},
+    {"o output out", OptionId::kReport, "the output is the word behind the input: scarp simplify INPUT OUTPUT"},
+    {"i input in", OptionId::kCrs, "the input is a word of its own, without an option"},
+    {"te bbox extent bounds projwin", OptionId::kExtent, ""},
+    {"tr res outsize", OptionId::kResolution, ""},
+    {"te bbox extent bounds projwin srcwin", OptionId::kNone,
      "cut the raster first (gdal_translate -projwin WEST NORTH EAST SOUTH FILE NEW.tif)"},
-    {"tr ts res outsize", "", "change the raster first (gdal_translate -r average -outsize COLUMNS 0 FILE NEW.tif)"},
-    {"z zscale z-exaggeration vertical-exaggeration exaggerate exaggeration", "--z-scale", ""},
-    {"exaggerate exaggeration z-exaggeration vertical-exaggeration", "--solid", "give it as --solid exaggerate=2"},
-    {"force y overwrite-existing clobber", "--overwrite", ""},
-    {"threads jobs nt", "--num-threads", ""},
-    {"b", "--band", ""},
-    {"l", "--layer", ""},
-    {"zfield z-column", "--z-field", ""},
-    {"concave concave-hull alpha alpha-shape chi-shape hull", "--boundary", "give it as --boundary concave:LENGTH"},
-    {"column fields format order pnezd", "--columns", ""},
-    {"clip cutlines crop-to-cutline csql cl", "--cutline", ""},
-    {"lakes", "--water", ""},
-    {"bl breakline", "--breaklines", ""},
-    {"v V verbose debug", "--timing", "--timing tells what each pass took, --version the version"},
-    {"contours contour isolines", "--points", "contour lines are an input: scarp simplify contours.gpkg OUTPUT -e 2"},
-    {"co", "", "formats have no creation options"},
-    {"optimize quality level compression-level", "--effort", ""},
+    {"tr ts res outsize", OptionId::kNone, "change the raster first (gdal_translate -r average -outsize COLUMNS 0 FILE NEW.tif)"},
+    {"z zscale z-exaggeration vertical-exaggeration exaggerate exaggeration", OptionId::kZScale, ""},
+    {"exaggerate exaggeration z-exaggeration vertical-exaggeration", OptionId::kSolid, "give it as --solid exaggerate=2"},
+    {"force y overwrite-existing clobber", OptionId::kOverwrite, ""},
+    {"threads jobs nt", OptionId::kThreads, ""},
+    {"b", OptionId::kBand, ""},
+    {"l", OptionId::kLayer, ""},
+    {"zfield z-column", OptionId::kZField, ""},
+    {"concave concave-hull alpha alpha-shape chi-shape hull", OptionId::kBoundary, "give it as --boundary concave:LENGTH"},
+    {"column fields format order pnezd", OptionId::kColumns, ""},
+    {"clip cutlines crop-to-cutline csql cl", OptionId::kCutline, ""},
+    {"lakes", OptionId::kWater, ""},
+    {"bl breakline", OptionId::kBreaklines, ""},
+    {"v V verbose debug", OptionId::kTiming, "--timing tells what each pass took, --version the version"},
+    {"contours contour isolines", OptionId::kPoints, "contour lines are an input: scarp simplify contours.gpkg OUTPUT -e 2"},
+    {"co", OptionId::kNone, "formats have no creation options"},
+    {"optimize quality level compression-level", OptionId::kEffort, ""},
 };
 
 /// Lower case but for single letters, with dashes for underscores, without dashes in front and a value behind.
@@ -103,13 +103,13 @@ std::string advise(const CLI::App* command, const std::string& word) {
   const std::string name = bare(word);
   const std::vector<std::string> names = names_of(command);
   const auto has = [&](const std::string& option) {
-    return std::find(names.begin(), names.end(), bare(option)) != names.end();
+    return std::find(names.begin(), names.end(), option) != names.end();
   };
   if (has(name)) return fmt::format("did you mean --{}?", name);
   const auto advise_on_foreign = [&](std::size_t most) -> std::string {
     for (const Foreign& foreign : kForeign) {
       if (!holds_word(foreign.words, name, most) || command == nullptr) continue;
-      if (foreign.meant[0] != 0 && !has(foreign.meant)) continue;
+      if (foreign.meant != OptionId::kNone && !has(bare(name_of(foreign.meant)))) continue;
       return foreign.advice[0] != 0 ? foreign.advice : fmt::format("did you mean {}?", foreign.meant);
     }
     return {};

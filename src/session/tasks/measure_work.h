@@ -7,7 +7,7 @@
 
 #include "scarp/io.h"
 #include "scarp/picture.h"
-#include "session/options/measure_options.h"
+#include "session/options/given_options.h"
 #include "session/reports/measure_report.h"
 #include "session/tasks/runner.h"
 
@@ -19,10 +19,9 @@ struct StreamedErrors {
   std::optional<RasterFile> raster = std::nullopt;
 };
 
-/// Reads raster and mesh, and judges. `files_read`: by any option.
-Result<void> judge_inputs(const MeasureArguments& given, const std::vector<std::string>& files_read,
-                          const Runner& runner, Judged& judged, StreamedErrors& errors);
+/// Reads raster and mesh, and judges.
+Result<void> judge_inputs(const GivenOptions& given, const Runner& runner, Judged& judged, StreamedErrors& errors);
 /// The files of --map and --error-raster.
-Result<void> write_error_files(const MeasureArguments& given, const Judged& judged, StreamedErrors& streamed);
+Result<void> write_error_files(const GivenOptions& given, const Judged& judged, StreamedErrors& streamed);
 
 }  // namespace scarp::cli

@@ -16,25 +16,24 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 /// `as`: how a raster would be read.
-Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const ReadOptions& as,
-                      const ProgressCallback& progress) {
-  if (path.empty()) return fail(ErrorKind::kUsage, "the name of the points is empty");
-  for (const auto& [name, value] : {std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field},
-                                    std::pair{"--columns", &arguments.columns}}) {
-    if (*value && (*value)->empty()) return fail(ErrorKind::kUsage, fmt::format("{} is empty: leave it out", name));
+Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const ProgressCallback& progress) {
+  for (const OptionId id : {kLayer, kZField, kColumns}) {
+    if (given[id] == "") return fail(ErrorKind::kUsage, fmt::format("{} is empty: omit it", id));
   }
-  return read_points(path, {.layer = arguments.layer.value_or(""),
-                            .z_field = arguments.z_field.value_or(""),
-                            .crs = as.crs,
-                            .progress = progress,
-                            .columns = arguments.columns.value_or(""),
-                            .nodata = as.nodata,
-                            .z_scale = as.z_scale,
-                            .z_offset = as.z_offset,
-                            .z_unit = as.z_unit,
-                            .heights_in = as.heights_in,
-                            .default_frame = as.default_frame});
+  return read_points(given.input(), {.layer = given[kLayer].value_or(""),
+                                     .z_field = given[kZField].value_or(""),
+                                     .crs = as.crs,
+                                     .progress = progress,
+                                     .columns = given[kColumns].value_or(""),
+                                     .nodata = as.nodata,
+                                     .z_scale = as.z_scale,
+                                     .z_offset = as.z_offset,
+                                     .z_unit = as.z_unit,
+                                     .heights_in = as.heights_in,
+                                     .default_frame = as.default_frame});
 }
 
 /// The value of --crs; empty: local for degrees, else the points' own.
@@ -58,18 +57,17 @@ std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
 }
 
 /// How the points of such a mesh are read, unless `given` sets them.
-Result<ReadOptions> remember_reading(const RasterArguments& given, const Mesh& mesh, const std::string& path) {
+Result<ReadOptions> remember_reading(const GivenOptions& given, const Mesh& mesh, const std::string& path) {
   const auto find = [&](const char* key) {
     const auto entry = mesh.metadata.find(key);
     return entry == mesh.metadata.end() ? Given() : Given(entry->second);
   };
-  RasterArguments asked = given;
-  if (find("duplicates")) asked = remember_options(given, mesh);  // a raster's own scale
-  asked.cell_size = given.cell_size;
-  if (!given.crs) asked.crs = find("crs_option");
-  if (!given.crs && asked.crs == Given("local") && way_to_source(mesh)) asked.crs = "source";
-  if (!given.nodata) asked.nodata = find("nodata");
-  SCARP_TRY(auto&& options, asked.parse());
+  GivenOptions asked = find("duplicates") ? remember_options(given, mesh) : given;  // a raster's own scale
+  asked.set(kCellSize, given[kCellSize]);
+  if (!given.has(kCrs)) asked.set(kCrs, find("crs_option"));
+  if (!given.has(kCrs) && asked[kCrs] == "local" && way_to_source(mesh)) asked.set(kCrs, "source");
+  if (!given.has(kNodata)) asked.set(kNodata, find("nodata"));
+  SCARP_TRY(auto&& options, parse_reading(asked));
   options.heights_in = find("unit") == Given("m") ? HeightsIn::kMetres : heights_in(path);
   options.default_frame = default_frame(path) == DefaultFrame::kLocal ? DefaultFrame::kLocal : DefaultFrame::kMetric;
   return options;
@@ -86,10 +84,10 @@ void put_back(const PointSet& points, Mesh& mesh) {
   if (extent.overlap(extent_of(moved)) > extent.overlap(extent_of(mesh))) mesh.origin = moved.origin;
 }
 
-void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
   Mesh& mesh = outcome.simplified.mesh;
   // The judge puts the mesh back and reads the points in their own coordinates.
-  add_origin(plan.canonical_command + arguments.canonical(), outcome.frame(), outcome.centre ? "" : outcome.points.crs,
+  add_origin(plan.canonical_command, outcome.frame(), outcome.centre ? "" : outcome.points.crs,
              outcome.centre ? "source" : crs_option(plan), mesh);
   if (outcome.centre) {
     const auto [x, y] = *outcome.centre;
@@ -98,8 +96,8 @@ void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Po
     mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
   }
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
-  if (arguments.columns) mesh.metadata["columns"] = *arguments.columns;
-  if (arguments.boundary) mesh.metadata["boundary"] = *arguments.boundary;
+  if (plan.given.has(kColumns)) mesh.metadata["columns"] = *plan.given[kColumns];
+  if (plan.given.has(kBoundary)) mesh.metadata["boundary"] = *plan.given[kBoundary];
   if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
   const RasterInfo& heights = outcome.points.heights;
   if (heights.z_scale != 1) mesh.metadata["z_scale"] = Json(heights.z_scale).dump();
@@ -117,13 +115,13 @@ void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Po
 Error explain_frame(Error error, const std::string& crs, const std::string& mesh, const std::string& path) {
   if (error.kind != ErrorKind::kUsage || error.message.find(crs) == std::string::npos) return error;
   if (crs != "grid") {
-    error.message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh);
+    error.message += fmt::format("; {} names that CRS as its own, {} overrides it", mesh, kCrs);
     return error;
   }
   error.message = fmt::format(
       "{} says of itself that its coordinates are the columns and rows of a raster ('grid'), which the points of {} do "
-      "not have: judge it by its raster, or say with --crs source that x and y of the points count the same",
-      mesh, path);
+      "not have: judge it by its raster, or give {} source if x and y of the points count the same",
+      mesh, path, kCrs);
   return error;
 }
 
@@ -139,55 +137,54 @@ void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
   if (fit.boundary_length == 0) return;
   outcome.suggested_boundary = fmt::format("concave:{:.6g}", fit.boundary_length);
   outcome.warnings.push_back(fmt::format(
-      "{}: --boundary {} ends the mesh at the points instead (--boundary hull: no warning)",
+      "{}: {} {} ends the mesh at the points instead ({} hull: no warning)",
       fit.slivers == 0
           ? fmt::format("{} of the mesh lies across bays of the convex hull, where no points are",
                         format_share(fit.bridged, 1))
           : fmt::format("the points end along nearly straight lines, where the convex hull makes {} steeper "
                         "than 80 degrees",
                         format_plural(fit.slivers, "sliver")),
-      outcome.suggested_boundary));
+      kBoundary, outcome.suggested_boundary, kBoundary));
 }
 
 }  // namespace
 
-Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& given, const PointsArguments& arguments,
-                              const Runner& runner, SimplifyPlan& plan, PointsOutcome& outcome) {
+Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, SimplifyPlan& plan,
+                              PointsOutcome& outcome) {
   const Clock::time_point start = Clock::now();
-  SCARP_RETURN_IF_ERROR(refuse_raster_options(command, given.raster.path()));
-  if (!given.max_error && !given.max_triangles && !given.max_points)
+  if (!given.first_of({kMaxError, kMaxTriangles, kMaxPoints}))
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
                 "with -t or -p");
-  SCARP_TRY(plan, plan_simplify(given, files_read(command)));
+  SCARP_TRY(plan, plan_simplify(given, given.files_read()));
   if (runner.on_plan) runner.on_plan(plan.read);
   if (plan.format.kind == OutputKind::kDem)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
                             "such as .glb or .ply",
-                            given.output, shell_word(base_name(given.raster.path()))));
-  SCARP_TRY(const auto& policy, parse_policy(arguments.duplicates));
-  SCARP_TRY(const auto& boundary_length, parse_boundary(arguments.boundary));
+                            *given[kOutput], shell_word(base_name(given.input()))));
+  SCARP_TRY(const auto& policy, parse_policy(given));
+  SCARP_TRY(const auto& boundary_length, parse_boundary(given));
 
   outcome.policy = policy;
-  outcome.boundary = arguments.boundary.value_or("hull");
+  outcome.boundary = given[kBoundary].value_or("hull");
   ReadOptions as = plan.read;
   as.crs = crs_option(plan);
-  SCARP_TRY(PointSet points, read(given.raster.path(), arguments, as, runner.progress));
+  SCARP_TRY(PointSet points, read(given, as, runner.progress));
   if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
   SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
   outcome.points = std::move(points);
-  if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
+  if (!outcome.points.lines.empty() && (given[kMaxTriangles] || given[kMaxPoints]))
     return fail(ErrorKind::kUsage,
                 fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
                             "beyond any budget; ask for an error with -e",
-                            given.max_triangles ? "--max-triangles" : "--max-points",
-                            shell_word(base_name(given.raster.path()))));
+                            *given.first_of({kMaxTriangles, kMaxPoints}),
+                            shell_word(base_name(given.input()))));
   if (!outcome.points.lines.empty() && boundary_length)
     return fail(ErrorKind::kUsage,
-                fmt::format("--boundary {} cannot be combined with lines, and {} holds them: they may cross what it "
+                fmt::format("{} {} cannot be combined with lines, and {} holds them: they may cross what it "
                             "takes away; leave it out",
-                            *arguments.boundary, shell_word(base_name(given.raster.path()))));
+                            kBoundary, *given[kBoundary], shell_word(base_name(given.input()))));
   SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit));
   if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
     outcome.centre = local_origin(outcome.points);
@@ -196,8 +193,8 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);
   if (plan.error_goal) {
-    SCARP_RETURN_IF_ERROR(refuse_print("--max-error", *plan.error_goal));
-    SCARP_RETURN_IF_ERROR(settle_goal("--max-error", outcome.points.heights, *plan.error_goal, outcome.warnings));
+    SCARP_RETURN_IF_ERROR(refuse_print(kMaxError, *plan.error_goal));
+    SCARP_RETURN_IF_ERROR(settle_goal(kMaxError, outcome.points.heights, *plan.error_goal, outcome.warnings));
   }
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
   outcome.seconds_read = seconds_since(start);
@@ -212,14 +209,14 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = runner.progress;
   Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
-  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path()));
+  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.input()));
   outcome.simplified = std::move(simplified->simplified);
   outcome.duplicates = simplified->duplicates;
   outcome.on_hull = simplified->on_hull;
   outcome.lattice_step = simplified->lattice_step;
   outcome.flat = simplified->flat;
   outcome.loose = simplified->loose;
-  if (!arguments.boundary) suggest_boundary(simplified->hull_fit, outcome);
+  if (!given.has(kBoundary)) suggest_boundary(simplified->hull_fit, outcome);
   if (outcome.loose > 0)
     outcome.warnings.push_back(
         fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
@@ -235,44 +232,41 @@ Result<void> make_points_mesh(const CLI::App& command, const SimplifyArguments& 
   return {};
 }
 
-Result<void> complete_mesh(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+Result<void> complete_mesh(const SimplifyPlan& plan, PointsOutcome& outcome) {
   SCARP_RETURN_IF_ERROR(finish_mesh(plan, outcome));
   if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
-  add_metadata(plan, arguments, outcome);
+  add_metadata(plan, outcome);
   return {};
 }
 
-Result<void> judge_points(const CLI::App& command, const MeasureArguments& given, const Runner& runner,
-                          JudgedPoints& judged) {
+Result<void> judge_points(const GivenOptions& given, const Runner& runner, JudgedPoints& judged) {
   const Clock::time_point start = Clock::now();
-  SCARP_RETURN_IF_ERROR(refuse_raster_options(command, given.raster.path()));
-  SCARP_TRY(const int threads, parse_threads(given.threads));
+  SCARP_TRY(const int threads, given.threads());
   std::optional<ErrorGoal> goal;
-  if (given.fail_above) {
-    SCARP_TRY(ErrorGoal parsed, parse_error_goal("--fail-above", *given.fail_above));
-    SCARP_RETURN_IF_ERROR(refuse_print("--fail-above", parsed));
+  if (given[kFailAbove]) {
+    SCARP_TRY(ErrorGoal parsed, parse_error_goal(kFailAbove, *given[kFailAbove]));
+    SCARP_RETURN_IF_ERROR(refuse_print(kFailAbove, parsed));
     goal = std::move(parsed);
   }
-  SCARP_TRY(judged.mesh, read_mesh(given.mesh));
+  SCARP_TRY(judged.mesh, read_mesh(*given[kMesh]));
   // The settings of the mesh hold for its judge, unless options set others.
-  const auto remembered = [&](const Given& option, const char* key) -> Given {
+  GivenOptions asked = given;
+  for (const auto& [option, key] : {std::pair{kDuplicates, "duplicates"}, {kBoundary, "boundary"}, {kColumns, "columns"}}) {
     const auto entry = judged.mesh.metadata.find(key);
-    return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
-  };
-  SCARP_TRY(judged.policy, parse_policy(remembered(given.points.duplicates, "duplicates")));
-  SCARP_TRY(const auto& boundary_length, parse_boundary(remembered(given.points.boundary, "boundary")));
-  PointsArguments asked = given.points;
-  asked.columns = remembered(given.points.columns, "columns");
-  const std::string path = given.raster.path();
-  SCARP_TRY(const auto as, remember_reading(given.raster, judged.mesh, given.mesh));
-  Result<PointSet> points = read(path, asked, as, runner.progress);
-  if (!points && !given.raster.crs && !as.crs.empty())
-    return tl::unexpected(explain_frame(std::move(points.error()), as.crs, given.mesh, path));
+    if (!given.has(option) && entry != judged.mesh.metadata.end()) asked.set(option, Given(entry->second));
+  }
+  SCARP_TRY(judged.policy, parse_policy(asked));
+  SCARP_TRY(const auto& boundary_length, parse_boundary(asked));
+  const std::string path = given.input();
+  SCARP_TRY(const auto as, remember_reading(given, judged.mesh, *given[kMesh]));
+  Result<PointSet> points = read(asked, as, runner.progress);
+  if (!points && !given[kCrs] && !as.crs.empty())
+    return tl::unexpected(explain_frame(std::move(points.error()), as.crs, *given[kMesh], path));
   SCARP_RETURN_IF_ERROR(points);
   judged.points = std::move(*points);
-  if (!given.raster.crs) put_back(judged.points, judged.mesh);
+  if (!given[kCrs]) put_back(judged.points, judged.mesh);
   if (goal) {
-    SCARP_RETURN_IF_ERROR(settle_goal("--fail-above", judged.points.heights, *goal, judged.points.warnings));
+    SCARP_RETURN_IF_ERROR(settle_goal(kFailAbove, judged.points.heights, *goal, judged.points.warnings));
     const HeightRange heights = height_range(judged.points);
     judged.fail_above = goal->absolute(heights.max - heights.min);
   }

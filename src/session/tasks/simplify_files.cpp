@@ -20,6 +20,8 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 /// The --crs that measure needs.
 std::string crs_option(const SimplifyPlan& plan, const Frame& frame) {
   if (!plan.read.crs.empty()) return plan.read.crs;
@@ -182,7 +184,7 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
     return {};
   }
   SCARP_TRY(const auto& glb, glb_options(plan, outcome));
-  const bool has_zones = plan.zones.find_lines() != nullptr;
+  const bool has_zones = plan.given.first_of({kMaterials, kNodeStrings}).has_value();
   SCARP_TRY(file.bytes, outcome.print ? encode_3mf(named_solids(plan, outcome))
                         : is_dem      ? encode_dem(plan, outcome)
                         : has_zones   ? encode_2dm(mesh, outcome.zones)
@@ -272,7 +274,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
     SCARP_RETURN_IF_ERROR(encode_print_tiles(plan, outcome, files));
     return files;
   }
-  if (plan.zones.find_lines() != nullptr) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
+  if (plan.given.first_of({kMaterials, kNodeStrings})) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
   // They may use more memory than the mesh and its file.
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);

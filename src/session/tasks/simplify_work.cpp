@@ -28,18 +28,18 @@
 namespace scarp::cli {
 namespace {
 
+using enum OptionId;
+
 constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
 
 /// Bytes of vector files, in addition to the raster's.
 std::uint64_t vector_bytes(const SimplifyPlan& plan) {
-  const bool has_none = plan.lines.breaklines.empty() && plan.lines.water.empty() && plan.lines.rivers.empty() &&
-                        plan.zones.find_lines() == nullptr && plan.cut.files.empty() && plan.companions.roi.empty();
-  return has_none ? 0 : kVectorBytes;
+  return find_lines(plan.given) || plan.given.first_of({kCutline, kRoi}) ? kVectorBytes : 0;
 }
 
 MemoryNeeds needs_of(const SimplifyPlan& plan) {
   MemoryNeeds needs{vector_bytes(plan)};
-  if (plan.companions.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
+  if (gives_bounds(plan.given)) needs.per_sample = kBoundedSampleBytes;
   return needs;
 }
 
@@ -56,7 +56,7 @@ Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, 
   SCARP_TRY(outcome.channels, read_textures(plan.channels, outcome.field, options.run.progress));
   if (!plan.error_goal) return {};
   ErrorGoal goal = *plan.error_goal;
-  SCARP_RETURN_IF_ERROR(settle_goal("--max-error", outcome.as_read, goal, outcome.as_read.warnings));
+  SCARP_RETURN_IF_ERROR(settle_goal(kMaxError, outcome.as_read, goal, outcome.as_read.warnings));
   outcome.asked = goal.absolute(outcome.as_read.max - outcome.as_read.min);
   if (!plan.error_goal->is_on_print) return {};
   const Result<double> scale = estimate_print_scale(outcome.field.view(), *plan.solid);
@@ -71,7 +71,7 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
   outcome.channels = std::move(image.channels);
   outcome.as_read = outcome.field.info;
   if (plan.error_goal && !plan.error_goal->unit.empty())
-    return fail(ErrorKind::kUsage, "--max-error with a unit is for heights: errors of --image are in grey levels");
+    return fail(ErrorKind::kUsage, fmt::format("{} with a unit is for heights: errors of {} are in grey levels", kMaxError, kImage));
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(outcome.channels.relief);
   return {};
 }
@@ -82,13 +82,15 @@ MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
   if (!plan.memory) return {};
   const OwnedHeightField& field = outcome.field;
   std::uint64_t taken = bytes_taken(field, *plan.memory) + bytes_of(outcome.features.lakes) + outcome.companions.bytes;
-  if (plan.companions.gives_bounds() && !field.source)
+  if (gives_bounds(plan.given) && !field.source)
     taken += (kBoundedSampleBytes - MemoryNeeds().per_sample) * static_cast<std::uint64_t>(field.cols) *
              static_cast<std::uint64_t>(field.rows);
   return {*plan.memory, taken};
 }
 
 namespace {
+
+using enum OptionId;
 
 Result<void> read_draped_image(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   if (!plan.images.drape) return {};
@@ -105,17 +107,17 @@ Result<void> read_draped_image(const SimplifyPlan& plan, const ProgressCallback&
 Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   Features& features = outcome.features;
   std::vector<std::string>& warnings = outcome.companions.warnings;
-  Result<LineConstraints> lines = read_breaklines(plan.lines, outcome.as_read, outcome.field.rows, progress, warnings);
+  Result<LineConstraints> lines = read_breaklines(plan.given, outcome.as_read, outcome.field.rows, progress, warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   features.breaklines = std::move(*lines);
   Result<ZonePlan> zones =
-      read_zones(plan.zones, outcome.as_read, outcome.field.rows, progress, features.breaklines, warnings);
+      read_zones(plan.given, outcome.as_read, outcome.field.rows, progress, features.breaklines, warnings);
   if (!zones) return tl::unexpected(std::move(zones.error()));
   outcome.zone_plan = std::move(*zones);
-  const auto waters = read_waters(plan.lines, progress, memory_of(plan, outcome), outcome.field, features, warnings);
+  const auto waters = read_waters(plan.given, progress, memory_of(plan, outcome), outcome.field, features, warnings);
   if (!waters) return waters;
-  features.walls = plan.cliff.goals();
-  features.ridges = plan.ridges.goals();
+  features.walls = wall_goals(plan.given);
+  features.ridges = ridge_goals(plan.given);
   return {};
 }
 
@@ -125,20 +127,20 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   options.run.progress = progress;
   SCARP_RETURN_IF_ERROR(plan.channels.image ? read_colors(plan, options, one_band, outcome)
                                             : read_heights(plan, options, outcome));
-  SCARP_TRY(outcome.companions, read_companions(plan.companions, outcome.as_read, outcome.field, outcome.asked,
+  SCARP_TRY(outcome.companions, read_companions(plan.given, outcome.as_read, outcome.field, outcome.asked,
                                                 {progress, plan.memory.value_or(0), plan.simplify.run.threads}));
   SCARP_RETURN_IF_ERROR(read_draped_image(plan, progress, outcome));
   if (plan.memory && outcome.companions.inserts_samples()) {
-    SCARP_RETURN_IF_ERROR(check_in_memory(outcome.field, "--script", needs_of(plan)));
+    SCARP_RETURN_IF_ERROR(check_in_memory(outcome.field, name_of(kScript), needs_of(plan)));
   }
   const bool is_dem = plan.format.kind == OutputKind::kDem;
   if (plan.memory && (plan.error_raster || is_dem) && outcome.field.source) {
     const std::uint64_t bytes = outcome.companions.bytes + RasterFile::bytes(outcome.field.cols);
-    const char* culprit = is_dem ? "the approximation as a raster" : "--error-raster";
+    const std::string culprit = is_dem ? "the approximation as a raster" : name_of(kErrorRaster);
     SCARP_RETURN_IF_ERROR(check_room(outcome.field, *plan.memory, bytes, culprit));
   }
   SCARP_RETURN_IF_ERROR(read_features(plan, progress, outcome));
-  SCARP_TRY(outcome.cut, read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings));
+  SCARP_TRY(outcome.cut, read_cut(plan.given, outcome.as_read, progress, outcome.field, outcome.companions.warnings));
   complete_info(outcome.field.info, outcome.as_read);
   outcome.seconds_read = seconds_since(start);
   return {};
@@ -257,15 +259,15 @@ Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightFi
   if (plan.is_split() && !field.frame.is_affine()) {
     return fail(
         ErrorKind::kUsage,
-        "--split cuts along rows and columns of the raster, which --crs bends here: leave it out, or choose local "
-        "or source");
+        fmt::format("{} cuts along rows and columns of the raster, which {} bends here: omit it, or choose local or source",
+                    kSplit, kCrs));
   }
   Result<PrintedTerrain> printed = simplify_for_print(field, plan, options);
   if (printed) return printed;
   Error error = std::move(printed.error());
-  if (error.message.starts_with("base=")) error.message.insert(0, "--solid ");
+  if (error.message.starts_with("base=")) error.message.insert(0, name_of(kSolid) + " ");
   constexpr std::string_view kPrintTiles = "print tiles:";
-  if (error.message.starts_with(kPrintTiles)) error.message.replace(0, kPrintTiles.size(), "--split:");
+  if (error.message.starts_with(kPrintTiles)) error.message.replace(0, kPrintTiles.size(), name_of(kSplit) + ":");
   return tl::unexpected(std::move(error));
 }
 
@@ -289,16 +291,16 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
 Error name_outline(Error error) {
   constexpr std::string_view kTolerance = "an outline tolerance";
   if (const std::size_t at = error.message.find(kTolerance); at != std::string::npos)
-    error.message.replace(at, kTolerance.size(), "--outline-tolerance");
+    error.message.replace(at, kTolerance.size(), name_of(kOutlineTolerance));
   return error;
 }
 
 }  // namespace
 
-Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome) {
-  const Result<void> has_inputs = read_inputs(plan, given.raster.band.has_value(), runner.progress, outcome);
+Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome) {
+  const Result<void> has_inputs = read_inputs(plan, given[kBand].has_value(), runner.progress, outcome);
   if (!has_inputs)
-    return tl::unexpected(name_memory(given.memory, outcome.field, given.raster.explain(has_inputs.error())));
+    return tl::unexpected(name_memory(given, outcome.field, explain_reading(given, has_inputs.error())));
 
   SCARP_RETURN_IF_ERROR(check_place_of_channels(plan, outcome.channels));
   const Frame& frame = outcome.field.frame;
@@ -313,7 +315,7 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
         "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
         "in its place");
   }
-  SCARP_RETURN_IF_ERROR(check_frame_of_lines(plan.find_lines(), frame, plan.read.crs, plan.input));
+  SCARP_RETURN_IF_ERROR(check_frame_of_lines(find_lines(plan.given) ? name_of(*find_lines(plan.given)) : "", frame, plan.read.crs, plan.input));
   SimplifyOptions options = plan.simplify;
   // Filled nodata is not the same on both sides of an edge.
   if (options.output.normals && options.domain.border.is_locked && plan.policy == NodataPolicy::kHole) {
@@ -335,7 +337,7 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
   SCARP_RETURN_IF_ERROR(check_conflicts(given, outcome.view(), options));
   Result<Simplified> simplified = simplify_as_planned(plan, options, outcome);
   if (!simplified) {
-    Error error = name_outline(name_memory(given.memory, outcome.field, std::move(simplified.error())));
+    Error error = name_outline(name_memory(given, outcome.field, std::move(simplified.error())));
     if (plan.error_goal)
       error = name_goal(*plan.error_goal, outcome.as_read.max - outcome.as_read.min, std::move(error));
     if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan.input) && !error.message.starts_with("--"))
@@ -380,13 +382,13 @@ Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const
       outcome.warnings.push_back(std::move(sentence));
   }
   warn_of_far_lines(outcome.simplified, outcome.asked.value_or(outcome.simplified.lines_for), outcome.warnings);
-  warn_of_missing_walls(given.cliff, fitted.walls, outcome.warnings);
-  warn_of_missing_ridges(given.ridges, fitted.ridges, outcome.warnings);
+  warn_of_missing_walls(given, fitted.walls, outcome.warnings);
+  warn_of_missing_ridges(given, fitted.ridges, outcome.warnings);
   warn_of_shapes(options.quality.shape, outcome.simplified, outcome.warnings);
   if (fitted.given_lines() > 0 && outcome.simplified.lines_inserted == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
-                    plan.find_lines()));
+                    name_of(*find_lines(plan.given))));
   }
   if (outcome.companions.has_tolerance() && std::isinf(outcome.simplified.tolerance_factor)) {
     outcome.warnings.push_back(

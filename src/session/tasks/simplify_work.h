@@ -2,7 +2,7 @@
 #pragma once
 
 #include "session/inputs/memory.h"
-#include "session/options/simplify_options.h"
+#include "session/options/given_options.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_outcome.h"
 #include "session/tasks/runner.h"
@@ -10,7 +10,7 @@
 namespace scarp::cli {
 
 /// Reads the inputs, simplifies, and checks the promise. Warnings go to `plan` and `outcome`.
-Result<void> make_mesh(const SimplifyArguments& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome);
+Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome);
 
 /// The limit of the process, and the bytes that it uses in addition to the mesh; of no limit: zeros.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);

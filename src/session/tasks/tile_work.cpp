@@ -19,7 +19,7 @@ Result<void> check_container(const TileJob& job, const std::string& output) {
                           output, ending));
 }
 
-Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
+Result<MadeTiles> make_tiles(const GivenOptions& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts) {
   SCARP_RETURN_IF_ERROR(check_set_name(output));
   SCARP_TRY(auto opened, open_tiles(tiles, run.progress));

@@ -20,7 +20,7 @@ struct MadeTiles {
 Result<void> check_container(const TileJob& job, const std::string& output);
 
 /// Makes the set under its final name, or nothing. Counts its tiles meanwhile.
-Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
+Result<MadeTiles> make_tiles(const GivenOptions& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts);
 
 }  // namespace scarp::cli

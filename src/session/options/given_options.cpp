@@ -1,0 +1,245 @@
+#include "session/options/given_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "scarp/version.h"
+#include "session/options/option_rules.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+using enum OptionId;
+
+/// The parts that the option's value can have in the command.
+std::vector<const OptionRow*> parts_of(Commands command, OptionId id) {
+  std::vector<const OptionRow*> parts;
+  for (const OptionRow* row : accepted_rows(command)) {
+    if (row->part_of == id) parts.push_back(row);
+  }
+  return parts;
+}
+
+/// The part whose ",key=" or ",key" begins there; null if none does.
+const OptionRow* find_part(const std::vector<const OptionRow*>& parts, std::string_view text) {
+  for (const OptionRow* part : parts) {
+    const std::string_view key = part->key;
+    if (!text.starts_with(key)) continue;
+    const char behind = text.size() > key.size() ? text[key.size()] : ',';
+    if (behind == '=' || (part->type == OptionType::kFlag && behind == ',')) return part;
+  }
+  return nullptr;
+}
+
+/// Where the next part begins, at `from` or behind a comma; the end of the text if there is none.
+std::size_t find_next_part(const std::vector<const OptionRow*>& parts, std::string_view text, std::size_t from) {
+  for (std::size_t at = from; at < text.size(); ++at) {
+    const bool may_begin = at == 0 || text[at - 1] == ',';
+    if (may_begin && find_part(parts, text.substr(at)) != nullptr) return at;
+  }
+  return text.size();
+}
+
+/// A number that the row allows.
+Result<double> judge(const OptionRow& row, const std::string& text) {
+  const std::string name = row.title();
+  const auto refuse = [&](std::string what) {
+    return fail(ErrorKind::kUsage, fmt::format("{} {} {}", name, shell_word(text), what));
+  };
+  SCARP_TRY(const double value, parse_number(name, text));
+  if (value < 0 && row.least == 0) return refuse("is negative: it must be at least 0");
+  if (value < row.least) return refuse(fmt::format("is below {}: it must be {}", row.least, row.range_text()));
+  if (!(value > row.above)) return refuse(fmt::format("is not above {}", row.above));
+  if (value > row.most)
+    return refuse(fmt::format("is above {}{}{}", row.most, row.too_much[0] != 0 ? ": " : "", row.too_much));
+  return value;
+}
+
+}  // namespace
+
+void GivenOptions::add_row(CLI::App& command, const OptionRow& row) {
+  Entry& entry = this->entry(row.id);
+  const std::string names = std::string(row.short_name) + (row.short_name[0] != 0 ? "," : "") + row.name;
+  if (row.id == kHelp || row.id == kHelpAll || row.id == kVersion) return;  // CLI11 has them itself
+  if (row.type == OptionType::kFlag) {
+    command.add_flag(names, entry.is_given);
+  } else if (row.is_repeatable || row.value_count() > 1) {
+    CLI::Option* const option = command.add_option(names, entry.texts)->required(row.is_required);
+    if (row.value_count() > 1) option->expected(row.value_count());
+    else if (!row.is_argument()) option->allow_extra_args(false);  // one value each time that the option is given
+  } else {
+    command.add_option(names, entry.text)->required(row.is_required);
+  }
+}
+
+CLI::App* GivenOptions::add_to(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand(command_name(command_));
+  command->set_version_flag("--version", fmt::format("scarp {}", scarp::version()));
+  OptionId several = kNone, last = kNone;  // CLI11 gives all arguments to the first that accepts several
+  for (const OptionRow* row : accepted_rows(command_)) {
+    add_row(*command, *row);
+    if (!row->is_argument()) continue;
+    if (several != kNone) {
+      last = row->id;
+      command->get_option(row->name)->required(false);
+    }
+    if (row->is_repeatable) several = row->id;
+  }
+  command->parse_complete_callback([this, several, last] {
+    if (std::vector<std::string>& texts = entry(several).texts; last != kNone && !texts.empty()) {
+      if (texts.size() == 1) throw CLI::RequiredError(name_of(last));
+      entry(last).text = std::move(texts.back());
+      texts.pop_back();
+    }
+    if (const Result<void> settled = settle(); !settled) throw CLI::ValidationError(settled.error().message);
+  });
+  return command;
+}
+
+GivenOptions GivenOptions::as(Commands command) const {
+  GivenOptions other = *this;
+  other.command_ = command;
+  return other;
+}
+
+void GivenOptions::set(OptionId id, Given text) {
+  entry(id) = Entry{text.has_value(), std::move(text), {}};
+}
+
+void GivenOptions::set(OptionId id, std::vector<std::string> texts) {
+  entry(id) = Entry{!texts.empty(), std::nullopt, std::move(texts)};
+}
+
+Result<void> GivenOptions::separate_parts() {
+  for (const OptionRow* row : accepted_rows(command_)) {
+    const std::vector<const OptionRow*> parts = parts_of(command_, row->id);
+    Entry& whole = entry(row->id);
+    std::vector<std::string*> texts;
+    for (std::string& text : whole.texts) texts.push_back(&text);
+    if (whole.text) texts.push_back(&*whole.text);
+    if (parts.empty()) continue;
+    bool emptied = false;
+    for (std::string* const text : texts) {
+      const std::size_t first = find_next_part(parts, *text, 0);
+      if (text->empty()) continue;
+      for (std::size_t at = first; at < text->size();) {
+        const OptionRow& part = *find_part(parts, std::string_view(*text).substr(at));
+        const std::size_t end = find_next_part(parts, *text, at + 1);
+        std::string value = text->substr(at, end - at);
+        if (end < text->size()) value.pop_back();
+        const std::size_t equals = value.find('=');
+        if (part.type == OptionType::kFlag && equals != std::string::npos)
+          return fail(ErrorKind::kUsage, fmt::format("{} has no value: leave {} out", part.id, value.substr(equals)));
+        entry(part.id) = Entry{true, {}, {}};
+        if (part.type != OptionType::kFlag) entry(part.id).text = value.substr(equals + 1);
+        at = end;
+      }
+      if (first < text->size()) text->resize(first > 0 ? first - 1 : 0);
+      if (first == 0 && text->empty()) emptied = true;  // "--water flats=200" names no file
+    }
+    if (emptied && whole.text) whole.text.reset();
+    if (emptied) std::erase(whole.texts, "");
+  }
+  return {};
+}
+
+Result<void> GivenOptions::settle() {
+  SCARP_RETURN_IF_ERROR(separate_parts());
+  for (const OptionRow* row : accepted_rows(command_)) {
+    Entry& one = entry(row->id);
+    if (row->type != OptionType::kFlag) one.is_given = one.text || !one.texts.empty();
+  }
+  return check_rules(command_, *this);
+}
+
+Result<std::optional<double>> GivenOptions::number(OptionId id) const {
+  const Given& text = (*this)[id];
+  if (!text) return std::optional<double>();
+  SCARP_TRY(const double value, judge(*find_option(command_, id), *text));
+  return std::optional(value);
+}
+
+Result<std::optional<std::uint64_t>> GivenOptions::count(OptionId id) const {
+  const Given& text = (*this)[id];
+  if (!text) return std::optional<std::uint64_t>();
+  const OptionRow& row = *find_option(command_, id);
+  SCARP_TRY(const std::uint64_t value,
+            parse_count(name_of(id), *text, row.least > 0 ? static_cast<std::uint64_t>(row.least) : 0));
+  if (static_cast<double>(value) > row.most) {
+    SCARP_RETURN_IF_ERROR(judge(row, fmt::format("{}", value)));
+  }
+  return std::optional(value);
+}
+
+Result<int> GivenOptions::threads() const {
+  SCARP_TRY(const std::optional<std::uint64_t> threads, count(kThreads));
+  return static_cast<int>(threads.value_or(0));
+}
+
+const std::vector<std::string>& GivenOptions::inputs() const {
+  return all(kInput).empty() ? all(kRaster) : all(kInput);
+}
+
+std::optional<OptionId> GivenOptions::first_of(std::initializer_list<OptionId> ids) const {
+  for (const OptionId id : ids) {
+    if (has(id)) return id;
+  }
+  return std::nullopt;
+}
+
+std::vector<const OptionRow*> GivenOptions::given() const {
+  std::vector<const OptionRow*> rows = accepted_rows(command_);
+  std::erase_if(rows, [&](const OptionRow* row) { return row->is_argument() || !has(row->id); });
+  return rows;
+}
+
+std::vector<std::string> GivenOptions::files_read() const {
+  std::vector<std::string> files;
+  for (const OptionRow* row : accepted_rows(command_)) {
+    if (row->type != OptionType::kInputFile) continue;
+    std::vector<std::string> values = all(row->id);
+    if ((*this)[row->id]) values.push_back(*(*this)[row->id]);
+    for (std::string& value : values) {
+      if (std::string_view(row->value).ends_with("=M")) value.resize(std::min(value.rfind('='), value.size()));
+      files.push_back(std::move(value));
+    }
+  }
+  return files;
+}
+
+std::string GivenOptions::canonical(const OptionRow& row) const {
+  const auto bare = [&](const std::string& text) {
+    return row.type == OptionType::kInputFile ? base_name(text) : text;
+  };
+  std::vector<std::string> values;
+  for (const std::string& text : all(row.id)) values.push_back(bare(text));
+  if (const Given& text = (*this)[row.id]; text && *text != row.by_default) values.push_back(bare(*text));
+  std::string parts;
+  for (const OptionRow* part : parts_of(command_, row.id)) {
+    if (!has(part->id) || !part->is_of_mesh) continue;
+    parts += std::string(",") + part->key + (part->type == OptionType::kFlag ? "" : "=" + *(*this)[part->id]);
+  }
+  if (!parts.empty() && values.empty()) values.push_back((*this)[row.id].value_or(""));
+  if (!parts.empty()) values.back() += values.back().empty() ? parts.substr(1) : parts;
+  if (row.value_count() > 1 && !values.empty()) return fmt::format(" {} {}", row.name, fmt::join(values, " "));
+  std::string text;
+  for (const std::string& value : values) text += fmt::format(" {} {}", row.name, shell_word(value));
+  return row.type == OptionType::kFlag && has(row.id) ? fmt::format(" {}", row.name) : text;
+}
+
+std::string GivenOptions::canonical() const {
+  std::string text;
+  for (const OptionRow* row : accepted_rows(command_)) {
+    if (row->is_argument() || !row->is_of_mesh || row->part_of != kNone) continue;
+    text += canonical(*row);
+  }
+  return text;
+}
+
+}  // namespace scarp::cli

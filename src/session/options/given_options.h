@@ -1,0 +1,89 @@
+// The options of one command line as they were given: registered, parsed, judged and spelled canonically by the table.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/result.h"
+#include "session/options/values.h"
+#include "session/table/option_table.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+class GivenOptions {
+ public:
+  explicit GivenOptions(Commands command) : command_(command) {}
+
+  /// Adds the command to the program, with all of its options, which are written here: *this must stay where it is.
+  /// Parsing ends with the table's rules (option_rules.h); a broken one is thrown as CLI::ParseError.
+  CLI::App* add_to(CLI::App& program);
+
+  Commands command() const { return command_; }
+  bool has(OptionId id) const { return entry(id).is_given; }
+  /// The value; nothing if the option was not given, or may be given again.
+  const Given& operator[](OptionId id) const { return entry(id).text; }
+  /// All values of an option that may be given again, or has several.
+  const std::vector<std::string>& all(OptionId id) const { return entry(id).texts; }
+  /// Forgets all values, before another parse.
+  void clear() { entries_ = {}; }
+  /// The same options, of another command.
+  GivenOptions as(Commands command) const;
+  /// Gives the option another value, or none.
+  void set(OptionId id, Given text);
+  void set(OptionId id, std::vector<std::string> texts);
+
+  /// A number that the option's row allows; nothing if the option was not given.
+  Result<std::optional<double>> number(OptionId id) const;
+  Result<std::optional<std::uint64_t>> count(OptionId id) const;
+  /// The value that the word stands for.
+  template <class T, std::size_t N>
+  Result<std::optional<T>> choice(OptionId id, const Choice<T> (&choices)[N]) const {
+    const Given& text = (*this)[id];
+    if (!text) return std::optional<T>();
+    SCARP_TRY(const T value, choose(name_of(id), *text, choices));
+    return std::optional(value);
+  }
+  /// Threads: 0 (all cores, also if not given) to 1024.
+  Result<int> threads() const;
+
+  /// The rasters, points or sets that the command reads; never empty after parsing a command that needs one.
+  const std::vector<std::string>& inputs() const;
+  const std::string& input() const { return inputs().front(); }
+  /// The first of the options that was given; nothing if none was.
+  std::optional<OptionId> first_of(std::initializer_list<OptionId> ids) const;
+  /// Every option that was given, but for arguments, in the order of the table.
+  std::vector<const OptionRow*> given() const;
+  /// Every file that options name to be read, in the order of the table: the values of all rows of
+  /// OptionType::kInputFile, a layer behind a name included ("FILE:LAYER"), the number of a region ("=M") omitted.
+  std::vector<std::string> files_read() const;
+  /// " --max-error 1 --cutline site.gpkg,inset=2": all that can change the mesh, in the order of the table, with names
+  /// of files without their folders. Omits defaults.
+  std::string canonical() const;
+
+ private:
+  struct Entry {
+    bool is_given = false;
+    Given text;
+    std::vector<std::string> texts;
+  };
+
+  const Entry& entry(OptionId id) const { return entries_[static_cast<std::size_t>(id)]; }
+  Entry& entry(OptionId id) { return entries_[static_cast<std::size_t>(id)]; }
+  void add_row(CLI::App& command, const OptionRow& row);
+  /// Moves the parts of "FILE,inset=2" to their own entries.
+  Result<void> separate_parts();
+  Result<void> settle();
+  std::string canonical(const OptionRow& row) const;
+
+  Commands command_;
+  std::array<Entry, static_cast<std::size_t>(OptionId::kNone)> entries_;
+};
+
+}  // namespace scarp::cli

@@ -1,0 +1,28 @@
+// Which options need others, and which exclude each other: the one table of refusals between options. Conflicts of the
+// library's own settings are in scarp/conflicts.h.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "scarp/result.h"
+#include "session/table/option_table.h"
+
+namespace scarp::cli {
+
+class GivenOptions;
+
+struct OptionRule {
+  OptionTerm one;
+  enum class Kind { kNeeds, kExcludes } kind;
+  std::array<OptionTerm, 4> others;  ///< kNeeds: one of them. kExcludes: each of them
+  const char* why = "";              ///< end of the sentence
+  Commands commands = kEveryCommand;
+};
+
+std::span<const OptionRule> option_rules();
+
+/// kUsage, in one sentence, for the first rule of the command that the options break.
+Result<void> check_rules(Commands command, const GivenOptions& given);
+
+}  // namespace scarp::cli
