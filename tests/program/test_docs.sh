@@ -23,7 +23,7 @@ sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$fish_completions" >fish.txt
 
 commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
-[ "$(wc -w <<<"$commands")" = 13 ] || fail "--help lists other commands: $commands"
+[ "$(wc -w <<<"$commands")" = 14 ] || fail "--help lists other commands: $commands"
 "$scarp" help >help.txt
 "$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options
@@ -63,7 +63,7 @@ done
 grep -A 1 '^Goals' help.txt | grep -q -- '--max-error' || fail "scarp simplify -h does not begin with the goals"
 grep -q -- '--help-all' help.txt || fail "scarp simplify -h does not name --help-all"
 "$scarp" simplify --help-all | grep '^[A-Z].*:$' | sed 's/[ :].*//' | xargs >groups.txt
-[[ $(<groups.txt) == "Arguments Goals "*" Textures Scattered The Examples" ]] || fail "groups in another order: $(<groups.txt)"
+[[ $(<groups.txt) == "Arguments Goals "*" Textures Scattered Old Examples" ]] || fail "groups in another order: $(<groups.txt)"
 [ "$("$scarp" version)" = "$("$scarp" --version)" ] || fail "scarp version and scarp --version differ"
 
 offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp simplify --effort h); COMP_CWORD=3; _scarp; echo "${COMPREPLY[@]}"' \
@@ -94,7 +94,7 @@ for row in table["options"]:
     key = row["command"], row["name"]
     assert key not in seen, f"{key} twice"
     seen.add(key)
-    assert list(row) == ["name", "short", "command", "group", "type", "value", "unit", "default", "range", "choices",
+    assert list(row) == ["name", "short", "command", "part_of", "key", "group", "type", "value", "unit", "default", "range", "choices",
                          "repeatable", "required", "help", "brief"], row
     assert row["help"].endswith(".") and row["help"][0].isupper(), row["help"]
     assert len(re.split(r"\.(?: |$)", row["help"])[0]) <= 160, f"{key}: a first sentence too long for completions"
@@ -110,10 +110,12 @@ while read -r command option choices; do
     "simplify --duplicates") try "$scarp" simplify points.csv out.obj -e 1 "$option" nonsense ;;
     "measure --duplicates") continue ;; # asked after the mesh is read
     "simplify --norm") try "$scarp" simplify "$dem" out.obj -e 1 --image "$option" nonsense ;;
-    "simplify --edge-score") try "$scarp" simplify "$dem" out.obj -e 1 --edges data "$option" nonsense ;;
     "simplify --drape-format") try "$scarp" simplify "$dem" out.glb -e 1 --drape "$dem" "$option" nonsense ;;
     "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines "$option" nonsense ;;
     "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
+    "classic --duplicates" | "classic --norm" | "classic --drape-format" | "classic --line-conflict") continue ;; # of simplify
+    "classic --edge-score") try "$scarp" classic "$dem" out.obj -e 1 --edges data "$option" nonsense ;;
+    classic*) try "$scarp" classic "$dem" out.obj -e 1 "$option" nonsense ;;
     simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
     view*) try "$scarp" view out.obj "$dem" "$option" nonsense ;;
     measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 
 #include "session/inputs/heightmap.h"
 #include "session/inputs/nodata_warnings.h"
+#include "session/options/raster_options.h"
 #include "session/reports/info_report.h"
 #include "session/table/option_table.h"
 #include "session/text/json_text.h"

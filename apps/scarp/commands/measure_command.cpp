@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "session/options/points_options.h"
 #include "session/reports/measure_report.h"
 #include "session/table/option_table.h"
 #include "session/tasks/measure_work.h"

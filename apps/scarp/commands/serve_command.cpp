@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,7 +12,9 @@
 #include "scarp/live_tiles.h"
 #include "serve/http_server.h"
 #include "serve/preparation.h"
+#include "serve/tile_answers.h"
 #include "session/options/memory_options.h"
+#include "session/plan/tile_plan.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
 #include "session/text/paths.h"
@@ -55,7 +58,7 @@ Result<void> check_alone(const GivenOptions& given) {
   const bool is_plan = lower_extension(given.input()) == ".json";
   constexpr std::array kFree{kPort, kHost, kThreads, kQuiet, kJsonProgress};
   for (const OptionRow* row : given.given()) {
-    if (std::ranges::count(kFree, row->id) > 0 || (is_plan && row->id == OptionId::kDefaultMemory)) continue;
+    if (std::ranges::count(kFree, row->id) > 0 || (is_plan && row->id == OptionId::kMemory)) continue;
     return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, whose tiles are made when they are asked for: {} is "
                                                "finished, or a plan that has decided it",
                                                row->title(), given.input()));

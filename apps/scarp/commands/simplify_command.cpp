@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "session/options/points_options.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/report.h"
 #include "session/reports/simplify_outcome.h"

@@ -6,6 +6,9 @@
 #include <array>
 #include <optional>
 
+#include "scarp/tile_check.h"
+#include "session/options/tile_options.h"
+#include "session/plan/tile_plan.h"
 #include "session/reports/tile_check_report.h"
 #include "session/table/option_table.h"
 #include "session/text/clock.h"

@@ -12,6 +12,7 @@
 #include "scarp/io.h"
 #include "session/plan/outputs.h"
 #include "session/plan/tile_parts.h"
+#include "session/plan/tile_plan.h"
 #include "session/reports/tile_report.h"
 #include "session/table/option_table.h"
 #include "session/tasks/slurm_script.h"

@@ -15,9 +15,11 @@
 #include "scarp/solid.h"
 #include "session/inputs/mesh_place.h"
 #include "session/options/output_kind.h"
+#include "session/options/raster_options.h"
 #include "session/plan/outputs.h"
 #include "session/plan/page_template.h"
 #include "session/reports/level_pages.h"
+#include "session/reports/view_page.h"
 #include "session/table/option_table.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
@@ -83,11 +85,12 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
 
 /// MESH; of OUT_lod0.glb the other levels, too.
 std::vector<std::string> mesh_paths(const GivenOptions& given) {
-  std::vector<std::string> paths{*given[kMesh]};
-  const std::size_t at = *given[kMesh].rfind("_lod0.");
+  const std::string& mesh = *given[kMesh];
+  std::vector<std::string> paths{mesh};
+  const std::size_t at = mesh.rfind("_lod0.");
   if (at == std::string::npos) return paths;
   for (int level = 1;; ++level) {
-    const std::string path = fmt::format("{}_lod{}{}", *given[kMesh].substr(0, at), level, *given[kMesh].substr(at + 5));
+    const std::string path = fmt::format("{}_lod{}{}", mesh.substr(0, at), level, mesh.substr(at + 5));
     if (!std::filesystem::exists(path)) return paths;
     paths.push_back(path);
   }

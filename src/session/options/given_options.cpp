@@ -50,14 +50,14 @@ std::size_t find_next_part(const std::vector<const OptionRow*>& parts, std::stri
 Result<double> judge(const OptionRow& row, const std::string& text) {
   const std::string name = row.title();
   const auto refuse = [&](std::string what) {
+    if (row.limit_why[0] != 0) what += std::string(": ") + row.limit_why;
     return fail(ErrorKind::kUsage, fmt::format("{} {} {}", name, shell_word(text), what));
   };
   SCARP_TRY(const double value, parse_number(name, text));
   if (value < 0 && row.least == 0) return refuse("is negative: it must be at least 0");
   if (value < row.least) return refuse(fmt::format("is below {}: it must be {}", row.least, row.range_text()));
   if (!(value > row.above)) return refuse(fmt::format("is not above {}", row.above));
-  if (value > row.most)
-    return refuse(fmt::format("is above {}{}{}", row.most, row.too_much[0] != 0 ? ": " : "", row.too_much));
+  if (value > row.most) return refuse(fmt::format("is above {}", row.most));
   return value;
 }
 
@@ -112,7 +112,7 @@ void GivenOptions::set(OptionId id, Given text) {
   entry(id) = Entry{text.has_value(), std::move(text), {}};
 }
 
-void GivenOptions::set(OptionId id, std::vector<std::string> texts) {
+void GivenOptions::set(OptionId id, Texts texts) {
   entry(id) = Entry{!texts.empty(), std::nullopt, std::move(texts)};
 }
 

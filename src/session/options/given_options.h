@@ -19,6 +19,8 @@ namespace scarp::cli {
 
 class GivenOptions {
  public:
+  using Texts = std::vector<std::string>;
+
   explicit GivenOptions(Commands command) : command_(command) {}
 
   /// Adds the command to the program, with all of its options, which are written here: *this must stay where it is.
@@ -37,7 +39,7 @@ class GivenOptions {
   GivenOptions as(Commands command) const;
   /// Gives the option another value, or none.
   void set(OptionId id, Given text);
-  void set(OptionId id, std::vector<std::string> texts);
+  void set(OptionId id, Texts texts);
 
   /// A number that the option's row allows; nothing if the option was not given.
   Result<std::optional<double>> number(OptionId id) const;

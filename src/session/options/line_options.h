@@ -1,9 +1,8 @@
 // Lines, lakes and rivers, as options name them.
 #pragma once
 
+#include "scarp/features.h"
 #include "scarp/lines.h"
-#include "scarp/ridges.h"
-#include "scarp/cliffs.h"
 #include "session/options/given_options.h"
 
 namespace scarp::cli {

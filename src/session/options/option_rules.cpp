@@ -108,7 +108,12 @@ std::string describe(const OptionTerm& term, const GivenOptions& given) {
   return fmt::format("{} {}", term.id, value.starts_with('!') ? *given[term.id] : value);
 }
 
-Result<void> check(const OptionRule& rule, const GivenOptions& given) {
+}  // namespace
+
+std::span<const OptionRule> option_rules() { return kRules; }
+
+Result<void> check_rule(const OptionRule& rule, const GivenOptions& given) {
+  if (!holds(rule.one, given)) return {};
   const std::string why = rule.why[0] != 0 ? std::string(": ") + rule.why : "";
   std::string needed;
   for (const OptionTerm& other : rule.others) {
@@ -117,22 +122,17 @@ Result<void> check(const OptionRule& rule, const GivenOptions& given) {
     if (rule.kind == kExcludes && is_given)
       return fail(ErrorKind::kUsage, fmt::format("{} cannot be combined with {}{}", describe(rule.one, given),
                                                  describe(other, given), why));
-    if (is_given) return {};
+    if (rule.kind == kNeeds && is_given) return {};
     needed += (needed.empty() ? "" : " or ") + describe(other, given);
   }
   if (rule.kind == kExcludes) return {};
   return fail(ErrorKind::kUsage, fmt::format("{} needs {}{}", describe(rule.one, given), needed, why));
 }
 
-}  // namespace
-
-std::span<const OptionRule> option_rules() { return kRules; }
-
 Result<void> check_rules(Commands command, const GivenOptions& given) {
   for (const OptionRule& rule : kRules) {
-    const bool applies = (rule.commands & command) != 0 && holds(rule.one, given);
-    if (!applies) continue;
-    SCARP_RETURN_IF_ERROR(check(rule, given));
+    if ((rule.commands & command) == 0) continue;
+    SCARP_RETURN_IF_ERROR(check_rule(rule, given));
   }
   return {};
 }

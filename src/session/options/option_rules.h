@@ -22,7 +22,9 @@ struct OptionRule {
 
 std::span<const OptionRule> option_rules();
 
-/// kUsage, in one sentence, for the first rule of the command that the options break.
+/// kUsage, in one sentence, if the options break the rule.
+Result<void> check_rule(const OptionRule& rule, const GivenOptions& given);
+/// The same for the first rule of the command that they break.
 Result<void> check_rules(Commands command, const GivenOptions& given);
 
 }  // namespace scarp::cli

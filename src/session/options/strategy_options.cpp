@@ -64,7 +64,8 @@ Result<EdgeRule> parse_edges(const GivenOptions& given) {
   rule.data_dependent = is_of_data.value_or(rule.data_dependent);
   SCARP_TRY(const auto score, given.choice(kEdgeScore, kScores));
   rule.score = score.value_or(rule.score);
-  SCARP_TRY(rule.shape_threshold, given.number(kShapeThreshold));
+  SCARP_TRY(const auto threshold, given.number(kShapeThreshold));
+  if (threshold) rule.shape_threshold = *threshold;
   SCARP_TRY(const auto supersample, given.number(kSupersample));
   rule.supersample = supersample.value_or(rule.supersample);
   return rule;
@@ -117,7 +118,8 @@ Result<void> parse_strategy(const GivenOptions& given, SimplifyOptions& options,
   Quality& quality = options.quality;
   SCARP_TRY(const auto effort, given.choice(kEffort, kEfforts));
   quality.effort = effort.value_or(quality.effort);
-  SCARP_TRY(quality.vertices, given.choice(kVertices, kVertexWords));
+  SCARP_TRY(const auto vertices, given.choice(kVertices, kVertexWords));
+  quality.vertices = vertices.value_or(quality.vertices);
   SCARP_TRY(quality.min_shape, given.number(kMinShape));
   SCARP_TRY(const auto limit, given.number(kTimeLimit));
   if (limit) {

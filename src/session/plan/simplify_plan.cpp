@@ -102,7 +102,7 @@ Result<void> plan_solid(const GivenOptions& given, SimplifyPlan& plan) {
 }
 
 /// Checks the needs of solids and of the format.
-Result<void> plan_solid_format(const GivenOptions& given, SimplifyPlan& plan) {
+Result<void> plan_solid_format(const SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
     return fail(ErrorKind::kUsage,
@@ -178,7 +178,7 @@ Result<void> plan_outputs(const GivenOptions& given, SimplifyPlan& plan) {
   SCARP_TRY(plan.base, given.number(kBase));
   SCARP_TRY(plan.images, parse_images(given, format));
   SCARP_RETURN_IF_ERROR(plan_attributes(given, plan));
-  SCARP_RETURN_IF_ERROR(plan_solid_format(given, plan));
+  SCARP_RETURN_IF_ERROR(plan_solid_format(plan));
 
   SCARP_TRY(plan.levels, parse_levels(given, plan.format));
   plan.levels_in_one = given.has(kLodsInOne);

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "session/options/given_options.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
 

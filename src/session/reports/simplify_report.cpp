@@ -14,6 +14,7 @@
 #include "session/reports/report.h"
 #include "session/reports/shape_report.h"
 #include "session/reports/strategy_report.h"
+#include "session/options/strategy_options.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
 

@@ -140,7 +140,7 @@ nlohmann::ordered_json describe_option(const OptionRow& row, const CommandRow& c
   return {{"name", row.name},
           {"short", or_null(row.short_name)},
           {"command", command.name},
-          {"part_of", row.part_of == OptionId::kNone ? nlohmann::ordered_json() : name_of(row.part_of)},
+          {"part_of", or_null(row.part_of == OptionId::kNone ? "" : name_of(row.part_of).c_str())},
           {"key", or_null(row.key)},
           {"group", group.name},
           {"type", type_name(row.type)},
@@ -182,7 +182,7 @@ std::string command_help(const CommandRow& command, bool all) {
       return row->group != OptionGroup::kStrategies && row->group != OptionGroup::kArguments;
     });
   const std::string page = head + list_options(rows) + list_old_spellings(command) + "\n" + command.notes;
-  if (all || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
+  if (all || command.command == kClassic || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
   return head + list_briefly(rows) + "\n" + command.notes;
 }
 

@@ -101,6 +101,7 @@ constexpr OptionRow kGoalRows[] = {
      .by_default = "0.1 with free vertices, else 0",
      .least = 0,
      .most = 0.5,
+     .limit_why = "0.5 is the shape of half a sample's square",
      .help = "Do not create triangles thinner than this (height over longest edge)."},
     {.id = kTimeLimit,
      .name = "--time-limit",

@@ -43,6 +43,7 @@ constexpr OptionRow kRunRows[] = {
      .by_default = "0, all cores",
      .least = 0,
      .most = 1024,
+     .limit_why = "ask for fewer, or for 0, all cores",
      .is_of_mesh = false,
      .is_for_points = true,
      .help = "Number of threads. Never changes the result."},

@@ -171,6 +171,7 @@ constexpr OptionRow kSampleRows[] = {
      .by_default = "0.5",
      .least = 0,
      .most = 1,
+     .limit_why = "1 means textures only",
      .help = "How much textures count: 0 means heights only, 1 textures only. At 0.5 the range of a band counts as "
              "much as the relief."},
     {.id = kImage,

@@ -83,6 +83,7 @@ constexpr OptionRow kStrategyRows[] = {
      .by_default = "0.5, with tight 0.1",
      .least = 0,
      .most = 1,
+     .limit_why = "0 counts the data alone, 1 the shape alone",
      .help = "With --edges data: 0 counts the data alone, 1 the shape alone."},
     {.id = kSupersample,
      .name = "--supersample",

@@ -350,6 +350,7 @@ constexpr OptionRow kTileRows[] = {
      .by_default = "8080",
      .least = 0,
      .most = 65535,
+     .limit_why = "ports go from 0, any that is free, to 65535",
      .help = "Port to serve at. 0: any that is free."},
     {.id = kHost,
      .name = "--host",

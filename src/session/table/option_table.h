@@ -217,7 +217,7 @@ struct OptionRow {
   double least = -kNoLimit;   ///< the least number
   double above = -kNoLimit;   ///< the number that all are above
   double most = kNoLimit;     ///< the largest number
-  const char* too_much = "";  ///< what is wrong with a larger number, for the sentence that refuses it
+  const char* limit_why = "";  ///< reason of a limit, for the sentence that refuses a number beyond it
   const char* range = "";     ///< in words, where the three above do not express it
   bool is_repeatable = false;
   bool is_required = false;

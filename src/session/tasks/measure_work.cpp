@@ -7,6 +7,7 @@
 
 #include "scarp/picture.h"
 #include "scarp/solid.h"
+#include "session/options/raster_options.h"
 #include "session/inputs/cutline.h"
 #include "session/inputs/memory.h"
 #include "session/inputs/mesh_place.h"

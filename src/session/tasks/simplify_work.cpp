@@ -9,6 +9,7 @@
 
 #include "scarp/drape.h"
 #include "scarp/edits.h"
+#include "scarp/paper.h"
 #include "session/inputs/cutline.h"
 #include "session/inputs/heightmap.h"
 #include "session/inputs/lines.h"
@@ -34,7 +35,8 @@ constexpr const char* kBroken = "the mesh does not keep its promise and was not 
 
 /// Bytes of vector files, in addition to the raster's.
 std::uint64_t vector_bytes(const SimplifyPlan& plan) {
-  return find_lines(plan.given) || plan.given.first_of({kCutline, kRoi}) ? kVectorBytes : 0;
+  const auto file = plan.given.first_of({kBreaklines, kWater, kRivers, kMaterials, kNodeStrings, kCutline, kRoi});
+  return file ? kVectorBytes : 0;
 }
 
 MemoryNeeds needs_of(const SimplifyPlan& plan) {
