@@ -40,6 +40,7 @@ scarp_status judge(const std::string& input, std::optional<bool> are_points, con
   if (auto parsed = parse_options(program, cli::kMeasure, {"measure", input, kMeshName}, asked, beside); !parsed)
     return report(parsed.error());
   const cli::Runner runner{progress_of(asked)};
+  if (auto fits = cli::check_kind_of_input(given); !fits) return report(fits.error());
   if (are_points.value_or(cli::are_points_meant(given))) {
     cli::JudgedPoints judged;
     if (auto done = cli::judge_points(given, runner, judged); !done) return report(done.error());

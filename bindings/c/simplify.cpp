@@ -66,8 +66,8 @@ class SimplifyWords {
     request->words = std::move(words);
     request->given = given_;
     SCARP_RETURN_IF_ERROR(check_goal(given_));
-    if (kind != InputKind::kField && cli::are_points_meant(given_)) return request;
     SCARP_RETURN_IF_ERROR(cli::check_kind_of_input(given_));
+    if (kind != InputKind::kField && cli::are_points_meant(given_)) return request;
     SCARP_TRY(request->plan, cli::plan_simplify(given_, {}));
     if (kind == InputKind::kField) last_[next_++ % last_.size()] = request;
     return request;

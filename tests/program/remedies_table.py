@@ -377,5 +377,5 @@ NOT_RUN = [
                                                        # before
     # Messages of view, whose page is built by npm: test_view.sh.
     "is too large for a page", "the finest level of the page is", "is not whole:", "and a page judges by a raster alone",
-    "options of a raster are given", "is a set of tiles, which is shown without a raster",
+    "an option of a raster is given", "is a set of tiles, which is shown without a raster",
 ]

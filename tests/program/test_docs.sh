@@ -51,6 +51,7 @@ for command in $commands; do
   # bash: what is offered after the command is exactly what --help lists.
   offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp "$2" --); COMP_CWORD=2; _scarp; printf "%s\n" "${COMPREPLY[@]}"' \
     _ "$bash_completions" "$command" | sort)
+  [ "$command" != classic ] || offered=$(comm -12 <(echo "$offered") <(sort <<<"$options")) # it has those of simplify, too
   [ "$offered" = "$(sort <<<"$options")" ] || fail "bash offers after $command: $offered"
 done
 # The first page fits a screen: goals first, eight examples, and the way to the rest, in which they stand last that few
@@ -130,6 +131,14 @@ while read -r command option choices; do
   named=$(sed -E 's/.*choose //; s/ or /, /; s/,//g' "$logs/err" | tr ' ' '\n' | sort | xargs)
   [ "$named" = "$(tr ' ' '\n' <<<"$choices" | sort | xargs)" ] || fail "$command $option: $choices, but the program says $named"
 done <choices.txt
+
+# Sentences name an option by its row: few names stand in the sources as text.
+literals=$(cd "$SCARP_SOURCE" && grep -rhE '"--[a-z]' --include='*.cpp' --include='*.h' --exclude='option_rows_*' src apps bindings/c |
+  grep -vcE '^ *//|//.*"--[a-z]')
+[ "$literals" -le 60 ] || fail "$literals names of options stand outside of the table, more than 60"
+own=$(python3 -c 'import json, sys; print(sum(r["command"] == "simplify" and r["name"][0] == "-" and not r["part_of"]
+  for r in json.load(sys.stdin)["options"]))' <table.json)
+[ "$own" -le 70 ] || fail "simplify has $own options, more than 70"
 
 check_words=$SCARP_SOURCE/tools/check_words.py
 python3 "$check_words" "$SCARP_SOURCE" >words.txt || fail "words: $(head -n 3 words.txt)"

@@ -55,7 +55,7 @@ class Library(unittest.TestCase):
             (scarp.InputError, "-e.pgm: no such file", lambda: scarp.simplify("-e.pgm", 1)),
             (scarp.UsageError, "max_error is NaN", lambda: scarp.Refiner(z).run(float("nan"))),
             (scarp.UsageError, "max_error -1 is negative", lambda: scarp.Refiner(z).run(-1)),
-            (scarp.UsageError, "threads 5000 is more", lambda: scarp.simplify(z, 1, threads=5000)),
+            (scarp.UsageError, "threads 5000 is above 1024", lambda: scarp.simplify(z, 1, threads=5000)),
             (scarp.UsageError, "fail_above", lambda: scarp.measure(z, mesh, fail_above=float("nan"))),
             (scarp.UsageError, "base", lambda: mesh.add_base(float("nan"))),
             (scarp.UsageError, "scarp.measure() does", lambda: scarp.Refiner(z).mesh().report),

@@ -146,10 +146,12 @@ Result<void> check_place(const GivenOptions& given, const Mesh& mesh, const Owne
 }  // namespace
 
 Result<void> run_view(const GivenOptions& given, const std::string&) {
-  if (given.inputs().empty() && !given.canonical().empty()) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("options of a raster are given ({}), and no RASTER: scarp view {} RASTER",
-                            given.canonical().substr(1), shell_word(*given[kMesh])));
+  if (given.inputs().empty()) {
+    for (const OptionRow* row : given.given()) {
+      if (row->id == kUp || (row->group != OptionGroup::kInput && row->group != OptionGroup::kNodata)) continue;
+      return fail(ErrorKind::kUsage, fmt::format("an option of a raster is given ({}), and no RASTER: scarp view {} RASTER",
+                                                 row->name, shell_word(*given[kMesh])));
+    }
   }
   if (!given.inputs().empty()) {
     SCARP_RETURN_IF_ERROR(parse_reading(given));

@@ -101,11 +101,14 @@ bool holds(const OptionTerm& term, const GivenOptions& given) {
   return value.starts_with('!') ? text != std::string(value.substr(1)) : text == std::string(value);
 }
 
-/// "--vertices free"; a value that is only excluded is printed as it was given.
+/// "--vertices free"; a value that is only excluded is printed as it was given, and a part without its option as it was
+/// spelled.
 std::string describe(const OptionTerm& term, const GivenOptions& given) {
   const std::string_view value = term.value;
-  if (value.empty()) return name_of(term.id);
-  return fmt::format("{} {}", term.id, value.starts_with('!') ? *given[term.id] : value);
+  if (!value.empty()) return fmt::format("{} {}", term.id, value.starts_with('!') ? *given[term.id] : value);
+  const OptionRow* const row = find_option(given.command(), term.id);
+  const bool is_alone = row != nullptr && row->part_of != kNone && !given.has(row->part_of);
+  return is_alone ? row->name : name_of(term.id);
 }
 
 }  // namespace

@@ -104,9 +104,8 @@ const OptionRow* find_option(Commands commands, OptionId id) {
 }
 
 const OptionRow* find_option(Commands commands, std::string_view name) {
-  for (const OptionRow* row : all_rows()) {
-    if ((row->commands & commands) != 0 && (row->name == name || (!name.empty() && row->short_name == name)))
-      return row;
+  for (const OptionRow* row : accepted_rows(commands)) {
+    if (row->name == name || (!name.empty() && row->short_name == name)) return row;
   }
   return nullptr;
 }
