@@ -54,7 +54,7 @@ view() {
 
 simplify dem.tif lakes.glb -e 20 --water lakes.geojson --rivers streams.geojson --preview "$out/gis_water.png"
 shrink "$out/gis_water.png" 900
-simplify dem.tif parcel.glb -e 40 --cutline parcel.geojson --roi site.geojson=5 --falloff 2000 --preview "$out/gis_parcel.png"
+simplify dem.tif parcel.glb -e 40 --cutline parcel.geojson --roi site.geojson=5,falloff=2000 --preview "$out/gis_parcel.png"
 shrink "$out/gis_parcel.png" 900
 simplify dem.tif tin.2dm -e 20 --crs EPSG:32616
 "$scarp" measure dem.tif tin.2dm --map "$out/gis_errors.png" --quiet --overwrite

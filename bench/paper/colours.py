@@ -51,8 +51,7 @@ class Texture:
             share = emphasis / (1 - emphasis) * size / self.field.relief * sum(ranges) / (3 * 255)
             weight = share / (1 + share)
         render = self.study.program.folder / f"{self.field.key}_{emphasis}_{size}.png"  # kept, as the run is
-        options = ("--texture", self.path, "--texture-weight", repr(weight), "--channel-weights", ",".join(map(str, ranges)),
-                   "--render", render)
+        options = ("--texture", f"{self.path},weight={weight!r}", "--norm", f"weights={','.join(map(str, ranges))}", "--render", render)
         if points:
             run = self.study.program.through_points(self.field, points, *options)
         else:

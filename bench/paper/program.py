@@ -114,7 +114,7 @@ class Program:
     def simplify(self, raster, *options, mesh=False, scale=1):
         """One run on one thread. `mesh`: reads the mesh, too."""
         ply, report = self.folder / "mesh.ply", self.folder / "report.json"
-        self.call("simplify", raster, ply, "--crs", "grid", "--report", report, "--overwrite", "-q", "-j", 1, *options)
+        self.call("classic", raster, ply, "--crs", "grid", "--report", report, "--overwrite", "-q", "-j", 1, *options)
         return Run(json.loads(report.read_text()), read_mesh(ply) if mesh else None, scale)
 
     def greedy(self, field, *options, mesh=False):

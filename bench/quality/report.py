@@ -319,7 +319,7 @@ def ridge_table(rows):
                          f"{points:+.1f}".replace("-", "−"))
         lines.append([title(raster), error, f"{first['ridges']}, {first['valleys']}", *cells])
     return markdown(["raster", "max error", "ridges, valleys",
-                     *(f"`{effort}`" if kind == "preferred" else f"`{effort} --keep-ridges`" for effort, kind in shown)],
+                     *(f"`{effort}`" if kind == "preferred" else f"`{effort}`, kept" for effort, kind in shown)],
                     lines)
 
 

@@ -106,14 +106,14 @@ try "$scarp" simplify ragged.asc x.obj -t 10
 needed=$(sed -n 's/.*alone needs \([0-9]*\);.*/\1/p' "$logs/err")
 succeeds "$scarp" simplify ragged.asc ragged.obj -e 1 --report ragged.json
 [ "$(json ragged.json outline_triangles)" = "$needed" ] || fail "$(json ragged.json outline_triangles) instead of $needed"
-grep -q "outlines  *of nodata and border alone need $(json ragged.json outline_triangles) triangles: --outline-tolerance" "$logs/out" ||
+grep -q "outlines  *of nodata and border alone need $(json ragged.json outline_triangles) triangles: --nodata-policy outline=" "$logs/out" ||
   fail "the summary does not tell what outlines need"
-succeeds "$scarp" simplify ragged.asc looser.obj -e 1 --outline-tolerance 1 --report looser.json
+succeeds "$scarp" simplify ragged.asc looser.obj -e 1 --nodata-policy outline=1 --report looser.json
 at_one=$(json looser.json outline_triangles)
 [ "$(json ragged.json outline_triangles_at_one)" = "$at_one" ] || fail "$(json ragged.json outline_triangles_at_one) at one instead of $at_one"
 holds "$at_one < 0.5 * $needed"
 succeeds "$scarp" simplify ragged.asc ragged.obj -e 1 --overwrite
-grep -q "outlines .*: --outline-tolerance 1 takes $at_one$" "$logs/out" || fail "the summary does not tell what a tolerance of 1 takes"
+grep -q "outlines .*: --nodata-policy outline=1 takes $at_one$" "$logs/out" || fail "the summary does not tell what a tolerance of 1 takes"
 succeeds "$scarp" simplify hill.asc hole.obj -e 1 --overwrite
 if grep -q '^  outlines' "$logs/out"; then fail "a small outline is told of"; fi
 [ ! -s "$logs/err" ] || fail "-q warns"

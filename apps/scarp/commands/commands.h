@@ -23,15 +23,15 @@ Result<void> run_tile(const GivenOptions& given, const std::string& command_line
 Result<void> run_tile_plan(const GivenOptions& given, const std::string& command_line);
 Result<void> run_tile_run(const GivenOptions& given, const std::string& command_line);
 Result<void> run_tile_finish(const GivenOptions& given, const std::string& command_line);
-/// What a finished set of tiles promises, proven.
+/// The promises of a finished set of tiles, proven.
 Result<void> run_tile_check(const GivenOptions& given, const std::string& command_line);
 /// A set of tiles over HTTP, or the tiles of a raster as they are asked for. Returns once a signal asks to stop.
 Result<void> run_serve(const GivenOptions& given, const std::string& command_line);
-/// What a raster, points or a mesh hold, and which errors suit a raster.
+/// The contents of a raster, points or a mesh, and the errors that suit a raster.
 Result<void> run_info(const GivenOptions& given, const std::string& command_line);
 /// Synthetic height fields as rasters.
 Result<void> run_generate(const GivenOptions& given, const std::string& command_line);
-/// What a command and its options do.
+/// The text that explains a command and its options.
 Result<void> run_help(const GivenOptions& given, const std::string& command_line);
 Result<void> run_version(const GivenOptions& given, const std::string& command_line);
 

@@ -11,7 +11,7 @@
 
 namespace scarp::cli {
 
-/// Makes the lakes of --water flat, or finds those of --detect-flats, and reads the lines of --rivers. `memory`:
+/// Makes the lakes of --water flat, or finds those of its flats=N, and reads the lines of --rivers. `memory`:
 /// without that of the lakes.
 Result<void> read_waters(const GivenOptions& given, const ProgressCallback& progress, const MemoryShare& memory,
                          OwnedHeightField& field, Features& features, std::vector<std::string>& warnings);

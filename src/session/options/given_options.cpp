@@ -37,7 +37,7 @@ const OptionRow* find_part(const std::vector<const OptionRow*>& parts, std::stri
   return nullptr;
 }
 
-/// Where the next part begins, at `from` or behind a comma; the end of the text if there is none.
+/// The place where the next part begins, at `from` or behind a comma; the end of the text if there is none.
 std::size_t find_next_part(const std::vector<const OptionRow*>& parts, std::string_view text, std::size_t from) {
   for (std::size_t at = from; at < text.size(); ++at) {
     const bool may_begin = at == 0 || text[at - 1] == ',';

@@ -1,4 +1,4 @@
-// --lods, --lods-in-one and --lock-border: meshes that meet their neighbours and replace each other.
+// --lods and --lock-border: meshes that meet their neighbours and replace each other.
 #pragma once
 
 #include <optional>

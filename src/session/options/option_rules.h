@@ -1,5 +1,5 @@
-// Which options need others, and which exclude each other: the one table of refusals between options. Conflicts of the
-// library's own settings are in scarp/conflicts.h.
+// The one table of refusals between options: some need others, some exclude each other. Conflicts of the library's own
+// settings are in scarp/conflicts.h.
 #pragma once
 
 #include <array>

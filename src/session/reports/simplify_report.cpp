@@ -146,7 +146,7 @@ std::string outline_line(const SimplifyPlan& plan, const Outcome& outcome) {
   if (least < kFew || 2 * least < outcome.triangles) return "";
   const std::uint64_t at_one = outcome.simplified.outline_triangles_at_one;
   const std::string fewer = at_one > 0 ? fmt::format("1 takes {}", format_count(at_one)) : std::string("takes fewer");
-  return summary_line("outlines", fmt::format("of nodata and border alone need {}: --outline-tolerance {}{}",
+  return summary_line("outlines", fmt::format("of nodata and border alone need {}: --nodata-policy outline={}{}",
                                               format_plural(least, "triangle"), fewer,
                                               plan.memory && outcome.field.source ? ", without --memory" : ""));
 }

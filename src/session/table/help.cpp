@@ -77,7 +77,7 @@ std::string list_options(const std::vector<const OptionRow*>& rows) {
   return text;
 }
 
-/// How options were spelled until 0.2, which is accepted until 0.4.
+/// The spellings of 0.1, which are accepted until 0.4.
 std::string list_old_spellings(const CommandRow& command) {
   std::string text;
   if (command.command == kClassic) return "";

@@ -77,10 +77,10 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .value = "LEVEL",
      .choices = "fast normal high max",
-     .by_default = "normal; fast with strategies, --order greedy, or too little --memory",
+     .by_default = "normal; fast with the 1995 paper's strategies, or too little --memory",
      .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the "
              "triangles of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, "
-             "9.6 and 50 times that of --order greedy. With -t or -p: a smaller error instead.",
+             "9.6 and 50 times that of the 1995 paper's algorithm. With -t or -p: a smaller error instead.",
      .brief = "fast, normal, high or max: fewer triangles for more time"},
     {.id = kVertices,
      .name = "--vertices",

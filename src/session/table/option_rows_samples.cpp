@@ -28,7 +28,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "hole fill background",
      .by_default = "hole",
      .help = "Treatment of missing samples. hole: the mesh has none there. fill: they are interpolated. background: "
-             "they get the height of --background."},
+             "they get a given height."},
     {.id = kNodataPolicy,
      .name = "--nodata-policy",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
@@ -39,7 +39,7 @@ constexpr OptionRow kSampleRows[] = {
      .by_default = "voids",
      .help =
          "Treatment of missing samples. voids: those of enclosed voids of at most 100 samples a side are interpolated, "
-         "others get the height of --background. fill: all within --fill-distance of a height are interpolated. "
+         "others get the height of --background. fill: all within a distance of a height are interpolated. "
          "background: none is.",
      .brief = "Treatment of missing samples: voids, fill or background"},
     {.id = kFillDistance,

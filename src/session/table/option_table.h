@@ -193,7 +193,7 @@ using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kHelpCommand = 16,
                           kVersionCommand = 32, kTile = 64, kServe = 128, kTilePlan = 256, kTileRun = 512,
                           kTileFinish = 1024, kTileCheck = 2048, kView = 4096;
-/// What `scarp classic` has in addition to simplify. The rows of simplify accept it, too, until 0.4.
+/// The options that `scarp classic` has in addition to those of simplify, which accepts them, too, until 0.4.
 inline constexpr Commands kStrategies = 8192;
 inline constexpr Commands kClassic = kSimplify | kStrategies;
 inline constexpr Commands kEveryCommand = 16383;

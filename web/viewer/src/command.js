@@ -6,12 +6,13 @@ function quote(name) {
   return /^[A-Za-z0-9._/-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
+const COMMANDS = { greedy: 'classic', high: 'simplify' };
 const EFFORTS = { greedy: '--effort fast --order greedy', high: '--effort high' };
 
 /** How the raster was read for the file that the page began with: only words that no shell reads. */
 function optionsOf({ command = '' }) {
   const found = String(command).matchAll(
-    / --(?:band|te|resolution|decode|nodata|z-scale|z-offset|cell-size|crs)(?: [A-Za-z0-9.:+-]+)+?(?= --| -[a-z] |$)/g,
+    / --(?:band|te|resolution|decode|nodata|z-scale|z-offset|cell-size|crs)(?: [A-Za-z0-9.:+,=-]+)+?(?= --| -[a-z] |$)/g,
   );
   return [...found].map(([words]) => words).join('');
 }
@@ -22,7 +23,7 @@ export function commandOf({ field, goal, name, extras }, format) {
   const asked = goal.maxTriangles ? `-t ${goal.maxTriangles}` : `-e ${goal.maxError}`;
   const decode = field.decoding && field.decoding !== 'grey' ? ` --decode ${field.decoding}` : '';
   const files = `${quote(field.name)} mesh.${format === 'obj' ? 'glb' : format}`;
-  return `scarp simplify ${files} ${asked} ${EFFORTS[name]}${decode}${optionsOf(extras)}`;
+  return `scarp ${COMMANDS[name]} ${files} ${asked} ${EFFORTS[name]}${decode}${optionsOf(extras)}`;
 }
 
 /** Notes on what the command does not express. */
