@@ -57,7 +57,7 @@ PYTHON
 succeeds gdal_translate -q -a_scale 1 -a_offset 660 hills.tif high.tif
 for limit in "" "--memory 100M"; do
   succeeds "$scarp" simplify high.tif zero.obj -e 12 --breaklines zero.geojson --report zero.json --overwrite $limit
-  grep -Eq "warning: --breaklines: zero.geojson feature 1 lies up to [0-9.]+ from the raster, and all its heights are 0: .*--soft-breaklines" \
+  grep -Eq "warning: --breaklines: zero.geojson feature 1 lies up to [0-9.]+ from the raster, and all its heights are 0: .*--breaklines soft" \
     "$logs/err" || fail "a line at height 0 cuts a trench without a word"
   [ "$(json zero.json breaklines farthest_is_at_zero)" = true ] || fail "the report does not tell lines at 0"
   holds "$(json zero.json breaklines farthest) > 660"
@@ -73,7 +73,7 @@ refuses 2 "cross.geojson" "$scarp" simplify hills.tif x.glb -e 12 --breaklines c
 for rule in first mean highest; do
   succeeds "$scarp" simplify hills.tif "$rule.obj" -e 12 --up z --breaklines cross.geojson --line-conflict "$rule"
 done
-refuses 1 "--line-conflict" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson --line-conflict odd
+refuses 1 "--breaklines conflict odd is unknown" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson,conflict=odd
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict mean
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --edges data --breaklines soft.geojson
 refuses 1 "--importance cannot be combined with --breaklines" "$scarp" simplify hills.tif x.glb -e 12 --importance local --breaklines soft.geojson

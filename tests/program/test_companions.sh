@@ -170,7 +170,7 @@ refuses 2 "no weight is above 0" simplify -e 20 --mask zeros.tif
 refuses 2 "--mask none.tif: no weight is above 0" simplify -e 20 --mask none.tif
 refuses 2 "missing.tif" simplify -e 20 --mask missing.tif
 make_raster holes.tif 'nan if col % 20 == row % 20 == 0 else row'
-refuses 1 "or simplify the outline with --outline-tolerance" "$scarp" simplify holes.tif x.obj -t 1
+refuses 1 "or simplify the outline with --nodata-policy outline" "$scarp" simplify holes.tif x.obj -t 1
 refuses 1 "--mask cannot be combined with --tolerance" simplify -e 20 --mask weights.tif --tolerance bounds.tif
 refuses 1 "--mask cannot be combined with --tolerance" "$scarp" measure "$dem" t.glb --mask weights.tif --tolerance bounds.tif
 refuses 1 "no goal is given" simplify --mask weights.tif

@@ -176,8 +176,8 @@ refuses 2 "too far away to be placed" "$scarp" simplify "$dem" x.glb -e 20 --cut
 refuses 2 "too far away to be placed" "$scarp" measure "$dem" one.glb --cutline far.geojson
 
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --inset 5
-refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset wide
+refuses 1 "--cutline inset wide" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson,inset=wide
 refuses 1 "--mask-outside" "$scarp" measure "$dem" one.glb --mask-outside
-refuses 1 "--mask-outside" "$scarp" simplify "$dem" x.glb -e 20 --outline-tolerance 1 --cutline star.geojson
+refuses 1 "--cutline whole-cells" "$scarp" simplify "$dem" x.glb -e 20 --outline-tolerance 1 --cutline star.geojson
 refuses 1 "--cutline" "$scarp" simplify "$dem" x.glb -e 20 --edges data --cutline star.geojson
 refuses 1 "needs a frame" "$scarp" simplify "$dem" x.glb -e 20 --crs EPSG:32616 --cutline star.geojson

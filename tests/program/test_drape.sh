@@ -80,8 +80,8 @@ cmp raw twin.raw || fail "an image of equal size is not laid pixel by pixel"
 
 usage() { refuses 1 "$1" "$scarp" simplify "$dem" "${@:2}"; }
 usage '--drape puts an image into a GLB, and OUTPUT is OBJ' x.obj -e 20 --drape chess.tif
-usage '--drape-size needs an image' x.glb -e 20 --drape-size 100
-usage '--drape-format gif is unknown' x.glb -e 20 --drape chess.tif --drape-format gif
+usage '--drape-size needs --drape' x.glb -e 20 --drape-size 100
+usage '--drape format gif is unknown' x.glb -e 20 --drape chess.tif,format=gif
 usage '--drape cannot be combined with --texture' x.glb -e 20 --drape chess.tif --texture chess.tif
 usage '--memory cannot be combined with --drape' x.glb -e 20 --drape chess.tif --memory 500M
 usage '--normal-map cannot be combined with --normals' x.glb -e 20 --normal-map 100 --normals

@@ -85,7 +85,7 @@ refuses 1 "--max-triangles 99999999999999999999 is too large" "$scarp" simplify 
 refuses 1 "--max-triangles 1.5 is not a whole number of at least 1, such as 5000, 50k" "$scarp" simplify "$dem" out.glb -t 1.5
 refuses 1 "--max-triangles 1e30 is too large" "$scarp" simplify "$dem" out.glb -t 1e30
 refuses 1 "--num-threads 99999999999999999999 is too large" "$scarp" simplify "$dem" out.glb -e 1 -j 99999999999999999999
-refuses 1 "--num-threads 1025 is more than 1024: ask for fewer" "$scarp" simplify "$dem" out.glb -e 1 -j 1025
+refuses 1 "--num-threads 1025 is above 1024: ask for fewer" "$scarp" simplify "$dem" out.glb -e 1 -j 1025
 for option in --max-error --base --nodata --outline-tolerance; do
   refuses 1 "$option 1e999 is too large" "$scarp" simplify "$dem" out.glb "$option=1e999" -t 10
 done
@@ -97,14 +97,14 @@ refuses 1 "--decode png" "$scarp" simplify "$dem" out.glb -e 1 --decode png
 refuses 1 "--decode cannot be combined with --band" "$scarp" simplify "$dem" out.glb -e 1 --decode mapbox --band 2
 refuses 1 "--nodata-policy ignore" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy ignore
 refuses 1 "--fill-distance" "$scarp" simplify "$dem" out.glb -e 1 --fill-distance 5
-refuses 1 "--fill-distance 0" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy fill --fill-distance 0
+refuses 1 "--nodata-policy distance 0" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy fill --fill-distance 0
 refuses 1 "--background" "$scarp" simplify "$dem" out.glb -e 1 --background 0
-refuses 1 "--background V" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background
-refuses 1 "--background nan" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background --background nan
-refuses 1 "--outline-tolerance -1" "$scarp" simplify "$dem" out.glb -e 1 --outline-tolerance -1
+refuses 1 "--nodata-policy background needs --nodata-policy height" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background
+refuses 1 "--nodata-policy height nan" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background --background nan
+refuses 1 "--nodata-policy outline -1" "$scarp" simplify "$dem" out.glb -e 1 --outline-tolerance -1
 refuses 1 "--num-threads -1" "$scarp" simplify "$dem" out.glb -e 1 -j -1
 refuses 1 "--base nan" "$scarp" simplify "$dem" out.glb -e 1 --base nan
-refuses 1 "--base -1e300 is out of the range" "$scarp" simplify "$dem" out.glb -e 1 --base -1e300
+refuses 1 "--base -1e300 is below -1e+30" "$scarp" simplify "$dem" out.glb -e 1 --base -1e300
 refuses 1 "--normals cannot be combined with --base" "$scarp" simplify "$dem" out.glb -e 1 --base 0 --normals
 refuses 1 "--base 2000" "$scarp" simplify "$dem" out.glb -e 50 --base 2000
 grep -Eq 'lowest vertex, which is at [0-9]+' "$logs/err" || fail "--base does not name the lowest vertex"

@@ -39,10 +39,10 @@ head -c 2 "$logs/out" | grep -q P5 || fail "no raster on stdout"
 refuses 1 'STYLE hills is unknown' "$scarp" generate hills 8 8 x.tif
 refuses 1 'COLS 1 is not' "$scarp" generate cliff 1 8 x.tif
 refuses 1 'ROWS many is not' "$scarp" generate cliff 8 many x.tif
-refuses 1 '70000 x 8 samples' "$scarp" generate cliff 70000 8 x.tif
+refuses 1 'COLS 70000 is above 65536' "$scarp" generate cliff 70000 8 x.tif
 refuses 1 'at most 1073741824 samples' "$scarp" generate cliff 60000 60000 x.tif
 refuses 1 '--seed is for fractal and smooth only' "$scarp" generate cliff 8 8 x.tif --seed 2
-refuses 1 '--range 0 must be above 0' "$scarp" generate cliff 8 8 x.tif --range 0
+refuses 1 '--range 0 is not above 0' "$scarp" generate cliff 8 8 x.tif --range 0
 refuses 1 '--size needs a GeoTIFF' "$scarp" generate cliff 8 8 x.pgm --size 2
 refuses 1 'tells no format' "$scarp" generate cliff 8 8 x.stm
 refuses 1 '--of png is unknown' "$scarp" generate cliff 8 8 x.png --of png

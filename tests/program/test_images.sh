@@ -136,8 +136,8 @@ refuses 1 "--image cannot be combined with --texture" image out.glb -e 8 --textu
 refuses 1 "--image cannot be combined with --decode" image out.glb -e 8 --decode terrarium
 refuses 1 "--image cannot be combined with --nodata-policy" image out.glb -e 8 --nodata-policy fill
 refuses 1 "--importance measures features of heights" image out.glb -e 8 --importance 'global*local'
-refuses 1 "--channel-weights has 2 weights for 3 bands" image out.glb -e 8 --channel-weights 1,2
-for bad in 1,-2,3 1,,3 a '' 1,2,3, 1,nan,2; do refuses 1 "--channel-weights" image out.glb -e 8 --channel-weights "$bad"; done
+refuses 1 "--norm weights has 2 weights for 3 bands" image out.glb -e 8 --channel-weights 1,2
+for bad in 1,-2,3 1,,3 a '' 1,2,3, 1,nan,2; do refuses 1 "--norm weights" image out.glb -e 8 --channel-weights "$bad"; done
 refuses 1 "are all 0" image out.glb -e 8 --channel-weights 0,0,0
 refuses 1 "--norm l3 is unknown: choose l1, l2 or linf" image out.glb -e 8 --norm l3
 refuses 1 "--norm needs --texture or --image" "$scarp" simplify "$dem" out.glb -e 8 --norm l1

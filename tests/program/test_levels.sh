@@ -172,7 +172,7 @@ refuses 1 "--lods 3:nan: the ratio nan is not a finite number" "$scarp" simplify
 refuses 1 "--lods 1 is not a whole number of at least 2" "$scarp" simplify "$dem" x.glb -e 5 --lods 1
 refuses 1 "has a ratio that is not above 1" "$scarp" simplify "$dem" x.glb -e 5 --lods 3:1
 refuses 1 "--lods-in-one needs --lods" "$scarp" simplify "$dem" x.glb -e 5 --lods-in-one
-refuses 1 "--lods-in-one writes one GLB" "$scarp" simplify "$dem" x.obj -e 5 --lods 3 --lods-in-one
+refuses 1 "--lods in-one writes one GLB" "$scarp" simplify "$dem" x.obj -e 5 --lods 3,in-one
 refuses 1 "--lods cannot be combined with --base" "$scarp" simplify "$dem" x.glb -e 5 --lods 3 --base 0
 refuses 1 "--lods writes meshes" "$scarp" simplify "$dem" x.tif -e 5 --lods 3
 refuses 1 "--lods cannot be combined with --tolerance" "$scarp" simplify "$dem" x.glb -e 5 --tolerance "$dem" --lods 3

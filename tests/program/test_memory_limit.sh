@@ -63,7 +63,7 @@ for size in 999999999T 1e30G 1e400 1000001T; do
   refuses 1 "--memory $size is too large: give at most 1000000T, or leave --memory out" "$scarp" measure "$dem" hills.glb --memory $size
 done
 for size in 0 0.5 1e-400G 63M; do
-  refuses 1 "--memory $size is too little: the program alone takes 72M" "$scarp" measure "$dem" hills.glb --memory $size
+  refuses 1 "--memory $size is too little: the program alone needs 72M" "$scarp" measure "$dem" hills.glb --memory $size
 done
 for size in x 1Q G -1G nan inf infG 1e 1,5G 1GBB; do
   refuses 1 "--memory $size is no size of memory" "$scarp" measure "$dem" hills.glb "--memory=$size"

@@ -78,7 +78,7 @@ refuses 1 "--normals cannot be combined with --image" "$scarp" simplify "$dem" o
 # A raster's approximation stays on the raster's grid; drawings follow --crs.
 for output in crs.tif crs.pgm; do
   succeeds "$scarp" simplify "$dem" $output -e 100 --crs EPSG:32616
-  grep -q "the raster's own grid, whatever --crs says" "$logs/err" || fail "no word that --crs does nothing to $output"
+  grep -q "the raster's own grid, whatever --crs is" "$logs/err" || fail "no word that --crs does nothing to $output"
 done
 succeeds "$scarp" simplify "$dem" crs.svg -e 100 --crs EPSG:32616
 [ ! -s "$logs/err" ] || fail "a wrong word about --crs in crs.svg"

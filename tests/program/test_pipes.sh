@@ -39,7 +39,7 @@ for piped in points.csv points.ply; do
   done
 done
 echo '{"type":"Point","coordinates":[1,2,3]}' > point.json
-refuses 2 "point.json: holds vector data (GeoJSON), not a raster; --points takes it for points or lines" "$scarp" info point.json
+refuses 2 "point.json: holds vector data (GeoJSON), not a raster; --points reads it as points or lines" "$scarp" info point.json
 cp "$dem" own.tif
 try "$scarp" simplify - own.tif -e 50 --overwrite < own.tif
 [ "$code" = 1 ] || fail "exit code $code instead of 1 where OUTPUT is what standard input reads"

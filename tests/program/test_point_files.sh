@@ -74,7 +74,7 @@ for file in scattered.xyz sparse.xyz; do
   grep -q 'read as  *1 x, 2 y, 3 height' "$logs/out" || fail "$file: info does not tell how columns are read"
 done
 succeeds "$scarp" tile south.xyz tiles --grid local -q --vertical none
-refuses 1 "is taken for a raster: --points says otherwise" "$scarp" simplify north.xyz x.obj -e 1 --z-field z
+refuses 1 "is read as a raster: --points reads it as points" "$scarp" simplify north.xyz x.obj -e 1 --z-field z
 
 # Columns: recognised, named, remembered.
 succeeds "$scarp" info pnezd.csv --json

@@ -52,6 +52,6 @@ succeeds "$scarp" simplify "$dem" away.glb -e 50 --roi away.geojson=1
 grep -q "lies beside the raster" "$logs/err" || fail "no warning that a region lies beside the raster"
 refuses 1 "--roi" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson
 refuses 1 "--falloff" "$scarp" simplify "$dem" x.glb -e 50 --falloff 10
-refuses 1 "--falloff" "$scarp" simplify "$dem" x.glb --roi site.geojson=2 --falloff 10
+refuses 1 "--roi falloff needs --max-error" "$scarp" simplify "$dem" x.glb --roi site.geojson=2,falloff=10
 refuses 1 "--mask" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=2 --mask "$dem"
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 50 --roi nothing.gpkg=2

@@ -155,5 +155,5 @@ refuses 1 "--cliff cannot be combined with --min-edge" "$scarp" simplify hills.t
 refuses 1 "--grade" "$scarp" simplify hills.tif x.obj -e 10 --grade -1
 refuses 1 "the angles and edges alone need" "$scarp" simplify hills.tif x.obj -t 1 --min-angle 20
 refuses 1 "--edges" "$scarp" simplify hills.tif x.obj -e 10 --edges data --min-angle 20
-refuses 1 "--outline-tolerance" "$scarp" simplify hills.tif x.obj -e 10 --outline-tolerance 2 --min-angle 20
+refuses 1 "--nodata-policy outline" "$scarp" simplify hills.tif x.obj -e 10 --outline-tolerance 2 --min-angle 20
 refuses 1 "regular" "$scarp" simplify "$dem" x.obj -e 20 --crs EPSG:3857 --min-angle 20

@@ -47,7 +47,7 @@ holds "$(json a.json work samples_scanned) > 100000 && $(json a.json work passes
 
 # Every setting that can change the mesh is in its metadata, in a fixed order and as it was given.
 succeeds "$scarp" simplify "$dem" meta.obj -t 300 --edge-score tight --edges data --importance 'global*(local+1)' -q
-grep -q "simplify jacksboro_fault.tif OUTPUT --max-triangles 300 --importance 'global\*(local+1)' --edges data --edge-score tight\$" meta.obj ||
+grep -q "classic jacksboro_fault.tif OUTPUT --max-triangles 300 --importance 'global\*(local+1)' --edges data --edge-score tight\$" meta.obj ||
   fail "the metadata does not tell the strategy: $(grep -m 1 'simplify' meta.obj)"
 
 # Data-dependent edges need fewer triangles on this terrain, batches more; the report describes the work.

@@ -55,7 +55,7 @@ succeeds textured m.glb -e 80 --texture ortho.tif --texture infra.tif --channel-
 succeeds "$scarp" measure "$dem" m.glb --texture ortho.tif --texture infra.tif --channel-weights 1,1,1,3 --fail-above 80 --json
 cp "$logs/out" m.json
 agree
-grep -q -- '--texture ortho.tif --texture infra.tif --channel-weights 1,1,1,3' <(strings m.glb) || fail "the metadata does not name the textures"
+grep -q -- '--texture ortho.tif --texture infra.tif --norm weights=1,1,1,3' <(strings m.glb) || fail "the metadata does not name the textures"
 succeeds textured solid.ply -e 80 --texture ortho.tif --base 0
 succeeds "$scarp" measure "$dem" solid.ply --texture ortho.tif --fail-above 80 -q
 succeeds textured uv.obj -e 80 --uvs
@@ -84,8 +84,8 @@ many=()
 for _ in $(seq 22); do many+=(--texture ortho.tif); done
 refuses 2 "66 bands, more than 64" textured out.glb -e 9 "${many[@]}"
 refuses 1 "--texture-weight needs --texture" textured out.glb -e 9 --texture-weight 0.5
-for bad in -0.1 1.1 nan x; do refuses 1 "--texture-weight $bad" textured out.glb -e 9 --texture ortho.tif --texture-weight $bad; done
-refuses 1 "--texture-weight 1 does not look at them" textured out.glb -e 9 --texture ortho.tif --texture-weight 1
+for bad in -0.1 1.1 nan x; do refuses 1 "--texture weight $bad" textured out.glb -e 9 --texture "ortho.tif,weight=$bad"; done
+refuses 1 "--texture weight 1 cannot be combined with --max-error" textured out.glb -e 9 --texture ortho.tif --texture-weight 1
 refuses 1 "no goal is given" textured out.glb --texture ortho.tif --texture-weight 1
 refuses 1 "input file" textured out.glb -e 9 --texture ortho.tif --error-raster ortho.tif --overwrite
 refuses 1 "has 2 weights for 3 bands" textured out.glb -e 9 --texture ortho.tif --channel-weights 1,2

@@ -136,7 +136,7 @@ fi
 
 # A user's mistakes.
 refuses 1 "clients of quantized-mesh lay images over the terrain themselves" "$scarp" tile "$dem" no --vertical egm96 --drape utm.tif
-refuses 1 "--drape-format needs an image" "$scarp" tile "$dem" no --vertical egm96 --of 3dtiles --drape-format png
+refuses 1 "--drape-format needs --drape" "$scarp" tile "$dem" no --vertical egm96 --of 3dtiles --drape-format png
 refuses 2 "no such file" tiles no --drape missing.tif
 refuses 2 "an image to drape has 8 bits" tiles no --drape "$dem"
 gdal_translate -q -of PNG image.tif bare.png && rm -f bare.png.aux.xml

@@ -55,7 +55,7 @@ Result<double> judge(const OptionRow& row, const std::string& text) {
   };
   SCARP_TRY(const double value, parse_number(name, text));
   if (value < 0 && row.least == 0) return refuse("is negative: it must be at least 0");
-  if (value < row.least) return refuse(fmt::format("is below {}: it must be {}", row.least, row.range_text()));
+  if (value < row.least) return refuse(fmt::format("is below {}", row.least));
   if (!(value > row.above)) return refuse(fmt::format("is not above {}", row.above));
   if (value > row.most) return refuse(fmt::format("is above {}", row.most));
   return value;

@@ -230,10 +230,10 @@ Result<void> plan_space(const GivenOptions& given, SimplifyPlan& plan) {
 /// "scarp simplify dem.tif OUTPUT --max-error 1"; with a strategy of the paper it is scarp classic.
 std::string canonical_command(const GivenOptions& given) {
   std::string options = given.canonical();
-  if (asks_for_greedy(given) && !given.has(kOrder)) options += fmt::format(" {} greedy", kOrder);
+  if (asks_for_greedy(given)) options += fmt::format(" {} greedy", kOrder);
   const std::vector<const OptionRow*> rows = given.given();
-  const bool is_classic = std::any_of(rows.begin(), rows.end(), [](const OptionRow* row) {
-    return row->group == OptionGroup::kStrategies;
+  const bool is_classic = asks_for_greedy(given) || std::any_of(rows.begin(), rows.end(), [](const OptionRow* row) {
+    return row->group == OptionGroup::kStrategies && row->is_of_mesh;
   });
   std::string command = is_classic ? "scarp classic" : "scarp simplify";
   for (const std::string& path : given.inputs()) command += " " + shell_word(base_name(path));

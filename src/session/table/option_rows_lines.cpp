@@ -242,6 +242,7 @@ constexpr OptionRow kLineRows[] = {
      .type = kNumber,
      .value = "LENGTH",
      .unit = "units of x and y",
+     .above = 0,
      .range = "above 0, at most half of --max-edge",
      .help = "Shortest edge, seen from above, in the units of x and y of the mesh. All other goals come first: shorter "
              "edges that they need are left and counted, with a warning."},

@@ -15,6 +15,7 @@ constexpr OptionRow kStrategyRows[] = {
      .type = kChoice,
      .choices = "dominant greedy",
      .by_default = "dominant with -e alone, else greedy",
+     .is_of_mesh = false,
      .help = "Sample that is inserted next. dominant: the worst of its neighbourhood, on all threads. greedy: the "
              "worst of the whole raster, as in the paper, on one thread."},
     {.id = kImportance,
