@@ -277,7 +277,7 @@ for name, given, says, then in (
     ("soft breaklines", "o.glb -e 20 --soft-breaklines", "needs --breaklines", "o.glb -e 20 --soft-breaklines --breaklines stream.geojson"),
     ("percentile", "o.glb -e 20 --water-percentile 5", "needs --water", "o.glb -e 20 --water-percentile 5 --water lake.geojson"),
     ("inset", "o.glb -e 20 --inset 1", "needs --cutline", "o.glb -e 20 --inset 1 --cutline lake.geojson"),
-    ("normal map", "o.glb -e 20 --drape-size 64", "needs an image: --drape FILE", "o.glb -e 20 --drape-size 64 --drape rgb.tif"),
+    ("normal map", "o.glb -e 20 --drape-size 64", "needs --drape", "o.glb -e 20 --drape-size 64 --drape rgb.tif"),
     ("fill distance", "o.glb -e 20 --fill-distance 5", "needs --nodata-policy fill", "o.glb -e 20 --fill-distance 5 --nodata-policy fill"),
     ("background", "o.glb -e 20 --background 5", "needs --nodata-policy background", "o.glb -e 20 --background 5 --nodata-policy background"),
     ("background value", "o.glb -e 20 --nodata-policy background", "--background V", "o.glb -e 20 --nodata-policy background --background 5"),

@@ -114,7 +114,7 @@ done <<'LIST'
 --script steps.txt
 --texture ortho.tif
 --image
---outline-tolerance 1
+--nodata-policy outline=1
 LIST
 for strategy in "--importance local" "--importance local --one-pass" "--algorithm heap" "--batch const" "--edges data"; do
   # shellcheck disable=SC2086
