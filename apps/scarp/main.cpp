@@ -103,13 +103,20 @@ struct RunnableCommand {
   Result<void> (*run)(const GivenOptions& given, const std::string& command_line);
 };
 
-constexpr RunnableCommand kRunners[] = {{kSimplify, run_simplify},      {kClassic, run_simplify},
-                               {kMeasure, run_measure},        {kView, run_view},
-                               {kTile, run_tile},              {kTilePlan, run_tile_plan},
-                               {kTileRun, run_tile_run},       {kTileFinish, run_tile_finish},
-                               {kTileCheck, run_tile_check},   {kServe, run_serve},
-                               {kInfo, run_info},              {kGenerate, run_generate},
-                               {kHelpCommand, run_help},       {kVersionCommand, run_version}};
+constexpr RunnableCommand kRunners[] = {{kSimplify, run_simplify},
+                                        {kClassic, run_simplify},
+                                        {kMeasure, run_measure},
+                                        {kView, run_view},
+                                        {kTile, run_tile},
+                                        {kTilePlan, run_tile_plan},
+                                        {kTileRun, run_tile_run},
+                                        {kTileFinish, run_tile_finish},
+                                        {kTileCheck, run_tile_check},
+                                        {kServe, run_serve},
+                                        {kInfo, run_info},
+                                        {kGenerate, run_generate},
+                                        {kHelpCommand, run_help},
+                                        {kVersionCommand, run_version}};
 
 int run_program(int count, char** words) {
   std::vector<std::string> joined = join_command(count, words);

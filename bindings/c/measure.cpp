@@ -48,8 +48,7 @@ scarp_status judge(const std::string& input, std::optional<bool> are_points, con
   }
   cli::Judged judged;
   cli::StreamedErrors errors;
-  if (auto done = cli::judge_inputs(given, runner, judged, errors); !done)
-    return report(done.error());
+  if (auto done = cli::judge_inputs(given, runner, judged, errors); !done) return report(done.error());
   const std::uint64_t over = judged.judgement.weighted ? judged.judgement.weighted->over : 0;
   return finish(judged.judgement.heights, over, judged.seconds_measure, judged.broken, out);
 }

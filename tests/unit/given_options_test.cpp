@@ -68,6 +68,14 @@ TEST(GivenOptions, AFlagOfAPartHasNoValue) {
             std::string::npos);
 }
 
+TEST(GivenOptions, UnknownKeysAndRepeatedPartsAreRefused) {
+  GivenOptions given(kSimplify), twice(kSimplify);
+  EXPECT_EQ(parse(given, {"in.tif", "out.glb", "--cutline", "a.gpkg,insett=1"}),
+            "--cutline has no key insett: choose inset or whole-cells");
+  EXPECT_EQ(parse(twice, {"in.tif", "out.glb", "--cutline", "a.gpkg,inset=1", "--inset", "2"}),
+            "--cutline inset is given more than once");
+}
+
 TEST(GivenOptions, OldSpellingsAreTheSameCommand) {
   EXPECT_EQ(canonical({"--cutline", "a/b.gpkg,inset=2,whole-cells"}),
             canonical({"--cutline", "a/b.gpkg", "--inset", "2", "--mask-outside"}));
@@ -105,14 +113,16 @@ TEST(GivenOptions, ANumberBeyondItsRangeIsRefusedByItsName) {
   int checked = 0;
   for (const OptionRow* row : rows_with_values()) {
     if (row->type != OptionType::kNumber && row->type != OptionType::kCount) continue;
-    for (const double beyond : {row->least - std::max(1.0, std::abs(row->least)), row->above, row->most + std::max(1.0, row->most)}) {
+    for (const double beyond :
+         {row->least - std::max(1.0, std::abs(row->least)), row->above, row->most + std::max(1.0, row->most)}) {
       if (!std::isfinite(beyond)) continue;
       GivenOptions given(kSimplify);
       given.set(row->id, Given(fmt::format("{}", beyond)));
-      const auto number = row->type == OptionType::kNumber ? given.number(row->id).has_value()
-                                                           : given.count(row->id).has_value();
+      const auto number =
+          row->type == OptionType::kNumber ? given.number(row->id).has_value() : given.count(row->id).has_value();
       ASSERT_FALSE(number) << row->name << " " << beyond;
-      const Error error = row->type == OptionType::kNumber ? given.number(row->id).error() : given.count(row->id).error();
+      const Error error =
+          row->type == OptionType::kNumber ? given.number(row->id).error() : given.count(row->id).error();
       EXPECT_EQ(error.message.find(row->title()), 0u) << error.message;
       ++checked;
     }
@@ -134,9 +144,12 @@ TEST(OptionTable, NamesOfACommandAreUnique) {
 void give(const OptionTerm& term, GivenOptions& given) {
   const OptionRow* const row = find_option(given.command(), term.id);
   std::string value = term.value;
-  if (value.empty() || value.starts_with('!')) value = row->type == OptionType::kChoice ? row->list_choices().back() : "1";
-  if (row->is_repeatable) given.set(term.id, GivenOptions::Texts{value});
-  else given.set(term.id, Given(value));
+  if (value.empty() || value.starts_with('!'))
+    value = row->type == OptionType::kChoice ? row->list_choices().back() : "1";
+  if (row->is_repeatable)
+    given.set(term.id, GivenOptions::Texts{value});
+  else
+    given.set(term.id, Given(value));
 }
 
 /// Each rule refuses what it names, in a sentence with both names, and passes without.

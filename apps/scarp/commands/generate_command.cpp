@@ -1,5 +1,3 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "commands/commands.h"
 #include "scarp/generate.h"
 #include "scarp/io.h"
 #include "session/plan/outputs.h"
@@ -79,7 +78,8 @@ Result<void> run_generate(const GivenOptions& given, const std::string&) {
   }
   SCARP_RETURN_IF_ERROR(check_outputs({{name_of(kOutput), *given[kOutput]}}, {}, given.has(kOverwrite)));
 
-  SCARP_TRY(OwnedHeightField field, generate_field(*style, static_cast<int>(*cols), static_cast<int>(*rows), seed.value_or(0)));
+  SCARP_TRY(OwnedHeightField field,
+            generate_field(*style, static_cast<int>(*cols), static_cast<int>(*rows), seed.value_or(0)));
   if (range) stretch(field, *range);
   if (size) place(field, *size);
   const Result<std::vector<std::uint8_t>> bytes =
@@ -89,9 +89,9 @@ Result<void> run_generate(const GivenOptions& given, const std::string&) {
   }
   const Result<void> written = write_file(*given[kOutput], *bytes, given.has(kOverwrite));
   if (!written || given.has(kQuiet)) return written;
-  const std::string summary =
-      fmt::format("{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field.info.path, field.cols, field.rows,
-                  format_number(field.info.min), format_number(field.info.max), *given[kOutput], format_bytes(bytes->size()));
+  const std::string summary = fmt::format("{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field.info.path,
+                                          field.cols, field.rows, format_number(field.info.min),
+                                          format_number(field.info.max), *given[kOutput], format_bytes(bytes->size()));
   if (is_stdout(*given[kOutput])) {
     print_to_stderr(summary);
     return {};

@@ -1,7 +1,6 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
+#include "commands/commands.h"
 #include "scarp/version.h"
 #include "session/table/help.h"
 #include "session/table/option_table.h"

@@ -1,5 +1,3 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <fstream>
 #include <utility>
 
+#include "commands/commands.h"
 #include "session/inputs/heightmap.h"
 #include "session/inputs/nodata_warnings.h"
 #include "session/options/raster_options.h"
@@ -59,15 +58,15 @@ Result<void> run_points(const GivenOptions& given, const std::string& command_li
   ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   SCARP_TRY(const auto& as, parse_reading(given));
   SCARP_TRY(const PointSet& points, read_points(given.input(), {.layer = given[kLayer].value_or(""),
-                                                                 .z_field = given[kZField].value_or(""),
-                                                                 .crs = as.crs,
-                                                                 .progress = display.callback(),
-                                                                 .columns = given[kColumns].value_or(""),
-                                                                 .nodata = as.nodata,
-                                                                 .z_scale = as.z_scale,
-                                                                 .z_offset = as.z_offset,
-                                                                 .z_unit = as.z_unit,
-                                                                 .heights_in = HeightsIn::kFile}));
+                                                                .z_field = given[kZField].value_or(""),
+                                                                .crs = as.crs,
+                                                                .progress = display.callback(),
+                                                                .columns = given[kColumns].value_or(""),
+                                                                .nodata = as.nodata,
+                                                                .z_scale = as.z_scale,
+                                                                .z_offset = as.z_offset,
+                                                                .z_unit = as.z_unit,
+                                                                .heights_in = HeightsIn::kFile}));
   display.finish();
   if (!given.has(kQuiet)) print_warnings(points.warnings);
   return print_to_stdout(given.has(kJson) ? to_text(points_facts_report(points, command_line)) : points_facts(points));
@@ -86,12 +85,12 @@ Result<void> run_mesh(const GivenOptions& given, const std::string& format, cons
 
 Result<void> run_info(const GivenOptions& given, const std::string& command_line) {
   const bool is_one = given.inputs().size() == 1;
-  if (given.has(kPoints) || given.has(kColumns) ||
-      (is_one && !given.input().empty() && is_point_file(given.input())))
+  if (given.has(kPoints) || given.has(kColumns) || (is_one && !given.input().empty() && is_point_file(given.input())))
     return run_points(given, command_line);
   if (const auto option = given.first_of({kLayer, kZField}))
     return fail(ErrorKind::kUsage, fmt::format("{} is for points: omit it, or give {}", *option, kPoints));
-  if (const auto format = is_one ? find_mesh(given.input()) : std::nullopt) return run_mesh(given, *format, command_line);
+  if (const auto format = is_one ? find_mesh(given.input()) : std::nullopt)
+    return run_mesh(given, *format, command_line);
   SCARP_TRY(ReadOptions read, parse_reading(given));
   ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   read.run.progress = display.callback();

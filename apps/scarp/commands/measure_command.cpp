@@ -1,7 +1,6 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
+#include "commands/commands.h"
 #include "session/options/points_options.h"
 #include "session/reports/measure_report.h"
 #include "session/table/option_table.h"

@@ -1,8 +1,7 @@
-#include "commands/commands.h"
-
 #include <utility>
 #include <vector>
 
+#include "commands/commands.h"
 #include "session/plan/projection_file.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/points_report.h"

@@ -1,5 +1,3 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands/commands.h"
 #include "scarp/live_tiles.h"
 #include "serve/http_server.h"
 #include "serve/preparation.h"
@@ -64,8 +63,7 @@ Result<void> check_alone(const GivenOptions& given) {
                                                row->title(), given.input()));
   }
   if (given.inputs().size() > 1)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} is no raster: one set or plan is served at a time", given.input()));
+    return fail(ErrorKind::kUsage, fmt::format("{} is no raster: one set or plan is served at a time", given.input()));
   return {};
 }
 
@@ -80,7 +78,8 @@ Result<Served> open(const GivenOptions& given, int threads) {
     SCARP_TRY(served.answers, TileAnswers::open(path));
     return served;
   }
-  SCARP_TRY(const std::uint64_t memory, parse_bytes(name_of(OptionId::kMemory), given[OptionId::kMemory].value_or(kDefaultMemory)));
+  SCARP_TRY(const std::uint64_t memory,
+            parse_bytes(name_of(OptionId::kMemory), given[OptionId::kMemory].value_or(kDefaultMemory)));
   ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   if (is_plan) {
     SCARP_TRY(auto&& job, read_tile_job(path));
@@ -105,7 +104,8 @@ Result<void> run_serve(const GivenOptions& given, const std::string&) {
   SCARP_TRY(const int threads, given.threads());
   SCARP_TRY(const Served& served, open(given, threads));
   const TileAnswers& answers = *served.answers;
-  SCARP_TRY(auto&& server, HttpServer::listen(given[kHost].value_or(kDefaultHost), static_cast<int>(port.value_or(kDefaultPort))));
+  SCARP_TRY(auto&& server,
+            HttpServer::listen(given[kHost].value_or(kDefaultHost), static_cast<int>(port.value_or(kDefaultPort))));
   if (!given.has(kQuiet)) {
     if (served.job.raster) print_warnings(warnings_of_raster(*served.job.raster));
     print_warnings(served.job.warnings);

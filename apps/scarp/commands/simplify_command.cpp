@@ -1,8 +1,7 @@
-#include "commands/commands.h"
-
 #include <utility>
 #include <vector>
 
+#include "commands/commands.h"
 #include "session/options/points_options.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/report.h"

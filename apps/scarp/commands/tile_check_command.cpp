@@ -1,11 +1,10 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
+#include "commands/commands.h"
 #include "scarp/tile_check.h"
 #include "session/options/tile_options.h"
 #include "session/plan/tile_plan.h"
@@ -47,15 +46,14 @@ Result<void> check_unused(const GivenOptions& given) {
   for (const OptionRow* row : given.given()) {
     if (std::ranges::count(kFree, row->id) > 0) continue;
     return fail(ErrorKind::kUsage,
-                given.has(kSource)
-                    ? fmt::format("{} is for rasters: {} has decided it", row->title(), *given[kSource])
-                    : fmt::format("{} is for the raster of {}: give that too", row->title(), kSource));
+                given.has(kSource) ? fmt::format("{} is for rasters: {} has decided it", row->title(), *given[kSource])
+                                   : fmt::format("{} is for the raster of {}: give that too", row->title(), kSource));
   }
   return {};
 }
 
 Result<OpenedJob> open_source(const GivenOptions& given, const TileSetReader& set, const TileGrid& of_set,
-                                                const ProgressCallback& progress, int threads) {
+                              const ProgressCallback& progress, int threads) {
   if (lower_extension(*given[kSource]) == ".json") {
     SCARP_TRY(auto&& job, read_tile_job(*given[kSource]));
     return open_job(std::move(job), kSourceBytes, threads);
@@ -82,7 +80,8 @@ Result<void> run_tile_check(const GivenOptions& given, const std::string& comman
   SCARP_TRY(const auto kind, parse_grid(given));
   if (kind) {
     if (of_set.is_flat())
-      return fail(ErrorKind::kUsage, fmt::format("{} is for sets that do not name theirs, and those of a local grid do", kGrid));
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} is for sets that do not name theirs, and those of a local grid do", kGrid));
     options.grid = TileGrid{.kind = *kind};
   }
   ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));

@@ -1,8 +1,7 @@
-#include "commands/commands.h"
-
 #include <utility>
 #include <vector>
 
+#include "commands/commands.h"
 #include "session/plan/outputs.h"
 #include "session/reports/report.h"
 #include "session/reports/tile_report.h"

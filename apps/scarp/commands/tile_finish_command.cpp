@@ -1,10 +1,9 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
 #include <utility>
 #include <vector>
 
+#include "commands/commands.h"
 #include "session/plan/outputs.h"
 #include "session/plan/tile_parts.h"
 #include "session/reports/report.h"
@@ -39,7 +38,8 @@ Result<void> run_tile_finish(const GivenOptions& given, const std::string& comma
   display.show_tiles(counts);
   run.progress = display.callback();
   PartsCost cost;
-  SCARP_TRY(const PyramidReport& report, finish_parts(job, parts_folder(*given[kPlan], given[kParts], job), set, run, &cost));
+  SCARP_TRY(const PyramidReport& report,
+            finish_parts(job, parts_folder(*given[kPlan], given[kParts], job), set, run, &cost));
   display.finish();
   if (!given.has(kQuiet)) {
     print_warnings(warnings_of_levels(job.plan, report));

@@ -1,5 +1,3 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands/commands.h"
 #include "scarp/io.h"
 #include "session/plan/outputs.h"
 #include "session/plan/tile_parts.h"

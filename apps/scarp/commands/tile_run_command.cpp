@@ -1,9 +1,8 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 
 #include <utility>
 
+#include "commands/commands.h"
 #include "scarp/tile_job.h"
 #include "session/options/memory_options.h"
 #include "session/options/tile_options.h"
@@ -57,8 +56,8 @@ Result<void> run_tile_run(const GivenOptions& given, const std::string&) {
   display.show_tiles(counts);
   run.progress = display.callback();
   const Result<PartsReport> made =
-      make_parts(opened.job, opened.raster->nodes(), parts_folder(*given[kPlan], given[kParts], opened.job), shard, run, only,
-                 [&](const PartsReport& so_far) {
+      make_parts(opened.job, opened.raster->nodes(), parts_folder(*given[kPlan], given[kParts], opened.job), shard, run,
+                 only, [&](const PartsReport& so_far) {
                    counts = {so_far.tiles, so_far.bytes};
                  });
   if (!made) {

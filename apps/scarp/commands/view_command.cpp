@@ -1,5 +1,3 @@
-#include "commands/commands.h"
-
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -9,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/commands.h"
 #include "scarp/io.h"
 #include "scarp/measure.h"
 #include "scarp/points.h"
@@ -121,10 +120,11 @@ Result<OwnedHeightField> read_raster(const GivenOptions& given, const Mesh& mesh
   read.heights_in = heights_in(*given[kMesh]);
   Result<OwnedHeightField> field = read_height_field(given.input(), read);
   if (!field && is_point_file(given.input())) {
-    return fail(ErrorKind::kInput,
-                fmt::format("{} holds points, and a page judges by a raster alone: 'scarp view {}' shows the mesh, "
-                            "'scarp measure {} {}' judges it",
-                            given.input(), shell_word(*given[kMesh]), shell_word(given.input()), shell_word(*given[kMesh])));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} holds points, and a page judges by a raster alone: 'scarp view {}' shows the mesh, "
+                    "'scarp measure {} {}' judges it",
+                    given.input(), shell_word(*given[kMesh]), shell_word(given.input()), shell_word(*given[kMesh])));
   }
   if (!field) return tl::unexpected(explain_reading(given, std::move(field.error())));
   if (!asked.has(kCrs) && fit_frame(mesh, *field)) {
@@ -149,8 +149,9 @@ Result<void> run_view(const GivenOptions& given, const std::string&) {
   if (given.inputs().empty()) {
     for (const OptionRow* row : given.given()) {
       if (row->id == kUp || (row->group != OptionGroup::kInput && row->group != OptionGroup::kNodata)) continue;
-      return fail(ErrorKind::kUsage, fmt::format("an option of a raster is given ({}), and no RASTER: scarp view {} RASTER",
-                                                 row->name, shell_word(*given[kMesh])));
+      return fail(ErrorKind::kUsage,
+                  fmt::format("an option of a raster is given ({}), and no RASTER: scarp view {} RASTER", row->name,
+                              shell_word(*given[kMesh])));
     }
   }
   if (!given.inputs().empty()) {
@@ -159,9 +160,10 @@ Result<void> run_view(const GivenOptions& given, const std::string&) {
   SCARP_TRY(const bool is_y_up, parse_up(given[kUp]));
   const bool is_set = is_tile_set(*given[kMesh]);
   if (is_set && !given.inputs().empty()) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} is a set of tiles, which is shown without a raster: 'scarp tile check {} {} {}' judges it",
-                            *given[kMesh], shell_word(*given[kMesh]), kSource, shell_word(given.input())));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("{} is a set of tiles, which is shown without a raster: 'scarp tile check {} {} {}' judges it",
+                    *given[kMesh], shell_word(*given[kMesh]), kSource, shell_word(given.input())));
   }
   if (std::error_code error; !is_set && std::filesystem::is_directory(*given[kMesh], error)) {
     return fail(ErrorKind::kInput, fmt::format("{} is a folder without layer.json or tileset.json, so no set of tiles: "
@@ -180,7 +182,8 @@ Result<void> run_view(const GivenOptions& given, const std::string&) {
     SCARP_TRY(field, read_raster(given, mesh, warnings));
     SCARP_RETURN_IF_ERROR(check_place(given, mesh, *field));
   }
-  SCARP_TRY(const auto& page, make_view_page(page_template, without_slash(*given[kMesh]), meshes, field ? &*field : nullptr));
+  SCARP_TRY(const auto& page,
+            make_view_page(page_template, without_slash(*given[kMesh]), meshes, field ? &*field : nullptr));
   if (page.left_out) warnings.push_back(*page.left_out);
   SCARP_RETURN_IF_ERROR(write_file(path, page.html, given.has(kOverwrite)));
   if (!given.has(kQuiet)) {

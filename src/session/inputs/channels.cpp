@@ -118,14 +118,14 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
       texture.error().message = fmt::format("{}: {}", kTexture, texture.error().message);
       return tl::unexpected(std::move(texture.error()));
     }
-    SCARP_RETURN_IF_ERROR(
-        check_grid(heights.info, heights.cols, heights.rows, name_of(kTexture).c_str(), texture->info, texture->cols, texture->rows));
+    SCARP_RETURN_IF_ERROR(check_grid(heights.info, heights.cols, heights.rows, name_of(kTexture).c_str(), texture->info,
+                                     texture->cols, texture->rows));
     SCARP_RETURN_IF_ERROR(check_coverage(*texture, heights));
     append(channels.bands, std::move(*texture));
   }
   if (channels.count() > kMaxChannels) {
-    return fail(ErrorKind::kInput, fmt::format("{}: the files hold {} bands, more than {}: leave some out",
-                                               kTexture, channels.count(), kMaxChannels));
+    return fail(ErrorKind::kInput, fmt::format("{}: the files hold {} bands, more than {}: leave some out", kTexture,
+                                               channels.count(), kMaxChannels));
   }
   SCARP_RETURN_IF_ERROR(check_weight_count(plan, channels.count()));
 

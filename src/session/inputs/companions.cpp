@@ -32,7 +32,8 @@ Result<OwnedHeightField> read_values(OptionId option, const std::string& path, c
   Result<OwnedHeightField> values =
       in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
   if (!values) return name_option(option, ": ", std::move(values.error()));
-  SCARP_RETURN_IF_ERROR(check_grid(raster, field.cols, field.rows, name_of(option), values->info, values->cols, values->rows));
+  SCARP_RETURN_IF_ERROR(
+      check_grid(raster, field.cols, field.rows, name_of(option), values->info, values->cols, values->rows));
   return values;
 }
 
@@ -99,7 +100,8 @@ RegionGrid grid_of(const GivenOptions& given, const RasterInfo& raster, const Ow
 void warn_of_missing(const GivenOptions& given, const std::vector<bool>& found, Companions& companions) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k])
-      companions.warnings.push_back(fmt::format("{} {} lies beside the raster: it changes nothing", kRoi, given.all(kRoi)[k]));
+      companions.warnings.push_back(
+          fmt::format("{} {} lies beside the raster: it changes nothing", kRoi, given.all(kRoi)[k]));
   }
 }
 
@@ -136,7 +138,8 @@ Result<void> read_tolerances(const GivenOptions& given, const RasterInfo& raster
                               {in_windows, {run.threads, {}, run.progress}});
   if (!made) return name_option(kTolerance, " ", std::move(made.error()));
   if (given.has(kTolerance) && !made->has_values) {
-    companions.warnings.push_back(fmt::format("{} {} holds no value: it changes nothing", kTolerance, *given[kTolerance]));
+    companions.warnings.push_back(
+        fmt::format("{} {} holds no value: it changes nothing", kTolerance, *given[kTolerance]));
     if (regions.empty()) return {};
   }
   warn_of_missing(given, made->found, companions);
@@ -180,9 +183,8 @@ Tolerances Companions::bounds() const {
   return {tolerances.values, tolerances.source.get(), mask.values, mask.source.get(), script.ignored};
 }
 
-Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster,
-                                   const OwnedHeightField& field, std::optional<double> bound,
-                                   const CompanionRun& run) {
+Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
+                                   std::optional<double> bound, const CompanionRun& run) {
   Companions companions;
   if (given.has(kMask)) {
     SCARP_RETURN_IF_ERROR(read_weights(*given[kMask], raster, field, run, companions));
@@ -196,8 +198,8 @@ Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& 
   return companions;
 }
 
-Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const std::string& option, const RasterInfo& other,
-                        int other_cols, int other_rows) {
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const std::string& option,
+                        const RasterInfo& other, int other_cols, int other_rows) {
   const std::optional<std::string> difference = find_grid_difference(raster, cols, rows, other, other_cols, other_rows);
   if (!difference) return {};
   return fail(ErrorKind::kInput,

@@ -44,11 +44,11 @@ struct CompanionRun {
 /// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: the smaller one of their
 /// tolerance and the raster's counts; `bound` is what holds beyond them. `raster`: that of the field, as it was read.
 /// Fails with kUsage if the memory has no room for them in addition to heights that have a source.
-Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster,
-                                   const OwnedHeightField& field, std::optional<double> bound, const CompanionRun& run);
+Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
+                                   std::optional<double> bound, const CompanionRun& run);
 
 /// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
-Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const std::string& option, const RasterInfo& other,
-                        int other_cols, int other_rows);
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const std::string& option,
+                        const RasterInfo& other, int other_cols, int other_rows);
 
 }  // namespace scarp::cli

@@ -62,11 +62,11 @@ Result<Cut> read_cut(const GivenOptions& given, const RasterInfo& raster, const 
   cut.cutline.rings = {};
   const bool is_empty = left.kept == 0;
   if (is_empty || (cut.masked > 0 && !left.has_surface))
-    return fail(ErrorKind::kInput,
-                fmt::format("{} {},{}: no {} of {} lies in the polygons{}",
-                            kCutline, shell_word(given.all(kCutline).front()), find_option(kSimplify, kMaskOutside)->key,
-                            is_empty ? "height" : "cell with three heights", raster.path,
-                            is_empty ? "" : fmt::format(": omit {} to cut through cells", kMaskOutside)));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} {},{}: no {} of {} lies in the polygons{}", kCutline, shell_word(given.all(kCutline).front()),
+                    find_option(kSimplify, kMaskOutside)->key, is_empty ? "height" : "cell with three heights",
+                    raster.path, is_empty ? "" : fmt::format(": omit {} to cut through cells", kMaskOutside)));
   return cut;
 }
 

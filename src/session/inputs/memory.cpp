@@ -76,7 +76,8 @@ std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField
   return has_cache ? 0 : kCacheBytes + samples_share(limit, 0) / 2;
 }
 
-Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const std::string& options) {
+Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes,
+                        const std::string& options) {
   const std::uint64_t taken = bytes_taken(field, limit);
   if (taken + bytes <= limit) return {};
   const bool has_cache = field.source && !field.source->is_in_memory();  // a share of half of what the program allows
@@ -106,7 +107,8 @@ Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Erro
   constexpr std::string_view kLimit = "the memory limit", kWhole = "read the raster as a whole";
   if (!given.has(OptionId::kMemory)) return error;
   if (error.message.starts_with(kLimit))
-    error.message.replace(0, kLimit.size(), fmt::format("{} {}", OptionId::kMemory, shell_word(*given[OptionId::kMemory])));
+    error.message.replace(0, kLimit.size(),
+                          fmt::format("{} {}", OptionId::kMemory, shell_word(*given[OptionId::kMemory])));
   if (const std::size_t at = error.message.find(kWhole); at != std::string::npos)
     error.message.replace(at, kWhole.size(),
                           fmt::format("leave --memory out, or allow {}M", megabytes_in_memory(field)));

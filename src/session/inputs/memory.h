@@ -43,7 +43,8 @@ Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions option
 std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField& field, std::uint64_t limit);
 
 /// Fails with kUsage if the limit has no room for so many bytes more of what `options` name.
-Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const std::string& options);
+Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes,
+                        const std::string& options);
 
 /// The side of a picture that memory has room for in addition to a mesh: 1400 pixels, less where samples are streamed.
 int picture_side(const OwnedHeightField& field, const MemoryShare& memory, std::uint64_t vertices);

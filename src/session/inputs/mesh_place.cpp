@@ -121,11 +121,8 @@ Extent extent_of(const PointSet& points) {
 
 GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh) {
   GivenOptions asked = given;
-  constexpr std::pair<const char*, OptionId> kKeys[] = {{"crs_option", kCrs},
-                                                        {"z_scale", kZScale},
-                                                        {"z_offset", kZOffset},
-                                                        {"unit", kZUnit},
-                                                        {"cell_size", kCellSize}};
+  constexpr std::pair<const char*, OptionId> kKeys[] = {
+      {"crs_option", kCrs}, {"z_scale", kZScale}, {"z_offset", kZOffset}, {"unit", kZUnit}, {"cell_size", kCellSize}};
   for (const auto& [key, option] : kKeys) {
     if (option == kZScale && given.has(kZUnit)) continue;  // it may hold the way from that unit to metres
     const auto entry = mesh.metadata.find(key);

@@ -15,10 +15,8 @@ namespace {
 std::string remedy_of(const std::string& value, const std::string& kept, const RasterInfo& info) {
   if (kept.empty()) return fmt::format("give {} {}", OptionId::kNodata, value);
   const char* placeless = info.has_georeference ? "" : "-to SRC_METHOD=NO_GEOTRANSFORM -to DST_METHOD=NO_GEOTRANSFORM ";
-  return fmt::format(
-      "{} accepts one value, and gdalwarp -srcnodata {} -dstnodata {} {}{} {} makes one value of both",
-      OptionId::kNodata, value, kept,
-      placeless, file_word(info.path), new_file(".tif"));
+  return fmt::format("{} accepts one value, and gdalwarp -srcnodata {} -dstnodata {} {}{} {} makes one value of both",
+                     OptionId::kNodata, value, kept, placeless, file_word(info.path), new_file(".tif"));
 }
 
 }  // namespace

@@ -23,10 +23,10 @@ Result<std::vector<Lake>> add_lakes(const GivenOptions& given, const ProgressCal
                                     const MemoryShare& memory, OwnedHeightField& field,
                                     const std::array<double, 6>& affine, std::vector<std::string>& warnings) {
   if (given.has(kDetectFlats)) {
-    auto flats = find_flats(field, {affine,
-                                    **given.count(kDetectFlats),
-                                    {.memory = {memory.limit, memory.taken}, .progress = progress}});
-    if (flats && flats->empty()) warnings.push_back(fmt::format("{} finds no flat area: it changes nothing", kDetectFlats));
+    auto flats = find_flats(
+        field, {affine, **given.count(kDetectFlats), {.memory = {memory.limit, memory.taken}, .progress = progress}});
+    if (flats && flats->empty())
+      warnings.push_back(fmt::format("{} finds no flat area: it changes nothing", kDetectFlats));
     return flats;
   }
   if (given.all(kWater).empty()) return std::vector<Lake>();
@@ -39,7 +39,8 @@ Result<std::vector<Lake>> add_lakes(const GivenOptions& given, const ProgressCal
   options.run.progress = progress;
   options.percentile = given.number(kWaterPercentile)->value_or(options.percentile);
   auto lakes = flatten_lakes(field, polygons, options);
-  if (lakes && lakes->empty()) warnings.push_back(fmt::format("{} names no lake in the raster: it changes nothing", kWater));
+  if (lakes && lakes->empty())
+    warnings.push_back(fmt::format("{} names no lake in the raster: it changes nothing", kWater));
   return lakes;
 }
 

@@ -70,7 +70,8 @@ Result<ZonePlan> read_zones(const GivenOptions& given, const RasterInfo& raster,
     options.z_field = given[OptionId::kMaterialField].value_or("");
     options.ignore_z = !given.has(OptionId::kMaterialField);
     SCARP_TRY(auto lines, read_files({*given[OptionId::kMaterials]}, options, warnings));
-    const std::string user = fmt::format("{} ", OptionId::kMaterials) + shell_word(base_name(*given[OptionId::kMaterials]));
+    const std::string user =
+        fmt::format("{} ", OptionId::kMaterials) + shell_word(base_name(*given[OptionId::kMaterials]));
     SCARP_RETURN_IF_ERROR(check_polygons(lines, user));
     SCARP_TRY(plan.zones, make_zones(lines, given[OptionId::kMaterialField]));
     for (Line& line : lines) {

@@ -24,7 +24,8 @@ Result<std::vector<double>> parse_weights(const std::string& text) {
     start = end + 1;
   }
   if (*std::max_element(weights.begin(), weights.end()) > 0) return weights;
-  return fail(ErrorKind::kUsage, fmt::format("{} {} are all 0: one must be above 0", kChannelWeights, shell_word(text)));
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} {} are all 0: one must be above 0", kChannelWeights, shell_word(text)));
 }
 
 }  // namespace

@@ -73,11 +73,11 @@ Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& 
   const double given = goal.value;
   if (of_goal != metres) goal.value *= of_goal / metres;
   if (heights.unit_is_assumed && heights.unit.empty())
-    warnings.push_back(fmt::format(
-        "the file does not tell the unit of its heights, which are taken for {}: {} {}{} is {} of "
-        "them; {} names another",
-        metres == 1 ? "metres" : heights.crs_unit, option, format_number(given), goal.unit, format_number(goal.value),
-        OptionId::kZUnit));
+    warnings.push_back(
+        fmt::format("the file does not tell the unit of its heights, which are taken for {}: {} {}{} is {} of "
+                    "them; {} names another",
+                    metres == 1 ? "metres" : heights.crs_unit, option, format_number(given), goal.unit,
+                    format_number(goal.value), OptionId::kZUnit));
   return {};
 }
 

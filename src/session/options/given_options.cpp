@@ -46,6 +46,18 @@ std::size_t find_next_part(const std::vector<const OptionRow*>& parts, std::stri
   return text.size();
 }
 
+/// Fails for ",inser=2" in what is left of a value without its parts.
+Result<void> check_keys(const OptionRow& row, const std::vector<const OptionRow*>& parts, const std::string& text) {
+  const std::size_t comma = text.rfind(','), equals = text.find('=', comma);
+  if (comma == std::string::npos || equals == std::string::npos || row.id == kRoi) return {};
+  const std::string key = text.substr(comma + 1, equals - comma - 1);
+  if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos) return {};
+  std::string known;
+  for (const OptionRow* part : parts)
+    known += (known.empty() ? "" : part == parts.back() ? " or " : ", ") + std::string(part->key);
+  return fail(ErrorKind::kUsage, fmt::format("{} has no key {}: choose {}", row.name, shell_word(key), known));
+}
+
 /// A number that the row allows.
 Result<double> judge(const OptionRow& row, const std::string& text) {
   const std::string name = row.title();
@@ -71,8 +83,10 @@ void GivenOptions::add_row(CLI::App& command, const OptionRow& row) {
     command.add_flag(names, entry.is_given);
   } else if (row.is_repeatable || row.value_count() > 1) {
     CLI::Option* const option = command.add_option(names, entry.texts)->required(row.is_required);
-    if (row.value_count() > 1) option->expected(row.value_count());
-    else if (!row.is_argument()) option->allow_extra_args(false);  // one value each time that the option is given
+    if (row.value_count() > 1)
+      option->expected(row.value_count());
+    else if (!row.is_argument())
+      option->allow_extra_args(false);  // one value each time that the option is given
   } else {
     command.add_option(names, entry.text)->required(row.is_required);
   }
@@ -108,13 +122,9 @@ GivenOptions GivenOptions::as(Commands command) const {
   return other;
 }
 
-void GivenOptions::set(OptionId id, Given text) {
-  entry(id) = Entry{text.has_value(), std::move(text), {}};
-}
+void GivenOptions::set(OptionId id, Given text) { entry(id) = Entry{text.has_value(), std::move(text), {}}; }
 
-void GivenOptions::set(OptionId id, Texts texts) {
-  entry(id) = Entry{!texts.empty(), std::nullopt, std::move(texts)};
-}
+void GivenOptions::set(OptionId id, Texts texts) { entry(id) = Entry{!texts.empty(), std::nullopt, std::move(texts)}; }
 
 Result<void> GivenOptions::separate_parts() {
   for (const OptionRow* row : accepted_rows(command_)) {
@@ -136,11 +146,14 @@ Result<void> GivenOptions::separate_parts() {
         const std::size_t equals = value.find('=');
         if (part.type == OptionType::kFlag && equals != std::string::npos)
           return fail(ErrorKind::kUsage, fmt::format("{} has no value: leave {} out", part.id, value.substr(equals)));
+        if (has(part.id) || entry(part.id).text)
+          return fail(ErrorKind::kUsage, fmt::format("{} is given more than once", part.id));
         entry(part.id) = Entry{true, {}, {}};
         if (part.type != OptionType::kFlag) entry(part.id).text = value.substr(equals + 1);
         at = end;
       }
       if (first < text->size()) text->resize(first > 0 ? first - 1 : 0);
+      SCARP_RETURN_IF_ERROR(check_keys(*row, parts, *text));
       if (first == 0 && text->empty()) emptied = true;  // "--water flats=200" names no file
     }
     if (emptied && whole.text) whole.text.reset();

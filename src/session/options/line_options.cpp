@@ -31,7 +31,9 @@ Result<void> check_lines(const GivenOptions& given) {
   return {};
 }
 
-std::optional<LineConflict> conflict_rule(const GivenOptions& given) { return *given.choice(kLineConflict, kConflicts); }
+std::optional<LineConflict> conflict_rule(const GivenOptions& given) {
+  return *given.choice(kLineConflict, kConflicts);
+}
 
 std::optional<WallGoals> wall_goals(const GivenOptions& given) {
   const auto height = *given.number(kCliff);

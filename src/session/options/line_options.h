@@ -16,8 +16,8 @@ std::optional<OptionId> find_cut(const GivenOptions& given);
 /// Fails with kUsage for a value of these options that is none.
 Result<void> check_lines(const GivenOptions& given);
 
-/// The rule where lines of different heights meet; nothing if it was not given. REQUIRES: check_lines() has passed, here
-/// and below.
+/// The rule where lines of different heights meet; nothing if it was not given. REQUIRES: check_lines() has passed,
+/// here and below.
 std::optional<LineConflict> conflict_rule(const GivenOptions& given);
 std::optional<WallGoals> wall_goals(const GivenOptions& given);
 std::optional<RidgeGoals> ridge_goals(const GivenOptions& given);

@@ -151,14 +151,15 @@ Result<bool> parse_up(const Given& up) {
 Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print) {
   const MeshRow& row = row_of(format.mesh);
   if (!format.is_mesh()) {
-    if (up) return fail(ErrorKind::kUsage, fmt::format("{} is for meshes, and OUTPUT is {}", OptionId::kUp, format.title()));
+    if (up)
+      return fail(ErrorKind::kUsage, fmt::format("{} is for meshes, and OUTPUT is {}", OptionId::kUp, format.title()));
     return false;
   }
   if (!up) return row.has_choice_of_up && !is_print && *row.up == 'y';
   SCARP_TRY(const bool is_y, parse_up(up));
   if (!row.has_choice_of_up && *up != row.up) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {}: {} is always {} up; choose .obj, .ply or .stl", OptionId::kUp, *up, row.title, row.up));
+    return fail(ErrorKind::kUsage, fmt::format("{} {}: {} is always {} up; choose .obj, .ply or .stl", OptionId::kUp,
+                                               *up, row.title, row.up));
   }
   return row.has_choice_of_up && is_y;
 }
@@ -169,7 +170,8 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
   if (of) {
     std::optional<OutputFormat> named = find_format(lower(*of));
     if (!named) {
-      return fail(ErrorKind::kUsage, fmt::format("{} {} is unknown: choose {}", OptionId::kOf, shell_word(*of), kNames));
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} {} is unknown: choose {}", OptionId::kOf, shell_word(*of), kNames));
     }
     if (named->kind == OutputKind::kDem && extension == ".pgm") named->raster = RasterFormat::kPgm;
     return *named;

@@ -11,9 +11,7 @@ using enum OptionId;
 
 std::optional<OptionId> find_tolerance(const GivenOptions& given) { return given.first_of({kTolerance, kRoi}); }
 
-bool gives_bounds(const GivenOptions& given) {
-  return given.first_of({kMask, kScript, kTolerance, kRoi}).has_value();
-}
+bool gives_bounds(const GivenOptions& given) { return given.first_of({kMask, kScript, kTolerance, kRoi}).has_value(); }
 
 Result<RegionFile> parse_region(const std::string& text) {
   const std::size_t at = text.rfind('=');

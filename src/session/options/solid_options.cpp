@@ -107,9 +107,8 @@ Result<void> take_split(const Pair& pair, bool is_first, PrintOptions& plan, boo
     if (plan.columns >= 1 && plan.rows >= 1 && plan.columns <= 100 && plan.rows <= 100) return {};
   }
   if (is_first)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {} is no COLUMNSxROWS of print tiles, 1 to 100 each, such as 2x3", kSplit,
-                            shell_word(key + (value ? "=" + *value : ""))));
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is no COLUMNSxROWS of print tiles, 1 to 100 each, such as 2x3",
+                                               kSplit, shell_word(key + (value ? "=" + *value : ""))));
   if (key == "gap" && value) {
     SCARP_TRY(const Length gap, parse_length(fmt::format("{} gap", kSplit), *value));
     plan.gap = gap.value;

@@ -44,9 +44,9 @@ Result<Batch> parse_batch(const std::string& text) {
     return batch;
   }
   if (text.rfind("frac:", 0) != 0) {
-    return fail(
-        ErrorKind::kUsage,
-        fmt::format("{} {} is unknown: choose const, frac:A such as frac:0.9, or independent", kBatch, shell_word(text)));
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {} is unknown: choose const, frac:A such as frac:0.9, or independent", kBatch,
+                            shell_word(text)));
   }
   SCARP_TRY(const double fraction, parse_number(fmt::format("{} frac:", kBatch), text.substr(5)));
   if (fraction <= 0 || fraction > 1) {
@@ -91,11 +91,10 @@ Result<Importance> parse_importance(const std::string& text) {
     importance.feature = choice.value;
     return importance;
   }
-  return fail(
-      ErrorKind::kUsage,
-      fmt::format("{} {} is unknown: choose global, or local, local8, curvature or distance, alone or as in "
-                  "global*local, global*(local+1), global*sqrt(curvature+1)",
-                  kImportance, shell_word(text)));
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} {} is unknown: choose global, or local, local8, curvature or distance, alone or as in "
+                          "global*local, global*(local+1), global*sqrt(curvature+1)",
+                          kImportance, shell_word(text)));
 }
 
 std::string importance_name(const Importance& importance) {

@@ -54,16 +54,18 @@ Result<Datum> parse_vertical(const std::string& text) {
   }
   constexpr std::string_view kEpsg = "EPSG:";
   if (text.starts_with(kEpsg)) {
-    const Result<std::uint64_t> code = parse_count(fmt::format("{} {}", kVertical, kEpsg), text.substr(kEpsg.size()), 1);
+    const Result<std::uint64_t> code =
+        parse_count(fmt::format("{} {}", kVertical, kEpsg), text.substr(kEpsg.size()), 1);
     if (code && *code < 1'000'000) {
       datum.vertical = Vertical::kEpsg;
       datum.epsg = static_cast<int>(*code);
       return datum;
     }
   }
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} {}: give auto, egm96, egm2008, ellipsoid, none, or EPSG: and the number of a vertical CRS",
-                          kVertical, text));
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} {}: give auto, egm96, egm2008, ellipsoid, none, or EPSG: and the number of a vertical CRS",
+                  kVertical, text));
 }
 
 /// "1737400,1737400".
@@ -126,8 +128,7 @@ Result<PyramidSettings> parse_tile_settings(const GivenOptions& given) {
   if (given[kMaxTileBytes]) {
     SCARP_TRY(const std::uint64_t bytes, parse_bytes(name_of(kMaxTileBytes), *given[kMaxTileBytes]));
     if (bytes == 0)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("{} 0 holds no tile: give 1 or more, such as 20k", kMaxTileBytes));
+      return fail(ErrorKind::kUsage, fmt::format("{} 0 holds no tile: give 1 or more, such as 20k", kMaxTileBytes));
     settings.max_tile_bytes = bytes;
   }
   SCARP_TRY(const auto binds, given.choice(kBound, kBounds));

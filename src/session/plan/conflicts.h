@@ -18,8 +18,7 @@ Result<void> check_conflicts(const GivenOptions& given, const HeightField& field
 
 /// The same of tiles. Without a grid or a format, which then depend on the raster, it checks what is known without
 /// them.
-Result<void> check_conflicts(const GivenOptions& given, std::optional<GridKind> grid,
-                             std::optional<TileFormat> format);
+Result<void> check_conflicts(const GivenOptions& given, std::optional<GridKind> grid, std::optional<TileFormat> format);
 
 /// The first of the library's settings that does not go with streamed samples, as the options that gave it; nothing if
 /// there is none.

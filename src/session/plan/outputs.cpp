@@ -81,7 +81,8 @@ Result<void> check_output(const PlannedOutput& output, bool overwrite) {
   }
   if (is_device(status)) return {};
   if (fs::exists(status) && !overwrite) {
-    return fail(ErrorKind::kOutput, fmt::format("{} exists already: {} replaces it", output.path, OptionId::kOverwrite));
+    return fail(ErrorKind::kOutput,
+                fmt::format("{} exists already: {} replaces it", output.path, OptionId::kOverwrite));
   }
   if (fs::exists(status) && access(output.path.c_str(), W_OK) != 0) {
     return fail(ErrorKind::kOutput, fmt::format("{} cannot be replaced: {}", output.path, std::strerror(errno)));

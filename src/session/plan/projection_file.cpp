@@ -58,7 +58,8 @@ Result<std::optional<ProjectionFile>> plan_file(const SimplifyPlan& plan, const 
   std::error_code error;
   const bool is_there = fs::exists(file.path, error);
   if (is_there && text_of(file.path) == file.text) return std::nullopt;
-  SCARP_RETURN_IF_ERROR(check_outputs({{"the .prj file of OUTPUT,", file.path}}, plan.given.files_read(), plan.overwrite));
+  SCARP_RETURN_IF_ERROR(
+      check_outputs({{"the .prj file of OUTPUT,", file.path}}, plan.given.files_read(), plan.overwrite));
   const std::string owner = is_there ? find_owner(plan, file.path) : "";
   if (!owner.empty()) {
     return fail(ErrorKind::kOutput,

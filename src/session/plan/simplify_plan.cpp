@@ -7,11 +7,11 @@
 #include <limits>
 #include <utility>
 
-#include "session/plan/conflicts.h"
 #include "session/options/memory_options.h"
 #include "session/options/raster_options.h"
 #include "session/options/shape_options.h"
 #include "session/options/strategy_options.h"
+#include "session/plan/conflicts.h"
 #include "session/plan/page_template.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
@@ -65,8 +65,8 @@ Result<void> plan_strategy(const GivenOptions& given, SimplifyPlan& plan) {
   const Importance::Feature feature = plan.strategy.importance.feature;
   const bool is_of_heights = feature != Importance::Feature::kNoFeature && feature != Importance::Feature::kDistance;
   if (plan.channels.image && is_of_heights)
-    return fail(ErrorKind::kUsage, fmt::format("{} measures features of heights, which an {} has not: leave it out",
-                                               kImportance, kImage));
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} measures features of heights, which an {} has not: leave it out", kImportance, kImage));
   return {};
 }
 
@@ -105,8 +105,9 @@ Result<void> plan_solid(const GivenOptions& given, SimplifyPlan& plan) {
 Result<void> plan_solid_format(const SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
-    return fail(ErrorKind::kUsage,
-                fmt::format("3MF holds closed solids only: say how to close the terrain, such as {} size=120mm", kSolid));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("3MF holds closed solids only: say how to close the terrain, such as {} size=120mm", kSolid));
   if (!plan.solid) return {};
   if (!format.holds_prints())
     return fail(ErrorKind::kUsage,
@@ -134,7 +135,8 @@ Result<void> plan_attributes(const GivenOptions& given, SimplifyPlan& plan) {
       (given.has(kUvs) || plan.channels.has_channels() || plan.images.any()) && format.holds_attributes();
   const std::string& crs = plan.read.crs;
   const bool is_centred = crs.empty() || crs == "local" || crs == "grid" || crs == "enu";
-  plan.simplify.output.float32_positions = format.is_float32() || (format.is_ply() && is_centred && !given.has(kDouble));
+  plan.simplify.output.float32_positions =
+      format.is_float32() || (format.is_ply() && is_centred && !given.has(kDouble));
   plan.doubles = given.has(kDouble);
   if (given.has(kDouble) && !format.is_ply())
     return fail(ErrorKind::kUsage, fmt::format("{} is for PLY: the positions of {} are what they are", kDouble, title));
@@ -157,7 +159,8 @@ Result<void> plan_attributes(const GivenOptions& given, SimplifyPlan& plan) {
                 fmt::format("{} makes a solid, which {} cannot hold: choose a mesh format", kBase, title));
   }
   if (format.kind == OutputKind::kDem && given[kCrs]) {
-    plan.warnings.push_back(fmt::format("a raster's approximation lies on the raster's own grid, whatever {} is", kCrs));
+    plan.warnings.push_back(
+        fmt::format("a raster's approximation lies on the raster's own grid, whatever {} is", kCrs));
   }
   if (format.holds_attributes()) return {};
   if (given.has(kNormals)) {
@@ -233,8 +236,8 @@ std::string canonical_command(const GivenOptions& given) {
   if (asks_for_greedy(given)) options += fmt::format(" {} greedy", kOrder);
   const std::vector<const OptionRow*> rows = given.given();
   const bool is_classic = asks_for_greedy(given) || std::any_of(rows.begin(), rows.end(), [](const OptionRow* row) {
-    return row->group == OptionGroup::kStrategies && row->is_of_mesh;
-  });
+                            return row->group == OptionGroup::kStrategies && row->is_of_mesh;
+                          });
   std::string command = is_classic ? "scarp classic" : "scarp simplify";
   for (const std::string& path : given.inputs()) command += " " + shell_word(base_name(path));
   return command + " OUTPUT" + options;
@@ -283,9 +286,8 @@ Result<SimplifyPlan> plan_simplify(const GivenOptions& given, const std::vector<
   SCARP_TRY(plan.read, parse_reading(given));
   SCARP_TRY(const int threads, given.threads());
   plan.simplify.run.threads = plan.read.run.threads = threads;
-  for (const auto step :
-       {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape, plan_border,
-        plan_conflicts, plan_outputs, plan_page, plan_zones, plan_space, plan_memory}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
+                          plan_border, plan_conflicts, plan_outputs, plan_page, plan_zones, plan_space, plan_memory}) {
     SCARP_RETURN_IF_ERROR(step(given, plan));
   }
   // Last: who has mistaken an option reads of that first.

@@ -20,11 +20,11 @@ std::vector<std::string> warn_of_walls(const GlobeRaster& raster, const PyramidP
   const double background = plan.background, wall = std::max(voids.least - background, background - voids.most);
   constexpr double kHigh = 10;  // times the max error
   if (voids.left == 0 || !(wall > kHigh * plan.levels.back().max_error)) return {};
-  return {fmt::format(
-      "{} at the raster's edge or in voids of more than {} samples a side get the height {} ({}), "
-      "up to {} m from the land around them, which makes walls: {} fill interpolates them",
-      format_plural(voids.left, "missing sample"), kVoidSide, format_number(background), kBackground,
-      format_number(wall), kNodataPolicy)};
+  return {
+      fmt::format("{} at the raster's edge or in voids of more than {} samples a side get the height {} ({}), "
+                  "up to {} m from the land around them, which makes walls: {} fill interpolates them",
+                  format_plural(voids.left, "missing sample"), kVoidSide, format_number(background), kBackground,
+                  format_number(wall), kNodataPolicy)};
 }
 
 void add_plane(const GlobeRaster& raster, LayerFacts& facts) {
@@ -84,14 +84,17 @@ Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& 
   job.format = kept;
   settings.has_siblings = kept == TileFormat::kGlb;
   // Nodata of a plane that lies anywhere is no sea.
-  if (settings.grid.is_flat() && !given[kBackground]) settings.background = static_cast<float>(opened.raster->info().min);
+  if (settings.grid.is_flat() && !given[kBackground])
+    settings.background = static_cast<float>(opened.raster->info().min);
   settings.ellipsoid = opened.raster->place().ellipsoid;
   if (settings.binds_samples && !opened.raster->nodes().has_samples())
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} samples is for one raster or mosaic: of several the visible samples are not known", kBound));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("{} samples is for one raster or mosaic: of several the visible samples are not known", kBound));
   if (!given.all(kBreaklines).empty() && !opened.raster->place().body.empty())
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} is for tiles of the earth: the ellipsoid of the lines is not known elsewhere", kBreaklines));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("{} is for tiles of the earth: the ellipsoid of the lines is not known elsewhere", kBreaklines));
   for (const std::string& file : given.all(kBreaklines)) {
     SCARP_TRY(const auto lines, read_lines(file, {.crs = "EPSG:4326", .ignore_z = true}));
     for (const Line& line : lines.lines) {
@@ -112,7 +115,8 @@ Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& 
   SCARP_RETURN_IF_ERROR(find_waters(job, *opened.raster));
   for (std::string& one : warn_of_walls(*opened.raster, job.plan)) opened.warnings.push_back(std::move(one));
   job.filled = opened.raster->voids().filled;
-  if (!given[kGeoid] && given[kVertical] != Given("auto")) job.facts.vertical = vertical_word(given[kVertical].value_or(""));
+  if (!given[kGeoid] && given[kVertical] != Given("auto"))
+    job.facts.vertical = vertical_word(given[kVertical].value_or(""));
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
   add_plane(*opened.raster, job.facts);

@@ -79,11 +79,12 @@ void warn_of_far_lines(const Simplified& simplified, double error, std::vector<s
   const FarthestLine& line = simplified.farthest_line;
   // Zeros seldom are heights, so that they need not lie far from the raster.
   if (line.distance > (line.is_at_zero ? 1 : kMostErrors) * error) {
-    warnings.push_back(fmt::format(
-        "{}: {} lies up to {} from the raster{}: {}{} gives lines the heights of the raster", kBreaklines, line.name, format_number(line.distance), line.is_at_zero ? ", and all its heights are 0" : "",
-        line.is_at_zero ? fmt::format("{} names an attribute with heights, and ", kBreaklineZ)
-                        : "if its heights are wrong, ",
-        kSoftBreaklines));
+    warnings.push_back(
+        fmt::format("{}: {} lies up to {} from the raster{}: {}{} gives lines the heights of the raster", kBreaklines,
+                    line.name, format_number(line.distance), line.is_at_zero ? ", and all its heights are 0" : "",
+                    line.is_at_zero ? fmt::format("{} names an attribute with heights, and ", kBreaklineZ)
+                                    : "if its heights are wrong, ",
+                    kSoftBreaklines));
   }
   const std::vector<River>& rivers = simplified.features.rivers;
   const auto deepest = std::max_element(rivers.begin(), rivers.end(),
@@ -146,9 +147,9 @@ std::string cliffs_line(const std::optional<Cliffs>& cliffs) {
 void warn_of_missing_walls(const GivenOptions& given, const std::optional<Cliffs>& cliffs,
                            std::vector<std::string>& warnings) {
   if (!cliffs || cliffs->wall_count > 0) return;
-  warnings.push_back(fmt::format(
-      "{} {}: no wall was found; give the least height of one, the difference of two neighbouring samples", kCliff,
-      *given[kCliff]));
+  warnings.push_back(
+      fmt::format("{} {}: no wall was found; give the least height of one, the difference of two neighbouring samples",
+                  kCliff, *given[kCliff]));
 }
 
 Json describe_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges) {

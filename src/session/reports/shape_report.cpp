@@ -76,17 +76,17 @@ void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::
   if (!simplified.shape) return;
   const ShapeReport& shape = *simplified.shape;
   if (shape.below > 0)
-    warnings.push_back(fmt::format(
-        "{} {}: smaller angles are left in {}, down to {} degrees ({}); lines, the outline and the "
-        "max error come first, so simpler lines or a larger max error leave fewer",
-        OptionId::kMinAngle, format_number(goals.min_angle), format_plural(shape.below, "triangle"), format_number(shape.min_angle),
-        describe_below(shape)));
+    warnings.push_back(
+        fmt::format("{} {}: smaller angles are left in {}, down to {} degrees ({}); lines, the outline and the "
+                    "max error come first, so simpler lines or a larger max error leave fewer",
+                    OptionId::kMinAngle, format_number(goals.min_angle), format_plural(shape.below, "triangle"),
+                    format_number(shape.min_angle), describe_below(shape)));
   if (shape.shorter > 0)
-    warnings.push_back(fmt::format(
-        "{} {}: {} left shorter, down to {} ({}); all other goals come first, so simpler lines or a "
-        "larger max error leave fewer",
-        OptionId::kMinEdge, format_number(*goals.min_edge), format_plural(shape.shorter, "edge"), format_number(shape.shortest_edge),
-        describe_shorter(goals, shape)));
+    warnings.push_back(
+        fmt::format("{} {}: {} left shorter, down to {} ({}); all other goals come first, so simpler lines or a "
+                    "larger max error leave fewer",
+                    OptionId::kMinEdge, format_number(*goals.min_edge), format_plural(shape.shorter, "edge"),
+                    format_number(shape.shortest_edge), describe_shorter(goals, shape)));
 }
 
 }  // namespace scarp::cli

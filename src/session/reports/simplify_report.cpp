@@ -8,13 +8,13 @@
 
 #include "scarp/lines.h"
 #include "scarp/version.h"
+#include "session/options/strategy_options.h"
 #include "session/reports/feature_report.h"
 #include "session/reports/level_report.h"
 #include "session/reports/place.h"
 #include "session/reports/report.h"
 #include "session/reports/shape_report.h"
 #include "session/reports/strategy_report.h"
-#include "session/options/strategy_options.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
 
@@ -281,7 +281,8 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
   text +=
       summary_line("frame", frame_of_output(plan, outcome).description + offset_words(plan, outcome.simplified.mesh));
   text += waters_lines(outcome.features.lakes, outcome.simplified.features.rivers);
-  if (!plan.given.all(kCutline).empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
+  if (!plan.given.all(kCutline).empty())
+    text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_inserted,
                      outcome.simplified.edits);
   text += zones_lines(plan.given, outcome.zones);

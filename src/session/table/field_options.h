@@ -8,8 +8,8 @@
 
 namespace scarp::cli {
 
-/// In the order of Field; kNone where no option gives the setting: positions are as the format has them, and Ctrl-C ends
-/// a run.
+/// In the order of Field; kNone where no option gives the setting: positions are as the format has them, and Ctrl-C
+/// ends a run.
 inline constexpr OptionTerm kFieldOptions[] = {
     {OptionId::kMaxError},
     {OptionId::kMaxTriangles},

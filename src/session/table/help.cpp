@@ -54,8 +54,7 @@ std::string full_help(const OptionRow& row) {
 std::string left_of(const OptionRow& row) {
   if (row.is_argument()) return fmt::format("  {}", row.name);
   const std::string value = row.value_text();
-  if (row.part_of != OptionId::kNone)
-    return fmt::format("        ,{}{}{}", row.key, value.empty() ? "" : "=", value);
+  if (row.part_of != OptionId::kNone) return fmt::format("        ,{}{}{}", row.key, value.empty() ? "" : "=", value);
   return fmt::format("  {:<4}{}{}{}", row.short_name[0] != 0 ? std::string(row.short_name) + "," : "", row.name,
                      value.empty() ? "" : " ", value);
 }
@@ -85,9 +84,10 @@ std::string list_old_spellings(const CommandRow& command) {
     const bool is_of_classic = (row->commands & command.command) == 0;
     if (row->part_of == OptionId::kNone && !is_of_classic) continue;
     const std::string value = row->value_text();
-    text += entry(fmt::format("  {}{}{}", row->name, value.empty() ? "" : " ", value),
-                  is_of_classic ? fmt::format("scarp {}", command_name(kClassic))
-                                : fmt::format("{} ...,{}{}{}", row->part_of, row->key, value.empty() ? "" : "=", value));
+    text +=
+        entry(fmt::format("  {}{}{}", row->name, value.empty() ? "" : " ", value),
+              is_of_classic ? fmt::format("scarp {}", command_name(kClassic))
+                            : fmt::format("{} ...,{}{}{}", row->part_of, row->key, value.empty() ? "" : "=", value));
   }
   return text.empty() ? "" : "\nOld spellings (until 0.4):\n" + text;
 }

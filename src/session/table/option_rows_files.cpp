@@ -158,7 +158,8 @@ constexpr OptionRow kFileRows[] = {
      .commands = kHelpCommand,
      .group = OptionGroup::kArguments,
      .type = kChoice,
-     .choices = "simplify classic measure view tile tile-plan tile-run tile-finish tile-check serve info generate help version",
+     .choices = "simplify classic measure view tile tile-plan tile-run tile-finish tile-check serve info generate help "
+                "version",
      .help = "The command to explain. Without it, the commands are listed."},
 
     {.id = kSeed,

@@ -222,7 +222,8 @@ constexpr OptionRow kLineRows[] = {
      .by_default = "0",
      .least = 0,
      .most = 33,
-     .limit_why = "beyond that refinement hardly ever comes to an end; up to 20 degrees are proven to be possible, 30 mostly are",
+     .limit_why = "beyond that refinement hardly ever comes to an end; up to 20 degrees are proven to be possible, 30 "
+                  "mostly are",
      .help =
          "Smallest angle of a triangle, seen from above, in degrees. The error bound, lines and outline come first: "
          "smaller angles that they leave no room to mend are counted, with a warning."},

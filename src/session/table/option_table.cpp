@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {
@@ -68,14 +69,13 @@ std::string OptionRow::value_text() const {
 
 std::string OptionRow::range_text() const {
   if (range[0] != 0) return range;
-  if (above != -kNoLimit) return fmt::format("above {}", above) + (most != kNoLimit ? fmt::format(", at most {}", most) : "");
+  if (above != -kNoLimit)
+    return fmt::format("above {}", above) + (most != kNoLimit ? fmt::format(", at most {}", most) : "");
   if (least == -kNoLimit) return "";
   return most == kNoLimit ? fmt::format("at least {}", least) : fmt::format("{} to {}", least, most);
 }
 
-std::string OptionRow::title() const {
-  return part_of == OptionId::kNone ? name : fmt::format("{} {}", part_of, key);
-}
+std::string OptionRow::title() const { return part_of == OptionId::kNone ? name : fmt::format("{} {}", part_of, key); }
 
 int OptionRow::value_count() const {
   if (type == OptionType::kFlag) return 0;

@@ -1,5 +1,5 @@
-// The one table of options. Registration, parsing, ranges, the canonical command, `--help`, `scarp help --json`, the man
-// page, the completions, the page of all options and the settings of C and Python are made from it.
+// The one table of options. Registration, parsing, ranges, the canonical command, `--help`, `scarp help --json`, the
+// man page, the completions, the page of all options and the settings of C and Python are made from it.
 #pragma once
 
 #include <fmt/format.h>
@@ -214,17 +214,17 @@ struct OptionRow {
   const char* choices = "";  ///< words, separated by blanks
   const char* unit = "";
   const char* by_default = "";  ///< empty: the option does nothing unless it is given
-  double least = -kNoLimit;   ///< the least number
-  double above = -kNoLimit;   ///< the number that all are above
-  double most = kNoLimit;     ///< the largest number
-  const char* limit_why = "";  ///< reason of a limit, for the sentence that refuses a number beyond it
-  const char* range = "";     ///< in words, where the three above do not express it
+  double least = -kNoLimit;     ///< the least number
+  double above = -kNoLimit;     ///< the number that all are above
+  double most = kNoLimit;       ///< the largest number
+  const char* limit_why = "";   ///< reason of a limit, for the sentence that refuses a number beyond it
+  const char* range = "";       ///< in words, where the three above do not express it
   bool is_repeatable = false;
   bool is_required = false;
   bool is_of_mesh = true;      ///< can change the mesh: stands in the canonical command
   bool is_for_points = false;  ///< holds where the input is scattered points, too
-  const char* help;        ///< one or two sentences; completions use the first
-  const char* brief = "";  ///< one line for -h, where all options do not fit a screen; empty: not among them
+  const char* help;            ///< one or two sentences; completions use the first
+  const char* brief = "";      ///< one line for -h, where all options do not fit a screen; empty: not among them
 
   bool is_argument() const { return name[0] != '-'; }
   std::vector<std::string> list_choices() const;

@@ -7,12 +7,12 @@
 
 #include "scarp/picture.h"
 #include "scarp/solid.h"
-#include "session/options/raster_options.h"
 #include "session/inputs/cutline.h"
 #include "session/inputs/memory.h"
 #include "session/inputs/mesh_place.h"
 #include "session/options/error_goal.h"
 #include "session/options/output_kind.h"
+#include "session/options/raster_options.h"
 #include "session/plan/outputs.h"
 #include "session/reports/pictures.h"
 #include "session/text/clock.h"
@@ -135,7 +135,8 @@ Result<void> read_inputs(const GivenOptions& given, const ProgressCallback& prog
   if (judged.goal) {
     RasterInfo& info = judged.field.info;
     if (judged.plan.image && !judged.goal->unit.empty())
-      return fail(ErrorKind::kUsage, fmt::format("{} with a unit is for heights: errors of {} are in grey levels", kFailAbove, kImage));
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} with a unit is for heights: errors of {} are in grey levels", kFailAbove, kImage));
     SCARP_RETURN_IF_ERROR(settle_goal(kFailAbove, info, *judged.goal, info.warnings));
     judged.fail_above = judged.goal->absolute(judged.plan.image ? judged.channels.relief : info.max - info.min);
   }

@@ -36,8 +36,8 @@ Result<void> close_with_base(Mesh& mesh, double base) {
   if (add_base(mesh, base)) return {};
   double lowest = mesh.vertex(0)[2];
   for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} {:.10g} is not below the lowest vertex, which is at {:.10g}", OptionId::kBase, base, lowest));
+  return fail(ErrorKind::kUsage, fmt::format("{} {:.10g} is not below the lowest vertex, which is at {:.10g}",
+                                             OptionId::kBase, base, lowest));
 }
 
 Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {

@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "session/options/raster_options.h"
 #include "session/inputs/mesh_place.h"
 #include "session/options/error_goal.h"
+#include "session/options/raster_options.h"
 #include "session/table/option_table.h"
 #include "session/tasks/mesh_output.h"
 #include "session/text/clock.h"
@@ -179,8 +179,7 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
     return fail(ErrorKind::kUsage,
                 fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
                             "beyond any budget; ask for an error with -e",
-                            *given.first_of({kMaxTriangles, kMaxPoints}),
-                            shell_word(base_name(given.input()))));
+                            *given.first_of({kMaxTriangles, kMaxPoints}), shell_word(base_name(given.input()))));
   if (!outcome.points.lines.empty() && boundary_length)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} {} cannot be combined with lines, and {} holds them: they may cross what it "
@@ -252,7 +251,8 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   SCARP_TRY(judged.mesh, read_mesh(*given[kMesh]));
   // The settings of the mesh hold for its judge, unless options set others.
   GivenOptions asked = given;
-  for (const auto& [option, key] : {std::pair{kDuplicates, "duplicates"}, {kBoundary, "boundary"}, {kColumns, "columns"}}) {
+  for (const auto& [option, key] :
+       {std::pair{kDuplicates, "duplicates"}, {kBoundary, "boundary"}, {kColumns, "columns"}}) {
     const auto entry = judged.mesh.metadata.find(key);
     if (!given.has(option) && entry != judged.mesh.metadata.end()) asked.set(option, Given(entry->second));
   }

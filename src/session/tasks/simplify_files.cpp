@@ -274,7 +274,8 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
     SCARP_RETURN_IF_ERROR(encode_print_tiles(plan, outcome, files));
     return files;
   }
-  if (plan.given.first_of({kMaterials, kNodeStrings})) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
+  if (plan.given.first_of({kMaterials, kNodeStrings}))
+    outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
   // They may use more memory than the mesh and its file.
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);

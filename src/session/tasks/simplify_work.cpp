@@ -73,7 +73,8 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
   outcome.channels = std::move(image.channels);
   outcome.as_read = outcome.field.info;
   if (plan.error_goal && !plan.error_goal->unit.empty())
-    return fail(ErrorKind::kUsage, fmt::format("{} with a unit is for heights: errors of {} are in grey levels", kMaxError, kImage));
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} with a unit is for heights: errors of {} are in grey levels", kMaxError, kImage));
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(outcome.channels.relief);
   return {};
 }
@@ -261,8 +262,9 @@ Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightFi
   if (plan.is_split() && !field.frame.is_affine()) {
     return fail(
         ErrorKind::kUsage,
-        fmt::format("{} cuts along rows and columns of the raster, which {} bends here: omit it, or choose local or source",
-                    kSplit, kCrs));
+        fmt::format(
+            "{} cuts along rows and columns of the raster, which {} bends here: omit it, or choose local or source",
+            kSplit, kCrs));
   }
   Result<PrintedTerrain> printed = simplify_for_print(field, plan, options);
   if (printed) return printed;
@@ -301,8 +303,7 @@ Error name_outline(Error error) {
 
 Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome) {
   const Result<void> has_inputs = read_inputs(plan, given[kBand].has_value(), runner.progress, outcome);
-  if (!has_inputs)
-    return tl::unexpected(name_memory(given, outcome.field, explain_reading(given, has_inputs.error())));
+  if (!has_inputs) return tl::unexpected(name_memory(given, outcome.field, explain_reading(given, has_inputs.error())));
 
   SCARP_RETURN_IF_ERROR(check_place_of_channels(plan, outcome.channels));
   const Frame& frame = outcome.field.frame;
@@ -317,7 +318,8 @@ Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runn
         "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
         "in its place");
   }
-  SCARP_RETURN_IF_ERROR(check_frame_of_lines(find_lines(plan.given) ? name_of(*find_lines(plan.given)) : "", frame, plan.read.crs, plan.input));
+  SCARP_RETURN_IF_ERROR(check_frame_of_lines(find_lines(plan.given) ? name_of(*find_lines(plan.given)) : "", frame,
+                                             plan.read.crs, plan.input));
   SimplifyOptions options = plan.simplify;
   // Filled nodata is not the same on both sides of an edge.
   if (options.output.normals && options.domain.border.is_locked && plan.policy == NodataPolicy::kHole) {
