@@ -59,6 +59,7 @@ Error end_usage(const std::string& sentence, const std::string& command) {
 
 /// CLI11's complaint as one sentence that ends with where to read more.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
+  if (error.get_name() == "ValidationError") return {ErrorKind::kUsage, error.what()};  // by the table's rules
   std::string command, sentence;
   const CLI::App* chosen = nullptr;
   for (const CLI::App* candidate : program.get_subcommands()) chosen = candidate;
