@@ -58,7 +58,7 @@ try "$scarp" measure elsewhere.tif plain.glb
 [ "$code" = 3 ] && cp "$logs/err" measured.txt || fail "measure takes a raster elsewhere"
 refuses 3 'plain.glb: it covers no sample of elsewhere.tif' "$scarp" view plain.glb elsewhere.tif -o x.html
 diff <(sed 's/^[^:]*: //' measured.txt) <(sed 's/^[^:]*: //' "$logs/err") || fail "view and measure differ in their sentence"
-refuses 1 '(--band 2), and no RASTER' "$scarp" view plain.glb --band 2 -o x.html
+refuses 1 '(--band), and no RASTER' "$scarp" view plain.glb --band 2 -o x.html
 refuses 2 'no_such.glb' "$scarp" view no_such.glb
 refuses 2 'no_such.tif' "$scarp" view plain.glb no_such.tif -o x.html
 refuses 1 '--html cannot be combined with --solid' "$scarp" simplify "$dem" x.stl -e 20 --solid size=100mm --html x.html
