@@ -372,7 +372,7 @@ OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrariu
 
 def scaled(values):
     page = next(v for v in values if isinstance(v, dict))
-    assert page["command"].endswith("--effort high --crs grid --z-scale 3 --te -84.4 36.2 -84.2 36.4"), page
+    assert page["command"].endswith("--effort high --te -84.4 36.2 -84.2 36.4 --z-scale 3 --crs grid"), page
     runs(page["command"], page)
 
 
