@@ -28,6 +28,7 @@
 #include "scarp/live_tiles.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
+#include "scarp/mesh_formats.h"
 #include "scarp/paper.h"
 #include "scarp/picture.h"
 #include "scarp/points.h"

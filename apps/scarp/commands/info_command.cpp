@@ -4,7 +4,6 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "session/inputs/heightmap.h"
@@ -20,18 +19,6 @@ namespace scarp::cli {
 namespace {
 
 constexpr std::array<double, 3> kShares{0.01, 0.05, 0.20};
-
-/// The format of a mesh file, by its name; nothing for names that rasters and points have, too.
-std::optional<std::string> find_mesh(const std::string& path) {
-  const std::optional<MeshFormat> format = find_mesh_format(lower_extension(path));
-  if (!format || *format == MeshFormat::kGpkg) return std::nullopt;
-  if (*format == MeshFormat::kLandXml && lower_extension(path) == ".xml") {
-    std::string begin(4096, ' ');
-    std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (begin.find("LandXML") == std::string::npos) return std::nullopt;
-  }
-  return lower_extension(path).substr(1);
-}
 
 Error name_raster(Error error, const std::string& path) {
   if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
@@ -61,7 +48,8 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   for (const auto& [name, value] : {std::pair{"--layer", &layer_}, std::pair{"--z-field", &z_field_}}) {
     if (*value) return fail(ErrorKind::kUsage, fmt::format("{} is for points: leave it out, or say --points", name));
   }
-  if (const auto format = is_one ? find_mesh(raster_.path()) : std::nullopt) return run_mesh(*format, command_line);
+  if (is_one && find_mesh_file(raster_.path()))
+    return run_mesh(lower_extension(raster_.path()).substr(1), command_line);
   SCARP_TRY(ReadOptions read, raster_.parse());
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   read.run.progress = display.callback();

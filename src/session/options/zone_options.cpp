@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "session/table/format_words.h"
 #include "session/table/option_table.h"
 #include "session/text/text.h"
 
@@ -20,9 +21,10 @@ const char* ZoneArguments::find_lines() const {
 Result<void> ZoneArguments::check(const OutputFormat& format) const {
   if (field && !materials) return fail(ErrorKind::kUsage, "--material-field needs polygons: --materials FILE");
   const char* option = find_lines();
-  if (option == nullptr || format.is_2dm()) return {};
-  return fail(ErrorKind::kUsage, fmt::format("{} is for 2DM, and OUTPUT is {}, which has no place for it: choose .2dm",
-                                             option, format.title()));
+  if (option == nullptr || format.holds_zones()) return {};
+  const auto holds_zones = [](const MeshFormatTraits& traits) { return traits.holds_zones; };
+  return fail(ErrorKind::kUsage, fmt::format("{} is for flow models, and {} has no place for it: choose {}", option,
+                                             format.title(), list_mesh_endings(holds_zones)));
 }
 
 std::string ZoneArguments::canonical() const {

@@ -1,4 +1,4 @@
-// Materials by polygon and node strings along lines, for 2DM.
+// Materials by polygon and node strings along lines, for flow models.
 #pragma once
 
 #include <string>

@@ -190,9 +190,10 @@ Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
 /// Checks the needs of solids and of the format.
 Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
-  if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
+  if (format.holds_solids_only() && !plan.solid && !plan.base)
     return fail(ErrorKind::kUsage,
-                "3MF holds closed solids only: say how to close the terrain, such as --solid size=120mm");
+                fmt::format("{} holds closed solids only: say how to close the terrain, such as --solid size=120mm",
+                            format.title()));
   if (!plan.solid) return {};
   if (!format.holds_prints())
     return fail(ErrorKind::kUsage,
