@@ -26,7 +26,7 @@ enum class HeightsIn {
 };
 
 /// In the order of the table.
-enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg, k3mf };
+enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg, k3mf, kMsh };
 
 /// The facts about a format that do not depend on a mesh. A format with none of a field's features omits the field.
 struct MeshFormatTraits {

@@ -14,9 +14,9 @@ namespace scarp {
 using PlainWriter = Result<std::vector<std::uint8_t>>(const Mesh& mesh);
 PlainWriter encode_glb, encode_obj, encode_stl, encode_tin, encode_vtu, encode_vtp, encode_landxml, encode_dxf,
     encode_gpkg, encode_one_3mf;
-MeshWriter encode_ply, encode_2dm;
+MeshWriter encode_ply, encode_2dm, encode_msh;
 MeshReader decode_glb, decode_obj, decode_ply, decode_stl, decode_tin, decode_2dm, decode_vtk, decode_landxml,
-    decode_dxf, decode_3mf;
+    decode_dxf, decode_3mf, decode_msh;
 
 namespace {
 
@@ -185,6 +185,16 @@ constexpr MeshFormatRow kRows[] = {
                 .bytes_per_vertex = 400},
      .write = without_options<encode_one_3mf>,
      .read = decode_3mf},
+    {.traits = {.format = MeshFormat::kMsh,
+                .name = "msh",
+                .title = "MSH",
+                .endings = "msh",
+                .contents = "Gmsh 4.1 as text: blocks of nodes and elements, physical groups",
+                .read_by = "Gmsh, meshio, finite elements",
+                .holds_zones = true},
+     .mark = "$MeshFormat",
+     .write = encode_msh,
+     .read = decode_msh},
 };
 
 constexpr bool is_in_order() {
