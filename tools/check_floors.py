@@ -25,7 +25,7 @@ ROOMS = {
              "rasters: outline, frames, runs, rows; `sources/`: samples that are not one array"),
     "geom": (1, ["base"], ["result"],
              "predicates, planes, the scan of a triangle and its kernels, arrangements of lines"),
-    "mesh": (1, ["base"], ["mesh", "result", "solid"], "the Mesh value: order, solids, print tiles, half-edges"),
+    "mesh": (1, ["base"], ["contours", "mesh", "result", "solid"], "the Mesh value: order, solids, print tiles, half-edges, contours"),
     "tin": (2, ["base", "geom"], ["result"], "triangulations and their assembly; no heights"),
     "metric": (2, ["base", "grid", "geom"],
                ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],

@@ -6,6 +6,7 @@
 #include "scarp/cliffs.h"
 #include "scarp/commands.h"
 #include "scarp/conflicts.h"
+#include "scarp/contours.h"
 #include "scarp/cutline.h"
 #include "scarp/degrees.h"
 #include "scarp/drape.h"
