@@ -54,11 +54,11 @@ Result<std::vector<std::uint8_t>> encode(const scarp_mesh& mesh, const cli::Outp
     return fail(ErrorKind::kUsage, "a raster is no format of a mesh: choose glb, obj, ply, stl or another mesh format");
   SCARP_TRY(const bool is_y_up, cli::choose_y_up(mesh.up, format, mesh.is_print));
   const bool turns = is_y_up && (mesh.up || mesh.crs == "enu" || !is_in_space(mesh.crs));
-  const bool doubles = mesh.doubles && format.is_ply();
-  if (!turns) return cli::encode_as(format, mesh.mesh, mesh.glb, doubles);
+  const EncodeOptions options{.double_positions = mesh.doubles};
+  if (!turns) return cli::encode_as(format, mesh.mesh, mesh.glb, options);
   Mesh turned = mesh.mesh;
   turn_y_up(turned);
-  return cli::encode_as(format, turned, mesh.glb, doubles);
+  return cli::encode_as(format, turned, mesh.glb, options);
 }
 
 Error refuse_null(const char* what) { return {ErrorKind::kUsage, std::string(what) + " is a null pointer"}; }

@@ -197,8 +197,8 @@ const char* scarp_mesh_warnings(const scarp_mesh* mesh); /* a sentence a line; "
 scarp_status scarp_mesh_report(const scarp_mesh* mesh, scarp_report* out);
 /* Another mesh, closed into a solid by walls and a flat base at z, which is below all vertices. */
 scarp_status scarp_mesh_add_base(const scarp_mesh* mesh, double z, scarp_mesh** out);
-/* "glb", "obj", "ply", "stl", "tin", "2dm", "vtu", "vtp", "landxml", "dxf", "gpkg", "3mf", "svg", "eps". NULL: the
- * format that the mesh was made for. */
+/* "glb", "obj", "2dm" ...: a format of `scarp help --json`, "svg" or "eps". NULL: the format that the mesh was made
+ * for. */
 scarp_status scarp_mesh_encode(const scarp_mesh* mesh, const char* format, scarp_bytes** out);
 /* The same into a file, by the ending of its name: a temporary name first, then renamed. */
 scarp_status scarp_mesh_write(const scarp_mesh* mesh, const char* path, int32_t overwrite);

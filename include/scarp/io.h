@@ -11,6 +11,7 @@
 #include "scarp/border.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
+#include "scarp/mesh_formats.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
@@ -19,22 +20,9 @@
 
 namespace scarp {
 
+struct MeshZones;
+
 enum class Decode { kNone, kTerrarium, kMapbox };
-
-/// The frame of a mesh if no CRS is chosen.
-enum class DefaultFrame {
-  kLocal,   ///< around the raster's centre: for viewers, whose numbers are short
-  kMetric,  ///< local for degrees, else the raster's own CRS: for files that hold doubles, and a shape in space
-  kSource,  ///< the raster's own CRS, degrees too: for files drawn on maps
-};
-
-/// In which unit the heights of a field are. Heights without a declared unit are in the unit of the CRS's x and y where
-/// that is a length, else in metres.
-enum class HeightsIn {
-  kFrame,   ///< metres in the local frame of a CRS and in space, else as in the file
-  kMetres,  ///< metres in every frame: for files that are in metres by their specification
-  kFile,    ///< in the unit of the file
-};
 
 /// Several rasters, a part or a coarser version of one, read as a raster.
 struct RasterView {
@@ -225,13 +213,11 @@ class RasterFile {
 /// Largest number of samples that fit `memory_limit` bytes at 5 bytes a sample; 0 = the machine's memory.
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
-/// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices. k2dm: SMS. kVtu, kVtp:
-/// VTK's XML, an unstructured grid or polydata. kLandXml: LandXML 1.2, a TIN surface. kDxf: 3DFACEs of release 12.
-/// kGpkg: GeoPackage, a layer of triangles as polygons. k3mf: 3MF, solids for printing.
-enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg, k3mf };
-
-/// From a name ("glb", "OBJ", "landxml", …) or from a path's extension (".xml" is LandXML); nothing if unknown.
-std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
+/// Choices of a writer, and contents of a mesh file in addition to the mesh.
+struct EncodeOptions {
+  bool double_positions = false;     ///< PLY: doubles even where float32 is exact
+  const MeshZones* zones = nullptr;  ///< materials and node strings, of MeshFormatTraits::holds_zones; null: none
+};
 
 /// The file's bytes. GLB: y up (x, z, −y), float32, origin as node translation, metadata in asset.extras. OBJ: text,
 /// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian,
@@ -248,7 +234,7 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 ///
 /// PLY has float32 positions where every one is exactly a float32, as in the local frame, else doubles, as with
 /// `double_positions`. A mesh that turn_y_up() has turned can be OBJ, PLY or STL; decode_mesh() turns it back.
-Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, bool double_positions = false);
+Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, const EncodeOptions& options = {});
 /// A 3MF file (core specification 1.2) of one or more solids, each an object named by its metadata["name"]: positions
 /// rounded to float32 and written so that they read back the same, offsets from the origin of the first object; its
 /// other metadata as the file's. The unit is the millimetre if metadata["placement"] shows that the solid was placed

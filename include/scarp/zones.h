@@ -26,6 +26,9 @@ struct NodeString {
   std::vector<std::uint32_t> nodes;  ///< vertices, neighbours joined by edges; a closed one ends with its first
 };
 
+/// encode_mesh() writes them where the format has a place for them (MeshFormatTraits::holds_zones). A 2DM file has
+/// materials in E3T cards, and node strings in NS cards of ten nodes at most, the last one negative and followed by the
+/// string's number, counted from 1.
 struct MeshZones {
   std::vector<std::uint32_t> materials;  ///< one for each triangle. EMPTY: all are 1
   std::vector<NodeString> node_strings;  ///< EMPTY: none
@@ -42,11 +45,6 @@ std::vector<std::uint32_t> find_materials(const Mesh& mesh, const std::vector<Zo
 /// `reach`: how far vertices may lie from the line, in its units: a hundredth of a sample. Cost: O(n log n).
 std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Line>& lines,
                                           const std::array<double, 6>& to_map, double reach);
-
-/// A 2DM file with materials (in E3T cards) and node strings (NS cards of ten nodes at most, the last one negative and
-/// followed by the string's number, counted from 1). Fails with kOutput for more vertices or triangles than int32
-/// counts, with kUsage for materials of another count than triangles.
-Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh, const MeshZones& zones);
 
 }  // namespace scarp
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/mesh/formats.h"
 #include "io/mesh/mesh_file_text.h"
 #include "scarp/commands.h"
 
@@ -28,12 +29,7 @@ constexpr std::array kKinds{
     KindRow{"# .PCD", " .pcd ", "a PCD point cloud", Way::kCloud},
     KindRow{"ply\n", " .ply ", "a PLY file", Way::kCloudOrMesh},
     KindRow{"ply\r", " .ply ", "a PLY file", Way::kCloudOrMesh},
-    KindRow{"glTF", " .glb .gltf ", "a mesh (glTF)", Way::kMesh},
-    KindRow{"", " .obj ", "a mesh (OBJ)", Way::kMesh},
-    KindRow{"", " .stl ", "a mesh (STL)", Way::kMesh},
-    KindRow{"", " .3mf ", "a mesh (3MF)", Way::kMesh},
-    KindRow{"MESH2D", " .2dm ", "a mesh (2DM)", Way::kMesh},
-    KindRow{"", " .vtu .vtp .off .fbx .dae .3ds .blend .usdz .msh ", "a mesh", Way::kMesh},
+    KindRow{"", " .gltf .off .fbx .dae .3ds .blend .usdz ", "a mesh", Way::kMesh},
     KindRow{"\x1f\x8b", " .gz .tgz ", "compressed by gzip", Way::kUnpack},
     KindRow{"BZh", " .bz2 ", "compressed by bzip2", Way::kUnpack},
     KindRow{"\xfd"
@@ -57,6 +53,16 @@ const KindRow* find_kind(std::string_view head, const std::string& extension) {
     return !extension.empty() && of.extensions.find(" " + extension + " ") != std::string_view::npos;
   });
   return row != kKinds.end() ? row : nullptr;
+}
+
+/// A mesh that Scarp reads, by its mark or its name: its title; empty for other files.
+std::string find_mesh_title(std::string_view head, const std::string& extension) {
+  for (const MeshFormatRow& row : mesh_format_rows()) {
+    if (!row.mark.empty() && head.starts_with(row.mark)) return row.traits.title;
+  }
+  const auto named = extension.empty() ? std::nullopt : find_mesh_format(extension);
+  const bool is_mesh = named && traits_of(*named).is_read && extension.substr(1) != traits_of(*named).shared;
+  return is_mesh ? traits_of(*named).title : "";
 }
 
 std::string through_pdal(const std::string& path) {
@@ -103,7 +109,10 @@ std::string unpack(const std::string& path, const std::string& extension) {
 std::string describe_kind(const std::string& path, std::string_view head, std::uint64_t bytes, bool by_name) {
   const std::string extension = lowered(std::filesystem::path(path).extension().string());
   const KindRow* row = find_kind(head, by_name ? extension : "");
-  if (row == nullptr) return {};
+  if (row == nullptr) {
+    const std::string title = find_mesh_title(head, by_name ? extension : "");
+    return title.empty() ? "" : fmt::format("a mesh ({}): {}", title, from_its_source(path));
+  }
   const auto tell = [&](const std::string& way) { return fmt::format("{}: {}", row->is, way); };
   switch (row->way) {
     case Way::kMesh:

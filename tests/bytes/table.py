@@ -7,6 +7,7 @@ usage: table.py PROGRAM DEM TABLE [--update]     in an empty folder
 Compares with TABLE, or writes it. The program's version, which stands in most files, is excluded from the hash."""
 import concurrent.futures
 import hashlib
+import json
 import os
 import pathlib
 import re
@@ -62,6 +63,9 @@ def main():
     version = re.compile(rb"([Ss]carp[ -~]{1,80}?)" + re.escape(number))
     lines = (pathlib.Path(__file__).parent / "options.txt").read_text().splitlines()
     lines = [line for line in lines if line and not line.startswith("#")]
+    formats = json.loads(subprocess.run([program, "help", "--json"], stdout=subprocess.PIPE, check=True).stdout)["formats"]
+    endings = [each["endings"][0][1:] for each in formats if not each["solids_only"]]
+    lines = [line.replace("MESH", ending, 1) for line in lines for ending in (endings if line.startswith("MESH ") else [""])]
     subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "make_inputs.py"), dem], check=True)
     jobs = [(number, line, raster, is_streamed) for number, line in enumerate(lines) for raster in RASTERS
             for is_streamed in (False, True) if not (is_streamed and line.startswith("points"))]

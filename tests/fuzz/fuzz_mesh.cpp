@@ -26,10 +26,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   }
   // A mesh that was read can be written; the contents of PLY and VTU, which is everything, read back the same.
-  for (const auto format : {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl,
-                            scarp::MeshFormat::kTin, scarp::MeshFormat::k2dm, scarp::MeshFormat::kVtp,
-                            scarp::MeshFormat::kLandXml, scarp::MeshFormat::kDxf, scarp::MeshFormat::k3mf}) {
-    const auto bytes = scarp::encode_mesh(*mesh, format);
+  for (const scarp::MeshFormatTraits* traits : scarp::mesh_formats()) {
+    if (!traits->is_read) continue;
+    const auto bytes = scarp::encode_mesh(*mesh, traits->format);
     if (!bytes && bytes.error().kind != scarp::ErrorKind::kOutput) std::abort();
     if (bytes && !scarp::decode_mesh(*bytes, "fuzz")) std::abort();
   }

@@ -1,9 +1,20 @@
 #!/usr/bin/env bash
-# Formats for maps, hydraulics and civil engineering: 2DM, VTU, VTP, LandXML, DXF and GeoPackage. Each is judged as the
-# file it is, and programs that are not ours find the very triangles that our OBJ has.
+# Formats for maps, hydraulics and civil engineering: those of the table whose coordinates are not local by default. Each
+# is judged as the file it is, and programs that are not ours find the very triangles that our OBJ has.
 source "$(dirname "$0")/lib.sh"
 need python3 gdalwarp ogrinfo
-formats="2dm vtu vtp xml dxf gpkg"
+"$scarp" help --json > table.json
+# formats_that CONDITION: the usual endings of the formats f for which it holds
+formats_that() {
+  python3 -c "import json
+print(*(f['endings'][0][1:] for f in json.load(open('table.json'))['formats'] if f['frame'] != 'local' and ($1)))"
+}
+formats=$(formats_that True)
+read_formats=$(formats_that "f['read']")
+degree_formats=$(formats_that "f['degrees']")
+[ "$(wc -w <<< "$formats")" -ge 7 ] || fail "the table of formats is short: $formats"
+# among WORD LIST
+among() { [[ " $2 " = *" $1 "* ]]; }
 
 # python_with MODULE: an interpreter that has it; Debian's modules are /usr/bin/python3's.
 python_with() {
@@ -22,12 +33,13 @@ for raster in utm deg; do
   [ $raster = utm ] || input=$dem
   for format in $formats; do
     options=
-    if [ $raster = deg ]; then  # LandXML has no degrees, and for VTK they are no default
-      case $format in xml) continue ;; vtu | vtp) options="--crs source" ;; esac
+    if [ $raster = deg ]; then
+      among $format "$degree_formats" || continue
+      options="--crs source"
     fi
     succeeds "$scarp" simplify "$input" "$raster.$format" -e 20 --report r.json --overwrite $options
     [ "$(json r.json triangles)" = "$(json $raster.json triangles)" ] || fail "$raster.$format has other triangles than OBJ"
-    [ $format != gpkg ] || continue
+    among $format "$read_formats" || continue
     "$scarp" measure "$input" "$raster.$format" --fail-above 20 --json > judged.json 2> "$logs/err" || fail "$raster.$format breaks the promise"
     for key in triangles vertices max_error; do
       [ "$(json judged.json $key)" = "$(json $raster.json $key)" ] || fail "$raster.$format is read with another $key"
@@ -36,15 +48,15 @@ for raster in utm deg; do
 done
 refuses 2 "writes and does not read" "$scarp" measure utm.tif utm.gpkg
 for format in $formats; do
-  name=$format
-  [ $format != xml ] || name=LandXML
+  name=$(python3 -c "import json
+print(next(f['title'] if f['title'] == 'LandXML' else f['name'] for f in json.load(open('table.json'))['formats'] if '.$format' in f['endings']))")
   succeeds "$scarp" simplify utm.tif named.bin -e 20 --of "$name" --overwrite
   cmp named.bin utm.$format || fail "--of $name differs from the extension, or from the run before"
 done
 
 # Degrees: maps keep them, and measure knows; all others are local metres.
 awk '$1 == "ND" && !($3 > -85 && $3 < -83 && $4 > 36 && $4 < 37) { exit 1 }' deg.2dm || fail "deg.2dm is not in degrees"
-for format in vtu vtp xml; do
+for format in $(formats_that "f['frame'] == 'metric'"); do
   succeeds "$scarp" simplify "$dem" local.$format -e 20
   succeeds "$scarp" measure "$dem" local.$format --fail-above 20
 done
@@ -57,10 +69,8 @@ succeeds "$scarp" simplify "$dem" there.gpkg -e 20 --crs EPSG:32616 -q
 ogrinfo -so there.gpkg terrain | grep -q 'ID\["EPSG",32616\]' || fail "there.gpkg is not in the CRS asked for"
 # Without a place there is a grid, for maps too.
 printf 'P2 4 3 99\n1 2 3 4 9 8 7 6 5 5 9 5\n' > flat.pgm
-for format in $formats; do
-  succeeds "$scarp" simplify flat.pgm flat.$format -e 1
-  [ $format = gpkg ] || succeeds "$scarp" measure flat.pgm flat.$format --fail-above 1
-done
+for format in $formats; do succeeds "$scarp" simplify flat.pgm flat.$format -e 1; done
+for format in $read_formats; do succeeds "$scarp" measure flat.pgm flat.$format --fail-above 1; done
 
 # The same triangles, in order, at exactly the same places, counter-clockwise: by readers that are not ours.
 cat > judge.py <<'PYTHON'
@@ -118,10 +128,9 @@ def landxml(path):
 def by_meshio(path):
     import meshio
     mesh = meshio.read(path)
-    (cells,) = mesh.cells
-    assert cells.type == "triangle" and str(mesh.points.dtype) == "float64"
+    assert {cells.type for cells in mesh.cells} == {"triangle"} and str(mesh.points.dtype) == "float64"
     places = [tuple(p) for p in mesh.points.tolist()]
-    return places, [[places[v] for v in corners] for corners in cells.data.tolist()]
+    return places, [[places[v] for v in corners] for cells in mesh.cells for corners in cells.data.tolist()]
 
 
 def by_vtk(path):
@@ -187,8 +196,11 @@ agree python3 sms utm.2dm utm.obj
 agree python3 sms deg.2dm deg.obj
 agree python3 landxml utm.xml utm.obj
 if python=$(python_with meshio); then
-  agree "$python" by_meshio utm.vtu utm.obj
-  agree "$python" by_meshio deg.vtu deg.obj
+  known=$("$python" -c "import meshio; print(*meshio.extension_to_filetypes)")
+  for format in $formats; do
+    among .$format "$known" || continue
+    for raster in utm deg; do agree "$python" by_meshio $raster.$format $raster.obj; done
+  done
 else
   echo "left out: meshio (python3-meshio)"
 fi
@@ -216,14 +228,14 @@ assert abs((normals ** 2).sum(axis=1) - 1).max() < 1e-5
 assert places[mesh.points[:, 0].argmax(), 0] > 0.99 and places[mesh.points[:, 1].argmax(), 1] > 0.99
 PYTHON
 fi
-for format in 2dm xml dxf gpkg; do
+for format in $(formats_that "not f['attributes']"); do
   succeeds "$scarp" simplify utm.tif w.$format -e 100 --normals --overwrite
   grep -q 'has no place for vertex normals' "$logs/err" || fail "no word about lost normals in $format"
 done
 refuses 1 "GeoPackage has no place for colours" "$scarp" simplify "$dem" out.gpkg -e 20 --image
 
 # Solids.
-for format in 2dm vtu vtp xml dxf; do
+for format in $read_formats; do
   succeeds "$scarp" simplify utm.tif solid.$format -e 20 --base 100 --report solid.json --overwrite
   "$scarp" measure utm.tif solid.$format --fail-above 20 --json > judged.json 2> "$logs/err" || fail "the solid in $format breaks the promise"
   [ "$(json judged.json triangles)" = "$(json solid.json solid triangles)" ] || fail "the solid in $format has other triangles"
@@ -237,7 +249,8 @@ for format in $formats; do
 done
 
 # Damage is found.
-for format in 2dm vtu vtp xml dxf gpkg; do
+for format in $formats; do
+  [ $format != tin ] || continue  # no end mark: a part of it is a smaller mesh
   for part in 3 2; do
     head -c $(($(wc -c < utm.$format) / part)) utm.$format > half.$format
     refuses 2 "half.$format is not a usable mesh" "$scarp" measure utm.tif half.$format
@@ -246,8 +259,6 @@ done
 
 # Scattered points.
 printf 'x,y,z\n0,0,1\n10,0,2\n10,10,3\n0,10,4\n5,5,9\n' > survey.csv
-for format in $formats; do
-  succeeds "$scarp" simplify survey.csv survey.$format -e 0.5 -q
-  [ $format = gpkg ] || succeeds "$scarp" measure survey.csv survey.$format --fail-above 0.5 -q
-done
+for format in $formats; do succeeds "$scarp" simplify survey.csv survey.$format -e 0.5 -q; done
+for format in $read_formats; do succeeds "$scarp" measure survey.csv survey.$format --fail-above 0.5 -q; done
 echo "all formats agree"

@@ -60,7 +60,7 @@ succeeds "$scarp" simplify "$dem" r.glb -e 20 --render r.png
 gdalinfo r.png | grep -q 'Size is 403, 344' || fail "the rendering has another size"
 
 refuses 1 "cannot tell the format from out.xyz" "$scarp" simplify "$dem" out.xyz -e 20
-refuses 1 "--of tif is unknown: choose glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, 3mf, svg, eps or dem" "$scarp" simplify "$dem" out.glb -e 20 --of tif
+refuses 1 "--of tif is unknown: choose glb, obj, ply" "$scarp" simplify "$dem" out.glb -e 20 --of tif
 for output in out.svg out.eps out.tif; do
   refuses 1 "--base makes a solid" "$scarp" simplify "$dem" $output -e 20 --base 0
 done

@@ -1,20 +1,14 @@
 // docs/conflicts.md holds the library's table. With SCARP_UPDATE_DOCS=1 this test writes it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
-#include <vector>
 
+#include "docs_tables.h"
 #include "scarp/conflicts.h"
 #include "session/table/field_options.h"
-#include "source_dir.h"
 
 namespace scarp::conflicts_docs_test {
 namespace {
-
-const std::string kPath = source_dir() + "/docs/conflicts.md";
 
 /// The option where there is one, else the library's word; a value of an option stands behind it where only that sets
 /// it.
@@ -97,24 +91,8 @@ std::string make_table() {
   return table;
 }
 
-/// The text with the table that begins so replaced; empty where it holds none.
-std::string replace_table(const std::string& text, const std::string& head, const std::string& table) {
-  const std::size_t begin = text.find(head), end = text.find("\n\n", begin);
-  return begin == std::string::npos || end == std::string::npos ? ""
-                                                                : text.substr(0, begin) + table + text.substr(end + 1);
-}
-
 TEST(conflicts_docs, hold_the_table_of_the_library) {
-  std::stringstream read;
-  read << std::ifstream(kPath).rdbuf();
-  const std::string text = read.str();
-  const std::string made = replace_table(replace_table(text, kHead, make_table()), kTileHead, make_tile_table());
-  ASSERT_NE(made, "");
-  const char* update = std::getenv("SCARP_UPDATE_DOCS");
-  if (update != nullptr && std::string(update) == "1") std::ofstream(kPath) << made;
-  EXPECT_TRUE(made == text || update != nullptr)
-      << "docs/conflicts.md is not the library's table; write it with\n"
-         "  SCARP_UPDATE_DOCS=1 build/bin/scarp_tests --gtest_filter='conflicts_docs.*'";
+  test::expect_tables("docs/conflicts.md", {{kHead, make_table()}, {kTileHead, make_tile_table()}}, "conflicts_docs.*");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(Ply, RoundTripKeepsEveryBit) {
 
 TEST(Ply, HasFloatsWhereTheySayItAll) {
   const auto header_holds = [](const Mesh& mesh, bool doubles, const std::string& words) {
-    const auto bytes = encode_mesh(mesh, MeshFormat::kPly, doubles);
+    const auto bytes = encode_mesh(mesh, MeshFormat::kPly, {.double_positions = doubles});
     const auto back = decode_mesh(*bytes, "x.ply");
     EXPECT_TRUE(test::same_geometry(mesh, *back));
     return std::string(bytes->begin(), bytes->end()).find(words) != std::string::npos;

@@ -82,7 +82,7 @@ TEST(zones, stand_in_a_2dm_that_is_read_back) {
   zones.materials[1] = 9;
   zones.node_strings.push_back({"crest", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}});
   zones.node_strings.push_back({"inflow", {0, 12}});
-  const auto bytes = encode_2dm(mesh, zones);
+  const auto bytes = encode_mesh(mesh, MeshFormat::k2dm, {.zones = &zones});
   ASSERT_TRUE(bytes) << bytes.error().message;
   const std::string text(bytes->begin(), bytes->end());
   EXPECT_NE(text.find("\nE3T 1 1 2 14 4\nE3T 2 1 14 13 9\n"), std::string::npos);
@@ -91,9 +91,10 @@ TEST(zones, stand_in_a_2dm_that_is_read_back) {
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->triangles, mesh.triangles);
   EXPECT_EQ(back->positions, mesh.positions);
-  EXPECT_EQ(*encode_2dm(mesh, {}), *encode_mesh(mesh, MeshFormat::k2dm));
+  const MeshZones none;
+  EXPECT_EQ(*encode_mesh(mesh, MeshFormat::k2dm, {.zones = &none}), *encode_mesh(mesh, MeshFormat::k2dm));
   zones.materials.pop_back();
-  EXPECT_EQ(encode_2dm(mesh, zones).error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(encode_mesh(mesh, MeshFormat::k2dm, {.zones = &zones}).error().kind, ErrorKind::kUsage);
 }
 
 }  // namespace

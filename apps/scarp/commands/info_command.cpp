@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "commands/commands.h"
@@ -23,18 +22,6 @@ namespace {
 using enum OptionId;
 
 constexpr std::array<double, 3> kShares{0.01, 0.05, 0.20};
-
-/// The format of a mesh file, by its name; nothing for names that rasters and points have, too.
-std::optional<std::string> find_mesh(const std::string& path) {
-  const std::optional<MeshFormat> format = find_mesh_format(lower_extension(path));
-  if (!format || *format == MeshFormat::kGpkg) return std::nullopt;
-  if (*format == MeshFormat::kLandXml && lower_extension(path) == ".xml") {
-    std::string begin(4096, ' ');
-    std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (begin.find("LandXML") == std::string::npos) return std::nullopt;
-  }
-  return lower_extension(path).substr(1);
-}
 
 Error name_raster(Error error, const std::string& path) {
   if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
@@ -89,8 +76,8 @@ Result<void> run_info(const GivenOptions& given, const std::string& command_line
     return run_points(given, command_line);
   if (const auto option = given.first_of({kLayer, kZField}))
     return fail(ErrorKind::kUsage, fmt::format("{} is for points: omit it, or give {}", *option, kPoints));
-  if (const auto format = is_one ? find_mesh(given.input()) : std::nullopt)
-    return run_mesh(given, *format, command_line);
+  if (is_one && find_mesh_file(given.input()))
+    return run_mesh(given, lower_extension(given.input()).substr(1), command_line);
   SCARP_TRY(ReadOptions read, parse_reading(given));
   ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
   read.run.progress = display.callback();

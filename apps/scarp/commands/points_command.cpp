@@ -25,7 +25,8 @@ Result<ReadyFile> encode(const SimplifyPlan& plan, PointsOutcome& outcome) {
   SCARP_RETURN_IF_ERROR(complete_mesh(plan, outcome));
   turn_as_planned(plan, outcome.simplified.mesh);
   SCARP_TRY(auto&& bytes, encode_as(plan.format, outcome.simplified.mesh,
-                                    {.compress = plan.compress, .threads = plan.simplify.run.threads}, plan.doubles));
+                                    {.compress = plan.compress, .threads = plan.simplify.run.threads},
+                                    {.double_positions = plan.doubles}));
   return ReadyFile{plan.output, plan.format.name(), std::move(bytes)};
 }
 

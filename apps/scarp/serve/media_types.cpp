@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scarp/mesh_formats.h"
 #include "serve/http_message.h"
 
 namespace scarp::cli {
@@ -61,14 +62,9 @@ constexpr MediaType kMediaTypes[] = {
     {"kml", "application/vnd.google-earth.kml+xml"},
     {"kmz", "application/vnd.google-earth.kmz"},
     {"gpx", "application/gpx+xml"},
-    {"gpkg", "application/geopackage+sqlite3"},
     // Tiles and models.
     {"terrain", "application/vnd.quantized-mesh"},
-    {"glb", "model/gltf-binary"},
     {"gltf", "model/gltf+json"},
-    {"obj", "model/obj"},
-    {"stl", "model/stl"},
-    {"3mf", "model/3mf"},
     {"pbf", "application/x-protobuf"},
     {"mvt", "application/vnd.mapbox-vector-tile"},
     {"pmtiles", "application/vnd.pmtiles"},
@@ -78,6 +74,7 @@ constexpr MediaType kMediaTypes[] = {
     {"3tz", "application/zip"},
     {"gz", "application/gzip"},
     {"tgz", "application/gzip"},
+    // Meshes: scarp/mesh_formats.h.
     // "b3dm", "i3dm", "pnts", "cmpt" and "subtree" of 3D Tiles have no registered type.
 };
 
@@ -87,7 +84,10 @@ std::string_view media_type_of(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   const std::string ending = dot == std::string_view::npos ? std::string() : lowered(name.substr(dot + 1));
   const auto* const found = std::ranges::find(kMediaTypes, ending, &MediaType::ending);
-  return found == std::end(kMediaTypes) ? "application/octet-stream" : found->type;
+  if (found != std::end(kMediaTypes)) return found->type;
+  const auto mesh = ending.empty() ? std::nullopt : find_mesh_format(ending);
+  const std::string_view type = mesh ? traits_of(*mesh).media_type : "";
+  return type.empty() ? "application/octet-stream" : type;
 }
 
 }  // namespace scarp::cli

@@ -8,10 +8,11 @@
 
 #include "base/caught.h"
 #include "io/lent.h"
+#include "io/mesh/formats.h"
 #include "io/mesh/mesh_file_text.h"
-#include "io/mesh/xml_reader.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
+#include "scarp/zones.h"
 
 namespace scarp {
 namespace {
@@ -50,110 +51,50 @@ std::string unescape(std::string_view line) {
   return text;
 }
 
-bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
-  if (bytes.size() < text.size()) return false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (static_cast<char>(bytes[i]) != text[i]) return false;
-  }
-  return true;
-}
-
-bool looks_like_text(std::span<const std::uint8_t> bytes) {
-  for (const std::uint8_t byte : bytes.first(std::min<std::size_t>(bytes.size(), 4096))) {
-    if (byte < 32 && !(byte >= 9 && byte <= 13)) return false;
-  }
-  return true;
-}
-
-std::string lower_extension(const std::string& name_or_path) {
-  const std::size_t start = name_or_path.find_last_of("./");
-  if (start == std::string::npos) return lowered(name_or_path);
-  return name_or_path[start] == '.' ? lowered(name_or_path.substr(start + 1)) : "";
-}
-
-/// The facts about a format. Readers that serve two formats stand in both rows.
-struct FormatRow {
-  MeshFormat format;
-  std::string_view extension;
-  Result<std::vector<std::uint8_t>> (*encode)(const Mesh&);
-  Result<Mesh> (*decode)(std::span<const std::uint8_t>);  ///< null where files are written only
-  bool as_float;                                          ///< positions are rounded to float32
-};
-constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_glb, true},
-                                  {MeshFormat::kObj, "obj", encode_obj, decode_obj, false},
-                                  {MeshFormat::kPly, "ply", nullptr, decode_ply, false},
-                                  {MeshFormat::kStl, "stl", encode_stl, decode_stl, true},
-                                  {MeshFormat::kTin, "tin", encode_tin, decode_tin, false},
-                                  {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false},
-                                  {MeshFormat::kVtu, "vtu", encode_vtu, decode_vtk, false},
-                                  {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false},
-                                  {MeshFormat::kLandXml, "landxml", encode_landxml, decode_landxml, false},
-                                  {MeshFormat::kDxf, "dxf", encode_dxf, decode_dxf, false},
-                                  {MeshFormat::kGpkg, "gpkg", encode_gpkg, nullptr, false},
-                                  {MeshFormat::k3mf, "3mf", encode_one_3mf, decode_3mf, true}};
-
-/// Neither fixed by a standard nor by all who use it.
-bool has_up_axis(MeshFormat format) {
-  return format == MeshFormat::kObj || format == MeshFormat::kPly || format == MeshFormat::kStl;
-}
-
 /// The up axis of a mesh as its reader returned it. Scarp's own files declare what is y up, and do not declare what is
 /// z up.
-char find_up(MeshFormat format, std::span<const std::uint8_t> bytes, const Mesh& mesh) {
-  if (format == MeshFormat::kGlb) return 'y';
-  if (!has_up_axis(format)) return 'z';
+char find_up(const MeshFormatTraits& traits, std::span<const std::uint8_t> bytes, const Mesh& mesh) {
+  if (!traits.has_choice_of_up) return traits.up;
   if (mesh.metadata.contains("up")) return is_y_up(mesh) ? 'y' : 'z';
   const auto generator = mesh.metadata.find("generator");
   const bool is_own = generator != mesh.metadata.end() && generator->second.starts_with("Scarp");
-  return is_own || (format == MeshFormat::kStl && starts_with(bytes, "scarp ")) ? 'z' : '\0';
+  return is_own || (traits.format == MeshFormat::kStl && begins_with(bytes, "scarp ")) ? 'z' : '\0';
 }
 
-const FormatRow* find_row(MeshFormat format) {
-  for (const FormatRow& row : kFormats) {
-    if (row.format == format) return &row;
+/// "GLB, OBJ or PLY" of the formats that are read, or ".glb, .obj or .ply" of all.
+std::string list_formats(bool by_ending) {
+  std::vector<std::string> words;
+  for (const MeshFormatTraits* traits : mesh_formats()) {
+    const std::string_view endings = traits->endings;
+    if (by_ending) words.push_back("." + std::string(endings.substr(0, endings.find(' '))));
+    if (!by_ending && traits->is_read) words.emplace_back(traits->title);
   }
-  return nullptr;
+  return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
 }
 
-/// By the root element; nothing if the bytes are no XML, or another's.
-std::optional<MeshFormat> recognise_xml(std::span<const std::uint8_t> bytes) {
-  const bool may_be = starts_with(bytes, "<") || starts_with(bytes, "\xEF\xBB\xBF<");
-  if (!may_be) return {};
-  XmlReader xml(bytes);
-  for (;;) {
-    const XmlReader::Event event = xml.next();
-    if (event == XmlReader::Event::kComment) continue;
-    if (event != XmlReader::Event::kStart) return {};
-    if (xml.name() == "VTKFile") return MeshFormat::kVtu;
-    return xml.name() == "LandXML" ? std::optional(MeshFormat::kLandXml) : std::nullopt;
-  }
+/// Why the format cannot hold this many vertices and triangles; empty if it can.
+std::string find_beyond_int32(const Mesh& mesh, const MeshFormatTraits& traits) {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  const std::size_t count = std::max(mesh.vertex_count(), mesh.triangle_count());
+  if (!traits.counts_in_int32 || count <= kMost) return {};
+  return fmt::format("a {} file numbers at most {} vertices and triangles, and these are {}; write PLY", traits.title,
+                     kMost, count);
 }
 
-/// By content; the name decides only where bytes alone do not, as in an STL file that was cut off.
-std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const std::string& name) {
-  if (starts_with(bytes, "glTF")) return MeshFormat::kGlb;
-  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return MeshFormat::kPly;
-  if (starts_with(bytes, "SQLite format 3")) return MeshFormat::kGpkg;
-  if (starts_with(bytes, "PK\3\4")) return MeshFormat::k3mf;
-  if (const auto xml = recognise_xml(bytes)) return xml;
-  if (is_binary_stl(bytes)) return MeshFormat::kStl;
-  if (!looks_like_text(bytes)) {
-    const auto named = find_mesh_format(name);
-    return named == MeshFormat::kStl ? named : std::nullopt;
-  }
-  if (starts_with(bytes, "solid")) return MeshFormat::kStl;
-  if (starts_with(bytes, "MESH2D")) return MeshFormat::k2dm;
-  if (is_dxf(bytes)) return MeshFormat::kDxf;
-  TextCursor cursor(bytes);
-  for (int line = 0; line < 10000 && !cursor.at_end(); ++line) {
-    const std::string_view word = cursor.word();
-    if (word == "t") return MeshFormat::kTin;
-    if (word == "v" || word == "f" || word == "vn" || word == "vt" || word == "mtllib" || word == "o" || word == "g") {
-      return MeshFormat::kObj;
+/// The fault of the zones, which may be null; empty if there is none.
+std::string find_unwritable_zones(const Mesh& mesh, const MeshZones* zones, const MeshFormatTraits& traits) {
+  if (zones == nullptr) return {};
+  if (!traits.holds_zones) return fmt::format("{} has no place for materials and node strings", traits.title);
+  if (!zones->materials.empty() && zones->materials.size() != mesh.triangle_count())
+    return fmt::format("there are {} materials for {} triangles", zones->materials.size(), mesh.triangle_count());
+  for (const NodeString& string : zones->node_strings) {
+    for (const std::uint32_t node : string.nodes) {
+      if (node >= mesh.vertex_count())
+        return fmt::format("the node string {} names vertex {}, and the mesh has {}", string.name, node,
+                           mesh.vertex_count());
     }
-    cursor.rest_of_line();
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -225,13 +166,6 @@ std::string find_unreadable(const Mesh& mesh) {
   return {};
 }
 
-std::string find_beyond_int32(const Mesh& mesh, const char* what) {
-  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-  const std::size_t count = std::max(mesh.vertex_count(), mesh.triangle_count());
-  if (count <= kMost) return {};
-  return fmt::format("{} numbers at most {} vertices and triangles, and these are {}; write PLY", what, kMost, count);
-}
-
 std::string metadata_line(const std::string& key, const std::string& value) {
   return escape(key, true, false) + ": " + escape(value, false, false);
 }
@@ -286,26 +220,22 @@ std::string append_fan(std::span<const std::uint32_t> corners, std::vector<std::
   return {};
 }
 
-std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {
-  const std::string extension = lower_extension(name_or_path);
-  for (const FormatRow& row : kFormats) {
-    if (extension == row.extension) return row.format;
-  }
-  if (extension == "xml") return MeshFormat::kLandXml;
-  return {};
-}
-
-Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, bool double_positions) {
-  const FormatRow* row = find_row(format);
-  if (row == nullptr) return fail(ErrorKind::kInternal, "encode_mesh() was given no format");
-  if (is_y_up(mesh) && !has_up_axis(format)) {
+Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, const EncodeOptions& options) {
+  const MeshFormatRow& row = row_of(format);
+  if (is_y_up(mesh) && !row.traits.has_choice_of_up) {
     return fail(ErrorKind::kOutput, "the mesh is y up, which OBJ, PLY and STL may be; undo_y_up() turns it back");
   }
-  if (std::string why = find_unwritable(mesh, row->as_float); !why.empty()) {
+  if (std::string why = find_unwritable(mesh, row.traits.is_float32); !why.empty()) {
+    return fail(ErrorKind::kOutput, std::move(why));
+  }
+  if (std::string why = find_unwritable_zones(mesh, options.zones, row.traits); !why.empty()) {
+    return fail(ErrorKind::kUsage, std::move(why));
+  }
+  if (std::string why = find_beyond_int32(mesh, row.traits); !why.empty()) {
     return fail(ErrorKind::kOutput, std::move(why));
   }
   try {
-    return format == MeshFormat::kPly ? encode_ply(mesh, double_positions) : row->encode(mesh);
+    return row.write(mesh, options);
   } catch (...) {
     return caught(ErrorKind::kOutput, "encode the mesh");
   }
@@ -316,18 +246,17 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
     return fail(ErrorKind::kInput, fmt::format("{} is not a usable mesh: {}", name_for_errors, why));
   };
   if (bytes.empty()) return unusable("the file is empty");
-  const auto format = recognise(bytes, name_for_errors);
-  if (!format) {
-    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML, DXF or 3MF");
-  }
-  const FormatRow& row = *find_row(*format);
-  if (row.decode == nullptr) return unusable("it is a GeoPackage, which Scarp writes and does not read");
+  const auto format = recognise_mesh(bytes, name_for_errors);
+  if (!format) return unusable(fmt::format("it is none of {}", list_formats(false)));
+  const MeshFormatRow& row = row_of(*format);
+  if (row.read == nullptr)
+    return unusable(fmt::format("it is a {}, which Scarp writes and does not read", row.traits.title));
   try {
-    Result<Mesh> mesh = row.decode(bytes);
+    Result<Mesh> mesh = row.read(bytes);
     if (!mesh) return unusable(mesh.error().message);
     drop_partial_attributes(*mesh);
-    if (!has_up_axis(*format)) mesh->metadata.erase("up");
-    if (axes != nullptr) *axes = {find_up(*format, bytes, *mesh), row.as_float};
+    if (!row.traits.has_choice_of_up) mesh->metadata.erase("up");
+    if (axes != nullptr) *axes = {find_up(row.traits, bytes, *mesh), row.traits.is_float32};
     undo_y_up(*mesh);
     if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
     return mesh;
@@ -339,10 +268,9 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
 Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format, bool overwrite) {
   if (!format) format = find_mesh_format(path);
   if (!format) {
-    return fail(ErrorKind::kOutput,
-                fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                            ".stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, .gpkg or .3mf, or name the format",
-                            path));
+    return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in {}, or name the "
+                                                "format",
+                                                path, list_formats(true)));
   }
   auto bytes = encode_mesh(mesh, *format);
   if (!bytes) return fail(bytes.error().kind, fmt::format("cannot write {}: {}", path, bytes.error().message));

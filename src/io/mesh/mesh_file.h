@@ -18,10 +18,6 @@ namespace scarp {
 /// range, a position that is not finite (or, with `as_float`, beyond float32). Empty if all is well.
 std::string find_unwritable(const Mesh& mesh, bool as_float);
 
-/// The sentence that refuses a mesh whose vertices or triangles are more than signed 32-bit numbers count, which is
-/// what programs give them that read `what` ("a 2DM file"). Empty if all is well.
-std::string find_beyond_int32(const Mesh& mesh, const char* what);
-
 /// Metadata as one line of text: "KEY: VALUE". Bytes below 32, '%', '\' and, in keys, ':' become %XX, so that no reader
 /// interprets them as line ends, continuations or separators.
 std::string metadata_line(const std::string& key, const std::string& value);
@@ -57,37 +53,6 @@ void drop_partial_attributes(Mesh& mesh);
 /// The last check of every reader: at least one triangle, all indices in range, all positions finite.
 /// Returns the sentence, empty if all is well.
 std::string find_unreadable(const Mesh& mesh);
-
-// One reader and one writer for each format. Writers expect find_unwritable() to be empty; readers fail with a sentence
-// that the caller completes with the file's name, and may throw std::bad_alloc or std::length_error.
-Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh, bool double_positions);
-Result<std::vector<std::uint8_t>> encode_stl(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_tin(const Mesh& mesh);
-Result<Mesh> decode_glb(std::span<const std::uint8_t> bytes);
-Result<Mesh> decode_obj(std::span<const std::uint8_t> bytes);
-Result<Mesh> decode_ply(std::span<const std::uint8_t> bytes);
-Result<Mesh> decode_stl(std::span<const std::uint8_t> bytes);
-Result<Mesh> decode_tin(std::span<const std::uint8_t> bytes);
-
-Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_vtu(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_vtp(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_dxf(const Mesh& mesh);
-/// In a build without GDAL it fails with kOutput.
-Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh& mesh);
-Result<Mesh> decode_2dm(std::span<const std::uint8_t> bytes);
-/// .vtu and .vtp: the file declares which it is.
-Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes);
-Result<Mesh> decode_landxml(std::span<const std::uint8_t> bytes);
-Result<Mesh> decode_dxf(std::span<const std::uint8_t> bytes);
-
-/// Encodes one solid.
-Result<std::vector<std::uint8_t>> encode_one_3mf(const Mesh& mesh);
-/// All objects that the file builds, as one mesh.
-Result<Mesh> decode_3mf(std::span<const std::uint8_t> bytes);
 
 /// True if the bytes have the length that a binary STL file's own count asks for.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);

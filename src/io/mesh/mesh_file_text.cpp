@@ -3,6 +3,7 @@
 #include <locale.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <charconv>
 #include <string>
 
@@ -58,6 +59,11 @@ bool parse_integer(std::string_view word, std::int64_t& value) {
   const char* end = word.data() + word.size();
   const auto parsed = std::from_chars(word.data(), end, value);
   return parsed.ec == std::errc() && parsed.ptr == end;
+}
+
+bool begins_with(std::span<const std::uint8_t> bytes, std::string_view text) {
+  const auto is_same = [](char c, std::uint8_t byte) { return static_cast<std::uint8_t>(c) == byte; };
+  return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin(), is_same);
 }
 
 std::string in_quotes(std::string_view text) {

@@ -15,6 +15,8 @@ bool parse_number(std::string_view word, double& value);
 /// The whole word as a decimal integer. Returns false if it is none or beyond 64 bits.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
+/// True if the bytes begin with those of the text.
+bool begins_with(std::span<const std::uint8_t> bytes, std::string_view text);
 /// Text in quotes, fit for a sentence: characters that cannot be printed become '?', and long text is cut.
 std::string in_quotes(std::string_view text);
 /// The text with its ASCII letters small, whatever the locale.

@@ -18,6 +18,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_file_text.h"
 #include "scarp/height_field.h"
+#include "scarp/io.h"
 
 namespace scarp {
 namespace {
@@ -327,11 +328,11 @@ bool are_float32(const Mesh& mesh) {
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh, bool double_positions) {
+Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh, const EncodeOptions& options) {
   const std::size_t vertices = mesh.vertex_count(), triangles = mesh.triangle_count();
   const bool with_normals = !mesh.normals.empty(), with_colors = !mesh.colors.empty(), with_uvs = !mesh.uvs.empty();
   const auto channels = static_cast<std::size_t>(mesh.channel_count);
-  const bool as_floats = !double_positions && are_float32(mesh);
+  const bool as_floats = !options.double_positions && are_float32(mesh);
   std::string header =
       fmt::format("ply\nformat binary_little_endian 1.0\ncomment Terrain by Scarp: {}\n", axes_text(mesh));
   if (mesh.origin != std::array<double, 3>{})

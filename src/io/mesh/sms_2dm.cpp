@@ -15,6 +15,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/text_comments.h"
+#include "scarp/io.h"
 #include "scarp/zones.h"
 
 namespace scarp {
@@ -96,13 +97,9 @@ struct Sms2dmReader {
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh) { return encode_2dm(mesh, MeshZones()); }
-
-Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh, const MeshZones& zones) {
-  if (!zones.materials.empty() && zones.materials.size() != mesh.triangle_count())
-    return fail(ErrorKind::kUsage,
-                fmt::format("there are {} materials for {} triangles", zones.materials.size(), mesh.triangle_count()));
-  if (std::string why = find_beyond_int32(mesh, "a 2DM file"); !why.empty()) return fail(ErrorKind::kOutput, why);
+Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh, const EncodeOptions& options) {
+  const MeshZones none;
+  const MeshZones& zones = options.zones != nullptr ? *options.zones : none;
   std::vector<std::uint8_t> bytes;
   bytes.reserve(mesh.positions.size() * 16 + mesh.triangles.size() * 11);
   auto out = std::back_inserter(bytes);

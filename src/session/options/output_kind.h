@@ -7,6 +7,7 @@
 #include "scarp/glb.h"
 #include "scarp/io.h"
 #include "scarp/mesh.h"
+#include "scarp/mesh_formats.h"
 #include "session/options/values.h"
 
 namespace scarp::cli {
@@ -25,27 +26,25 @@ struct OutputFormat {
   /// About the bytes that encode_as() needs for a vertex and its two triangles, the file's bytes included.
   std::uint64_t bytes_per_vertex() const;
   bool is_mesh() const { return kind == OutputKind::kMesh; }
-  /// Positions are rounded to float32.
-  bool is_float32() const {
-    return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf);
-  }
   bool is_glb() const { return is_mesh() && mesh == MeshFormat::kGlb; }
-  bool is_2dm() const { return is_mesh() && mesh == MeshFormat::k2dm; }
-  bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
-  bool is_gpkg() const { return is_mesh() && mesh == MeshFormat::kGpkg; }
+  bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
+  /// Positions are rounded to float32.
+  bool is_float32() const { return is_mesh() && traits_of(mesh).is_float32; }
+  bool has_lengths_only() const { return is_mesh() && traits_of(mesh).has_lengths_only; }
+  bool holds_zones() const { return is_mesh() && traits_of(mesh).holds_zones; }
+  bool holds_solids_only() const { return is_mesh() && traits_of(mesh).holds_solids_only; }
   /// Can be a print: its coordinates are millimetres to those who print it.
-  bool holds_prints() const;
+  bool holds_prints() const { return is_mesh() && traits_of(mesh).holds_prints; }
   /// Has a place for normals, uvs and colours.
-  bool holds_attributes() const;
+  bool holds_attributes() const { return is_mesh() && traits_of(mesh).holds_attributes; }
+  /// True if its content does not rely on z being the height.
+  bool holds_space() const;
+  /// True if it has a CRS, and no place for it that all readers of the format use: a .prj file holds it.
+  bool has_projection_beside() const { return is_mesh() && traits_of(mesh).has_projection_file; }
   /// The frame of x and y unless a CRS was asked for.
   DefaultFrame default_frame() const;
   /// In which unit its heights are.
   HeightsIn heights_in() const;
-  /// True if its content does not rely on z being the height.
-  bool holds_space() const;
-  bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
-  /// True if it has a CRS, and no place for it that all readers of the format use: a .prj file holds it.
-  bool has_projection_beside() const;
 };
 
 /// True if --up is y.

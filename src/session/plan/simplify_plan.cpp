@@ -13,6 +13,7 @@
 #include "session/options/strategy_options.h"
 #include "session/plan/conflicts.h"
 #include "session/plan/page_template.h"
+#include "session/table/format_words.h"
 #include "session/text/paths.h"
 #include "session/text/text.h"
 
@@ -104,10 +105,10 @@ Result<void> plan_solid(const GivenOptions& given, SimplifyPlan& plan) {
 /// Checks the needs of solids and of the format.
 Result<void> plan_solid_format(const SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
-  if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
-    return fail(
-        ErrorKind::kUsage,
-        fmt::format("3MF holds closed solids only: say how to close the terrain, such as {} size=120mm", kSolid));
+  if (format.holds_solids_only() && !plan.solid && !plan.base)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} holds closed solids only: say how to close the terrain, such as {} size=120mm",
+                            format.title(), kSolid));
   if (!plan.solid) return {};
   if (!format.holds_prints())
     return fail(ErrorKind::kUsage,
@@ -121,9 +122,10 @@ Result<void> plan_solid_format(const SimplifyPlan& plan) {
 
 Result<void> plan_zones(const GivenOptions& given, SimplifyPlan& plan) {
   const auto zones = given.first_of({kMaterials, kNodeStrings});
-  if (!zones || plan.format.is_2dm()) return {};
-  return fail(ErrorKind::kUsage, fmt::format("{} is for 2DM, and OUTPUT is {}, which has no place for it: choose .2dm",
-                                             *zones, plan.format.title()));
+  if (!zones || plan.format.holds_zones()) return {};
+  const auto holds_zones = [](const MeshFormatTraits& traits) { return traits.holds_zones; };
+  return fail(ErrorKind::kUsage, fmt::format("{} is for flow models, and {} has no place for it: choose {}", *zones,
+                                             plan.format.title(), list_mesh_endings(holds_zones)));
 }
 
 /// Checks attributes that the format has no place for: refuses if nothing would remain, else warns.

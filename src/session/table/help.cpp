@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "scarp/mesh_formats.h"
 #include "scarp/version.h"
+#include "session/table/format_words.h"
 
 namespace scarp::cli {
 namespace {
@@ -155,6 +157,24 @@ nlohmann::ordered_json describe_option(const OptionRow& row, const CommandRow& c
           {"brief", or_null(row.brief)}};
 }
 
+nlohmann::ordered_json describe_format(const MeshFormatTraits& traits) {
+  const auto name_of = [](DefaultFrame frame) {
+    return frame == DefaultFrame::kLocal ? "local" : frame == DefaultFrame::kSource ? "source" : "metric";
+  };
+  return {{"name", traits.name},
+          {"title", traits.title},
+          {"endings", list_endings(traits)},
+          {"media_type", traits.media_type[0] != 0 ? nlohmann::ordered_json(traits.media_type) : nullptr},
+          {"read", traits.is_read},
+          {"frame", name_of(traits.frame)},
+          {"up", std::string(1, traits.up)},
+          {"float32", traits.is_float32},
+          {"attributes", traits.holds_attributes},
+          {"zones", traits.holds_zones},
+          {"degrees", !traits.has_lengths_only},
+          {"solids_only", traits.holds_solids_only}};
+}
+
 }  // namespace
 
 std::string program_help() {
@@ -190,6 +210,8 @@ std::string help_json(const CommandRow* command) {
   nlohmann::ordered_json table{{"scarp", version()}};
   table["commands"] = nlohmann::ordered_json::array();
   table["options"] = nlohmann::ordered_json::array();
+  table["formats"] = nlohmann::ordered_json::array();
+  for (const MeshFormatTraits* traits : mesh_formats()) table["formats"].push_back(describe_format(*traits));
   for (const CommandRow& row : command_rows()) {
     if (command != nullptr && row.command != command->command) continue;
     table["commands"].push_back({{"name", row.name}, {"usage", row.usage}, {"help", row.summary}});

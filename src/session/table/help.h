@@ -17,7 +17,7 @@ std::string program_help();
 /// A command's help. No line is longer than 100 characters. Unless `all` options are asked for, those of a command that
 /// would not fit a screen are the most used ones, one line each.
 std::string command_help(const CommandRow& command, bool all);
-/// The table of one command, or of all (null), as JSON. Keys keep their names.
+/// The tables of options (of one command, or of all: null) and of mesh formats as JSON. Keys keep their names.
 std::string help_json(const CommandRow* command);
 /// "choose simplify, measure or info", of all commands.
 std::string choose_command();

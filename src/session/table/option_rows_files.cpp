@@ -1,4 +1,7 @@
 // Options for the files that are read and written.
+#include <fmt/format.h>
+
+#include "session/table/format_words.h"
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {
@@ -7,9 +10,13 @@ namespace {
 using enum OptionId;
 using enum OptionType;
 
-constexpr const char* kMeshEndings = ".glb .obj .ply .stl .tin .2dm .vtu .vtp .xml .landxml .dxf .3mf";
+/// The formats whose frame is this one unless a CRS is asked for.
+template <DefaultFrame frame>
+std::string list_frame() {
+  return list_mesh_endings([](const MeshFormatTraits& traits) { return traits.frame == frame; }, "and");
+}
 
-constexpr OptionRow kFileRows[] = {
+const OptionRow kFileRows[] = {
     {.id = kInput,
      .name = "INPUT",
      .commands = kSimplify,
@@ -34,11 +41,11 @@ constexpr OptionRow kFileRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kArguments,
      .type = kOutputFile,
-     .choices = ".glb .obj .ply .stl .tin .2dm .vtu .vtp .xml .landxml .dxf .gpkg .3mf .svg .eps .tif .pgm",
+     .choices = output_endings(),
      .is_required = true,
-     .help = "Mesh to write: .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml (LandXML), .dxf or .gpkg; solids "
-             "also .3mf. Its edges as .svg or .eps, or the approximation as .tif or .pgm. - with --of: standard "
-             "output.",
+     .help = keep(fmt::format("Mesh to write: {}. Its edges as .svg or .eps, or the approximation as .tif or .pgm. - "
+                              "with --of: standard output.",
+                              list_mesh_endings([](const MeshFormatTraits&) { return true; }))),
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .gpkg .3mf .svg .tif ..."},
     {.id = kRaster,
      .name = "RASTER",
@@ -66,20 +73,20 @@ constexpr OptionRow kFileRows[] = {
      .commands = kMeasure,
      .group = OptionGroup::kArguments,
      .type = kInputFile,
-     .choices = kMeshEndings,
+     .choices = mesh_endings(),
      .is_required = true,
-     .help = "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML, DXF or 3MF, recognised by content.",
-     .brief = ".glb .obj .ply .stl .2dm .vtu .vtp .xml .dxf .3mf .tin"},
+     .help = keep(fmt::format("Mesh to judge: {}, recognised by content.", list_readable_meshes())),
+     .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .3mf ..."},
     {.id = kMesh,
      .name = "MESH",
      .commands = kView,
      .group = OptionGroup::kArguments,
      .type = kInputFile,
-     .choices = kMeshEndings,
+     .choices = mesh_endings(),
      .is_required = true,
      .help = "Mesh to show, in any format that measure reads, or a set of tiles. Of OUT_lod0.glb the other levels of "
              "--lods are shown, too.",
-     .brief = ".glb .obj .ply .stl .2dm .vtu .vtp .xml .dxf .3mf .tin"},
+     .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .3mf ..."},
     {.id = kRaster,
      .name = "RASTER",
      .commands = kView,
@@ -161,34 +168,6 @@ constexpr OptionRow kFileRows[] = {
      .choices = "simplify classic measure view tile tile-plan tile-run tile-finish tile-check serve info generate help "
                 "version",
      .help = "The command to explain. Without it, the commands are listed."},
-
-    {.id = kSeed,
-     .name = "--seed",
-     .commands = kGenerate,
-     .group = OptionGroup::kField,
-     .type = kCount,
-     .value = "N",
-     .by_default = "0",
-     .least = 0,
-     .help = "Seed of the fractal or smooth field."},
-    {.id = OptionId::kRange,
-     .name = "--range",
-     .commands = kGenerate,
-     .group = OptionGroup::kField,
-     .type = kNumber,
-     .value = "R",
-     .unit = "units of the heights",
-     .above = 0,
-     .help = "Stretch the heights to 0 ... R."},
-    {.id = kSize,
-     .name = "--size",
-     .commands = kGenerate,
-     .group = OptionGroup::kField,
-     .type = kNumber,
-     .value = "S",
-     .unit = "units of x and y",
-     .above = 0,
-     .help = "Side of a cell. Gives a GeoTIFF coordinates, the lower left corner at 0, 0."},
 
     {.id = kBand,
      .name = "--band",
@@ -349,8 +328,9 @@ constexpr OptionRow kFileRows[] = {
      .type = kText,
      .value = "CRS",
      .choices = "source local enu grid EPSG:",
-     .by_default = "local for .glb, .obj, .ply, .stl and .3mf; source for .2dm, .dxf and .gpkg, and for the others "
-                   "unless the raster is in degrees; grid without georeference",
+     .by_default = keep(fmt::format("local for {}; source for {}, and for the others unless the raster is in degrees; "
+                                    "grid without georeference",
+                                    list_frame<DefaultFrame::kLocal>(), list_frame<DefaultFrame::kSource>())),
      .is_for_points = true,
      .help =
          "Coordinates of the mesh. local: metres around the raster's centre. source: the raster's own CRS. grid: "
@@ -388,12 +368,12 @@ constexpr OptionRow kFileRows[] = {
      .group = OptionGroup::kOutput,
      .type = kChoice,
      .value = "FORMAT",
-     .choices = "glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg 3mf svg eps dem",
+     .choices = output_formats(),
      .by_default = "by OUTPUT's extension",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = "Format of OUTPUT. glb, obj, ply, stl, tin (triangles as text), 2dm, vtu, vtp, landxml, dxf, gpkg, 3mf, "
-             "svg or eps (edges), dem (the approximation as a raster)."},
+     .help = keep(fmt::format("Format of OUTPUT: {}. svg and eps have the edges, dem the approximation as a raster.",
+                              list_output_formats()))},
     {.id = kOf,
      .name = "--of",
      .commands = kGenerate,

@@ -1,4 +1,7 @@
 // Lines and areas that the mesh must have, shapes of its triangles, and solids.
+#include <fmt/format.h>
+
+#include "session/table/format_words.h"
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {
@@ -7,7 +10,11 @@ namespace {
 using enum OptionId;
 using enum OptionType;
 
-constexpr OptionRow kLineRows[] = {
+std::string endings_with_zones() {
+  return list_mesh_endings([](const MeshFormatTraits& traits) { return traits.holds_zones; });
+}
+
+const OptionRow kLineRows[] = {
     {.id = kBreaklines,
      .name = "--breaklines",
      .commands = kSimplify,
@@ -124,8 +131,10 @@ constexpr OptionRow kLineRows[] = {
      .group = OptionGroup::kLines,
      .type = kInputFile,
      .value = "FILE[:LAYER]",
-     .help = "Polygons of materials, for .2dm: their borders become edges of the mesh, and each triangle has the "
-             "number of its polygon, 1 outside them."},
+     .help =
+         keep(fmt::format("Polygons of materials, for {}: their borders become edges of the mesh, and each triangle "
+                          "has the number of its polygon, 1 outside them.",
+                          endings_with_zones()))},
     {.id = kMaterialField,
      .name = "--material-field",
      .part_of = kMaterials,
@@ -143,7 +152,9 @@ constexpr OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Lines that become edges of the mesh and node strings of a .2dm, such as inflows and cross-sections."},
+     .help = keep(fmt::format("Lines that become edges of the mesh and node strings of a {}, such as inflows and "
+                              "cross-sections.",
+                              endings_with_zones()))},
 
     {.id = kWater,
      .name = "--water",

@@ -1,4 +1,4 @@
-// How a run behaves: memory, threads, what it prints.
+// How a run behaves: memory, threads, what it prints; and the fields of scarp generate.
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {
@@ -32,6 +32,34 @@ constexpr OptionRow kRunRows[] = {
      .range = "at least 72M",
      .help = "Memory limit, such as 1G. Larger rasters are read in bands of rows as they are judged.",
      .brief = "Memory limit, such as 1G"},
+
+    {.id = kSeed,
+     .name = "--seed",
+     .commands = kGenerate,
+     .group = OptionGroup::kField,
+     .type = kCount,
+     .value = "N",
+     .by_default = "0",
+     .least = 0,
+     .help = "Seed of the fractal or smooth field."},
+    {.id = OptionId::kRange,
+     .name = "--range",
+     .commands = kGenerate,
+     .group = OptionGroup::kField,
+     .type = kNumber,
+     .value = "R",
+     .unit = "units of the heights",
+     .above = 0,
+     .help = "Stretch the heights to 0 ... R."},
+    {.id = kSize,
+     .name = "--size",
+     .commands = kGenerate,
+     .group = OptionGroup::kField,
+     .type = kNumber,
+     .value = "S",
+     .unit = "units of x and y",
+     .above = 0,
+     .help = "Side of a cell. Gives a GeoTIFF coordinates, the lower left corner at 0, 0."},
 
     {.id = kThreads,
      .name = "--num-threads",

@@ -50,11 +50,8 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 
 /// The likeliest mistake of all: the mesh before the raster.
 Result<void> check_order(const GivenOptions& given) {
-  const auto is_mesh = [](const std::string& path) {
-    const auto format = find_mesh_format(lower_extension(path));
-    return format && *format != MeshFormat::kGpkg && *format != MeshFormat::kLandXml;
-  };
-  if (given.inputs().size() != 1 || !is_mesh(given.input()) || find_mesh_format(lower_extension(*given[kMesh])))
+  if (given.inputs().size() != 1 || !find_mesh_file(given.input()) ||
+      find_mesh_format(lower_extension(*given[kMesh])))
     return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} is a mesh: the raster comes first, scarp measure {} {}", shell_word(given.input()),

@@ -21,7 +21,7 @@ Result<void> check_unit_of_frame(const OutputFormat& format, double metres) {
 }
 
 Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {
-  if (!format.is_landxml() && !format.is_gpkg()) return {};  // all others hold any CRS, or none
+  if (!format.is_mesh() || format.holds_solids_only()) return {};
   Mesh sample;
   sample.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   sample.triangles = {0, 1, 2};
@@ -65,10 +65,10 @@ void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh) {
 }
 
 Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb,
-                                            bool doubles) {
+                                            const EncodeOptions& options) {
   if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
   if (format.kind == OutputKind::kEps) return encode_eps(mesh);
-  return format.is_glb() ? encode_glb(mesh, glb) : encode_mesh(mesh, format.mesh, doubles);
+  return format.is_glb() ? encode_glb(mesh, glb) : encode_mesh(mesh, format.mesh, options);
 }
 
 }  // namespace scarp::cli

@@ -31,6 +31,6 @@ void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh);
 
 /// The file's bytes. REQUIRES: not a kDem.
 Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb = {},
-                                            bool doubles = false);
+                                            const EncodeOptions& options = {});
 
 }  // namespace scarp::cli

@@ -151,7 +151,8 @@ Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome
   const std::vector<Mesh> solids = named_solids(plan, outcome);
   std::vector<ReadyFile> tiles;
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    SCARP_TRY(std::vector<std::uint8_t> bytes, encode_mesh(solids[k], plan.format.mesh, plan.doubles));
+    SCARP_TRY(std::vector<std::uint8_t> bytes,
+              encode_mesh(solids[k], plan.format.mesh, {.double_positions = plan.doubles}));
     tiles.push_back({paths[k], plan.format.name(), std::move(bytes)});
   }
   files.erase(files.begin());
@@ -184,11 +185,11 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
     return {};
   }
   SCARP_TRY(const auto& glb, glb_options(plan, outcome));
-  const bool has_zones = plan.given.first_of({kMaterials, kNodeStrings}).has_value();
+  EncodeOptions options{.double_positions = plan.doubles};
+  if (plan.given.first_of({kMaterials, kNodeStrings})) options.zones = &outcome.zones;
   SCARP_TRY(file.bytes, outcome.print ? encode_3mf(named_solids(plan, outcome))
                         : is_dem      ? encode_dem(plan, outcome)
-                        : has_zones   ? encode_2dm(mesh, outcome.zones)
-                                      : encode_as(plan.format, mesh, glb, plan.doubles));
+                                      : encode_as(plan.format, mesh, glb, options));
   return {};
 }
 

@@ -312,11 +312,12 @@ Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runn
   }
   SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, frame.crs, outcome.as_read.unit));
   SCARP_TRY(outcome.projections, plan_projection_files(plan, frame.crs));
-  if (plan.format.is_landxml() && frame.kind == Frame::Kind::kLocal && outcome.as_read.is_geographic &&
+  if (plan.format.has_lengths_only() && frame.kind == Frame::Kind::kLocal && outcome.as_read.is_geographic &&
       plan.read.crs.empty()) {
     plan.warnings.push_back(
-        "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
-        "in its place");
+        fmt::format("{} has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) "
+                    "puts it in its place",
+                    plan.format.title()));
   }
   SCARP_RETURN_IF_ERROR(check_frame_of_lines(find_lines(plan.given) ? name_of(*find_lines(plan.given)) : "", frame,
                                              plan.read.crs, plan.input));

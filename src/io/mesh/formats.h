@@ -1,0 +1,39 @@
+// The table of mesh formats with their writers and readers. A new format is a name in scarp/mesh_formats.h, a row here,
+// and the file that holds its writer and its reader.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/io.h"
+#include "scarp/mesh.h"
+#include "scarp/mesh_formats.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// Expects find_unwritable() to be empty.
+using MeshWriter = Result<std::vector<std::uint8_t>>(const Mesh& mesh, const EncodeOptions& options);
+/// Fails with a sentence that the caller completes with the file's name; may throw std::bad_alloc or std::length_error.
+using MeshReader = Result<Mesh>(std::span<const std::uint8_t> bytes);
+
+struct MeshFormatRow {
+  MeshFormatTraits traits;
+  std::string_view mark = {};  ///< the first bytes of a file, or the root element of XML ("<LandXML"), if no other
+                               ///< format has it
+  MeshWriter* write;
+  MeshReader* read = nullptr;
+};
+
+std::span<const MeshFormatRow> mesh_format_rows();
+/// REQUIRES: `format` is one of MeshFormat's names.
+const MeshFormatRow& row_of(MeshFormat format);
+
+/// By content; the name decides only where bytes alone do not, as in an STL file that was cut off.
+std::optional<MeshFormat> recognise_mesh(std::span<const std::uint8_t> bytes, const std::string& name);
+
+}  // namespace scarp
