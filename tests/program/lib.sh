@@ -14,11 +14,10 @@ mkdir "$root/run" "$logs"
 trap 'rm -rf "$root"' EXIT
 cd "$root/run"
 
-# The interpreter itself: the substitute of a version manager needs longer to start than most programs here to run.
-if command -v python3 > /dev/null; then
-  python_program=$(python3 -c 'import sys; print(sys.executable)')
-  python3() { "$python_program" "$@"; }
-fi
+# The system's interpreter, without packages of others: the substitute of a version manager, and what a machine adds to
+# site-packages, need longer to start than most programs here to run. With them: $python_program.
+python_program=$(command -pv python3 || command -v python3 || true)
+if [ -n "$python_program" ]; then python3() { "$python_program" -S "$@"; }; fi
 
 fail() {
   echo "FAILED: $*" >&2
@@ -123,7 +122,7 @@ refuses() {
 
 # json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing.
 json() {
-  python3 -I -S - "$@" <<'PYTHON'
+  python3 -I - "$@" <<'PYTHON'
 import json, sys
 value = json.load(open(sys.argv[1]))
 for key in sys.argv[2:]:

@@ -5,10 +5,10 @@ source "$(dirname "$0")/lib.sh"
 need python3 gdalwarp ogrinfo
 formats="2dm vtu vtp xml dxf gpkg"
 
-# python_with MODULE: an interpreter that has it; Debian's modules are /usr/bin/python3's.
+# python_with MODULE: an interpreter that has it: the system's or that of a version manager.
 python_with() {
   local python
-  for python in python3 /usr/bin/python3; do
+  for python in "$python_program" "$(type -P python3)"; do
     if "$python" -c "import $1" 2> "$logs/python"; then echo "$python" && return; fi
   done
   return 1
