@@ -120,14 +120,18 @@ refuses() {
   [ "$before" = "$after" ] || fail "files have changed: $*"
 }
 
-# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing.
+# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing. JSON is an
+# expression of Python with three more names; to import its module needs as long as to start the interpreter.
 json() {
   python3 -I - "$@" <<'PYTHON'
-import json, sys
-value = json.load(open(sys.argv[1]))
+import sys
+value = eval(open(sys.argv[1], encoding="utf-8").read(), {"null": None, "true": True, "false": False})
 for key in sys.argv[2:]:
     value = value[int(key)] if isinstance(value, list) else value[key]
-print(json.dumps(value))
+if type(value) not in (int, float):
+    import json
+    value = json.dumps(value)
+print(value)
 PYTHON
 }
 
