@@ -95,7 +95,10 @@ names_port() {
 run_within() {
   local most=$1
   shift
-  bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1 || most=1000000
+  if [ -z "${is_limited-}" ]; then
+    is_limited=$(bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1 && echo yes || echo no)
+  fi
+  [ $is_limited = yes ] || most=1000000
   python3 -c '
 import resource, subprocess, sys
 code = subprocess.call(sys.argv[2:])
@@ -104,14 +107,17 @@ sys.exit(code or (peak > 1e6 * int(sys.argv[1]) and f"{peak / 1e6:.1f} MB were t
 }
 within() { succeeds run_within "$@"; }
 
+# files_here: every file with its checksum, and every folder.
+files_here() { find . -type f -exec cksum {} +; find . ! -type f; }
+
 # refuses CODE WORDS COMMAND...: the exit code, exactly one line on stderr, which begins with "scarp: " and holds WORDS,
 # nothing on stdout, and not one file more, less or changed.
 refuses() {
   local want=$1 words=$2 before after
   shift 2
-  before=$(find . -type f -exec cksum {} + | sort -k 3; find . | sort)
+  before=$(files_here)
   try "$@"
-  after=$(find . -type f -exec cksum {} + | sort -k 3; find . | sort)
+  after=$(files_here)
   [ "$code" = "$want" ] || fail "exit code $code instead of $want: $*"
   [ "$(wc -l < "$logs/err")" = 1 ] || fail "not exactly one line on stderr: $*"
   grep -q '^scarp: [^ ]' "$logs/err" || fail "the line does not begin with 'scarp: ': $*"
