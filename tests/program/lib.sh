@@ -156,20 +156,21 @@ make_big_raster() {
 # expression of Python; nan is nodata.
 make_raster() {
   need gdal_translate python3
-  python3 - "$2" > "$1.asc" <<'PYTHON'
-import math, sys
+  python3 - "$1" "$2" <<'PYTHON'
+import array, math, sys
 cols, rows = 403, 344
-f = compile(sys.argv[1], "expression", "eval")
-grid = [[eval(f, {"math": math, "nan": math.nan, "col": col, "row": row}) for col in range(cols)] for row in range(rows)]
-print(f"ncols {cols}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1")
-if any(v != v for values in grid for v in values):
-    print("NODATA_value -9999")
-for values in grid:
-    print(" ".join("-9999" if v != v else repr(float(v)) for v in values))
+nan = math.nan
+values = array.array("f", eval(f"[({sys.argv[2]}) for row in range(rows) for col in range(cols)]"))
+header = f"NROWS {rows}\nNCOLS {cols}\nNBITS 32\nPIXELTYPE FLOAT\nBYTEORDER {'IM'[sys.byteorder == 'big']}\n"
+if any(value != value for value in values):
+    header += "NODATA -9999\n"
+    values = array.array("f", [-9999 if value != value else value for value in values])
+open(sys.argv[1] + ".hdr", "w").write(header)
+values.tofile(open(sys.argv[1] + ".bil", "wb"))
 PYTHON
   dem_corners=${dem_corners:-$(corners_of "$dem")}
-  gdal_translate -q -ot "${3:-Float32}" $dem_corners "$1.asc" "$1"
-  rm "$1.asc"
+  gdal_translate -q -ot "${3:-Float32}" $dem_corners "$1.bil" "$1"
+  rm "$1.bil" "$1.hdr"
 }
 
 # make_image NAME EXPRESSION...: an image of bytes on the same grid, a band for each expression; three are red, green, blue.
