@@ -98,7 +98,7 @@ RC_GTEST_PROP(effort, vertices_on_samples_have_the_heights_of_samples, ()) {
 }
 
 TEST(effort, each_level_takes_fewer_triangles) {
-  const Field field = testing::random_field(21, testing::fewer(300), testing::fewer(200), Relief::kRidges, 0.02);
+  const Field field = testing::random_field(21, testing::fewer(210), testing::fewer(140), Relief::kRidges, 0.02);
   std::size_t before = SIZE_MAX;
   for (const auto& [effort, vertices] : {std::pair{Effort::kFast, Vertices::kSamples},
                                          {Effort::kNormal, Vertices::kSamples},
@@ -115,7 +115,7 @@ TEST(effort, each_level_takes_fewer_triangles) {
 }
 
 TEST(effort, rounded_positions_of_free_vertices_keep_the_promise_or_stay_on_samples) {
-  const Field field = testing::random_field(22, testing::fewer(300), testing::fewer(200), Relief::kRidges, 0.02);
+  const Field field = testing::random_field(22, testing::fewer(210), testing::fewer(140), Relief::kRidges, 0.02);
   const HeightField view = odd_cells(field);
   for (const double goal : {1e-3, 0.05, 1.0, 10.0}) {
     const auto result = simplify(view, with_effort(goal, Effort::kHigh));
@@ -152,9 +152,9 @@ TEST(effort, normals_and_uvs_of_free_vertices_are_those_of_their_lattice_points)
 
 TEST(effort, free_vertices_survive_every_format) {
   const Field field = testing::random_field(23, 120, 90, Relief::kRidges, 0.02);
+  const auto result = simplify(field.view(), with_effort(4, Effort::kHigh, Vertices::kFree));
+  ASSERT_TRUE(result) << result.error().message;
   for (const MeshFormat format : {MeshFormat::kGlb, MeshFormat::kStl, MeshFormat::kObj, MeshFormat::kPly}) {
-    const auto result = simplify(field.view(), with_effort(4, Effort::kHigh, Vertices::kFree));
-    ASSERT_TRUE(result) << result.error().message;
     const auto read = decode_mesh(*encode_mesh(result->mesh, format), "mesh");
     ASSERT_TRUE(read) << read.error().message;
     const Measurement m = *measure(field.view(), *read);
@@ -164,7 +164,7 @@ TEST(effort, free_vertices_survive_every_format) {
 }
 
 TEST(effort, threads_change_nothing) {
-  const Field field = testing::random_field(24, testing::fewer(400), testing::fewer(300), Relief::kRidges, 0.02);
+  const Field field = testing::random_field(24, testing::fewer(320), testing::fewer(240), Relief::kRidges, 0.02);
   std::optional<Mesh> first;
   for (const int threads : {1, 2, 5}) {
     auto options = with_effort(1, Effort::kHigh);
