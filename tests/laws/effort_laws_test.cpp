@@ -59,7 +59,7 @@ RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
 }
 
 TEST(effort, errors_that_equal_the_bound_are_kept_by_free_vertices_far_from_the_origin) {
-  for (int seed = 0; seed < testing::fewer(40, 8); ++seed) {
+  for (int seed = 0; seed < testing::fewer(40, 20); ++seed) {
     const Field field = testing::random_field(static_cast<std::uint32_t>(seed), 30, 25, Relief::kTies);
     const HeightField view = odd_cells(field);
     auto options = with_effort(1, seed % 2 == 0 ? Effort::kHigh : Effort::kMax);
@@ -194,7 +194,7 @@ TEST(effort, a_run_whose_time_is_up_keeps_the_promise) {
 }
 
 TEST(effort, somebody_who_has_enough_ends_it_and_else_changes_nothing) {
-  const Field field = testing::random_field(26, 120, 90, Relief::kRidges, 0.02);
+  const Field field = testing::random_field(26, testing::fewer(120), testing::fewer(90), Relief::kRidges, 0.02);
   const auto with = [&](const std::function<bool()>& is_enough) {
     auto options = with_effort(2, Effort::kMax);
     options.run.is_enough = is_enough;
