@@ -4,6 +4,8 @@
 # Environment: JOBS (cores).
 set -euo pipefail
 build=$1 dist=$2
+# em++ starts once a source: not by the substitute of a version manager.
+export EMSDK_PYTHON=${EMSDK_PYTHON:-$(command -pv python3 || command -v python3)}
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/tools/configure_wasm.sh" "$build" >&2
 cmake --build "$build" -j "${JOBS:-$(nproc 2>/dev/null || echo 2)}" --target scarp_npm >&2

@@ -4,6 +4,8 @@ memory and streamed, as one hash of all files of the run. A run that fails stand
 
 usage: table.py PROGRAM DEM TABLE [--update]     in an empty folder
 
+SCARP_START_ONCE: the library of start_once.c, by which the program starts once a processor instead of once a run.
+
 Compares with TABLE, or writes it. The program's version, which stands in most files, is excluded from the hash."""
 import concurrent.futures
 import hashlib
@@ -11,8 +13,10 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
+import threading
 import zipfile
 
 # File, height of a step or ridge, and the --memory that has less room than the samples need: `hills` and `coast` stay
@@ -39,6 +43,32 @@ def hash_of(folder, version):
     return digest.hexdigest()[:12]
 
 
+class Program:
+    """Runs the program with words; a worker has its own."""
+
+    def __init__(self, path):
+        self.path, self.library, self.own = path, os.environ.get("SCARP_START_ONCE"), threading.local()
+        self.started = []
+
+    def run(self, words, messages):
+        """The exit code; what the program prints on standard error is in the file `messages`."""
+        if not self.library:
+            with open(messages, "wb") as file:
+                return subprocess.run([self.path, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file).returncode
+        if not hasattr(self.own, "started"):
+            self.own.started = subprocess.Popen([self.path], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                                env={**os.environ, "LD_PRELOAD": self.library})
+            self.started.append(self.own.started)
+        text = b"".join(os.fsencode(word) + b"\0" for word in [messages, self.path, *words])
+        self.own.started.stdin.write(struct.pack("=I", len(text)) + text)
+        self.own.started.stdin.flush()
+        return os.waitstatus_to_exitcode(struct.unpack("=i", self.own.started.stdout.read(4))[0])
+
+    def close(self):
+        for process in self.started:
+            process.communicate()
+
+
 def run(program, version, number, line, raster, is_streamed):
     words = line.split()
     from_points = words[0] == "points"
@@ -48,12 +78,12 @@ def run(program, version, number, line, raster, is_streamed):
     source = f"{raster}.points.csv" if from_points else source
     folder = pathlib.Path(f"{number}.{raster}.{'streamed' if is_streamed else 'memory'}")
     folder.mkdir()
-    command = [program, "simplify", source, str(folder / f"out.{ending}"), *(word.format(**names) for word in options),
-               *(["--memory", memory] if is_streamed else []), "-q", "-j", "1"]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    if done.returncode:
-        sentence = done.stderr.decode().strip().replace(os.getcwd() + "/", "")
-        return f"exit {done.returncode}", sentence
+    words = ["simplify", source, str(folder / f"out.{ending}"), *(word.format(**names) for word in options),
+             *(["--memory", memory] if is_streamed else []), "-q", "-j", "1"]
+    messages = pathlib.Path(f"{folder}.messages")
+    code = program.run(words, messages)
+    if code:
+        return f"exit {code}", messages.read_text().strip().replace(os.getcwd() + "/", "")
     return hash_of(folder, version), ""
 
 
@@ -69,8 +99,10 @@ def main():
     subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "make_inputs.py"), dem], check=True)
     jobs = [(number, line, raster, is_streamed) for number, line in enumerate(lines) for raster in RASTERS
             for is_streamed in (False, True) if not (is_streamed and line.startswith("points"))]
+    started = Program(program)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 2) as pool:
-        results = list(pool.map(lambda job: run(program, version, *job), jobs))
+        results = list(pool.map(lambda job: run(started, version, *job), jobs))
+    started.close()
     rows, sentences = {}, {}
     for (_, line, raster, is_streamed), (result, sentence) in zip(jobs, results):
         row = f"{line} | {'streamed' if is_streamed else 'memory'}"

@@ -42,9 +42,11 @@ fi
 
 # The command of docs/guide/python.md, with the library that is built already.
 install=$(python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/docs/guide/python.md" sh)
-succeeds /usr/bin/python3 -m venv --system-site-packages by_guide
-(cd "$SCARP_SOURCE" && PATH=$scratch/by_guide/bin:$PATH PIP_NO_INDEX=1 SCARP_C_LIBRARY=$(realpath "$alone") succeeds bash -c "$install")
-succeeds by_guide/bin/python -c 'import scarp'
+succeeds env/bin/python -m pip uninstall --quiet --yes scarp
+try env/bin/python -I -c 'import scarp'
+[ "$code" != 0 ] || fail "scarp is there after it was removed"
+(cd "$SCARP_SOURCE" && PATH=$scratch/env/bin:$PATH PIP_NO_INDEX=1 SCARP_C_LIBRARY=$(realpath "$alone") succeeds bash -c "$install")
+succeeds env/bin/python -c 'import scarp'
 
 # 4. It is typed, and its reference has every public name, explained.
 succeeds python3 "$SCARP_SOURCE/tools/python_reference.py" reference.md

@@ -2,7 +2,7 @@
 # The plugin for QGIS: packed, loaded by QGIS without a screen, and by qgis_process.
 source "$(dirname "$0")/../program/lib.sh"
 need unzip qgis_process
-for with_qgis in /usr/bin/python3 python3; do
+for with_qgis in "$python_program" "$(type -P python3)"; do
   "$with_qgis" -c 'import qgis.core, processing' 2> /dev/null && break
   PYTHONPATH=/usr/share/qgis/python/plugins "$with_qgis" -c 'import qgis.core, processing' 2> /dev/null && break
   with_qgis=

@@ -3,10 +3,8 @@ import { chromium } from 'playwright-core';
 
 const PATIENCE = 1200e3; // ms
 
-/// `errors`: those of the console. `elsewhere`: what was asked of other addresses.
-/// A busy machine draws slowly: what waits for a page waits for as long as the test may run.
-export async function openPage(address, viewport, program = '/usr/bin/chromium', options = {}) {
-  const browser = await chromium.launch({
+export function launch(program = '/usr/bin/chromium') {
+  return chromium.launch({
     executablePath: program,
     args: [
       '--no-sandbox',
@@ -22,6 +20,13 @@ export async function openPage(address, viewport, program = '/usr/bin/chromium',
     ],
     timeout: PATIENCE,
   });
+}
+
+/// `errors`: those of the console. `elsewhere`: what was asked of other addresses. The page has a context of its own, in
+/// `running` where a browser is given.
+/// A busy machine draws slowly: what waits for a page waits for as long as the test may run.
+export async function openPage(address, viewport, program, options = {}, running = undefined) {
+  const browser = running ?? (await launch(program));
   const page = await browser.newPage({ viewport, ...options });
   page.setDefaultTimeout(PATIENCE);
   const errors = [];

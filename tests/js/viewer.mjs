@@ -8,9 +8,10 @@
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { pathToFileURL } from 'node:url';
-import { openPage } from './browser.mjs';
+import { launch, openPage } from './browser.mjs';
 
 const [jobsFile, shots, program] = process.argv.slice(2);
+const browser = await launch(program);
 const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 /// Playwright's own function evaluates text in the page, which the page's policy forbids.
@@ -20,11 +21,12 @@ async function waitFor(page, condition) {
 
 async function doJob(job) {
   const address = pathToFileURL(job.page).href;
-  const { browser, page, errors, elsewhere } = await openPage(
+  const { page, errors, elsewhere } = await openPage(
     job.folder ? pathToFileURL(job.folder).href : address,
     { width: job.width ?? 1100, height: job.height ?? 700 },
     program,
     { javaScriptEnabled: !job.no_script },
+    browser,
   );
   try {
     await page.emulateMedia({
@@ -64,10 +66,11 @@ async function doJob(job) {
   } catch (error) {
     return { failed: String(error), errors, elsewhere };
   } finally {
-    await browser.close();
+    await page.close();
   }
 }
 
 const answers = [];
 for (const job of JSON.parse(readFileSync(jobsFile, 'utf8'))) answers.push(await doJob(job));
+await browser.close();
 console.log(JSON.stringify(answers));

@@ -286,9 +286,10 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
 }
 
 TEST(bounds, are_kept_in_the_dominant_order_on_any_number_of_threads) {
-  const Field field = testing::random_field(11, 360, 280, Relief::kRidges, 0.001);
+  const int cols = testing::fewer(360), rows = testing::fewer(280);
+  const Field field = testing::random_field(11, cols, rows, Relief::kRidges, 0.001);
   std::vector<float> bounds;
-  for (int k = 0; k < 360 * 280; ++k) bounds.push_back(k % 360 < 180 ? 12.0f : 4.0f);
+  for (int k = 0; k < cols * rows; ++k) bounds.push_back(k % cols < cols / 2 ? 12.0f : 4.0f);
   std::vector<float> mask = bounds;
   for (float& weight : mask) weight = 4 / weight;
   for (const bool is_mask : {false, true}) {

@@ -324,8 +324,8 @@ void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   expect_kept(scene, *made, kTightTolerance);
 }
 
-/// Under sanitizers a tenth of the pairs, and a third of the settings with two others.
-constexpr std::size_t kPairStep = testing::kIsSanitized ? 10 : 1, kSettingStep = testing::kIsSanitized ? 3 : 1;
+/// Under sanitizers a twentieth of the pairs, and a fifth of the settings with two others.
+constexpr std::size_t kPairStep = testing::kIsSanitized ? 20 : 1, kSettingStep = testing::kIsSanitized ? 5 : 1;
 
 TEST(conflicts, settings_beside_tolerances_and_a_budget_run_or_are_refused_by_the_table) {
   const auto settings = all_settings();

@@ -59,7 +59,7 @@ RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
 }
 
 TEST(effort, errors_that_equal_the_bound_are_kept_by_free_vertices_far_from_the_origin) {
-  for (int seed = 0; seed < testing::fewer(40, 8); ++seed) {
+  for (int seed = 0; seed < testing::fewer(40, 20); ++seed) {
     const Field field = testing::random_field(static_cast<std::uint32_t>(seed), 30, 25, Relief::kTies);
     const HeightField view = odd_cells(field);
     auto options = with_effort(1, seed % 2 == 0 ? Effort::kHigh : Effort::kMax);
@@ -98,7 +98,7 @@ RC_GTEST_PROP(effort, vertices_on_samples_have_the_heights_of_samples, ()) {
 }
 
 TEST(effort, each_level_takes_fewer_triangles) {
-  const Field field = testing::random_field(21, testing::fewer(300), testing::fewer(200), Relief::kRidges, 0.02);
+  const Field field = testing::random_field(21, testing::fewer(210), testing::fewer(140), Relief::kRidges, 0.02);
   std::size_t before = SIZE_MAX;
   for (const auto& [effort, vertices] : {std::pair{Effort::kFast, Vertices::kSamples},
                                          {Effort::kNormal, Vertices::kSamples},
@@ -115,7 +115,7 @@ TEST(effort, each_level_takes_fewer_triangles) {
 }
 
 TEST(effort, rounded_positions_of_free_vertices_keep_the_promise_or_stay_on_samples) {
-  const Field field = testing::random_field(22, testing::fewer(300), testing::fewer(200), Relief::kRidges, 0.02);
+  const Field field = testing::random_field(22, testing::fewer(210), testing::fewer(140), Relief::kRidges, 0.02);
   const HeightField view = odd_cells(field);
   for (const double goal : {1e-3, 0.05, 1.0, 10.0}) {
     const auto result = simplify(view, with_effort(goal, Effort::kHigh));
@@ -165,7 +165,7 @@ TEST(effort, free_vertices_survive_every_format) {
 }
 
 TEST(effort, threads_change_nothing) {
-  const Field field = testing::random_field(24, testing::fewer(400), testing::fewer(300), Relief::kRidges, 0.02);
+  const Field field = testing::random_field(24, testing::fewer(320), testing::fewer(240), Relief::kRidges, 0.02);
   std::optional<Mesh> first;
   for (const int threads : {1, 2, 5}) {
     auto options = with_effort(1, Effort::kHigh);
@@ -195,7 +195,7 @@ TEST(effort, a_run_whose_time_is_up_keeps_the_promise) {
 }
 
 TEST(effort, somebody_who_has_enough_ends_it_and_else_changes_nothing) {
-  const Field field = testing::random_field(26, 120, 90, Relief::kRidges, 0.02);
+  const Field field = testing::random_field(26, testing::fewer(120), testing::fewer(90), Relief::kRidges, 0.02);
   const auto with = [&](const std::function<bool()>& is_enough) {
     auto options = with_effort(2, Effort::kMax);
     options.run.is_enough = is_enough;

@@ -230,6 +230,7 @@ TEST(pyramid_laws, every_tile_with_heights_is_there_with_its_ancestors_and_sibli
 TEST(pyramid_laws, bounds_above_the_blocks_hold_for_all_nodes_below) {
   const AnyLand land(11, 900, 120, true, kIsland);
   for (const TileGrid& grid : kGrids) {
+    if (testing::kIsSanitized && grid.has_even_rows()) continue;
     const auto made = make_small_pyramid(land, kIsland, 2, grid);
     ASSERT_EQ(made->plan.block_level, 2);
     for (int z = 0; z < made->plan.block_level; ++z) {
@@ -271,8 +272,8 @@ void expect_same_edges(const DegreeBox& covered, int least, const TileGrid& grid
 }
 
 TEST(pyramid_laws, neighbours_in_a_pyramid_decode_to_the_same_edge) {
-  expect_same_edges(kIsland, 300);
-  expect_same_edges(kIsland, 100, kGrids[1]);
+  if (!testing::kIsSanitized) expect_same_edges(kIsland, 300);
+  if (!testing::kIsSanitized) expect_same_edges(kIsland, 100, kGrids[1]);
   expect_same_edges(kIsland, 300, {}, kRivers);
   // Around the antimeridian, up to where the grid ends.
   expect_same_edges({170, 78, 190, 90}, 50, kGrids[1]);

@@ -225,7 +225,7 @@ HeightField odd_cells(const Field& field, double cell) {
 }
 
 TEST(simplify, rounded_positions_keep_the_promise_too) {
-  const Field field = testing::random_field(12, 300, 200, Relief::kRidges, 0.02);
+  const Field field = testing::random_field(12, testing::fewer(300), testing::fewer(200), Relief::kRidges, 0.02);
   const HeightField view = odd_cells(field, 6.7218131);
   ASSERT_FALSE(offsets_are_exact(view.frame, view.cols, view.rows));
   for (const double goal : {0.05, 1.0, 10.0}) {
@@ -253,7 +253,7 @@ TEST(simplify, double_positions_reproduce_every_sample_at_any_cell_size) {
 }
 
 TEST(simplify, a_bound_below_what_rounding_costs_is_refused_with_the_figure) {
-  const Field field = testing::random_field(12, 300, 200, Relief::kRidges);
+  const Field field = testing::random_field(12, testing::fewer(300), testing::fewer(200), Relief::kRidges);
   const auto result = simplify(odd_cells(field, 6.7218131), {.goals = {.max_error = 1e-9}});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kPromise);

@@ -2,9 +2,7 @@
 # The lines of docs/tiles.md that make a set with Dask, on a scheduler and two workers, one of which is killed.
 source "$(dirname "$0")/../program/lib.sh"
 need gdal_translate
-# Debian's own interpreter, whatever a version manager puts before it.
-python=$(unset -f python3; command -pv python3) || skip "needs Debian's python3"
-"$python" -c 'import distributed' 2> /dev/null || skip "needs Debian's python3-distributed"
+"$python_program" -c 'import distributed' 2> /dev/null || skip "needs Debian's python3-distributed"
 
 gdal_translate -q -r bilinear -outsize 200% 200% -ot Float32 -a_srs EPSG:4979 -a_ullr 11.0 45.3 11.5 44.7 "$dem" dem.tif
 few=(--cells 16 --effort fast --zoom 14)
@@ -24,15 +22,15 @@ stop() {
 }
 ends=$(trap -p EXIT | sed "s/^trap -- '//; s/' EXIT$//")
 trap 'stop; eval "$ends"' EXIT
-"$python" -m distributed.cli.dask_scheduler --host 127.0.0.1 --port 0 --no-dashboard --scheduler-file scheduler.json > scheduler.log 2>&1 &
+"$python_program" -m distributed.cli.dask_scheduler --host 127.0.0.1 --port 0 --no-dashboard --scheduler-file scheduler.json > scheduler.log 2>&1 &
 daemons+=($!)
 for worker in 1 2; do
-  "$python" -m distributed.cli.dask_worker --scheduler-file scheduler.json --nthreads 1 --nworkers 1 --no-dashboard \
+  "$python_program" -m distributed.cli.dask_worker --scheduler-file scheduler.json --nthreads 1 --nworkers 1 --no-dashboard \
     --local-directory "$PWD" --name "w$worker" > "w$worker.log" 2>&1 &
   daemons+=($!)
 done
 
-"$python" shares.py > shares.log 2>&1 & client=$!
+"$python_program" shares.py > shares.log 2>&1 & client=$!
 # The process that works for the first worker's nanny dies once a block is on the disk; the nanny starts another.
 for _ in $(seq 1200); do
   if [ -n "$(find world.parts -name '*.part' -size +8k 2> /dev/null)" ]; then break; fi

@@ -14,11 +14,10 @@ mkdir "$root/run" "$logs"
 trap 'rm -rf "$root"' EXIT
 cd "$root/run"
 
-# The interpreter itself: the substitute of a version manager needs longer to start than most programs here to run.
-if command -v python3 > /dev/null; then
-  python_program=$(python3 -c 'import sys; print(sys.executable)')
-  python3() { "$python_program" "$@"; }
-fi
+# The system's interpreter, without packages of others: the substitute of a version manager, and what a machine adds to
+# site-packages, need longer to start than most programs here to run. With them: $python_program.
+python_program=$(command -pv python3 || command -v python3 || true)
+if [ -n "$python_program" ]; then python3() { "$python_program" -S "$@"; }; fi
 
 fail() {
   echo "FAILED: $*" >&2
@@ -96,7 +95,10 @@ names_port() {
 run_within() {
   local most=$1
   shift
-  bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1 || most=1000000
+  if [ -z "${is_limited-}" ]; then
+    is_limited=$(bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1 && echo yes || echo no)
+  fi
+  [ $is_limited = yes ] || most=1000000
   python3 -c '
 import resource, subprocess, sys
 code = subprocess.call(sys.argv[2:])
@@ -105,14 +107,17 @@ sys.exit(code or (peak > 1e6 * int(sys.argv[1]) and f"{peak / 1e6:.1f} MB were t
 }
 within() { succeeds run_within "$@"; }
 
+# files_here: every file with its checksum, and every folder.
+files_here() { find . -type f -exec cksum {} +; find . ! -type f; }
+
 # refuses CODE WORDS COMMAND...: the exit code, exactly one line on stderr, which begins with "scarp: " and holds WORDS,
 # nothing on stdout, and not one file more, less or changed.
 refuses() {
   local want=$1 words=$2 before after
   shift 2
-  before=$(find . -type f -exec cksum {} + | sort -k 3; find . | sort)
+  before=$(files_here)
   try "$@"
-  after=$(find . -type f -exec cksum {} + | sort -k 3; find . | sort)
+  after=$(files_here)
   [ "$code" = "$want" ] || fail "exit code $code instead of $want: $*"
   [ "$(wc -l < "$logs/err")" = 1 ] || fail "not exactly one line on stderr: $*"
   grep -q '^scarp: [^ ]' "$logs/err" || fail "the line does not begin with 'scarp: ': $*"
@@ -121,14 +126,18 @@ refuses() {
   [ "$before" = "$after" ] || fail "files have changed: $*"
 }
 
-# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing.
+# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing. JSON is an
+# expression of Python with three more names; to import its module needs as long as to start the interpreter.
 json() {
-  python3 -I -S - "$@" <<'PYTHON'
-import json, sys
-value = json.load(open(sys.argv[1]))
+  python3 -I - "$@" <<'PYTHON'
+import sys
+value = eval(open(sys.argv[1], encoding="utf-8").read(), {"null": None, "true": True, "false": False})
 for key in sys.argv[2:]:
     value = value[int(key)] if isinstance(value, list) else value[key]
-print(json.dumps(value))
+if type(value) not in (int, float):
+    import json
+    value = json.dumps(value)
+print(value)
 PYTHON
 }
 
@@ -147,20 +156,21 @@ make_big_raster() {
 # expression of Python; nan is nodata.
 make_raster() {
   need gdal_translate python3
-  python3 - "$2" > "$1.asc" <<'PYTHON'
-import math, sys
+  python3 - "$1" "$2" <<'PYTHON'
+import array, math, sys
 cols, rows = 403, 344
-f = compile(sys.argv[1], "expression", "eval")
-grid = [[eval(f, {"math": math, "nan": math.nan, "col": col, "row": row}) for col in range(cols)] for row in range(rows)]
-print(f"ncols {cols}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1")
-if any(v != v for values in grid for v in values):
-    print("NODATA_value -9999")
-for values in grid:
-    print(" ".join("-9999" if v != v else repr(float(v)) for v in values))
+nan = math.nan
+values = array.array("f", eval(f"[({sys.argv[2]}) for row in range(rows) for col in range(cols)]"))
+header = f"NROWS {rows}\nNCOLS {cols}\nNBITS 32\nPIXELTYPE FLOAT\nBYTEORDER {'IM'[sys.byteorder == 'big']}\n"
+if any(value != value for value in values):
+    header += "NODATA -9999\n"
+    values = array.array("f", [-9999 if value != value else value for value in values])
+open(sys.argv[1] + ".hdr", "w").write(header)
+values.tofile(open(sys.argv[1] + ".bil", "wb"))
 PYTHON
   dem_corners=${dem_corners:-$(corners_of "$dem")}
-  gdal_translate -q -ot "${3:-Float32}" $dem_corners "$1.asc" "$1"
-  rm "$1.asc"
+  gdal_translate -q -ot "${3:-Float32}" $dem_corners "$1.bil" "$1"
+  rm "$1.bil" "$1.hdr"
 }
 
 # make_image NAME EXPRESSION...: an image of bytes on the same grid, a band for each expression; three are red, green, blue.

@@ -16,10 +16,10 @@ degree_formats=$(formats_that "f['degrees']")
 # among WORD LIST
 among() { [[ " $2 " = *" $1 "* ]]; }
 
-# python_with MODULE: an interpreter that has it; Debian's modules are /usr/bin/python3's.
+# python_with MODULE: an interpreter that has it: the system's or that of a version manager.
 python_with() {
   local python
-  for python in python3 /usr/bin/python3; do
+  for python in "$python_program" "$(type -P python3)"; do
     if "$python" -c "import $1" 2> "$logs/python"; then echo "$python" && return; fi
   done
   return 1

@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
 # bench/paper/run.py on small fields: every section, every picture that the page names, no number that is none.
-python=$(command -pv python3 || command -v python3)  # the system's, which has Debian's matplotlib
 source "$(dirname "$0")/lib.sh"
 
 run=$SCARP_SOURCE/bench/paper/run.py
-"$python" -c 'import matplotlib' 2> /dev/null || skip "needs matplotlib"
+"$python_program" -c 'import matplotlib' 2> /dev/null || skip "needs matplotlib"
 
-try "$python" "$run" "$scarp" . out
+try "$python_program" "$run" "$scarp" . out
 { [ "$code" = 1 ] && grep -q 'has no field crater, ashby' "$logs/err" && [ ! -e out ]; } || fail "a folder without fields is accepted"
 
-"$python" - << 'PYTHON'
+"$python_program" - << 'PYTHON'
 import numpy
 from PIL import Image
 row, col = numpy.mgrid[:60, :80]
@@ -18,7 +17,7 @@ for name in ("astronaut.png", "santa_barbara_aerial.tif"):
     Image.fromarray(pixels).save(name)
 Image.fromarray((row * numpy.sin(col / 9)).astype(numpy.float32)).save("santa_barbara_elev.tif")
 PYTHON
-succeeds "$python" "$run" "$scarp" --fast out
+succeeds "$python_program" "$run" "$scarp" --fast out
 grep -q '^paper: ' "$logs/err" || fail "nothing reports the experiments"
 for heading in 'A field and its TIN (figures 1 and 2)' 'What is worth inserting (section 3' 'Algorithms I, II and III (section 4, page' \
   'The cost of Algorithm III (section 4, page' 'Insertion in batches (section 4' \

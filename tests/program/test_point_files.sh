@@ -121,7 +121,7 @@ for pair in some:0 sentinel:-9999; do
   succeeds "$scarp" measure "$file" "$file.ply" --fail-above 1 -q
 done
 # One number everywhere is no height either; no third coordinate of NaN is.
-python3 - <<'PY'
+"$python_program" - <<'PY'
 import struct
 def gpkg_like(name, z):
     rows = [(k % 10 + k * k % 7 / 10, k // 10 + k * k % 11 / 20, 400 + k) for k in range(60)]

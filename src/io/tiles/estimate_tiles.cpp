@@ -11,6 +11,8 @@ namespace {
 
 /// Core time that a trial may use; levels of larger tiles are then extrapolated.
 constexpr double kMostSeconds = 5;
+/// Share of a level's tiles that a trial makes at most, so that a small set is not made to be estimated.
+constexpr double kMostShare = 0.25;
 /// Cost of a tile relative to one of the next finer level, which has a quarter of its nodes and most of its triangles.
 constexpr double kTimeOfLarger = 2.2, kBytesOfLarger = 1.3;
 /// Seconds of a block in addition to its tiles, for each node of its lattice: copies for its tiles, the hash, the
@@ -119,7 +121,8 @@ Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes,
   double making = 0, size = 0, share = 0, reading = 0;
   for (int z = plan.max_zoom(); z >= plan.block_level && !blocks.empty(); --z) {
     const double left = kMostSeconds - (core_seconds() - began), next = kTimeOfLarger * making;
-    const int wanted = std::max(1, samples / (plan.max_zoom() - z + 1));
+    const double most = std::max(1.0, std::ceil(kMostShare * counts[static_cast<std::size_t>(z)]));
+    const int wanted = static_cast<int>(std::clamp<double>(samples / (plan.max_zoom() - z + 1), 1, most));
     const int count = next * wanted < left ? wanted : static_cast<int>(left / next);
     if (count > 0) {
       SCARP_TRY(const auto& look, look_at(plan, blocks, z, count, nodes, encode));
