@@ -141,14 +141,14 @@ void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const Source
   if (lines != nullptr && tiles.tile_side == 0) tiles.tile_side = strip_side(plan);
   const auto work = std::make_shared<StripWork>(plan, lines, bounds, threshold, tiles.tile_side, totals);
   tiles.is_made_whole = [work](std::int32_t first, std::int32_t rows) { return work->makes_whole(first, rows); };
-  tiles.finish_row = [work, progress = tiles.progress](Piece& strip) { return work->work_on(strip, progress); };
+  tiles.finish_strip = [work, progress = tiles.progress](Piece& strip) { return work->work_on(strip, progress); };
 }
 
 std::int32_t strip_side(const Plan& plan) {
   TiledOptions tiles;
   tiles.memory = plan.memory;
   if (plan.has_source_bounds) tiles.finish_bytes_per_sample = kAimBytesPerSample;
-  tiles.finish_row = [](Piece&) -> Result<void> { return fail(ErrorKind::kInternal, "no strip is there yet"); };
+  tiles.finish_strip = [](Piece&) -> Result<void> { return fail(ErrorKind::kInternal, "no strip is there yet"); };
   return streamed_side(plan.field, tiles);
 }
 

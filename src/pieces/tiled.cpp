@@ -102,17 +102,17 @@ class StripSource final : public SampleSource {
 };
 
 /// Strips are read and finished one after the other.
-bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
-  return is_in_file(field) || options.finish_row != nullptr;
+bool goes_by_strips(const HeightField& field, const TiledOptions& options) {
+  return is_in_file(field) || options.finish_strip != nullptr;
 }
 
 /// Bytes of a strip that is read: its samples, and if it is finished a copy and the memory of finishing.
 std::uint64_t bytes_per_sample(const TiledOptions& options) {
-  return options.finish_row ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
+  return options.finish_strip ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
 }
 
 /// Bytes of the samples of the highest strip, where they are read by rows.
-std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
+std::uint64_t strip_bytes(const HeightField& field, const TilePlan& plan) {
   std::int32_t rows = 0;
   for (std::size_t i = 0; i < plan.count(); i += plan.per_row()) rows = std::max(rows, plan.window(i).rows);
   return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
@@ -132,17 +132,17 @@ class TiledRun {
       : options_(options),
         plan_(plan),
         density_(density),
-        is_streamed_(goes_by_rows(field, options)),
+        is_streamed_(goes_by_strips(field, options)),
         band_(field),
         field_(is_streamed_ ? band_.view() : field),
         step_(is_streamed_ ? plan.per_row() : plan.count()),
         threads_(options.memory.threads_within(worker_bytes(plan), thread_count(options.threads))),
         workers_(static_cast<std::size_t>(threads_)),
         outcomes_(plan.count()),
-        assembly_(options.finish_row ? 1 : plan.per_row()),
-        row_(plan.per_row()) {
-    // finish_row may copy the samples of its strip.
-    if (is_streamed_) base_bytes_ += row_bytes(field, plan) / sizeof(float) * bytes_per_sample(options);
+        assembly_(options.finish_strip ? 1 : plan.per_row()),
+        strip_(plan.per_row()) {
+    // finish_strip may copy the samples of its strip.
+    if (is_streamed_) base_bytes_ += strip_bytes(field, plan) / sizeof(float) * bytes_per_sample(options);
     base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
   }
 
@@ -153,9 +153,9 @@ class TiledRun {
       const TileWindow window = plan_.window(first);
       const bool is_made_whole = options_.is_made_whole && options_.is_made_whole(window.row, window.rows);
       if (status_ && !is_made_whole) refine(first, step_);
-      if (status_ && !is_unsuited_ && options_.finish_row)
-        status_ =
-            finish_row(window, is_made_whole, static_cast<double>(first + step_) / static_cast<double>(plan_.count()));
+      if (status_ && !is_unsuited_ && options_.finish_strip)
+        status_ = finish_strip(window, is_made_whole,
+                               static_cast<double>(first + step_) / static_cast<double>(plan_.count()));
     }
     SCARP_RETURN_IF_ERROR(status_);
     if (is_unsuited_) return std::optional<Tiled>();
@@ -195,7 +195,7 @@ class TiledRun {
   /// Up to the first tile for which there is no room, which is returned, or `end`.
   std::size_t refine(std::size_t first, std::size_t end, int threads) {
     std::size_t refused = end;
-    TileRoom room(options_.memory, base_bytes_, assembly_.vertex_count() + row_.vertex_count(), threads);
+    TileRoom room(options_.memory, base_bytes_, assembly_.vertex_count() + strip_.vertex_count(), threads);
     parallel_in_order(
         end - first, threads,
         [&](std::size_t i, std::size_t worker) {
@@ -218,7 +218,7 @@ class TiledRun {
   /// much.
   Result<void> refuse(std::size_t tile) const {
     const MemoryBudget& memory = options_.memory;
-    const std::uint64_t before = assembly_.vertex_count() + row_.vertex_count(),
+    const std::uint64_t before = assembly_.vertex_count() + strip_.vertex_count(),
                         each = TileRoom::bytes_per_vertex(memory);
     const std::uint64_t taken = std::min(memory.rest(), base_bytes_ + before * memory.per_vertex);
     const std::uint64_t most = (memory.rest() - taken) / each + 1;
@@ -234,21 +234,21 @@ class TiledRun {
     status_ = outcome.status;
     is_unsuited_ = outcome.is_unsuited;
     if (!status_ || is_unsuited_) return false;
-    if (assembly_.triangle_count() + row_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
+    if (assembly_.triangle_count() + strip_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
       status_ = fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
       return false;
     }
     add(work_, outcome.work);
-    if (options_.finish_row) {
+    if (options_.finish_strip) {
       outcome.piece.first.y = 0;
-      row_.append(outcome.piece);
+      strip_.append(outcome.piece);
     } else {
       assembly_.append(outcome.piece);
       keep_heights(outcome.heights);
     }
     const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
-    const std::uint64_t vertices = assembly_.vertex_count() + row_.vertex_count();
-    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(row_.vertex_count()), vertices, share);
+    const std::uint64_t vertices = assembly_.vertex_count() + strip_.vertex_count();
+    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(strip_.vertex_count()), vertices, share);
         !status_)
       return false;
     if (options_.progress && !options_.progress(share, vertices))
@@ -256,18 +256,18 @@ class TiledRun {
     return status_.has_value();
   }
 
-  /// Beyond those of so many vertices of the row as such.
+  /// Beyond those of so many vertices of the strip as such.
   std::uint64_t finish_bytes(std::uint64_t vertices) const {
     const std::uint64_t whole = options_.finish_bytes_per_vertex, mesh = options_.memory.per_vertex;
     return (std::max(whole, mesh) - mesh) * vertices;
   }
 
   /// `share`: of the tiles, when it is done.
-  Result<void> finish_row(const TileWindow& window, bool is_made_whole, double share) {
+  Result<void> finish_strip(const TileWindow& window, bool is_made_whole, double share) {
     const Raster samples = band_.raster(window.row, window.rows);
     const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
     std::vector<HalfEdge> seams;
-    Piece strip{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : row_.finish(seams),
+    Piece strip{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : strip_.finish(seams),
                 has_above, has_below,  band_.raster(window.row - has_above, window.rows + has_above + has_below)};
     strip.check = [this, share](std::uint64_t vertices, double, double) -> Result<void> {
       const std::uint64_t all = assembly_.vertex_count() + vertices;
@@ -275,8 +275,8 @@ class TiledRun {
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       return options_.memory.check_mesh(base_bytes_ + finish_bytes(vertices), all, share);
     };
-    row_ = Assembly(plan_.per_row());
-    SCARP_RETURN_IF_ERROR(options_.finish_row(strip));
+    strip_ = Assembly(plan_.per_row());
+    SCARP_RETURN_IF_ERROR(options_.finish_strip(strip));
     const Triangulation& tin = strip.tin;
     const VertexLattice& lattice = strip.lattice;
     assert(window.row == 0 || lattice.steps == steps_);
@@ -315,8 +315,8 @@ class TiledRun {
   int threads_;
   std::vector<TileWorker> workers_;
   std::vector<std::optional<TileOutcome>> outcomes_;
-  Assembly assembly_;  // assembly of tiles, or of finished rows
-  Assembly row_;       // assembly of tiles whose row is not finished
+  Assembly assembly_;  // assembly of tiles, or of finished strips
+  Assembly strip_;     // assembly of tiles whose strip is not finished
   std::vector<float> heights_;
   std::vector<std::uint8_t> fixed_;
   std::int32_t steps_ = 1;
@@ -330,8 +330,8 @@ class TiledRun {
 /// Strips fit a quarter of the memory, half with their post-processing. That pays for each line between two strips.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
-  std::int32_t side = options.finish_row ? 1024 : 512;
-  const std::uint64_t parts = options.finish_row ? 2 : 4;
+  std::int32_t side = options.finish_strip ? 1024 : 512;
+  const std::uint64_t parts = options.finish_strip ? 2 : 4;
   const auto bytes = [&] {
     return bytes_per_sample(options) * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side);
   };
@@ -348,7 +348,7 @@ std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t sid
 }
 
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
-  const bool is_streamed = goes_by_rows(field, options);
+  const bool is_streamed = goes_by_strips(field, options);
   double density = 0;
   if (!is_streamed) {
     SCARP_TRY(density, estimate_density(field, options.threshold, options.threads));

@@ -100,7 +100,7 @@ VertexLattice places_of(const Tiled& tiled) {
   return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
-RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_rows, ()) {
+RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_strips, ()) {
   const Scene scene;
   const auto domain = build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
   const auto made = refine(scene, *rc::gen::element(8, 16, 31), nullptr);
