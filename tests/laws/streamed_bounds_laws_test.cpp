@@ -91,7 +91,7 @@ Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const
   const SourceBounds bounds(scene.tolerances, most, {});
   StripTotals fits;
   TiledOptions tiles{.threshold = threshold, .threads = scene.options.run.threads, .tile_side = side};
-  work_by_strips(Plan(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr, &bounds, threshold,
+  work_by_strips(Recipe(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr, &bounds, threshold,
                  fits, tiles);
   return refine_tiled(lines != nullptr ? lines->apply(scene.streamed) : scene.streamed, tiles);
 }

@@ -93,7 +93,7 @@ struct CutScene {
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     StripTotals fits;
     TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
-    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
+    work_by_strips(Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
     const HeightField edited = lines.apply(streamed);
     const CutSource near(*edited.source, lines.graph.cut->rows);
     return refine_tiled(with_source(edited, near), tiles);

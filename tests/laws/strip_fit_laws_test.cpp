@@ -45,7 +45,7 @@ SimplifyOptions any_options() {
 Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const SimplifyOptions& options,
                                             std::int32_t tile_side, StripTotals& fits) {
   TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = tile_side};
-  work_by_strips(Plan(field, options), nullptr, nullptr, *options.goals.max_error, fits, tiles);
+  work_by_strips(Recipe(field, options), nullptr, nullptr, *options.goals.max_error, fits, tiles);
   return refine_tiled(field, tiles);
 }
 
@@ -159,7 +159,7 @@ TEST(strips, are_cancelled_while_they_are_fitted) {
   TiledOptions tiles{.threshold = 4, .threads = 1, .tile_side = 64};
   int calls = 0;
   tiles.progress = [&](double share, std::uint64_t) { return share > 0 || ++calls < 2; };
-  work_by_strips(Plan(field.view(), options), nullptr, nullptr, 4, fits, tiles);
+  work_by_strips(Recipe(field.view(), options), nullptr, nullptr, 4, fits, tiles);
   const auto cancelled = refine_tiled(with_source(field.view(), source), tiles);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);

@@ -70,7 +70,7 @@ struct StripScene {
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     StripTotals fits;
     TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
-    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
+    work_by_strips(Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
     return refine_tiled(lines.apply(streamed), tiles);
   }
 };
