@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Reads every #include of the library and the program and fails on a step upwards or sideways between rooms.
+"""Reads every #include of the library and the program and fails on a step upwards or sideways between rooms; and on
+words that belong to a few files.
 
 A room is a folder of src/ (or the passes src/*.cpp, the door include/scarp, the program apps/). ROOMS below is the
 table of docs/design.md, "Rooms and floors": whoever changes one changes the other (`--table` prints it as Markdown).
@@ -49,7 +50,7 @@ ROOMS = {
               "angles and lengths for simulation"),
     "features": (4, ["base", "grid", "geom", "lines"], ANY, "the land's own lines: walls, ridges, valleys, lakes, rivers, flats"),
     "pieces": (5, ["base", "grid", "geom", "mesh", "tin", "metric", "refine", "fit", "lines", "shape"], ANY,
-               "a window worked on alone, borders first: tiles, strips, seams, freezing"),
+               "the recipe of a run; a window worked on alone, borders first: tiles, strips, seams, freezing"),
     "simplify": (6, ["base", "grid", "geom", "mesh", "tin", "metric", "io", "measure", "refine", "fit", "lines", "shape",
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
     "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh, places in space"),
@@ -83,6 +84,12 @@ RESERVED = [
      "src/fit/triangle_kernels_vector.cpp, src/base/branchless.h and src/base/wasm_vectors-inl.h only"),
     (r"CLI/.*", [r"src/session/(table|options)/", r"apps/"], "command lines are known to src/session/table, src/session/options and apps only"),
     (r"(format|ranges)$", [r"src/io/gdal/", r"src/session/", r"apps/"], "the core builds without std::format and range views"),
+]
+
+# Words that only some files may use: (pattern, files that may, why).
+WORDS = [
+    (r"quality\.effort\b(?!\s*=[^=])", [r"src/pieces/(recipe|conflicts|checks)\.cpp$", r"src/session/", r"apps/"],
+     "what an effort means is decided in the recipe of a run (src/pieces/recipe.h): read Recipe::traits"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -157,6 +164,9 @@ def judge_file(path, tree):
     if len(lines) > MAX_LINES:
         yield f"{path}: {len(lines)} lines, more than {MAX_LINES}: split it by concept"
     for number, line in enumerate(lines, 1):
+        for pattern, allowed, why in WORDS:
+            if re.search(pattern, line) and not any(re.match(place, path.as_posix()) for place in allowed):
+                yield f"{path}:{number}: {line.strip()}: {why}"
         match = INCLUDE.match(line)
         if not match:
             continue

@@ -11,7 +11,7 @@
 
 #include "engines.h"
 #include "pieces/border_chain.h"
-#include "pieces/tile_plan.h"
+#include "pieces/tiling.h"
 #include "refine/dominant.h"
 #include "refine/tile_domain.h"
 #include "tin/assembly.h"
@@ -37,18 +37,18 @@ std::vector<scarp::TilePoint> find_border(const scarp::HeightField& field, const
 
 /// Vertices of all tiles, each started from two triangles.
 std::size_t refine_plainly(const scarp::HeightField& field, double threshold, int side) {
-  const scarp::TilePlan plan(field.cols, field.rows, side);
-  scarp::Assembly assembly(plan.per_row());
+  const scarp::Tiling tiling(field.cols, field.rows, side);
+  scarp::Assembly assembly(tiling.per_row());
   scarp::Tile tile;
   scarp::TileMesh mesh;
   scarp::PieceMaker pieces;
-  for (std::size_t i = 0; i < plan.count(); ++i) {
-    const scarp::TileWindow window = plan.window(i);
+  for (std::size_t i = 0; i < tiling.count(); ++i) {
+    const scarp::TileWindow window = tiling.window(i);
     if (const auto loaded = tile.load(field, window); !loaded) bench::die(loaded.error().message);
-    const auto border = find_border(field, window, plan.shared(i), threshold);
+    const auto border = find_border(field, window, tiling.shared(i), threshold);
     if (const auto started = scarp::start_tile(tile, border, mesh); !started) bench::die(started.error().message);
     scarp::TileScanner scanner(tile.view(), threshold);
-    scanner.set_shared(plan.shared(i));
+    scanner.set_shared(tiling.shared(i));
     scarp::refine_dominant(mesh, scanner);
     assembly.append(pieces.make(mesh, {window.col, window.row}, window.cols, window.rows));
   }

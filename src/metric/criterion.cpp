@@ -34,9 +34,9 @@ bool has_tolerances(const SimplifyOptions& options) {
   return !options.tolerances.values.empty() || options.tolerances.source != nullptr;
 }
 
-bool has_own_bounds(const HeightField& field, const SimplifyOptions& options) {
+bool has_own_bounds(const SimplifyOptions& options, bool is_streamed) {
   const Tolerances& asked = options.tolerances;
-  return field.samples != nullptr && !(asked.weights.empty() && asked.values.empty() && asked.ignored.empty());
+  return !is_streamed && !(asked.weights.empty() && asked.values.empty() && asked.ignored.empty());
 }
 
 double asked_bound(const SimplifyOptions& options, std::optional<double> max_error, Point at, std::int32_t cols) {
@@ -183,11 +183,11 @@ std::vector<MetricField> Criterion::metric_fields() const {
 }
 
 Result<void> Criterion::set_bounds() {
-  if (has_source_bounds(*field_, *options_)) {
+  if (has_source_bounds(*options_, field_->samples == nullptr)) {
     source_bounds_ = std::make_unique<SourceBounds>(*options_, rule(), factor_);
     return {};
   }
-  if (!has_own_bounds(*field_, *options_)) return {};
+  if (!has_own_bounds(*options_, field_->samples == nullptr)) return {};
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   bounds_.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {

@@ -21,7 +21,7 @@ namespace scarp {
 /// True if samples have tolerances of their own, in memory or in a source.
 bool has_tolerances(const SimplifyOptions& options);
 /// True if samples in memory have bounds of their own, by tolerances or weights, or because some are ignored.
-bool has_own_bounds(const HeightField& field, const SimplifyOptions& options);
+bool has_own_bounds(const SimplifyOptions& options, bool is_streamed);
 /// The bound that tolerances, weights and `max_error` (nothing: none of all samples) set at a sample of a raster in
 /// memory; +infinity for none.
 double asked_bound(const SimplifyOptions& options, std::optional<double> max_error, Point at, std::int32_t cols);

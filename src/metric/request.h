@@ -23,6 +23,14 @@ struct Request : SimplifyOptions {
         strategy(options.strategy) {}
 
   Strategy strategy;
+  bool chose_effort = false;  ///< the effort was not asked for
 };
+
+inline bool has_budget(const SimplifyOptions& options) {
+  return options.goals.max_triangles || options.goals.max_vertices;
+}
+inline bool has_lines(const SimplifyOptions& options) {
+  return options.features.have_lines() || !options.features.cutline.rings.empty();
+}
 
 }  // namespace scarp

@@ -12,10 +12,9 @@ constexpr float kNoBound = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-bool has_source_bounds(const HeightField& field, const SimplifyOptions& options) {
+bool has_source_bounds(const SimplifyOptions& options, bool is_streamed) {
   const Tolerances& asked = options.tolerances;
-  return asked.source != nullptr || asked.weights_source != nullptr ||
-         (field.samples == nullptr && !asked.ignored.empty());
+  return asked.source != nullptr || asked.weights_source != nullptr || (is_streamed && !asked.ignored.empty());
 }
 
 SourceBounds::SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor)

@@ -17,7 +17,7 @@
 namespace scarp {
 
 /// True if streamed samples have bounds of their own.
-bool has_source_bounds(const HeightField& field, const SimplifyOptions& options);
+bool has_source_bounds(const SimplifyOptions& options, bool is_streamed);
 
 class SourceBounds {
  public:

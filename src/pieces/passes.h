@@ -2,7 +2,7 @@
 //
 //     seed → insert constraints → refine → fit
 //
-// Each prepares the piece for the next. The plan of a run decides which passes run, and with which goals.
+// Each prepares the piece for the next. The recipe of a run decides which passes run, and with which goals.
 #pragma once
 
 #include <cstdint>

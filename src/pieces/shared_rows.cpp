@@ -10,7 +10,7 @@
 #include "geom/exact_error.h"
 #include "grid/vertex_lattice.h"
 #include "pieces/border_chain.h"
-#include "pieces/tile_plan.h"
+#include "pieces/tiling.h"
 
 namespace scarp {
 
@@ -137,9 +137,9 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
   std::vector<std::int32_t> kept;
   if (vertices.empty()) {
     // The row beyond may be of tiles.
-    const TilePlan plan(field.cols, field.rows, side);
-    for (std::size_t tile = 0; tile < plan.per_row(); ++tile) {
-      const TileWindow window = plan.window(tile);
+    const Tiling tiling(field.cols, field.rows, side);
+    for (std::size_t tile = 0; tile < tiling.per_row(); ++tile) {
+      const TileWindow window = tiling.window(tile);
       SCARP_TRY(const auto& chain, simplify_border(field, {window.col, around, window.cols - 1, false}, threshold));
       if (tile > 0) kept.push_back(window.col);
       for (const std::int32_t step : chain) kept.push_back(window.col + step);

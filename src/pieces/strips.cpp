@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "lines/cut_away.h"
 #include "metric/sample_metric.h"
-#include "pieces/effort.h"
 #include "pieces/passes.h"
 #include "pieces/shared_rows.h"
 #include "pieces/strip_lines.h"
@@ -25,12 +24,13 @@ constexpr std::uint64_t kAimBytesPerSample = sizeof(float);
 /// Every strip's vertices on the same lattice, whatever its own extent.
 bool has_room(const HeightField& field) { return std::max(field.cols, field.rows) <= kMaxCoordinate / kLatticeSteps; }
 
-FitOptions strip_fit(const Plan& plan, double threshold) {
-  FitOptions fit = fit_options(plan.field, plan.options, threshold);
-  fit.threads = plan.options.run.threads;
-  fit.vertices_are_free = fit.vertices_are_free && has_room(plan.field);
+FitOptions strip_fit(const Recipe& recipe, double threshold) {
+  FitOptions fit = recipe.fit;
+  fit.threshold = threshold;
+  fit.threads = recipe.options.run.threads;
+  fit.vertices_are_free = fit.vertices_are_free && has_room(recipe.field);
   fit.goes_on = false;
-  if (plan.options.quality.shape.any()) {
+  if (recipe.options.quality.shape.any()) {
     fit.depth = {};
     fit.vertices_are_free = false;
   }
@@ -40,12 +40,12 @@ FitOptions strip_fit(const Plan& plan, double threshold) {
 /// The passes over one strip after the other.
 class StripWork {
  public:
-  StripWork(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
+  StripWork(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
             std::int32_t side, StripTotals& totals)
       : bounds_(bounds),
-        goals_{threshold, plan.fits_pieces && plan.releases_starts, plan.options.run.threads},
+        goals_{threshold, recipe.fits_pieces && recipe.releases_starts, recipe.options.run.threads},
         side_(side),
-        fit_(plan.fits_pieces ? std::optional(strip_fit(plan, threshold)) : std::nullopt),
+        fit_(recipe.fits_pieces ? std::optional(strip_fit(recipe, threshold)) : std::nullopt),
         totals_(totals) {
     if (lines != nullptr) lines_.emplace(*lines);
   }
@@ -131,25 +131,25 @@ class StripWork {
 
 }  // namespace
 
-void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
+void work_by_strips(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
                     StripTotals& totals, TiledOptions& tiles) {
-  const auto threads = static_cast<std::uint64_t>(thread_count(plan.options.run.threads));
-  if (plan.fits_pieces) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
+  const auto threads = static_cast<std::uint64_t>(thread_count(recipe.options.run.threads));
+  if (recipe.fits_pieces) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
   if (bounds != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
   if (bounds != nullptr || lines != nullptr)
     tiles.finish_bytes_per_vertex = std::max(tiles.finish_bytes_per_vertex, kRefinementBytesPerVertex);
-  if (lines != nullptr && tiles.tile_side == 0) tiles.tile_side = strip_side(plan);
-  const auto work = std::make_shared<StripWork>(plan, lines, bounds, threshold, tiles.tile_side, totals);
+  if (lines != nullptr && tiles.tile_side == 0) tiles.tile_side = strip_side(recipe);
+  const auto work = std::make_shared<StripWork>(recipe, lines, bounds, threshold, tiles.tile_side, totals);
   tiles.is_made_whole = [work](std::int32_t first, std::int32_t rows) { return work->makes_whole(first, rows); };
-  tiles.finish_row = [work, progress = tiles.progress](Piece& strip) { return work->work_on(strip, progress); };
+  tiles.finish_strip = [work, progress = tiles.progress](Piece& strip) { return work->work_on(strip, progress); };
 }
 
-std::int32_t strip_side(const Plan& plan) {
+std::int32_t strip_side(const Recipe& recipe) {
   TiledOptions tiles;
-  tiles.memory = plan.memory;
-  if (plan.has_source_bounds) tiles.finish_bytes_per_sample = kAimBytesPerSample;
-  tiles.finish_row = [](Piece&) -> Result<void> { return fail(ErrorKind::kInternal, "no strip is there yet"); };
-  return streamed_side(plan.field, tiles);
+  tiles.memory = recipe.memory;
+  if (recipe.has_source_bounds) tiles.finish_bytes_per_sample = kAimBytesPerSample;
+  tiles.finish_strip = [](Piece&) -> Result<void> { return fail(ErrorKind::kInternal, "no strip is there yet"); };
+  return streamed_side(recipe.field, tiles);
 }
 
 }  // namespace scarp

@@ -11,7 +11,7 @@
 
 #include "lines/constraints.h"
 #include "metric/source_bounds.h"
-#include "pieces/plan.h"
+#include "pieces/recipe.h"
 #include "pieces/tiled.h"
 
 namespace scarp {
@@ -25,14 +25,14 @@ struct StripTotals {
   bool is_cut_short = false;  ///< by the time: strips that come later stay as they are
 };
 
-/// Makes refine_tiled() work on each strip with the passes of the plan: constraints of `lines` (null: none), bounds of
-/// samples (null: the threshold holds for all), the plan's effort; and adds to `totals`. Effort kMax does not continue
-/// until a time is up, as the first strip would use it all. Progress is reported through the present `tiles.progress`.
-/// All stay alive.
-void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
+/// Makes refine_tiled() work on each strip with the passes of the recipe: constraints of `lines` (null: none), bounds
+/// of samples (null: the threshold holds for all), the recipe's effort; and adds to `totals`. Effort kMax does not
+/// continue until a time is up, as the first strip would use it all. Progress is reported through the present
+/// `tiles.progress`. All stay alive.
+void work_by_strips(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
                     StripTotals& totals, TiledOptions& tiles);
 
 /// The side of tiles of such a run, which cuts lines where strips meet.
-std::int32_t strip_side(const Plan& plan);
+std::int32_t strip_side(const Recipe& recipe);
 
 }  // namespace scarp

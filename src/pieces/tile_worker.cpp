@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "pieces/border_chain.h"
-#include "pieces/tile_plan.h"
+#include "pieces/tiling.h"
 #include "refine/dominant.h"
 #include "refine/lazy_levels.h"
 #include "refine/tile_domain.h"

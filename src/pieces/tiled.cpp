@@ -7,9 +7,9 @@
 #include "base/parallel.h"
 #include "grid/bands.h"
 #include "pieces/border_chain.h"
-#include "pieces/tile_plan.h"
 #include "pieces/tile_room.h"
 #include "pieces/tile_worker.h"
+#include "pieces/tiling.h"
 #include "tin/assembly.h"
 
 namespace scarp {
@@ -28,19 +28,19 @@ std::int32_t side_for(double density) {
 
 /// From the borders that tiles of 256 samples would have; from the raster's own where there would be none.
 Result<double> estimate_density(const HeightField& field, double threshold, int threads) {
-  const TilePlan plan(field.cols, field.rows, 256);
-  const bool is_alone = plan.count() == 1;
+  const Tiling tiling(field.cols, field.rows, 256);
+  const bool is_alone = tiling.count() == 1;
   struct Border {
     Result<void> status;
     std::size_t kept = 0;
     std::int64_t steps = 0;
   };
-  std::vector<Border> borders(plan.count());
-  parallel_for(plan.count(), threads, [&](std::size_t i) {
+  std::vector<Border> borders(tiling.count());
+  parallel_for(tiling.count(), threads, [&](std::size_t i) {
     Border& border = borders[i];
-    const SharedSides shared = plan.shared(i);
+    const SharedSides shared = tiling.shared(i);
     for (const BorderLine& line :
-         shared_lines(plan.window(i), {shared.left || is_alone, shared.top || is_alone, is_alone, is_alone})) {
+         shared_lines(tiling.window(i), {shared.left || is_alone, shared.top || is_alone, is_alone, is_alone})) {
       const auto chain = simplify_border(field, line, threshold);
       if (!chain) {
         border.status = tl::unexpected(chain.error());
@@ -102,60 +102,60 @@ class StripSource final : public SampleSource {
 };
 
 /// Strips are read and finished one after the other.
-bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
-  return is_in_file(field) || options.finish_row != nullptr;
+bool goes_by_strips(const HeightField& field, const TiledOptions& options) {
+  return is_in_file(field) || options.finish_strip != nullptr;
 }
 
 /// Bytes of a strip that is read: its samples, and if it is finished a copy and the memory of finishing.
 std::uint64_t bytes_per_sample(const TiledOptions& options) {
-  return options.finish_row ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
+  return options.finish_strip ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
 }
 
 /// Bytes of the samples of the highest strip, where they are read by rows.
-std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
+std::uint64_t strip_bytes(const HeightField& field, const Tiling& tiling) {
   std::int32_t rows = 0;
-  for (std::size_t i = 0; i < plan.count(); i += plan.per_row()) rows = std::max(rows, plan.window(i).rows);
+  for (std::size_t i = 0; i < tiling.count(); i += tiling.per_row()) rows = std::max(rows, tiling.window(i).rows);
   return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
 }
 
 /// Bytes of a thread's buffers and finished tiles that wait, in addition to their vertices: some twice the samples of a
 /// tile.
-std::uint64_t worker_bytes(const TilePlan& plan) {
-  const TileWindow window = plan.window(0);
+std::uint64_t worker_bytes(const Tiling& tiling) {
+  const TileWindow window = tiling.window(0);
   return 2 * sizeof(float) * static_cast<std::uint64_t>(window.cols) * static_cast<std::uint64_t>(window.rows);
 }
 
 /// One run over all tiles.
 class TiledRun {
  public:
-  TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan, double density)
+  TiledRun(const HeightField& field, const TiledOptions& options, const Tiling& tiling, double density)
       : options_(options),
-        plan_(plan),
+        tiling_(tiling),
         density_(density),
-        is_streamed_(goes_by_rows(field, options)),
+        is_streamed_(goes_by_strips(field, options)),
         band_(field),
         field_(is_streamed_ ? band_.view() : field),
-        step_(is_streamed_ ? plan.per_row() : plan.count()),
-        threads_(options.memory.threads_within(worker_bytes(plan), thread_count(options.threads))),
+        step_(is_streamed_ ? tiling.per_row() : tiling.count()),
+        threads_(options.memory.threads_within(worker_bytes(tiling), thread_count(options.threads))),
         workers_(static_cast<std::size_t>(threads_)),
-        outcomes_(plan.count()),
-        assembly_(options.finish_row ? 1 : plan.per_row()),
-        row_(plan.per_row()) {
-    // finish_row may copy the samples of its strip.
-    if (is_streamed_) base_bytes_ += row_bytes(field, plan) / sizeof(float) * bytes_per_sample(options);
-    base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
+        outcomes_(tiling.count()),
+        assembly_(options.finish_strip ? 1 : tiling.per_row()),
+        strip_(tiling.per_row()) {
+    // finish_strip may copy the samples of its strip.
+    if (is_streamed_) base_bytes_ += strip_bytes(field, tiling) / sizeof(float) * bytes_per_sample(options);
+    base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(tiling);
   }
 
   Result<std::optional<Tiled>> execute() {
     SCARP_RETURN_IF_ERROR(options_.memory.check_start(base_bytes_));
-    for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step_) {
+    for (std::size_t first = 0; first < tiling_.count() && status_ && !is_unsuited_; first += step_) {
       if (is_streamed_) status_ = load_rows(first);
-      const TileWindow window = plan_.window(first);
+      const TileWindow window = tiling_.window(first);
       const bool is_made_whole = options_.is_made_whole && options_.is_made_whole(window.row, window.rows);
       if (status_ && !is_made_whole) refine(first, step_);
-      if (status_ && !is_unsuited_ && options_.finish_row)
-        status_ =
-            finish_row(window, is_made_whole, static_cast<double>(first + step_) / static_cast<double>(plan_.count()));
+      if (status_ && !is_unsuited_ && options_.finish_strip)
+        status_ = finish_strip(window, is_made_whole,
+                               static_cast<double>(first + step_) / static_cast<double>(tiling_.count()));
     }
     SCARP_RETURN_IF_ERROR(status_);
     if (is_unsuited_) return std::optional<Tiled>();
@@ -175,7 +175,7 @@ class TiledRun {
  private:
   /// With the row above and the row below: borders examine the cells on both sides.
   Result<void> load_rows(std::size_t tile) {
-    const TileWindow window = plan_.window(tile);
+    const TileWindow window = tiling_.window(tile);
     const std::int32_t first = std::max(window.row - 1, 0);
     return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
   }
@@ -195,13 +195,13 @@ class TiledRun {
   /// Up to the first tile for which there is no room, which is returned, or `end`.
   std::size_t refine(std::size_t first, std::size_t end, int threads) {
     std::size_t refused = end;
-    TileRoom room(options_.memory, base_bytes_, assembly_.vertex_count() + row_.vertex_count(), threads);
+    TileRoom room(options_.memory, base_bytes_, assembly_.vertex_count() + strip_.vertex_count(), threads);
     parallel_in_order(
         end - first, threads,
         [&](std::size_t i, std::size_t worker) {
           const std::size_t tile = first + i, most = room.begin();
-          outcomes_[tile] = workers_[worker].refine(field_, plan_.window(tile), plan_.shared(tile), options_.threshold,
-                                                    density_, most);
+          outcomes_[tile] = workers_[worker].refine(field_, tiling_.window(tile), tiling_.shared(tile),
+                                                    options_.threshold, density_, most);
           room.end(most, outcomes_[tile]->piece.points.size());
         },
         [&](std::size_t i) {
@@ -218,15 +218,15 @@ class TiledRun {
   /// much.
   Result<void> refuse(std::size_t tile) const {
     const MemoryBudget& memory = options_.memory;
-    const std::uint64_t before = assembly_.vertex_count() + row_.vertex_count(),
+    const std::uint64_t before = assembly_.vertex_count() + strip_.vertex_count(),
                         each = TileRoom::bytes_per_vertex(memory);
     const std::uint64_t taken = std::min(memory.rest(), base_bytes_ + before * memory.per_vertex);
     const std::uint64_t most = (memory.rest() - taken) / each + 1;
-    const TileWindow window = plan_.window(tile);
+    const TileWindow window = tiling_.window(tile);
     const double samples = static_cast<double>(window.cols) * window.rows;
     const double expected = static_cast<double>(before) + std::min(samples, 4 * static_cast<double>(most));
     const double share = static_cast<double>(before + most) / expected * static_cast<double>(tile + 1) /
-                         static_cast<double>(plan_.count());
+                         static_cast<double>(tiling_.count());
     return memory.check_mesh(base_bytes_ + (each - memory.per_vertex) * most, before + most, share);
   }
 
@@ -234,21 +234,21 @@ class TiledRun {
     status_ = outcome.status;
     is_unsuited_ = outcome.is_unsuited;
     if (!status_ || is_unsuited_) return false;
-    if (assembly_.triangle_count() + row_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
+    if (assembly_.triangle_count() + strip_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
       status_ = fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
       return false;
     }
     add(work_, outcome.work);
-    if (options_.finish_row) {
+    if (options_.finish_strip) {
       outcome.piece.first.y = 0;
-      row_.append(outcome.piece);
+      strip_.append(outcome.piece);
     } else {
       assembly_.append(outcome.piece);
       keep_heights(outcome.heights);
     }
-    const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
-    const std::uint64_t vertices = assembly_.vertex_count() + row_.vertex_count();
-    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(row_.vertex_count()), vertices, share);
+    const double share = static_cast<double>(tile + 1) / static_cast<double>(tiling_.count());
+    const std::uint64_t vertices = assembly_.vertex_count() + strip_.vertex_count();
+    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(strip_.vertex_count()), vertices, share);
         !status_)
       return false;
     if (options_.progress && !options_.progress(share, vertices))
@@ -256,18 +256,18 @@ class TiledRun {
     return status_.has_value();
   }
 
-  /// Beyond those of so many vertices of the row as such.
+  /// Beyond those of so many vertices of the strip as such.
   std::uint64_t finish_bytes(std::uint64_t vertices) const {
     const std::uint64_t whole = options_.finish_bytes_per_vertex, mesh = options_.memory.per_vertex;
     return (std::max(whole, mesh) - mesh) * vertices;
   }
 
   /// `share`: of the tiles, when it is done.
-  Result<void> finish_row(const TileWindow& window, bool is_made_whole, double share) {
+  Result<void> finish_strip(const TileWindow& window, bool is_made_whole, double share) {
     const Raster samples = band_.raster(window.row, window.rows);
     const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
     std::vector<HalfEdge> seams;
-    Piece strip{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : row_.finish(seams),
+    Piece strip{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : strip_.finish(seams),
                 has_above, has_below,  band_.raster(window.row - has_above, window.rows + has_above + has_below)};
     strip.check = [this, share](std::uint64_t vertices, double, double) -> Result<void> {
       const std::uint64_t all = assembly_.vertex_count() + vertices;
@@ -275,8 +275,8 @@ class TiledRun {
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       return options_.memory.check_mesh(base_bytes_ + finish_bytes(vertices), all, share);
     };
-    row_ = Assembly(plan_.per_row());
-    SCARP_RETURN_IF_ERROR(options_.finish_row(strip));
+    strip_ = Assembly(tiling_.per_row());
+    SCARP_RETURN_IF_ERROR(options_.finish_strip(strip));
     const Triangulation& tin = strip.tin;
     const VertexLattice& lattice = strip.lattice;
     assert(window.row == 0 || lattice.steps == steps_);
@@ -306,7 +306,7 @@ class TiledRun {
 
   const TiledOptions& options_;
   std::uint64_t base_bytes_ = 0;  // bytes used whatever the mesh
-  TilePlan plan_;
+  Tiling tiling_;
   double density_;
   bool is_streamed_;
   StripSource band_;
@@ -315,8 +315,8 @@ class TiledRun {
   int threads_;
   std::vector<TileWorker> workers_;
   std::vector<std::optional<TileOutcome>> outcomes_;
-  Assembly assembly_;  // assembly of tiles, or of finished rows
-  Assembly row_;       // assembly of tiles whose row is not finished
+  Assembly assembly_;  // assembly of tiles, or of finished strips
+  Assembly strip_;     // assembly of tiles whose strip is not finished
   std::vector<float> heights_;
   std::vector<std::uint8_t> fixed_;
   std::int32_t steps_ = 1;
@@ -330,8 +330,8 @@ class TiledRun {
 /// Strips fit a quarter of the memory, half with their post-processing. That pays for each line between two strips.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
-  std::int32_t side = options.finish_row ? 1024 : 512;
-  const std::uint64_t parts = options.finish_row ? 2 : 4;
+  std::int32_t side = options.finish_strip ? 1024 : 512;
+  const std::uint64_t parts = options.finish_strip ? 2 : 4;
   const auto bytes = [&] {
     return bytes_per_sample(options) * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side);
   };
@@ -340,15 +340,15 @@ std::int32_t streamed_side(const HeightField& field, const TiledOptions& options
 }
 
 std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side) {
-  const TilePlan plan(field.cols, field.rows, side);
+  const Tiling tiling(field.cols, field.rows, side);
   std::vector<std::int32_t> rows;
-  for (std::size_t tile = plan.per_row(); tile < plan.count(); tile += plan.per_row())
-    rows.push_back(plan.window(tile).row);
+  for (std::size_t tile = tiling.per_row(); tile < tiling.count(); tile += tiling.per_row())
+    rows.push_back(tiling.window(tile).row);
   return rows;
 }
 
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
-  const bool is_streamed = goes_by_rows(field, options);
+  const bool is_streamed = goes_by_strips(field, options);
   double density = 0;
   if (!is_streamed) {
     SCARP_TRY(density, estimate_density(field, options.threshold, options.threads));
@@ -356,7 +356,7 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
   std::int32_t side = options.tile_side;
   if (options.may_decline && !is_streamed && density < kLeastDensity) return std::optional<Tiled>();
   if (side == 0) side = is_streamed ? streamed_side(field, options) : side_for(density);
-  return TiledRun(field, options, TilePlan(field.cols, field.rows, side), density).execute();
+  return TiledRun(field, options, Tiling(field.cols, field.rows, side), density).execute();
 }
 
 Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const Point> on_sides,
@@ -367,7 +367,7 @@ Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const 
   field.cols = raster.cols;
   field.rows = raster.rows;
   const MemoryBudget& memory = options.memory;
-  const std::uint64_t bytes = worker_bytes(TilePlan(raster.cols, raster.rows, std::max(raster.cols, raster.rows)));
+  const std::uint64_t bytes = worker_bytes(Tiling(raster.cols, raster.rows, std::max(raster.cols, raster.rows)));
   SCARP_RETURN_IF_ERROR(memory.check_start(bytes));
   const std::uint64_t room = memory.rest() - std::min(memory.rest(), bytes);
   const std::size_t most =

@@ -42,13 +42,13 @@ struct TiledOptions {
   MemoryBudget memory = {};
   /// Called on the calling thread for each strip in turn. Its result is final: release_seams() must not follow. EMPTY:
   /// strips stay as they are.
-  std::function<Result<void>(Piece& strip)> finish_row = {};
-  /// True if finish_row makes the whole mesh of `rows` rows of samples from `first` on. Tiles are not refined there.
+  std::function<Result<void>(Piece& strip)> finish_strip = {};
+  /// True if finish_strip makes the whole mesh of `rows` rows of samples from `first` on. Tiles are not refined there.
   /// EMPTY: of none.
   std::function<bool(std::int32_t first, std::int32_t rows)> is_made_whole = {};
-  std::uint64_t finish_bytes_per_vertex = 0;  ///< bytes of finishing, for each vertex of the row, the row's mesh
+  std::uint64_t finish_bytes_per_vertex = 0;  ///< bytes of finishing, for each vertex of the strip, the strip's mesh
                                               ///< included
-  std::uint64_t finish_bytes_per_sample = 0;  ///< bytes of finishing in addition to a copy of the row's samples
+  std::uint64_t finish_bytes_per_sample = 0;  ///< bytes of finishing in addition to a copy of the strip's samples
   /// Receives the share of finished tiles and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
 };
@@ -56,7 +56,7 @@ struct TiledOptions {
 struct Tiled {
   DomainMesh domain;
   std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
-  std::vector<float> heights;   ///< heights of the vertices, where rows were finished, or the field has a source for
+  std::vector<float> heights;   ///< heights of the vertices, where strips were finished, or the field has a source for
                                 ///< samples
   std::int32_t steps = 1;       ///< number of steps of the domain's points between two samples
   /// For each vertex: 1 if fixed while its strip was finished; EMPTY: none is.
@@ -69,10 +69,10 @@ struct Tiled {
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options);
 std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side);
 
-/// If the field's source is not in memory, or rows are finished, one strip after the other is read and
+/// If the field's source is not in memory, or strips are finished, one strip after the other is read and
 /// refined.
 ///
-/// Every sample of the surface lies within `threshold` of the triangulation, if finish_row() keeps it. Nothing where
+/// Every sample of the surface lies within `threshold` of the triangulation, if finish_strip() keeps it. Nothing where
 /// heights span magnitudes beyond exact arithmetic, and where it may decline. Fails as the field's source does; with
 /// kInput if no cell is surface or the triangles are too many; with kUsage if the memory is too little; kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);

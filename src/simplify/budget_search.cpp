@@ -7,8 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include "base/clock.h"
 #include "metric/criterion.h"
-#include "pieces/goals.h"
+#include "pieces/budget.h"
 #include "simplify/pass_work.h"
 #include "simplify/search_progress.h"
 
@@ -52,12 +53,6 @@ double power_between(const Sight& a, const Sight& b, double usual) {
   return run == 0 ? usual : std::clamp((b.used - a.used) / run, 0.3, 20.0);
 }
 
-SimplifyOptions without_effort(SimplifyOptions options) {
-  options.quality.effort = Effort::kFast;
-  options.goals.objective = Objective::kMax;  // the search's objective, not a run's
-  return options;
-}
-
 }  // namespace
 
 BudgetNumber::BudgetNumber(const SimplifyOptions& options) : options_(options), is_factor_(has_tolerances(options)) {}
@@ -97,12 +92,12 @@ SimplifyOptions with_half_a_budget(SimplifyOptions options) {
 
 class BudgetSearch {
  public:
-  BudgetSearch(const SimplifyOptions& options, const BudgetTask& task)
+  BudgetSearch(const SimplifyOptions& options, const BudgetTask& task, bool refines_only)
       : options_(options),
         task_(task),
         budget_(options),
         progress_(options.run.progress),
-        has_effort_(options.quality.effort != Effort::kFast),
+        has_effort_(task.traits.fits && !refines_only),
         number_(options),
         is_factor_(number_.is_factor()),
         floor_(is_factor_ ? 1 : options.goals.max_error.value_or(0)),
@@ -136,15 +131,15 @@ class BudgetSearch {
  private:
   /// The refusal of a budget that is too small is that of this run.
   Result<void> begin_without_effort() {
-    const SimplifyOptions fast = without_effort(options_);
+    SimplifyOptions fast = options_;
+    fast.goals.objective = Objective::kMax;  // the search's objective, not a run's
     Result<Simplified> made;
     if (task_.insertion_stops) {
-      made = run(fast, 1, 0.1);
+      made = run(fast, {.refines_only = true}, 0.1);
     } else {
       if (!progress_.begin(0.1)) return fail(ErrorKind::kCancelled, kCancelled);
-      SimplifyOptions searched = fast;
-      searched.run.progress = progress_.of_run(false);
-      BudgetSearch search(searched, task_);
+      fast.run.progress = progress_.of_run(false);
+      BudgetSearch search(fast, task_, true);
       made = search.execute();
       no_room_ = search.no_room();
       has_mesh_ = made.has_value();
@@ -162,7 +157,7 @@ class BudgetSearch {
 
   Result<void> begin_with_least_mesh() {
     const double most = std::max(task_.most(), floor_);
-    SCARP_TRY(auto&& least, run(number_.towards(most), number_.factor_of(most), 0.1));
+    SCARP_TRY(auto&& least, run(number_.towards(most), {.factor = number_.factor_of(most), .refines_only = true}, 0.1));
     const MeshSize size{least.mesh.vertex_count(), least.mesh.triangle_count()};
     SCARP_RETURN_IF_ERROR(budget_.check(size, task_.least, ""));
     best_ = std::move(least);
@@ -225,9 +220,10 @@ class BudgetSearch {
   }
 
   Result<double> expect_by_refinement(double number) {
-    SimplifyOptions refine = without_effort(number_.towards(number));
+    SimplifyOptions refine = number_.towards(number);
     refine.output.normals = refine.output.uvs = false;
-    const auto made = run(std::move(refine), number_.factor_of(number), 0.05, Budget(0, 0));
+    const Scale scale{.factor = number_.factor_of(number), .room = Budget(0, 0), .refines_only = true};
+    const auto made = run(std::move(refine), scale, 0.05);
     if (!made && made.error().kind == ErrorKind::kPromise) return std::log(pace_.aim);
     SCARP_RETURN_IF_ERROR(made);
     add_work(*made, others_);
@@ -241,7 +237,7 @@ class BudgetSearch {
     const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
     const bool is_free = options_.quality.vertices != Vertices::kSamples;
     double kept = is_free ? 0.26 + 0.35 * std::sqrt(density) : 0.33 + 0.4 * std::sqrt(density);
-    if (options_.quality.effort == Effort::kNormal) kept = 0.52 + 0.2 * density;
+    if (!task_.traits.moves_vertices) kept = 0.52 + 0.2 * density;
     return std::log(kept * used_by(refined));
   }
 
@@ -284,7 +280,8 @@ class BudgetSearch {
   /// A run with the whole effort. Keeps the better mesh.
   Result<void> look(double number) {
     ++runs_;
-    auto made = run(number_.towards(number), number_.factor_of(number), 0.35, budget_);
+    const Scale scale{.factor = number_.factor_of(number), .room = budget_, .refines_only = !has_effort_};
+    auto made = run(number_.towards(number), scale, 0.35);
     if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
     const double used = made ? used_by(*made) : std::numeric_limits<double>::infinity();
     if (made && used > 1) add_work(*made, others_);
@@ -337,12 +334,11 @@ class BudgetSearch {
 
   bool is_better(const Simplified& made) const { return rank(options_, made) < rank(options_, best_); }
 
-  /// `room`: see Scale.
-  Result<Simplified> run(SimplifyOptions options, double factor, double share, std::optional<Budget> room = {}) {
+  Result<Simplified> run(SimplifyOptions options, const Scale& scale, double share) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, kCancelled);
-    options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
+    options.run.progress = progress_.of_run(!scale.refines_only);
     options.run.memory.taken += kMeshBytesPerVertex * best_.mesh.vertex_count();
-    auto made = task_.run(options, {.factor = factor, .room = room});
+    auto made = task_.run(options, scale);
     if (!made && has_mesh_ && !task_.insertion_stops) excuse(made.error());
     has_mesh_ = has_mesh_ || made.has_value();
     return made;
@@ -389,11 +385,11 @@ class BudgetSearch {
 
 }  // namespace
 
-Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task) {
-  BudgetSearch search(options, task);
+Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task, bool refines_only) {
+  BudgetSearch search(options, task, refines_only);
   auto made = search.execute();
   if (made && search.has_jumped() && !made->is_cut_short && made->mesh.triangle_count() < kFewTriangles) {
-    auto smaller = search_budget(with_half_a_budget(options), task);
+    auto smaller = search_budget(with_half_a_budget(options), task, refines_only);
     if (!smaller && smaller.error().kind == ErrorKind::kCancelled) return smaller;
     if (smaller && rank(options, *smaller) < rank(options, *made)) return smaller;
   }

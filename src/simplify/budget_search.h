@@ -13,14 +13,14 @@
 #include <functional>
 #include <string>
 
-#include "pieces/plan.h"
+#include "pieces/recipe.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 
 namespace scarp {
 
 /// simplify() without a search: towards the bounds of `options`, by the scale, whose line error is known; or, if
-/// BudgetTask::insertion_stops, towards budgets with fast effort.
+/// BudgetTask::insertion_stops, towards budgets where the scale refines only.
 using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options, const Scale& scale)>;
 
 /// The number that is searched for.
@@ -41,6 +41,7 @@ class BudgetNumber {
 
 struct BudgetTask {
   RunOnce run;
+  EffortTraits traits = {};                    ///< the work of a run that does not only refine
   bool insertion_stops = true;                 ///< at budgets
   std::function<double()> most = {};           ///< a number that gives the least mesh
   std::string least = "the least mesh needs";  ///< the subject of the refusal of a budget that the least mesh exceeds
@@ -59,8 +60,8 @@ struct BudgetTask {
 /// effort, mostly two or three, or kMostRunsFromLeast from the least mesh on. Memory: the best mesh so far in addition
 /// to a run. Progress is that of one pass, "search". Fails as `run` does, and with kUsage, and the least number that
 /// would do, where the least mesh exceeds a budget; a bound that cannot be kept (kPromise) only ends what lies below
-/// it. REQUIRES: a budget.
-Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task);
+/// it. `refines_only`: with fast effort, whatever the task's is. REQUIRES: a budget.
+Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task, bool refines_only = false);
 
 inline constexpr int kMostRuns = 12, kMostRunsFromLeast = 20;
 

@@ -9,8 +9,8 @@
 #include "grid/bands.h"
 #include "grid/source_failure.h"
 #include "metric/criterion.h"
-#include "pieces/effort.h"
-#include "simplify/once.h"
+#include "pieces/checks.h"
+#include "simplify/run.h"
 
 namespace scarp {
 
@@ -79,7 +79,9 @@ ToleranceRange range_of(std::span<const float> values, const SampleSource* sourc
 }
 
 /// A max error, or a factor of all tolerances, at which no sample needs a vertex for its bound, unless that is 0.
-double largest_number(const HeightField& field, const SimplifyOptions& options, const ToleranceRange& tolerances) {
+double largest_number(const Recipe& recipe, const ToleranceRange& tolerances) {
+  const HeightField& field = recipe.field;
+  const SimplifyOptions& options = recipe.options;
   const double error = largest_error(field, options);
   if (has_tolerances(options)) {
     const double max_error = options.goals.max_error.value_or(kInfinity);
@@ -91,27 +93,31 @@ double largest_number(const HeightField& field, const SimplifyOptions& options, 
 }
 
 /// The subject of a refusal: the mesh that every budget must have room for.
-std::string name_least(const SimplifyOptions& options, bool has_zeros) {
+std::string name_least(const Recipe& recipe, bool has_zeros) {
   const char* zeros = has_zeros ? " and the samples with a tolerance of 0" : "";
-  if (has_lines(options)) return std::string("the lines and the outline of the valid data") + zeros + " alone need";
-  if (options.quality.shape.any()) return std::string("the angles and edges") + zeros + " alone need";
+  if (recipe.has_lines) return std::string("the lines and the outline of the valid data") + zeros + " alone need";
+  if (recipe.options.quality.shape.any()) return std::string("the angles and edges") + zeros + " alone need";
   return std::string("the outline of the valid data and its strips") + zeros + " alone need";
 }
 
 }  // namespace
 
-BudgetTask make_budget_task(const HeightField& field, const SimplifyOptions& options) {
-  const ToleranceRange tolerances = range_of(options.tolerances.values, options.tolerances.source, field);
-  const double reach = has_lines(options) ? tolerances.largest : 0;
+BudgetTask make_budget_task(const Recipe& recipe) {
+  const Tolerances& asked = recipe.options.tolerances;
+  const ToleranceRange tolerances = range_of(asked.values, asked.source, recipe.field);
+  const double reach = recipe.has_lines ? tolerances.largest : 0;
   BudgetTask task;
-  task.run = [&field, reach](const SimplifyOptions& once, const Scale& scale) {
+  task.run = [&recipe, reach](const SimplifyOptions& options, const Scale& scale) -> Result<Simplified> {
+    SCARP_RETURN_IF_ERROR(check_values(recipe.field, options));
     Scale with_lines = scale;
     with_lines.line_error = scale.factor * reach;
-    return simplify_once(field, once, with_lines);
+    const Request request(options);
+    return run(Recipe(recipe.field, request, with_lines));
   };
-  task.insertion_stops = insertion_stops(field, options);
-  task.most = [&field, &options, tolerances] { return largest_number(field, options, tolerances); };
-  task.least = name_least(options, tolerances.has_zeros);
+  task.traits = recipe.traits;
+  task.insertion_stops = recipe.insertion_stops;
+  task.most = [&recipe, tolerances] { return largest_number(recipe, tolerances); };
+  task.least = name_least(recipe, tolerances.has_zeros);
   return task;
 }
 

@@ -11,19 +11,19 @@
 
 namespace scarp {
 
-GoalRefinement::GoalRefinement(const Plan& plan, const Raster& raster, const Criterion& criterion,
+GoalRefinement::GoalRefinement(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
                                std::span<const Point> border, Reporter& reporter)
-    : plan_(plan),
+    : recipe_(recipe),
       raster_(raster),
-      options_(plan.options),
+      options_(recipe.options),
       criterion_(criterion),
       border_(border),
       reporter_(reporter),
-      budget_(plan.options) {}
+      budget_(recipe.options) {}
 
 Result<void> GoalRefinement::start(Simplified& result) {
   const auto start = Clock::now();
-  SCARP_TRY(auto&& domain, build_domain(raster_, options_.domain.outline_tolerance, plan_.field.frame));
+  SCARP_TRY(auto&& domain, build_domain(raster_, options_.domain.outline_tolerance, recipe_.field.frame));
   take(std::move(domain));
   insert_points();
   result.passes.push_back(pass_of("domain", seconds_since(start)));
@@ -114,7 +114,7 @@ Result<void> GoalRefinement::refine(StopReason& stop) {
         reporter_.due() && !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
       return fail(ErrorKind::kCancelled, "cancelled while refining");
     if (step % 256 == 0) {
-      SCARP_RETURN_IF_ERROR(plan_.memory.check_mesh(0, vertices(), fraction(first_error)));
+      SCARP_RETURN_IF_ERROR(recipe_.memory.check_mesh(0, vertices(), fraction(first_error)));
     }
     if (const auto budget = take_step()) {
       stop = *budget;
@@ -176,7 +176,7 @@ void GoalRefinement::take_best_prefix() {
   std::vector<Point> points;
   for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(piece_->tin.point(static_cast<Vertex>(v)));
   refinement_.reset();
-  take(*build_domain(raster_, options_.domain.outline_tolerance, plan_.field.frame));
+  take(*build_domain(raster_, options_.domain.outline_tolerance, recipe_.field.frame));
   insert_points();
   std::optional<DataDependentRule> rule;
   if (options_.strategy.edges.data_dependent) rule.emplace(criterion_.metric(), options_.strategy.edges);
@@ -206,7 +206,7 @@ Result<bool> GoalRefinement::mend(std::vector<Offender> offenders, Simplified& r
   const auto is_useless = [&](const Offender& o) {
     return std::isinf(o.error) && (!raster_.is_valid({o.col, o.row}) || is_vertex(o));
   };
-  if (plan_.field.frame.space)
+  if (recipe_.field.frame.space)
     offenders.erase(std::remove_if(offenders.begin(), offenders.end(), is_useless), offenders.end());
   const auto is_locked = [this](const Offender& o) {
     return !border_.empty() && (o.col == 0 || o.row == 0 || o.col == raster_.cols - 1 || o.row == raster_.rows - 1);

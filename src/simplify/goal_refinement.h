@@ -11,9 +11,9 @@
 #include "base/reporter.h"
 #include "grid/raster.h"
 #include "metric/criterion.h"
-#include "pieces/goals.h"
+#include "pieces/budget.h"
 #include "pieces/piece.h"
-#include "pieces/plan.h"
+#include "pieces/recipe.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
 #include "scarp/measure.h"
@@ -25,7 +25,7 @@ namespace scarp {
 class GoalRefinement {
  public:
   /// `border`: the vertices of a locked border (locked_border.h); EMPTY: none. All outlive it.
-  GoalRefinement(const Plan& plan, const Raster& raster, const Criterion& criterion, std::span<const Point> border,
+  GoalRefinement(const Recipe& recipe, const Raster& raster, const Criterion& criterion, std::span<const Point> border,
                  Reporter& reporter);
 
   /// The piece is the domain with its seeds: the border and the points that the features name. Fails as build_domain().
@@ -81,7 +81,7 @@ class GoalRefinement {
   void take_best_prefix();
   void finish_edges(Simplified& result);
 
-  const Plan& plan_;
+  const Recipe& recipe_;
   const Raster& raster_;
   const Request& options_;
   const Criterion& criterion_;

@@ -3,16 +3,16 @@
 #pragma once
 
 #include "lines/field_lines.h"
+#include "pieces/recipe.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 
 namespace scarp {
 
 class LineWork {
  public:
-  /// Lines and cutline of `options`; `tolerance` as for prepare_lines(). The field and the options stay alive.
-  LineWork(const HeightField& field, const SimplifyOptions& options, double tolerance);
+  /// Lines and cutline of the recipe, which stays alive; `tolerance` as for prepare_lines().
+  LineWork(const Recipe& recipe, double tolerance) : recipe_(recipe), tolerance_(tolerance) {}
 
   /// Lines change no sample and cut nothing, all are in reach of the lattice, and there is a second thread: whoever
   /// refines tiles need not wait for them.
@@ -22,15 +22,14 @@ class LineWork {
   bool is_prepared() const { return is_prepared_; }
 
   /// REQUIRES: is_prepared(), or may_wait() of the field.
-  HeightField field() const { return lines_.apply(field_); }
+  HeightField field() const { return lines_.apply(recipe_.field); }
   /// REQUIRES: is_prepared().
   const ConstraintGraph& graph() const { return lines_.graph; }
   FieldLines& lines() { return lines_; }
   double seconds() const { return seconds_; }
 
  private:
-  const HeightField& field_;
-  const SimplifyOptions& options_;
+  const Recipe& recipe_;
   double tolerance_;
   FieldLines lines_;
   double seconds_ = 0;

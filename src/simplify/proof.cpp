@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "grid/window.h"
 #include "measure/band.h"
-#include "pieces/goals.h"
 
 namespace scarp {
 
@@ -279,15 +278,16 @@ class WindowedVerdict {
 };
 
 /// Bytes of the band that a thread judges.
-std::uint64_t band_bytes(const HeightField& field, const SimplifyOptions& options) {
+std::uint64_t band_bytes(const Recipe& recipe) {
   constexpr std::uint64_t kPerSample = 16, kOfReports = 8;
-  return (kPerSample + (has_source_bounds(field, options) ? kOfReports : 0)) * static_cast<std::uint64_t>(field.cols) *
-         static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
+  const int cols = recipe.field.cols;
+  return (kPerSample + (recipe.has_source_bounds ? kOfReports : 0)) * static_cast<std::uint64_t>(cols) *
+         static_cast<unsigned>(judge::Band::rows_per_band(cols));
 }
 
 /// The number of threads for which the memory holds bands at work.
-int threads_within(const HeightField& field, const SimplifyOptions& options) {
-  return memory_budget(field, options).threads_within(band_bytes(field, options), thread_count(options.run.threads));
+int threads_within(const Recipe& recipe) {
+  return recipe.memory.threads_within(band_bytes(recipe), thread_count(recipe.options.run.threads));
 }
 
 std::string describe_breach(const Measurement& m, const SimplifyOptions& options) {
@@ -304,20 +304,21 @@ double factor_of(const Simplified& result, const Criterion& criterion) {
 
 }  // namespace
 
-std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options) {
-  const std::uint64_t held = has_source_bounds(field, options) ? WindowedVerdict::most_held(field) : 0;
-  return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field, options) + held * sizeof(float);
+std::uint64_t proof_bytes(const Recipe& recipe) {
+  const std::uint64_t held = recipe.has_source_bounds ? WindowedVerdict::most_held(recipe.field) : 0;
+  return static_cast<std::uint64_t>(threads_within(recipe)) * band_bytes(recipe) + held * sizeof(float);
 }
 
-Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
-                    Look look, Simplified& result) {
+Result<Proof> prove(const Recipe& recipe, const Criterion& criterion, bool exact, Look look, Simplified& result) {
+  const HeightField& field = recipe.field;
+  const SimplifyOptions& options = recipe.options;
   const SourceBounds* windowed = criterion.source_bounds();
   const bool is_tallied = !criterion.bounds().empty() || !field.channels.empty() || field.height_scale != 1;
   const bool by_sample = is_tallied || windowed != nullptr;
   MeasureOptions judge;
   judge.topology = !exact && look == Look::kAll;
   if (!options.features.cutline.rings.empty()) judge.cutline = &options.features.cutline;
-  judge.run.threads = threads_within(field, options);
+  judge.run.threads = threads_within(recipe);
   judge.run.progress = options.run.progress;
   if (result.stop == StopReason::kMaxError) judge.collect_above = by_sample ? HUGE_VAL : *criterion.bound();
   Proof proof;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "metric/criterion.h"
+#include "pieces/recipe.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
@@ -23,10 +24,9 @@ enum class Look { kHeights, kAll };
 /// Fills the measurements of `result` from its mesh; searches for breaches where the error goal ended the run. `exact`:
 /// vertices lie exactly on their samples, so that a breach within the judge's own rounding is none, and the topology,
 /// which holds by construction, is omitted whatever `look` is. Fails as measure() does.
-Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
-                    Look look, Simplified& result);
+Result<Proof> prove(const Recipe& recipe, const Criterion& criterion, bool exact, Look look, Simplified& result);
 
 /// Memory of prove() whatever the mesh.
-std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options);
+std::uint64_t proof_bytes(const Recipe& recipe);
 
 }  // namespace scarp

@@ -1,380 +1,243 @@
-// The main job as a list of passes. Milestones: after the seeds, or in each tile after `start_tile`, the outline is
-// fixed; after the refinement, or after the tiles, no vertex is added, after `remove_vertices` none removed; after
-// `freeze` nothing moves; what `prove` has seen is what is returned.
 #include "simplify/run.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/parallel.h"
-#include "base/sort.h"
-#include "fit/fit.h"
+#include "base/reporter.h"
 #include "grid/samples.h"
-#include "lines/constraints.h"
-#include "metric/height_metric.h"
-#include "pieces/effort.h"
-#include "pieces/freeze.h"
-#include "pieces/goals.h"
-#include "pieces/passes.h"
-#include "pieces/release.h"
-#include "pieces/source_windows.h"
-#include "pieces/vertex_attributes.h"
-#include "refine/domain.h"
-#include "shape/shape_need.h"
-#include "shape/shape_refinement.h"
-#include "simplify/goal_refinement.h"
+#include "grid/sources/cut_source.h"
+#include "metric/criterion.h"
+#include "pieces/locked_border.h"
+#include "pieces/strips.h"
+#include "pieces/tile_worker.h"
+#include "pieces/tiled.h"
+#include "scarp/features.h"
+#include "simplify/line_work.h"
+#include "simplify/mesh_passes.h"
 #include "simplify/pass_work.h"
 #include "simplify/proof.h"
-#include "tin/border_count.h"
 
 namespace scarp {
 
 namespace {
 
-/// One run of the engine towards the goals.
-class EngineRun {
- public:
-  EngineRun(const Plan& plan, const Raster& raster, const Criterion& criterion, const ConstraintGraph* lines,
-            std::span<const Point> border)
-      : plan_(plan),
-        field_(plan.field),
-        raster_(raster),
-        options_(plan.options),
-        criterion_(criterion),
-        lines_(lines),
-        exact_(lattice_is_exact(field_, options_, lines == nullptr ? 1 : kLatticeSteps)),
-        reporter_(options_.run.progress),
-        refinement_(plan, raster, criterion, border, reporter_) {}
+/// Soft lines follow the raster to within this share of the error that they are inserted for.
+constexpr double kLineShare = 0.5;
 
-  /// In the dominant order where `tiled` is given, else greedily.
-  Result<Simplified> execute(std::optional<Tiled> tiled) {
-    const auto start = Clock::now();
-    Simplified result;
-    result.ignored = criterion_.ignored();
-    result.order = tiled ? Order::kDominant : Order::kGreedy;
-    result.effort = options_.quality.effort;
-    SCARP_RETURN_IF_ERROR(tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result));
-    SCARP_RETURN_IF_ERROR(insert_lines(result));
-    SCARP_RETURN_IF_ERROR(fit_and_shape(result));
-    SCARP_RETURN_IF_ERROR(refinement_.check_border());
-    const ShapeGoals& shape = options_.quality.shape;
-    const auto losses =
-        shape.any() ? count_losses(refinement_.piece().tin, refinement_.piece().lattice.steps, field_.frame, shape)
-                    : ShapeLosses{};
-    // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
-    // proof.
-    const bool is_final = result.stop != StopReason::kMaxError || exact_ || !refinement_.piece().lattice.are_samples();
-    if (is_final) refinement_.forget();
-    freeze_into(result, is_final);
-    result.seconds_refine += seconds_since(start);
-    if (is_useless({result.mesh.vertex_count(), result.mesh.triangle_count()})) return result;
-    if (!is_final) {
-      SCARP_RETURN_IF_ERROR(mend_ahead(result));
-      order(result);
-    }
-    SCARP_RETURN_IF_ERROR(prove_and_mend(result));
-    count_looser_outline(result);
-    if (shape.any()) result.shape = report_shapes(result.mesh, shape, losses);
+Result<Criterion> make_criterion(const Recipe& recipe, const Raster& raster) {
+  return Criterion::make(recipe.field, recipe.options, raster, recipe.aim * recipe.scale.start, recipe.scale.factor);
+}
+
+const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
+
+/// `raster`: what is refined of samples in memory.
+Result<std::optional<Tiled>> refine_tiles(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
+                                          const ConstraintGraph* lines, StripTotals& strips) {
+  const HeightField& field = recipe.field;
+  const SimplifyOptions& options = recipe.options;
+  TiledOptions tiles;
+  tiles.threshold = recipe.is_streamed ? criterion.aim() : criterion.largest_aim();
+  tiles.threads = options.run.threads;
+  tiles.memory = recipe.memory;
+  // If bounds differ, tiles are made for the largest only.
+  tiles.may_decline = !recipe.is_streamed && (options.quality.order == Order::kAuto || !criterion.bounds().empty());
+  Reporter reporter(options.run.progress);
+  if (options.run.progress) {
+    if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");
+    tiles.progress = [&](double share, std::uint64_t vertices) {
+      return !reporter.due() || reporter.report("refine", share, vertices, 0);
+    };
+  }
+  const double threshold = criterion.bound() ? criterion.aim() : recipe.aim * recipe.scale.line_error;
+  if (recipe.finishes_strips) work_by_strips(recipe, lines, criterion.source_bounds(), threshold, strips, tiles);
+  HeightField seen = field;
+  if (field.frame.space) seen.samples = raster.samples;
+  if (!recipe.is_streamed || lines == nullptr || !lines->cut) return refine_tiled(seen, tiles);
+  const CutSource near(*field.source, lines->cut->rows);
+  seen.source = &near;
+  return refine_tiled(seen, tiles);
+}
+
+/// And prepares lines that have waited for this.
+Result<std::optional<Tiled>> refine_beside_lines(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
+                                                 LineWork* lines, StripTotals& strips) {
+  if (lines == nullptr || lines->is_prepared()) return refine_tiles(recipe, raster, criterion, graph_of(lines), strips);
+  Result<void> prepared;
+  Result<std::optional<Tiled>> tiled;
+  run_beside(
+      recipe.options.run.threads, [&] { prepared = lines->prepare(); },
+      [&] { tiled = refine_tiles(recipe, raster, criterion, nullptr, strips); });
+  SCARP_RETURN_IF_ERROR(prepared);
+  return tiled;
+}
+
+/// The passes of tiles and strips, `seconds` in all.
+std::vector<Pass> list_passes(const Recipe& recipe, const Work& tiles, const StripTotals& strips, bool has_lines,
+                              double seconds) {
+  const double beside = strips.seconds_of_fit + strips.seconds_of_lines + strips.seconds_of_refinement;
+  std::vector<Pass> passes{pass_of("tiles", seconds - beside, tiles)};
+  if (recipe.finishes_strips && has_lines) passes.push_back(pass_of("lines", strips.seconds_of_lines, strips.lines));
+  if (strips.seconds_of_refinement > 0)
+    passes.push_back(pass_of("refine", strips.seconds_of_refinement, strips.refinement));
+  if (recipe.fits_strips) passes.push_back({"fit", strips.seconds_of_fit, 0, 0, 0, strips.removed});
+  return passes;
+}
+
+/// Algorithm III over the whole raster. REQUIRES: samples in memory.
+Result<Simplified> run_greedily(const Recipe& recipe, LineWork* lines) {
+  if (lines != nullptr) {
+    SCARP_RETURN_IF_ERROR(lines->prepare());
+  }
+  SCARP_TRY(auto&& samples, Samples::to_refine(recipe.field, recipe.options.run.threads));
+  const Raster raster = samples.raster();
+  SCARP_TRY(const auto& criterion, make_criterion(recipe, raster));
+  return run_passes(recipe, raster, criterion, graph_of(lines), std::nullopt);
+}
+
+/// Greedily where heights or a coarse goal make tiles of no use.
+Result<Simplified> run_by_tiles(const Recipe& recipe, LineWork* lines) {
+  const HeightField& field = recipe.field;
+  // The engine reads nodata as such; all other code that reads samples beyond the mesh's own needs them cleaned.
+  Raster raster{field.samples, field.cols, field.rows};
+  std::optional<Samples> samples;
+  if (!recipe.is_streamed && recipe.reads_beyond) {
+    SCARP_TRY(auto&& cleaned, Samples::to_refine(field, recipe.options.run.threads));
+    raster = samples.emplace(std::move(cleaned)).raster();
+  }
+  SCARP_TRY(const auto& criterion, make_criterion(recipe, raster));
+  if (!recipe.is_streamed && std::isinf(criterion.largest_aim())) return run_greedily(recipe, lines);
+  const std::uint64_t bytes = proof_bytes(recipe);
+  SCARP_RETURN_IF_ERROR(recipe.memory.check_start(bytes));
+  const auto start = Clock::now();
+  StripTotals strips;
+  SCARP_TRY(auto&& tiled, refine_beside_lines(recipe, raster, criterion, lines, strips));
+  if (!tiled) {
+    if (recipe.is_streamed)
+      return fail(ErrorKind::kInput,
+                  "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
+    return run_greedily(recipe, lines);
+  }
+  const DomainMesh& domain = tiled->domain;
+  SCARP_RETURN_IF_ERROR(recipe.memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1));
+  const double seconds = seconds_since(start);
+  const std::vector<Pass> passes = list_passes(recipe, tiled->work, strips, lines != nullptr, seconds);
+  add(tiled->work, strips.refinement);
+  const ConstraintGraph* left = recipe.finishes_strips ? nullptr : graph_of(lines);
+  SCARP_TRY(auto&& result, run_passes(recipe, raster, criterion, left, std::move(tiled)));
+  result.passes.insert(result.passes.begin(), passes.begin(), passes.end());
+  result.seconds_refine += seconds;
+  result.is_cut_short = result.is_cut_short || strips.is_cut_short;
+  return result;
+}
+
+/// The border first. REQUIRES: samples in memory.
+Result<Simplified> run_locked(const Recipe& recipe, LineWork* lines) {
+  if (lines != nullptr) {
+    SCARP_RETURN_IF_ERROR(lines->prepare());
+  }
+  const SimplifyOptions& options = recipe.options;
+  SCARP_TRY(const auto& samples, Samples::to_refine(recipe.field, options.run.threads));
+  // The border's line needs tolerances that are sound.
+  SCARP_RETURN_IF_ERROR(make_criterion(recipe, samples.raster()));
+  SCARP_TRY(const auto& border, LockedBorder::make(recipe.field, options, samples.raster()));
+  if (lines != nullptr) {
+    SCARP_RETURN_IF_ERROR(border.check(lines->graph().points, kLatticeSteps));
+  }
+  const Raster raster = border.raster();
+  SCARP_TRY(const auto& criterion, make_criterion(recipe, raster));
+  const auto start = Clock::now();
+  std::optional<Tiled> tiled;
+  if (lines == nullptr && recipe.is_dominant && !std::isinf(criterion.largest_aim())) {
+    std::vector<Point> inside;
+    for (const auto& [col, row] : options.features.points) inside.push_back({col, row});
+    TiledOptions alone;
+    alone.threshold = criterion.largest_aim();
+    alone.memory = recipe.memory;
+    if (options.run.progress && !Reporter(options.run.progress).report("refine", 0, 0, 0))
+      return fail(ErrorKind::kCancelled, "cancelled while refining");
+    SCARP_TRY(tiled, refine_alone(raster, border.vertices(), inside, alone));
+  }
+  const double seconds = seconds_since(start);
+  const auto pass = tiled ? std::optional(pass_of("tiles", seconds, tiled->work)) : std::nullopt;
+  auto result = run_passes(recipe, raster, criterion, graph_of(lines), std::move(tiled), border.vertices());
+  if (!result || !pass) return result;
+  result->passes.insert(result->passes.begin(), *pass);
+  result->seconds_refine += seconds;
+  return result;
+}
+
+Result<Simplified> run_along(const Recipe& recipe, LineWork* lines) {
+  switch (recipe.route) {
+    case Route::kLocked:
+      return run_locked(recipe, lines);
+    case Route::kTiles:
+      return run_by_tiles(recipe, lines);
+    case Route::kGreedy:
+      break;
+  }
+  return run_greedily(recipe, lines);
+}
+
+/// `lines`: to be inserted, prepared or such as may wait; null: none. A promise that free vertices break may be kept by
+/// vertices on samples.
+Result<Simplified> run_with_lines(const Recipe& recipe, LineWork* lines) {
+  auto result = run_along(recipe, lines);
+  if (result || result.error().kind != ErrorKind::kPromise || !recipe.frees_vertices ||
+      recipe.options.quality.vertices != Vertices::kAuto)
     return result;
+  Request on_samples = recipe.options;
+  on_samples.quality.vertices = Vertices::kSamples;
+  return run_along(Recipe(recipe.field, on_samples, recipe.scale), lines);
+}
+
+/// Prepares the lines of the features for the error `error` and runs with them.
+Result<Simplified> insert_features(const Recipe& recipe, double error, double seconds) {
+  SCARP_RETURN_IF_ERROR(recipe.memory.check_start(0));
+  LineWork work(recipe, kLineShare * error);
+  if (!work.may_wait()) {
+    SCARP_RETURN_IF_ERROR(work.prepare());
   }
+  SCARP_TRY(auto&& result, run_with_lines(recipe.on(work.field()), &work));
+  FieldLines* const lines = &work.lines();
+  result.passes.insert(result.passes.begin(), Pass{"arrange", seconds + work.seconds()});
+  result.edits = std::move(lines->edits);
+  result.lines_inserted = lines->inserted;
+  result.farthest_line = std::move(lines->farthest);
+  const Measurement& measured = result.measurement;
+  // If the field has a source, samples beyond a cut are nodata to refinement only.
+  const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
+  if (lines->graph.cut) result.cut_off = valid - measured.samples - measured.uncovered - measured.stray;
+  return result;
+}
 
- private:
-  Result<void> insert_greedily(Simplified& result) {
-    SCARP_RETURN_IF_ERROR(refinement_.start(result));
-    if (inserts_first()) return {};
-    return refinement_.run(result);
-  }
-
-  /// The tiles' mesh becomes one. Samples with bounds below the largest are refined; so are, in curved frames, samples
-  /// that break where its border is fitted to the samples.
-  Result<void> free_seams(Tiled tiled, Simplified& result) {
-    const auto start = Clock::now();
-    refinement_.start_with(std::move(tiled.domain));
-    Piece& piece = refinement_.piece();
-    heights_ = std::move(tiled.heights);
-    result.work = tiled.work;
-    if (plan_.finishes_strips) {
-      // Later whole-mesh passes have no raster, so heights are stored per vertex.
-      if (options_.quality.shape.any() && tiled.steps == 1) piece.tin.scale(tiled.steps = kLatticeSteps);
-      piece.lattice = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
-                       std::move(tiled.fixed)};
-      note_vertices(result);
-    } else if (plan_.is_streamed && plan_.scale.squares) {
-      piece.tin.scale(kLatticeSteps);
-      piece.lattice = {kLatticeSteps, std::move(heights_), {}};
-    } else if (!plan_.is_streamed || field_.source->is_in_memory()) {
-      const HeightMetric of_tiles(raster_, criterion_.largest_aim());
-      const ErrorMetric& metric = criterion_.bounds().empty() ? criterion_.metric() : of_tiles;
-      const Work work = release_seams(piece.tin, metric, std::move(tiled.seams), options_.run.threads);
-      result.work.samples_scanned += work.samples_scanned;
-      result.work.triangles_scanned += work.triangles_scanned;
-      result.passes.push_back(pass_of("seams", seconds_since(start), work));
-    }
-    if (!field_.frame.transform && criterion_.bounds().empty()) return {};
-    if (field_.frame.transform) follow_curved_border(raster_, piece.tin, field_.frame);
-    return refinement_.run_on(result);
-  }
-
-  /// True if there are walls or ridges: refinement with them saves vertices that it would insert without them.
-  bool inserts_first() const { return lines_ != nullptr && lines_->is_inserted_first; }
-
-  /// Points stay, whatever removal could do without.
-  void fix_points() {
-    Piece& piece = refinement_.piece();
-    std::vector<Point> asked;
-    for (const auto& [col, row] : options_.features.points)
-      asked.push_back({col * piece.lattice.steps, row * piece.lattice.steps});
-    if (asked.empty()) return;
-    sort_rarely(asked, before);
-    piece.lattice.fixed.resize(piece.tin.vertex_count(), 0);
-    for (Vertex v = 0; v < piece.tin.vertex_count(); ++v) {
-      if (std::binary_search(asked.begin(), asked.end(), piece.tin.point(v), before)) piece.lattice.fixed[v] = 1;
-    }
-  }
-
-  /// See Scale::room.
-  bool is_useless(const MeshSize& size) const { return plan_.scale.room && plan_.scale.room->used(size) > 1; }
-
-  /// Lines become chains of edges; what they break is refined around them.
-  Result<void> insert_lines(Simplified& result) {
-    if (lines_ == nullptr) return {};
-    const auto start = Clock::now();
-    refinement_.forget();
-    Piece& piece = refinement_.piece();
-    piece.aims = criterion_.aims();
-    piece.is_refined = !inserts_first();
-    piece.check = [this](std::uint64_t count, double share, double error) -> Result<void> {
-      if (reporter_.due() && !reporter_.report("lines", share, count - refinement_.unused(), error))
-        return fail(ErrorKind::kCancelled, "cancelled while inserting lines");
-      return plan_.memory.check_mesh(0, count - refinement_.unused(), share);
-    };
-    Work work;
-    const ConstraintGoals goals{criterion_.aim(), plan_.fits && plan_.releases_starts, options_.run.threads};
-    SCARP_RETURN_IF_ERROR(insert_constraints(piece, *lines_, goals, work));
-    if (!piece.has_surface) return fail(ErrorKind::kInput, kNothingInCutline);
-    if (inserts_first()) result.work = work;
-    result.passes.push_back(pass_of("lines", seconds_since(start), work));
-    return {};
-  }
-
-  Result<void> fit_and_shape(Simplified& result) {
-    if (!plan_.removes_last) {
-      SCARP_RETURN_IF_ERROR(remove_vertices(result));
-    }
-    auto shaped = add_for_shapes(result);
-    if (!shaped || !plan_.removes_last) return shaped;
-    return remove_vertices(result);
-  }
-
-  /// Vertices that the bound can do without go.
-  Result<void> remove_vertices(Simplified& result) {
-    if (!plan_.fits || (plan_.fits_strips && !options_.quality.shape.any())) return {};
-    const auto start = Clock::now();
-    refinement_.forget();
-    fix_points();
-    std::optional<Criterion> whole;
-    if (plan_.scale.start < 1) {
-      SCARP_TRY(auto&& made, Criterion::make(field_, options_, raster_, plan_.aim, plan_.scale.factor));
-      whole.emplace(std::move(made));
-    }
-    const Criterion& criterion = whole ? *whole : criterion_;
-    FitOptions options = fit_options(field_, options_, criterion.aim());
-    options.squares = plan_.scale.squares;
-    if (options.squares && options.squares->most_vertices != kNoBudget)
-      options.squares->most_vertices += refinement_.unused();
-    refinement_.piece().aims = criterion.aims();
-    const auto norm = fit_norm(options_, raster_, criterion);
-    if (norm) options.norm = &*norm;
-    if (plan_.is_streamed) read_windows(field_, plan_.memory, options, criterion_.source_bounds());
-    options.threads = fit_threads(window_bytes(options));
-    const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
-    SCARP_RETURN_IF_ERROR(plan_.memory.check_mesh(windows, refinement_.vertices(), 1));
-    Reporter reporter(options_.run.progress);
-    if (options_.run.progress) {
-      options.progress = [&](double share, std::uint64_t vertices) {
-        return !reporter.due() || reporter.report("fit", share, vertices, 0);
-      };
-    }
-    SCARP_TRY(const auto& fitted, fit_piece(refinement_.piece(), std::move(options)));
-    note_vertices(result);
-    result.is_cut_short = fitted.is_cut_short;
-    result.passes.push_back(pass_of("fit", seconds_since(start)));
-    result.passes.back().removals = fitted.removed;
-    return {};
-  }
-
-  /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
-  Result<void> add_for_shapes(Simplified& result) {
-    if (!options_.quality.shape.any()) return {};
-    const auto start = Clock::now();
-    refinement_.forget();
-    ShapeTask task{options_.quality.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
-    task.all_may_go = plan_.releases_starts;
-    std::uint64_t rows = 0;
-    if (plan_.is_streamed) {
-      task.field = &field_;
-      task.source_bounds = criterion_.source_bounds();
-      task.rows_at_once = rows_at_once(field_, plan_.memory, task.source_bounds);
-      rows = bytes_at_once(field_, plan_.memory, task.source_bounds);
-    }
-    const auto before = static_cast<double>(refinement_.piece().tin.vertex_count());
-    task.progress = [&](double share, std::uint64_t count, double error) -> Result<void> {
-      if (reporter_.due() && !reporter_.report("shape", 0, count, error))
-        return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
-      const auto now = static_cast<double>(count);
-      return plan_.memory.check_mesh(rows, count, now / (before + (now - before) / share));
-    };
-    task.foresee = [&](double triangles) { return check_need(triangles, plan_.memory, rows); };
-    SCARP_TRY(const auto& work, refine_shapes(raster_, refinement_.piece().tin, refinement_.piece().lattice, task));
-    note_vertices(result);
-    result.passes.push_back(
-        {"shape", seconds_since(start), work.samples_scanned, work.triangles_scanned, work.insertions});
-    return {};
-  }
-
-  /// After fitting.
-  void note_vertices(Simplified& result) {
-    exact_ = plan_.is_exact;
-    if (plan_.frees_vertices && !refinement_.piece().lattice.are_samples()) result.vertices = Vertices::kFree;
-  }
-
-  /// The number of threads that the memory has room for, each with a window of samples.
-  int fit_threads(std::uint64_t window) const {
-    const int threads = thread_count(options_.run.threads);
-    if (!plan_.memory.is_limited()) return threads;
-    const std::uint64_t vertices = refinement_.piece().tin.vertex_count(), taken = plan_.memory.per_vertex * vertices;
-    const std::uint64_t most =
-        (std::max(plan_.memory.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices + window);
-    return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
-  }
-
-  /// The field as refinement sees it; in space, where that is another, as it was given.
-  HeightField clean_field() const {
-    HeightField clean = field_;
-    if (!plan_.is_streamed && !field_.frame.space) clean.samples = raster_.samples;
-    return clean;
-  }
-
-  void order(Simplified& result) const {
-    const auto start = Clock::now();
-    optimize_order(result.mesh, options_.run.threads);
-    result.passes.push_back(pass_of("order", seconds_since(start)));
-    result.seconds_refine += seconds_since(start);
-  }
-
-  /// The last time the workbench's memory is given back on the way, and the mesh is put in order unless it is useless.
-  void freeze_into(Simplified& result, bool is_last) {
-    const auto start = Clock::now();
-    if (!refinement_.is_whole() && !plan_.has_lines)
-      result.outline_triangles = count_border_triangles(refinement_.piece().tin);
-    const HeightField clean = clean_field();
-    const Raster given{clean.samples, raster_.cols, raster_.rows};
-    const SampleHeights heights = !plan_.is_streamed ? SampleHeights(given) : SampleHeights(field_, heights_);
-    const VertexPositions way{heights, refinement_.piece().lattice, field_.frame, rounds_offsets(field_, options_)};
-    const bool has_more = has_attributes(field_, options_);
-    const int threads = options_.run.threads;
-    LatticePoints at;
-    double seconds_of_order = 0;
-    if (is_last) {
-      MeltDown melting(std::move(refinement_.piece().tin), way, threads);
-      if (!is_useless({melting.vertex_count(), melting.triangle_count()})) {
-        const auto order_start = Clock::now();
-        melting.order();
-        seconds_of_order = seconds_since(order_start);
-      }
-      result.mesh = melting.finish();
-      if (has_more) at = melting.points();
-      refinement_.release();
-    } else {
-      result.mesh = freeze(refinement_.piece().tin, way, threads);
-      if (has_more) at = frozen_points(refinement_.piece().tin, refinement_.piece().lattice);
-    }
-    if (const double step = height_step(field_, options_); step > 0) round_heights(result.mesh, step);
-    // The samples themselves: those of a locked border lie on its line here, and neighbours know them as they are.
-    add_attributes(options_.domain.border.is_locked ? field_ : clean, options_, at, result.mesh);
-    result.passes.push_back({"freeze", seconds_since(start) - seconds_of_order});
-    if (seconds_of_order > 0) result.passes.push_back({"order", seconds_of_order});
-  }
-
-  /// Counts it if the outline needs most of the mesh.
-  void count_looser_outline(Simplified& result) const {
-    if (options_.domain.outline_tolerance > 0 || plan_.is_streamed || result.outline_triangles == 0) return;
-    if (2 * result.outline_triangles < result.mesh.triangle_count()) return;
-    const auto domain = build_domain(raster_, 1, field_.frame);
-    if (domain) result.outline_triangles_at_one = count_border_triangles(domain->tin);
-  }
-
-  /// Breaches that the first proof would find are searched for before the mesh is put in order and its topology judged,
-  /// which need longer. The proof handles faults that this cannot mend.
-  Result<void> mend_ahead(Simplified& result) {
-    const auto start = Clock::now();
-    SCARP_TRY(const auto& found, prove(field_, options_, criterion_, exact_, Look::kHeights, result));
-    result.seconds_measure += seconds_since(start);
-    result.passes.push_back(pass_of("prove", seconds_since(start)));
-    if (found.kept) return {};
-    const auto again = Clock::now();
-    SCARP_TRY(const auto& mended, refinement_.mend(found.offenders, result));
-    if (!mended) return {};
-    result.passes.push_back(pass_of("refine", seconds_since(again)));
-    freeze_into(result, false);
-    result.seconds_refine += seconds_since(again);
-    return {};
-  }
-
-  /// Judges the mesh as it will be written. If float32 positions or the frame's curvature cost the bound, or fold the
-  /// mesh in space, the samples that break it are inserted and refinement continues.
-  Result<void> prove_and_mend(Simplified& result) {
-    for (;;) {
-      const auto start = Clock::now();
-      SCARP_TRY(const auto& proof, prove(field_, options_, criterion_, exact_, Look::kAll, result));
-      result.seconds_measure += seconds_since(start);
-      result.passes.push_back(pass_of("prove", seconds_since(start)));
-      const bool is_sound = exact_ || result.measurement.is_sound();
-      // In space a fold goes where its longest edge is split.
-      const bool may_unfold = field_.frame.space && result.measurement.down_facing > 0 && !proof.offenders.empty();
-      if (!is_sound && !may_unfold)
-        return fail(ErrorKind::kPromise,
-                    "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
-                    "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
-      if (proof.kept && is_sound) return {};
-      if (!refinement_.has_piece()) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof.broken);
-      const auto again = Clock::now();
-      SCARP_TRY(const auto& mended, refinement_.mend(proof.offenders, result));
-      if (!mended)
-        return fail(ErrorKind::kPromise,
-                    (proof.kept ? "the mesh folds over itself" : proof.broken) +
-                        (rounds_offsets(field_, options_)
-                             ? ": positions in the mesh are rounded to float32, which alone costs that much; ask for a "
-                               "larger error, or write OBJ or PLY, whose positions are double, or use the local or "
-                               "grid frame"
-                             : ": positions in the mesh are rounded to double, which alone costs that much; ask for a "
-                               "larger error, or use the local or grid frame"));
-      result.passes.push_back(pass_of("refine", seconds_since(again)));
-      freeze_into(result, false);
-      result.seconds_refine += seconds_since(again);
-      order(result);
-    }
-  }
-
-  const Plan& plan_;
-  const HeightField& field_;
-  const Raster& raster_;
-  const Request& options_;
-  const Criterion& criterion_;
-  const ConstraintGraph* lines_;
-  std::vector<float> heights_;  // heights of the domain's vertices, where the field has a source
-  bool exact_;                  // every vertex can lie exactly on its sample, or on the lattice of fitting
-  Reporter reporter_;
-  GoalRefinement refinement_;  // its piece is given back as soon as nothing can need it any more
-};
+Result<Simplified> run_with_features(const Recipe& recipe) {
+  const auto start = Clock::now();
+  const Request& asked = recipe.options;
+  const double error = asked.goals.max_error.value_or(recipe.scale.line_error);
+  SCARP_TRY(auto&& fitted, fit_features(recipe.field, asked.features, {error, asked.run}));
+  Request options = asked;
+  options.features = {.breaklines = fitted.lines, .points = asked.features.points, .cutline = asked.features.cutline};
+  const Features& features = options.features;
+  options.run.memory.taken += line_bytes(recipe.field, features.breaklines) +
+                              line_bytes(recipe.field, features.cutline.rings, features.cutline.affine);
+  const Recipe found(recipe.field, options, recipe.scale);
+  // No wall and no ridge may be found.
+  SCARP_TRY(auto&& result,
+            found.has_lines ? insert_features(found, error, seconds_since(start)) : run_with_lines(found, nullptr));
+  result.features = std::move(fitted);
+  result.lines_for = error;
+  return result;
+}
 
 }  // namespace
 
-Result<Simplified> run_passes(const Plan& plan, const Raster& raster, const Criterion& criterion,
-                              const ConstraintGraph* lines, std::optional<Tiled> tiled, std::span<const Point> border) {
-  return EngineRun(plan, raster, criterion, lines, border).execute(std::move(tiled));
+Result<Simplified> run(const Recipe& recipe) {
+  return recipe.has_lines ? run_with_features(recipe) : run_with_lines(recipe, nullptr);
 }
 
 }  // namespace scarp

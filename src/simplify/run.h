@@ -1,26 +1,15 @@
-// One run of the engine towards the goals, from the first triangles to the mesh that was proven: the passes that
-// simplify() chooses options and an order for.
+// One run of the engine: it makes the lines of the features ready and inserts samples along the recipe's route; the
+// passes over the whole mesh (mesh_passes.h) follow. A search makes several.
 #pragma once
 
-#include <optional>
-#include <span>
-
-#include "grid/raster.h"
-#include "metric/criterion.h"
-#include "pieces/plan.h"
-#include "pieces/tiled.h"
+#include "pieces/recipe.h"
+#include "scarp/result.h"
 #include "scarp/simplify.h"
 
 namespace scarp {
 
-struct ConstraintGraph;
-
-/// Carries out a plan on `raster`, the samples of its field: from the mesh of the dominant order where `tiled` is
-/// given, else greedily. `lines`: to be inserted into the mesh; null: none. `border`: the vertices of a locked border
-/// (locked_border.h), whose raster it then is; empty: none. Fails as simplify() does. REQUIRES:
-/// `criterion` was made for the plan; all outlive the call.
-Result<Simplified> run_passes(const Plan& plan, const Raster& raster, const Criterion& criterion,
-                              const ConstraintGraph* lines, std::optional<Tiled> tiled,
-                              std::span<const Point> border = {});
+/// One mesh: towards the bounds, or, where insertion stops at budgets, within these. Fails as simplify() does.
+/// REQUIRES: checked options; a budget only if Search::kNone.
+Result<Simplified> run(const Recipe& recipe);
 
 }  // namespace scarp

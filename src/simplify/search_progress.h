@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "pieces/goals.h"
+#include "base/reporter.h"
 #include "scarp/progress.h"
 #include "scarp/simplify.h"
 

@@ -13,11 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/clock.h"
+#include "base/reporter.h"
 #include "grid/far_points.h"
 #include "grid/snapped_points.h"
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
-#include "pieces/goals.h"
+#include "pieces/budget.h"
+#include "pieces/checks.h"
 #include "refine/concave_outline.h"
 #include "refine/hull_fit.h"
 #include "refine/point_lines.h"

@@ -6,10 +6,9 @@
 #include <tuple>
 #include <utility>
 
+#include "base/clock.h"
 #include "fit/square_rounds.h"
-#include "metric/source_bounds.h"
-#include "pieces/effort.h"
-#include "pieces/goals.h"
+#include "pieces/budget.h"
 #include "simplify/search_progress.h"
 
 namespace scarp {
@@ -21,8 +20,6 @@ constexpr double kUsualPower = 1.3, kNearStart = 1.5;
 
 /// With fewer, chance decides which way ends with the smaller error.
 constexpr std::size_t kFewInPatches = 500;
-
-int exchanges_of(Effort effort) { return effort == Effort::kMax ? 60 : effort == Effort::kHigh ? 6 : 2; }
 
 class SquaresSearch {
  public:
@@ -66,27 +63,22 @@ class SquaresSearch {
  private:
   Result<Simplified> run_once(SimplifyOptions options, const Scale& scale, double share) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, "cancelled while searching for a start");
-    options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
+    options.run.progress = progress_.of_run(!scale.refines_only);
     return task_.run(options, scale);
   }
 
-  SimplifyOptions without_effort(SimplifyOptions options) const {
-    options.quality.effort = Effort::kFast;
-    options.goals.objective = Objective::kMax;
-    options.output.normals = options.output.uvs = false;
-    return options;
-  }
-
   Result<Simplified> refine() {
-    SimplifyOptions fast = without_effort(options_);
-    fast.output = options_.output;
-    return task_.insertion_stops ? run_once(fast, {}, 0.1) : search_budget(fast, task_);
+    SimplifyOptions fast = options_;
+    fast.goals.objective = Objective::kMax;
+    return task_.insertion_stops ? run_once(fast, {.refines_only = true}, 0.1) : search_budget(fast, task_, true);
   }
 
   /// A number that refinement alone gives kSquareStart times the triangles for, nearly.
   Result<double> find_start(double reached, double triangles) {
     const double number = reached * std::pow(kSquareStart, -1 / kUsualPower);
-    const auto made = run_once(without_effort(number_.towards(number)), {number_.factor_of(number)}, 0.1);
+    SimplifyOptions options = number_.towards(number);
+    options.output.normals = options.output.uvs = false;
+    const auto made = run_once(options, {.factor = number_.factor_of(number), .refines_only = true}, 0.1);
     if (!made && made.error().kind == ErrorKind::kCancelled) return tl::unexpected(made.error());
     if (!made) return number;
     const double grown = static_cast<double>(made->mesh.triangle_count()) / triangles;
@@ -100,7 +92,7 @@ class SquaresSearch {
     Scale scale{number_.factor_of(bound)};
     scale.start = start;
     scale.squares = SquareGoal{options_.goals.max_triangles.value_or(kNoBudget),
-                               options_.goals.max_vertices.value_or(kNoBudget), exchanges_of(options_.quality.effort)};
+                               options_.goals.max_vertices.value_or(kNoBudget), task_.traits.exchanges};
     return run_once(number_.towards(bound), scale, 0.7);
   }
 
@@ -126,13 +118,6 @@ class SquaresSearch {
 };
 
 }  // namespace
-
-bool lowers_squares(const HeightField& field, const SimplifyOptions& options) {
-  const bool needs_strips = has_lines(options) || has_source_bounds(field, options) || !field.frame.is_affine();
-  return options.goals.objective == Objective::kRms && options.quality.effort != Effort::kFast &&
-         (field.samples != nullptr || !needs_strips) &&
-         !options.quality.shape.any() && !options.domain.border.is_locked;
-}
 
 Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTask& task) {
   return SquaresSearch(options, task).execute();

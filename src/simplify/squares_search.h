@@ -6,16 +6,11 @@
 // level roofs: it is made too. So it is for a few hundred triangles.
 #pragma once
 
-#include "scarp/height_field.h"
+#include "scarp/result.h"
 #include "scarp/simplify.h"
 #include "simplify/budget_search.h"
 
 namespace scarp {
-
-/// True if a budget's mesh is made so: for Objective::kRms with more than fast effort, without goals for shapes and a
-/// locked border, which has an error of its own; of samples in a source without lines, tolerances and curved frames:
-/// refinement of a fine start reads triangle by triangle there.
-bool lowers_squares(const HeightField& field, const SimplifyOptions& options);
 
 /// The mesh with the least Simplified::judged_rmse of those seen, within the budgets; its judged_max_error is at most
 /// options.max_error if that can be kept, else not larger than in the mesh of fast effort. Where rounding, the bound or

@@ -7,7 +7,7 @@
 #include "base/int128.h"
 #include "laws/tile_meshes.h"
 #include "pieces/border_chain.h"
-#include "pieces/tile_plan.h"
+#include "pieces/tiling.h"
 #include "refine/tile_domain.h"
 
 namespace scarp::border_laws_test {
@@ -195,28 +195,28 @@ TEST(border_chain, nodata_beside_the_line_keeps_where_its_cells_begin_and_end) {
   EXPECT_EQ(chain_of(field, {0, 1, 8, false}, 1), (std::vector<std::int32_t>{3, 4, 5}));
 }
 
-TEST(tile_plan, tiles_cover_the_raster_and_share_their_sides) {
+TEST(tiling, tiles_cover_the_raster_and_share_their_sides) {
   for (const auto& [cols, rows] : {std::pair{2, 2}, {3, 900}, {65, 64}, {1000, 777}, {50000, 2}}) {
     for (const std::int32_t side : {1, 8, 16, 31, 64, 512, 2048}) {
-      const TilePlan plan(cols, rows, side);
-      for (std::size_t i = 0; i < plan.count(); ++i) {
-        const TileWindow window = plan.window(i);
-        const SharedSides shared = plan.shared(i);
-        const std::size_t column = i % plan.per_row();
+      const Tiling tiling(cols, rows, side);
+      for (std::size_t i = 0; i < tiling.count(); ++i) {
+        const TileWindow window = tiling.window(i);
+        const SharedSides shared = tiling.shared(i);
+        const std::size_t column = i % tiling.per_row();
         EXPECT_EQ(shared.left, window.col > 0);
         EXPECT_EQ(shared.top, window.row > 0);
         EXPECT_EQ(shared.right, window.col + window.cols < cols);
         EXPECT_EQ(shared.bottom, window.row + window.rows < rows);
         if (shared.right) {
-          EXPECT_EQ(plan.window(i + 1).col, window.col + window.cols - 1);
+          EXPECT_EQ(tiling.window(i + 1).col, window.col + window.cols - 1);
         }
         if (shared.bottom) {
-          EXPECT_EQ(plan.window(i + plan.per_row()).row, window.row + window.rows - 1);
+          EXPECT_EQ(tiling.window(i + tiling.per_row()).row, window.row + window.rows - 1);
         }
         EXPECT_GE(window.cols, std::min(cols, side / 2 + 1));
         EXPECT_GE(window.rows, std::min(rows, side / 2 + 1));
         EXPECT_LE(std::max(window.cols, window.rows), side + (side + 1) / 2 + 1);
-        EXPECT_LT(column, plan.per_row());
+        EXPECT_LT(column, tiling.per_row());
       }
     }
   }

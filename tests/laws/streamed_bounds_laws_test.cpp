@@ -91,7 +91,7 @@ Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const
   const SourceBounds bounds(scene.tolerances, most, {});
   StripTotals fits;
   TiledOptions tiles{.threshold = threshold, .threads = scene.options.run.threads, .tile_side = side};
-  work_by_strips(Plan(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr, &bounds, threshold,
+  work_by_strips(Recipe(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr, &bounds, threshold,
                  fits, tiles);
   return refine_tiled(lines != nullptr ? lines->apply(scene.streamed) : scene.streamed, tiles);
 }
@@ -100,7 +100,7 @@ VertexLattice places_of(const Tiled& tiled) {
   return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
-RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_rows, ()) {
+RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_strips, ()) {
   const Scene scene;
   const auto domain = build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
   const auto made = refine(scene, *rc::gen::element(8, 16, 31), nullptr);

@@ -53,7 +53,7 @@ RC_GTEST_PROP(streamed_budgets, are_kept_by_sound_meshes_whatever_the_threads, (
   check_budget(seen, *made, options);
 }
 
-TEST(streamed_budgets, are_used_in_low_rows_of_tiles_with_about_the_error_of_samples_in_memory) {
+TEST(streamed_budgets, are_used_in_low_strips_with_about_the_error_of_samples_in_memory) {
   const Field field = hills(300, 240);
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);

@@ -10,8 +10,8 @@
 #include "metric/height_metric.h"
 #include "pieces/freeze.h"
 #include "pieces/release.h"
-#include "pieces/tile_plan.h"
 #include "pieces/tiled.h"
+#include "pieces/tiling.h"
 #include "scarp/measure.h"
 #include "tin/assembly.h"
 
@@ -38,16 +38,16 @@ TilePiece random_piece(std::mt19937& random, const TileWindow& window, const Sha
   return maker.make(mesh, {window.col, window.row}, window.cols, window.rows);
 }
 
-bool is_on_a_line(const TilePlan& plan, Point a, Point b) {
-  for (std::size_t i = 0; i < plan.count(); ++i) {
-    const TileWindow window = plan.window(i);
+bool is_on_a_line(const Tiling& tiling, Point a, Point b) {
+  for (std::size_t i = 0; i < tiling.count(); ++i) {
+    const TileWindow window = tiling.window(i);
     if ((a.x == b.x && a.x == window.col && a.x > 0) || (a.y == b.y && a.y == window.row && a.y > 0)) return true;
   }
   return false;
 }
 
-/// The seams are the free edges on the plan's lines between inside triangles, each once.
-std::string verify_seams(const Triangulation& tin, const TilePlan& plan, const std::vector<HalfEdge>& seams) {
+/// The seams are the free edges on the tiling's lines between inside triangles, each once.
+std::string verify_seams(const Triangulation& tin, const Tiling& tiling, const std::vector<HalfEdge>& seams) {
   std::set<HalfEdge> named;
   for (const HalfEdge h : seams) {
     if (!named.insert(std::min(h, tin.twin(h))).second) return fmt::format("seam {} is named twice", h);
@@ -57,7 +57,7 @@ std::string verify_seams(const Triangulation& tin, const TilePlan& plan, const s
     if (g == kNone || g < h) continue;
     const bool is_free = !tin.is_constrained(h) && !tin.is_outside(h / 3) && !tin.is_outside(g / 3);
     const bool is_seam =
-        is_free && is_on_a_line(plan, tin.point(tin.origin(h)), tin.point(tin.origin(Triangulation::next(h))));
+        is_free && is_on_a_line(tiling, tin.point(tin.origin(h)), tin.point(tin.origin(Triangulation::next(h))));
     if (is_seam != (named.count(h) != 0)) return fmt::format("half-edge {} is {}a seam", h, is_seam ? "" : "no ");
   }
   return "";
@@ -65,14 +65,14 @@ std::string verify_seams(const Triangulation& tin, const TilePlan& plan, const s
 
 RC_GTEST_PROP(assembly, joins_pieces_to_one_sound_triangulation, ()) {
   const auto cols = *rc::gen::inRange(2, 150), rows = *rc::gen::inRange(2, 100);
-  const TilePlan plan(cols, rows, *rc::gen::element(1, 5, 8, 16, 31, 64));
-  RC_PRE(plan.count() < 600u);
+  const Tiling tiling(cols, rows, *rc::gen::element(1, 5, 8, 16, 31, 64));
+  RC_PRE(tiling.count() < 600u);
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-  Assembly assembly(plan.per_row());
+  Assembly assembly(tiling.per_row());
   PieceMaker maker;
   std::size_t triangles = 0;
-  for (std::size_t i = 0; i < plan.count(); ++i) {
-    const TilePiece piece = random_piece(random, plan.window(i), plan.shared(i), maker);
+  for (std::size_t i = 0; i < tiling.count(); ++i) {
+    const TilePiece piece = random_piece(random, tiling.window(i), tiling.shared(i), maker);
     triangles += piece.outside.size();
     assembly.append(piece);
     RC_ASSERT(assembly.triangle_count() == triangles);
@@ -82,7 +82,7 @@ RC_GTEST_PROP(assembly, joins_pieces_to_one_sound_triangulation, ()) {
   RC_ASSERT(tin.triangle_count() == triangles);
   const std::string unsound = testing::verify_triangulation(tin, cols, rows, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
-  const std::string unsewn = verify_seams(tin, plan, seams);
+  const std::string unsewn = verify_seams(tin, tiling, seams);
   RC_ASSERT(unsewn == "");
 }
 
@@ -138,7 +138,7 @@ RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
   const std::string unsound = testing::verify_triangulation(tin, field.cols, field.rows, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   if (options.tile_side > 0) {
-    const std::string unsewn = verify_seams(tin, TilePlan(field.cols, field.rows, options.tile_side), tiled.seams);
+    const std::string unsewn = verify_seams(tin, Tiling(field.cols, field.rows, options.tile_side), tiled.seams);
     RC_ASSERT(unsewn == "");
   }
   RC_ASSERT(testing::outside_area2(tin) == testing::outside_area2(domain->tin));

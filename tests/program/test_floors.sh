@@ -47,6 +47,7 @@ expect_fault src/io/raster/stm.cpp '#include <gdal.h>' 'GDAL'
 expect_fault src/pieces/freeze.cpp '#include <thread>' 'threads'
 expect_fault src/geom/scan.h '#include <immintrin.h>' 'instruction set'
 expect_fault src/io/mesh/stl.cpp '#include "io/no_such.h"' 'there is no src/io/no_such.h'
+expect_fault src/simplify/run.cpp 'bool fits = options.quality.effort != Effort::kFast;' 'decided in the recipe of a run'
 expect_fault src/geom/plane.h "$(printf '// line\\n%.0s' $(seq 600))" 'more than 600'
 mkdir -p "$scratch/empty"
 if "$python" "$check" "$scratch/empty" 2>/dev/null; then echo "an empty tree passed"; exit 1; fi

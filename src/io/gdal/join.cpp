@@ -48,7 +48,7 @@ std::optional<double> nodata_of(const BandFacts& band, std::optional<double> ask
   return asked ? asked : band.nodata;
 }
 
-JoinedBand plan_joined(std::span<const Tile> tiles, std::size_t k, std::optional<double> asked, bool with_nan) {
+JoinedBand describe_joined(std::span<const Tile> tiles, std::size_t k, std::optional<double> asked, bool with_nan) {
   const BandFacts& first = tiles.front().bands[k];
   JoinedBand joined{type_of(first), nodata_of(first, asked), false};
   bool is_one_nodata = true;
@@ -124,7 +124,7 @@ class Writer {
       right_ = std::max(right_, tile.col + tile.cols);
       bottom_ = std::max(bottom_, tile.row + tile.rows);
     }
-    for (std::size_t k = 0; k < first.bands.size(); ++k) bands_.push_back(plan_joined(tiles, k, asked, with_nan));
+    for (std::size_t k = 0; k < first.bands.size(); ++k) bands_.push_back(describe_joined(tiles, k, asked, with_nan));
   }
 
   bool is_within(std::int64_t most) const { return right_ - left_ <= most && bottom_ - top_ <= most; }

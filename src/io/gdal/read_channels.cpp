@@ -36,15 +36,15 @@ Palette palette_of(GDALRasterBandH band) {
   return palette;
 }
 
-struct BandsPlan {
-  std::vector<BandPlan> bands;
+struct ChannelBands {
+  std::vector<BandSense> bands;
   std::vector<Palette> palettes;  ///< by band; empty where the values speak for themselves
   std::size_t channels = 0;
   bool is_8bit = true, is_color = false;
 };
 
-Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, ReadOptions options, bool all_bands,
-                             RasterInfo& info) {
+Result<ChannelBands> choose_bands(GDALDatasetH dataset, const std::string& path, ReadOptions options, bool all_bands,
+                                  RasterInfo& info) {
   const int count = GDALGetRasterCount(dataset);
   const int first = all_bands ? 1 : options.band, last = all_bands ? count : options.band;
   const auto choose = [&](int left_out) {
@@ -54,33 +54,33 @@ Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, Read
     }
     return translate_command(words, path);
   };
-  BandsPlan plan;
+  ChannelBands chosen;
   for (int k = first; k <= last; ++k) {
     options.band = k;
-    SCARP_TRY(auto&& band, plan_band(dataset, path, options, info));
+    SCARP_TRY(auto&& band, find_band_sense(dataset, path, options, info));
     if (GDALGetRasterColorInterpretation(band.band) == GCI_AlphaBand) {
       return fail(ErrorKind::kInput,
                   fmt::format("{}: band {} is transparency (alpha), which is no channel; leave it out "
                               "first ({})",
                               path, k, choose(k)));
     }
-    plan.palettes.push_back(palette_of(band.band));
-    plan.channels += plan.palettes.back().empty() ? 1 : 3;
-    plan.is_8bit &= band.type == GDT_Byte && !band.signed_byte && band.scale == 1 && band.offset == 0;
-    plan.bands.push_back(band);
+    chosen.palettes.push_back(palette_of(band.band));
+    chosen.channels += chosen.palettes.back().empty() ? 1 : 3;
+    chosen.is_8bit &= band.type == GDT_Byte && !band.signed_byte && band.scale == 1 && band.offset == 0;
+    chosen.bands.push_back(band);
   }
-  if (plan.channels > kMaxChannels) {
+  if (chosen.channels > kMaxChannels) {
     return fail(ErrorKind::kInput,
                 fmt::format("{} has {} bands, and at most {} can be channels; choose some of them ({})", path,
-                            plan.channels, kMaxChannels, choose(0)));
+                            chosen.channels, kMaxChannels, choose(0)));
   }
   const auto means = [&](std::size_t k, GDALColorInterp meaning) {
-    return GDALGetRasterColorInterpretation(plan.bands[k].band) == meaning;
+    return GDALGetRasterColorInterpretation(chosen.bands[k].band) == meaning;
   };
-  plan.is_color = plan.bands.size() == 1 ? plan.channels == 3
-                                         : plan.bands.size() == 3 && means(0, GCI_RedBand) && means(1, GCI_GreenBand) &&
-                                               means(2, GCI_BlueBand);
-  return plan;
+  chosen.is_color = chosen.bands.size() == 1 ? chosen.channels == 3
+                                             : chosen.bands.size() == 3 && means(0, GCI_RedBand) &&
+                                                   means(1, GCI_GreenBand) && means(2, GCI_BlueBand);
+  return chosen;
 }
 
 /// Replaces the numbers of colours by the colours.
@@ -143,18 +143,18 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
   SCARP_TRY(auto&& dataset, open_view(session, path, options.view, true, channels.info.view));
   channels.info.path = path;
   channels.info.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
-  SCARP_TRY(auto&& plan, plan_bands(dataset.get(), path, options, all_bands, channels.info));
+  SCARP_TRY(auto&& chosen, choose_bands(dataset.get(), path, options, all_bands, channels.info));
   SCARP_TRY(auto&& geo, read_georeference(dataset.get(), path));
   describe_georeference(geo, channels.info);
   SCARP_RETURN_IF_ERROR(check_raster_size(path, static_cast<std::uint64_t>(geo.cols),
-                                          static_cast<std::uint64_t>(geo.rows), options, plan.channels));
+                                          static_cast<std::uint64_t>(geo.rows), options, chosen.channels));
   SCARP_TRY(channels.frame, choose_frame(geo, options, channels.info));
   channels.cols = geo.cols;
   channels.rows = geo.rows;
-  channels.is_8bit = plan.is_8bit;
-  channels.is_color = plan.is_color;
+  channels.is_8bit = chosen.is_8bit;
+  channels.is_color = chosen.is_color;
 
-  std::vector<OwnedHeightField> fields(plan.bands.size());
+  std::vector<OwnedHeightField> fields(chosen.bands.size());
   for (OwnedHeightField& field : fields) {
     field.cols = geo.cols;
     field.rows = geo.rows;
@@ -162,12 +162,12 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
     SCARP_RETURN_IF_ERROR(allocate_samples(path, field));
   }
   std::uint64_t infinities = 0;
-  SCARP_RETURN_IF_ERROR(read_bands(session, plan.bands, options, fields, infinities));
+  SCARP_RETURN_IF_ERROR(read_bands(session, chosen.bands, options, fields, infinities));
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (plan.palettes[k].empty()) {
+    if (chosen.palettes[k].empty()) {
       channels.bands.push_back(std::move(fields[k].samples));
     } else {
-      SCARP_RETURN_IF_ERROR(apply_palette(plan.palettes[k], fields[k], channels.bands));
+      SCARP_RETURN_IF_ERROR(apply_palette(chosen.palettes[k], fields[k], channels.bands));
     }
   }
   for (const std::string& warning : session.warnings()) channels.info.warnings.push_back("GDAL: " + warning);

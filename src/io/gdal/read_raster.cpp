@@ -28,18 +28,18 @@ namespace gdal {
 namespace {
 
 /// A raster that is open and understood, its samples not yet read.
-struct Plan {
+struct UnreadRaster {
   Dataset dataset;
   Georeference georeference;
-  BandPlan band;
+  BandSense band;
   RasterInfo info;
 };
 
 /// With the range, where that is known.
-void warn_of_depths(const Plan& plan, const ReadOptions& options, RasterInfo& info) {
-  const SpaceCrs& crs = plan.georeference.in_space;
+void warn_of_depths(const UnreadRaster& unread, const ReadOptions& options, RasterInfo& info) {
+  const SpaceCrs& crs = unread.georeference.in_space;
   const std::string reason =
-      crs.is_down ? fmt::format("its vertical CRS, {}, counts downwards", crs.vertical) : plan.band.depths;
+      crs.is_down ? fmt::format("its vertical CRS, {}, counts downwards", crs.vertical) : unread.band.depths;
   if (reason.empty() || options.as_values || options.z_scale < 0) return;
   info.depths = reason;
   info.warnings.push_back(
@@ -51,43 +51,43 @@ void warn_of_depths(const Plan& plan, const ReadOptions& options, RasterInfo& in
                         info.path, reason));
 }
 
-Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
-  Plan plan;
+Result<UnreadRaster> open_unread(Session& session, const std::string& path, const ReadOptions& options) {
+  UnreadRaster unread;
   Means means;
-  SCARP_TRY(plan.dataset, open_view(session, path, options.view, false, plan.info.view, &means, options.nodata));
-  plan.info.path = path;
-  const bool is_text = GDALGetMetadataItem(plan.dataset.get(), kTextGridKey, nullptr) != nullptr;
-  if (const char* warnings = GDALGetMetadataItem(plan.dataset.get(), kTextWarningsKey, nullptr)) {
+  SCARP_TRY(unread.dataset, open_view(session, path, options.view, false, unread.info.view, &means, options.nodata));
+  unread.info.path = path;
+  const bool is_text = GDALGetMetadataItem(unread.dataset.get(), kTextGridKey, nullptr) != nullptr;
+  if (const char* warnings = GDALGetMetadataItem(unread.dataset.get(), kTextWarningsKey, nullptr)) {
     std::istringstream lines(warnings);
-    for (std::string line; std::getline(lines, line);) plan.info.warnings.push_back(line);
+    for (std::string line; std::getline(lines, line);) unread.info.warnings.push_back(line);
   }
-  plan.info.format = is_text ? "XYZ" : GDALGetDriverShortName(GDALGetDatasetDriver(plan.dataset.get()));
+  unread.info.format = is_text ? "XYZ" : GDALGetDriverShortName(GDALGetDatasetDriver(unread.dataset.get()));
   if (options.decode == Decode::kNone) {
-    SCARP_TRY(auto&& band, plan_band(plan.dataset.get(), path, options, plan.info));
-    plan.band = band;
-    plan.info.scale = band.scale;
-    plan.info.offset = band.offset;
-    plan.band.means = means;
+    SCARP_TRY(auto&& band, find_band_sense(unread.dataset.get(), path, options, unread.info));
+    unread.band = band;
+    unread.info.scale = band.scale;
+    unread.info.offset = band.offset;
+    unread.band.means = means;
     if (means.have_holes) {
-      plan.band.nodata = std::numeric_limits<double>::quiet_NaN();
-      plan.info.nodata = means.nodata;
+      unread.band.nodata = std::numeric_limits<double>::quiet_NaN();
+      unread.info.nodata = means.nodata;
     }
-    warn_of_colours(plan.dataset.get(), plan.band, options.as_values, plan.info);
+    warn_of_colours(unread.dataset.get(), unread.band, options.as_values, unread.info);
   } else {
-    SCARP_RETURN_IF_ERROR(verify_packed(plan.dataset.get(), path));
-    plan.info.sample_type = options.decode == Decode::kTerrarium ? "Byte (terrarium)" : "Byte (mapbox)";
-    plan.info.nodata = options.nodata;
-    plan.info.unit.assign(1, 'm');
+    SCARP_RETURN_IF_ERROR(verify_packed(unread.dataset.get(), path));
+    unread.info.sample_type = options.decode == Decode::kTerrarium ? "Byte (terrarium)" : "Byte (mapbox)";
+    unread.info.nodata = options.nodata;
+    unread.info.unit.assign(1, 'm');
   }
-  SCARP_TRY(auto&& geo, read_georeference(plan.dataset.get(), path));
-  describe_georeference(geo, plan.info);
-  if (!geo.located && GDALGetGCPCount(plan.dataset.get()) > 0) {
-    plan.info.warnings.push_back(
+  SCARP_TRY(auto&& geo, read_georeference(unread.dataset.get(), path));
+  describe_georeference(geo, unread.info);
+  if (!geo.located && GDALGetGCPCount(unread.dataset.get()) > 0) {
+    unread.info.warnings.push_back(
         fmt::format("the raster is placed by ground control points, which are not used: rectify it first ({})",
                     warp_command("", path)));
   }
-  plan.georeference = std::move(geo);
-  return plan;
+  unread.georeference = std::move(geo);
+  return unread;
 }
 
 void add_gdal_warnings(const Session& session, RasterInfo& info) {
@@ -96,27 +96,27 @@ void add_gdal_warnings(const Session& session, RasterInfo& info) {
 
 /// A raster and all that is known before its samples are read.
 struct OpenedRaster {
-  Plan plan;
+  UnreadRaster unread;
   OwnedHeightField field;
 
   std::unique_ptr<WindowReader> make_reader(const ReadOptions& options) const {
-    return options.decode == Decode::kNone ? make_band_reader(plan.band)
-                                           : make_packed_reader(plan.dataset.get(), options);
+    return options.decode == Decode::kNone ? make_band_reader(unread.band)
+                                           : make_packed_reader(unread.dataset.get(), options);
   }
   /// Opens a file again whose blocks are decoded each on its own; empty for others.
   OpenAgain again(const ReadOptions& options) const {
-    const char* name = GDALGetDescription(plan.dataset.get());
+    const char* name = GDALGetDescription(unread.dataset.get());
     if (field.info.format != "GTiff" || std::string_view(name).starts_with("/vsi")) return {};
     return [this, &options]() -> std::optional<ReadHandle> { return open_again(options); };
   }
   GDALRasterBandH first_band(const ReadOptions& options) const {
-    return options.decode == Decode::kNone ? plan.band.band : GDALGetRasterBand(plan.dataset.get(), 1);
+    return options.decode == Decode::kNone ? unread.band.band : GDALGetRasterBand(unread.dataset.get(), 1);
   }
 
  private:
   std::optional<ReadHandle> open_again(const ReadOptions& options) const {
     constexpr const char* kDrivers[] = {"GTiff", nullptr};
-    ReadHandle handle{Dataset(GDALOpenEx(GDALGetDescription(plan.dataset.get()), GDAL_OF_RASTER | GDAL_OF_READONLY,
+    ReadHandle handle{Dataset(GDALOpenEx(GDALGetDescription(unread.dataset.get()), GDAL_OF_RASTER | GDAL_OF_READONLY,
                                          kDrivers, nullptr, nullptr)),
                       nullptr};
     if (!handle.dataset) return {};
@@ -125,9 +125,9 @@ struct OpenedRaster {
       return handle;
     }
     RasterInfo said;
-    auto band = plan_band(handle.dataset.get(), field.info.path, options, said);
+    auto band = find_band_sense(handle.dataset.get(), field.info.path, options, said);
     if (!band) return {};
-    BandPlan same = plan.band;
+    BandSense same = unread.band;
     same.band = band->band;
     same.mask = band->mask;
     handle.reader = make_band_reader(same);
@@ -137,22 +137,22 @@ struct OpenedRaster {
 
 /// `options` become those that the samples are read with.
 Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions& options) {
-  SCARP_TRY(auto&& plan, plan_raster(session, path, options));
-  const Georeference& geo = plan.georeference;
+  SCARP_TRY(auto&& unread, open_unread(session, path, options));
+  const Georeference& geo = unread.georeference;
   const auto cols = static_cast<std::uint64_t>(geo.cols), rows = static_cast<std::uint64_t>(geo.rows);
   SCARP_RETURN_IF_ERROR(check_raster_sides(path, cols, rows));
-  SCARP_TRY(auto&& frame, choose_frame(geo, options, plan.info));
-  SCARP_TRY(options, settle_heights(options, frame, plan.info, geo.in_space.unit));
+  SCARP_TRY(auto&& frame, choose_frame(geo, options, unread.info));
+  SCARP_TRY(options, settle_heights(options, frame, unread.info, geo.in_space.unit));
   // The band's values are decoded with the file's scale and this one at once, so that every way of reading knows it.
-  plan.band.scale *= options.z_scale;
-  plan.band.offset = options.z_scale * plan.band.offset + options.z_offset;
-  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, plan.info);  // else x and y are the caller's
+  unread.band.scale *= options.z_scale;
+  unread.band.offset = options.z_scale * unread.band.offset + options.z_offset;
+  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, unread.info);  // else x and y are the caller's
   OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
   opened.field.frame = std::move(frame);
-  opened.field.info = std::move(plan.info);
-  opened.plan = std::move(plan);
+  opened.field.info = std::move(unread.info);
+  opened.unread = std::move(unread);
   return opened;
 }
 
@@ -175,9 +175,9 @@ Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, con
   SCARP_TRY(const auto& found,
             read_windows(session, opened.first_band(options), *reader, opened.again(options), options, field));
   add_gdal_warnings(session, field.info);
-  doubt_colours(found, options.decode, find_loss(opened.plan.dataset.get()), field.info);
+  doubt_colours(found, options.decode, find_loss(opened.unread.dataset.get()), field.info);
   SCARP_RETURN_IF_ERROR(finish_raster(field, found.infinities, options));
-  warn_of_depths(opened.plan, options, field.info);
+  warn_of_depths(opened.unread, options, field.info);
   SCARP_RETURN_IF_ERROR(refuse_beyond(found, path, options));
   return std::move(field);
 }
@@ -193,8 +193,8 @@ Result<OwnedHeightField> read(const std::string& path, ReadOptions options) {
 /// Samples that stay in their file.
 class FileSource : public SampleSource {
  public:
-  FileSource(Plan plan, std::unique_ptr<WindowReader> reader, std::string path)
-      : plan_(std::move(plan)), reader_(std::move(reader)), path_(std::move(path)), is_remote_(is_remote(path_)) {}
+  FileSource(UnreadRaster unread, std::unique_ptr<WindowReader> reader, std::string path)
+      : unread_(std::move(unread)), reader_(std::move(reader)), path_(std::move(path)), is_remote_(is_remote(path_)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     const std::lock_guard lock(mutex_);
@@ -206,7 +206,7 @@ class FileSource : public SampleSource {
   bool is_in_memory() const override { return false; }
 
  private:
-  Plan plan_;
+  UnreadRaster unread_;
   std::unique_ptr<WindowReader> reader_;
   std::string path_;
   bool is_remote_;
@@ -229,7 +229,7 @@ Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& 
   SCARP_RETURN_IF_ERROR(for_each_window(session, opened.first_band(options), extent, options.run.progress, look));
   set_range(range, info);
   field.sample_rounding = reader.findings().rounding;
-  doubt_colours(reader.findings(), options.decode, find_loss(opened.plan.dataset.get()), info);
+  doubt_colours(reader.findings(), options.decode, find_loss(opened.unread.dataset.get()), info);
   SCARP_RETURN_IF_ERROR(finish_info(field, reader.findings().infinities, options));
   return refuse_beyond(reader.findings(), info.path, options);
 }
@@ -242,13 +242,13 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
   OwnedHeightField& field = opened.field;
   field.info.has_range = false;
   auto reader = opened.make_reader(options);
-  const bool may_surprise = options.decode != Decode::kNone || !is_float32(opened.plan.band);
-  if (options.with_range || may_surprise || opened.plan.band.means.cells > 1) {
+  const bool may_surprise = options.decode != Decode::kNone || !is_float32(opened.unread.band);
+  if (options.with_range || may_surprise || opened.unread.band.means.cells > 1) {
     SCARP_RETURN_IF_ERROR(survey(session, opened, *reader, options, field));
   }
-  warn_of_depths(opened.plan, options, field.info);
+  warn_of_depths(opened.unread, options, field.info);
   add_gdal_warnings(session, field.info);
-  field.source = std::make_shared<FileSource>(std::move(opened.plan), std::move(reader), field.info.path);
+  field.source = std::make_shared<FileSource>(std::move(opened.unread), std::move(reader), field.info.path);
   return std::move(field);
 }
 
@@ -259,13 +259,13 @@ Result<OwnedHeightField> open_field(const std::string& path, ReadOptions options
   const double samples = static_cast<double>(field.cols) * static_cast<double>(field.rows);
   const double memory = 5.0 * static_cast<double>(max_samples(options.run.memory.limit));
   if (sizeof(float) * samples <= memory) return read_samples(session, std::move(opened), options);
-  const bool is_coded = options.decode == Decode::kNone && has_codes(opened.plan.band);
+  const bool is_coded = options.decode == Decode::kNone && has_codes(opened.unread.band);
   if (!is_coded || 2 * samples > memory) return keep_in_file(session, std::move(opened), options);
   std::uint64_t infinities = 0;
-  SCARP_RETURN_IF_ERROR(read_codes(session, opened.plan.band, options, field, infinities));
+  SCARP_RETURN_IF_ERROR(read_codes(session, opened.unread.band, options, field, infinities));
   add_gdal_warnings(session, field.info);
   SCARP_RETURN_IF_ERROR(finish_info(field, infinities, options));
-  warn_of_depths(opened.plan, options, field.info);
+  warn_of_depths(opened.unread, options, field.info);
   return std::move(field);
 }
 

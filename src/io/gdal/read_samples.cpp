@@ -93,21 +93,21 @@ double rounding_of_mean(double mean, const Means& means) {
   return is_exact ? 0 : half_step;
 }
 
-bool is_scaled(const BandPlan& plan) { return plan.scale != 1 || plan.offset != 0; }
+bool is_scaled(const BandSense& sense) { return sense.scale != 1 || sense.offset != 0; }
 
 class BandReader : public WindowReader {
  public:
-  explicit BandReader(const BandPlan& plan) : plan_(plan) {}
+  explicit BandReader(const BandSense& sense) : sense_(sense) {}
 
   bool read(const Window& window, float* out, std::ptrdiff_t stride) override {
     out_ = out;
     stride_ = stride;
     bool done = false;
-    if (plan_.type == GDT_Int64) {
-      done = read_converted<std::int64_t>(window, GDT_Int64, NodataTest<std::int64_t>(plan_.nodata_int64));
-    } else if (plan_.type == GDT_UInt64) {
-      done = read_converted<std::uint64_t>(window, GDT_UInt64, NodataTest<std::uint64_t>(plan_.nodata_uint64));
-    } else if (is_float32(plan_)) {
+    if (sense_.type == GDT_Int64) {
+      done = read_converted<std::int64_t>(window, GDT_Int64, NodataTest<std::int64_t>(sense_.nodata_int64));
+    } else if (sense_.type == GDT_UInt64) {
+      done = read_converted<std::uint64_t>(window, GDT_UInt64, NodataTest<std::uint64_t>(sense_.nodata_uint64));
+    } else if (is_float32(sense_)) {
       done = read_direct(window);
     } else {
       done = read_converted<double>(window, GDT_Float64, NodataTest<double>(nodata_in_double()));
@@ -123,20 +123,20 @@ class BandReader : public WindowReader {
 
   bool read_direct(const Window& window) {
     const GSpacing line = static_cast<GSpacing>(stride_) * static_cast<GSpacing>(sizeof(float));
-    if (GDALRasterIOEx(plan_.band, GF_Read, window.col, window.row, window.cols, window.rows, out_, window.cols,
+    if (GDALRasterIOEx(sense_.band, GF_Read, window.col, window.row, window.cols, window.rows, out_, window.cols,
                        window.rows, GDT_Float32, sizeof(float), line, nullptr) != CE_None) {
       return false;
     }
     const NodataTest<float> is_nodata(narrowed_nodata());
     for (int row = 0; row < window.rows; ++row) {
       const std::span<float> heights(row_of(row), static_cast<std::size_t>(window.cols));
-      if (plan_.signed_byte) {
+      if (sense_.signed_byte) {
         for (float& z : heights) z = z > 127 ? z - 256 : z;
       }
       findings_.infinities += mark_nodata(heights, is_nodata);
-      if (plan_.means.cells <= 1) continue;
+      if (sense_.means.cells <= 1) continue;
       for (const float z : heights) {
-        if (!std::isnan(z)) findings_.rounding = std::max(findings_.rounding, rounding_of_mean(z, plan_.means));
+        if (!std::isnan(z)) findings_.rounding = std::max(findings_.rounding, rounding_of_mean(z, sense_.means));
       }
     }
     return true;
@@ -144,9 +144,9 @@ class BandReader : public WindowReader {
 
   /// The declared value as the band would hold it; nothing where the band cannot hold it.
   std::optional<float> narrowed_nodata() const {
-    if (!plan_.nodata) return {};
-    const double nodata = *plan_.nodata;
-    if (plan_.type != GDT_Float32) {
+    if (!sense_.nodata) return {};
+    const double nodata = *sense_.nodata;
+    if (sense_.type != GDT_Float32) {
       return std::abs(nodata) <= 65535 && std::floor(nodata) == nodata ? std::optional(static_cast<float>(nodata))
                                                                        : std::nullopt;
     }
@@ -155,8 +155,8 @@ class BandReader : public WindowReader {
   }
 
   std::optional<double> nodata_in_double() const {
-    if (plan_.type == GDT_Float32) return narrowed_nodata();
-    return plan_.nodata;
+    if (sense_.type == GDT_Float32) return narrowed_nodata();
+    return sense_.nodata;
   }
 
   template <class Raw>
@@ -164,7 +164,7 @@ class BandReader : public WindowReader {
     const auto count = static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows);
     buffer_.resize(count * sizeof(Raw));
     auto* raw = reinterpret_cast<Raw*>(buffer_.data());
-    if (GDALRasterIOEx(plan_.band, GF_Read, window.col, window.row, window.cols, window.rows, raw, window.cols,
+    if (GDALRasterIOEx(sense_.band, GF_Read, window.col, window.row, window.cols, window.rows, raw, window.cols,
                        window.rows, type, 0, 0, nullptr) != CE_None) {
       return false;
     }
@@ -183,28 +183,28 @@ class BandReader : public WindowReader {
 
   template <class Raw>
   float convert(Raw raw, const NodataTest<Raw>& is_nodata) {
-    if (plan_.signed_byte && raw > 127) raw -= 256;
+    if (sense_.signed_byte && raw > 127) raw -= 256;
     if (is_nodata(raw)) return kNodataSample;
     double value = static_cast<double>(raw);
     if (std::isnan(value)) return kNodataSample;
-    if (is_scaled(plan_)) value = value * plan_.scale + plan_.offset;
+    if (is_scaled(sense_)) value = value * sense_.scale + sense_.offset;
     const float z = to_float32(value);
     if (std::isnan(z)) {
       ++findings_.infinities;
       return kNodataSample;
     }
-    const double mean = rounding_of_mean(static_cast<double>(raw), plan_.means) * std::abs(plan_.scale);
-    const double moved = is_scaled(plan_) || std::is_floating_point_v<Raw> ? distance(value, z) : distance(raw, z);
+    const double mean = rounding_of_mean(static_cast<double>(raw), sense_.means) * std::abs(sense_.scale);
+    const double moved = is_scaled(sense_) || std::is_floating_point_v<Raw> ? distance(value, z) : distance(raw, z);
     findings_.rounding = std::max(findings_.rounding, moved + mean);
     return z;
   }
 
   bool apply_mask(const Window& window) {
-    if (plan_.mask == nullptr) return true;
+    if (sense_.mask == nullptr) return true;
     const auto count = static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows);
     mask_.resize(count);
-    if (GDALRasterIOEx(plan_.mask, GF_Read, window.col, window.row, window.cols, window.rows, mask_.data(), window.cols,
-                       window.rows, GDT_Byte, 0, 0, nullptr) != CE_None) {
+    if (GDALRasterIOEx(sense_.mask, GF_Read, window.col, window.row, window.cols, window.rows, mask_.data(),
+                       window.cols, window.rows, GDT_Byte, 0, 0, nullptr) != CE_None) {
       return false;
     }
     const std::uint8_t* shown = mask_.data();
@@ -217,7 +217,7 @@ class BandReader : public WindowReader {
     return true;
   }
 
-  const BandPlan plan_;
+  const BandSense sense_;
   float* out_ = nullptr;
   std::ptrdiff_t stride_ = 0;
   std::vector<unsigned char> buffer_;  // buffer of whatever type the window is read in
@@ -231,19 +231,19 @@ bool read_into(WindowReader& reader, const Window& window, OwnedHeightField& fie
 
 }  // namespace
 
-bool is_float32(const BandPlan& plan) {
-  const GDALDataType type = plan.type;
-  return !is_scaled(plan) && (type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Float32);
+bool is_float32(const BandSense& sense) {
+  const GDALDataType type = sense.type;
+  return !is_scaled(sense) && (type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Float32);
 }
 
-std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan) { return std::make_unique<BandReader>(plan); }
+std::unique_ptr<WindowReader> make_band_reader(const BandSense& sense) { return std::make_unique<BandReader>(sense); }
 
 Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const OpenAgain& open_again,
                               const ReadOptions& options, OwnedHeightField& field) {
   const Extent extent{field.info.path, field.cols, field.rows};
-  const WindowPlan plan(band, field.cols, field.rows);
+  const WindowOrder order(band, field.cols, field.rows);
   const std::size_t most =
-      std::min({static_cast<std::size_t>(thread_count(options.run.threads)), plan.count(), plan.most_at_once()});
+      std::min({static_cast<std::size_t>(thread_count(options.run.threads)), order.count(), order.most_at_once()});
   std::vector<ReadHandle> more;
   while (open_again && more.size() + 1 < most) {
     auto handle = open_again();
@@ -255,17 +255,17 @@ Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowRead
     Findings findings;
     std::vector<std::string> warnings;
   };
-  std::vector<Stack> stacks(plan.count());
+  std::vector<Stack> stacks(order.count());
   ReadProgress progress(extent, options.run.progress);
   Result<void> done;
   Findings findings;
   parallel_in_order(
-      plan.count(), static_cast<int>(more.size() + 1),
+      order.count(), static_cast<int>(more.size() + 1),
       [&](std::size_t i, std::size_t worker) {
         // GDAL keeps its messages by thread
         Session here(session);
         WindowReader& reads = worker == 0 ? reader : *more[worker - 1].reader;
-        stacks[i].status = for_each_slice(plan.stack(i), plan.rows_at_once(), [&](const Window& window) {
+        stacks[i].status = for_each_slice(order.stack(i), order.rows_at_once(), [&](const Window& window) {
           return read_or_explain(here, window, extent.path,
                                  [&](const Window& part) { return read_into(reads, part, field); });
         });
@@ -277,7 +277,7 @@ Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowRead
         for (const std::string& warning : stack.warnings) session.note(false, false, warning.c_str());
         findings.add(stack.findings);
         done = stack.status;
-        if (done) done = progress.add(plan.stack(i));
+        if (done) done = progress.add(order.stack(i));
         return done.has_value();
       });
   SCARP_RETURN_IF_ERROR(done);
@@ -285,11 +285,11 @@ Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowRead
   return findings;
 }
 
-Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const ReadOptions& options,
+Result<void> read_bands(Session& session, std::span<const BandSense> bands, const ReadOptions& options,
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities) {
-  std::vector<BandReader> readers(plans.begin(), plans.end());
+  std::vector<BandReader> readers(bands.begin(), bands.end());
   const Extent extent{fields[0].info.path, fields[0].cols, fields[0].rows};
-  auto done = for_each_window(session, plans[0].band, extent, options.run.progress, [&](const Window& window) {
+  auto done = for_each_window(session, bands[0].band, extent, options.run.progress, [&](const Window& window) {
     bool all = true;
     for (std::size_t k = 0; all && k < readers.size(); ++k) all = read_into(readers[k], window, fields[k]);
     return all;
@@ -301,12 +301,12 @@ Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const
   return done;
 }
 
-bool has_codes(const BandPlan& plan) {
-  const bool is_16_bit = plan.type == GDT_Byte || plan.type == GDT_Int16 || plan.type == GDT_UInt16;
-  return is_16_bit && plan.mask == nullptr;
+bool has_codes(const BandSense& sense) {
+  const bool is_16_bit = sense.type == GDT_Byte || sense.type == GDT_Int16 || sense.type == GDT_UInt16;
+  return is_16_bit && sense.mask == nullptr;
 }
 
-Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
+Result<void> read_codes(Session& session, const BandSense& sense, const ReadOptions& options, OwnedHeightField& field,
                         std::uint64_t& infinities) {
   const auto cols = static_cast<std::size_t>(field.cols);
   std::vector<std::uint16_t> codes;
@@ -317,19 +317,19 @@ Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOption
                 fmt::format("{}: the machine refuses the memory that {} x {} samples of 16 bits need", field.info.path,
                             field.cols, field.rows));
   }
-  const GDALDataType type = plan.type == GDT_Int16 ? GDT_Int16 : GDT_UInt16;
+  const GDALDataType type = sense.type == GDT_Int16 ? GDT_Int16 : GDT_UInt16;
   std::vector<std::uint64_t> counts(kCodes);
   const auto read = [&](const Window& window) {
     std::uint16_t* first = codes.data() + static_cast<std::size_t>(window.row) * cols + window.col;
-    return GDALRasterIOEx(plan.band, GF_Read, window.col, window.row, window.cols, window.rows, first, window.cols,
+    return GDALRasterIOEx(sense.band, GF_Read, window.col, window.row, window.cols, window.rows, first, window.cols,
                           window.rows, type, sizeof(std::uint16_t), static_cast<GSpacing>(cols * sizeof(std::uint16_t)),
                           nullptr) == CE_None;
   };
   const Extent extent{field.info.path, field.cols, field.rows};
-  SCARP_RETURN_IF_ERROR(for_each_window(session, plan.band, extent, options.run.progress, read));
+  SCARP_RETURN_IF_ERROR(for_each_window(session, sense.band, extent, options.run.progress, read));
   for (const std::uint16_t code : codes) ++counts[code];
 
-  BandReader reader(plan);
+  BandReader reader(sense);
   HeightRange range;
   std::vector<float> heights(kCodes, kNodataSample);
   for (std::size_t code = 0; code < kCodes; ++code) {

@@ -24,7 +24,7 @@
 namespace scarp::gdal {
 
 /// The band to read and what its values mean.
-struct BandPlan {
+struct BandSense {
   GDALRasterBandH band = nullptr;
   GDALRasterBandH mask = nullptr;  ///< bytes, 0 = nodata; null if there is none
   GDALDataType type = GDT_Unknown;
@@ -38,10 +38,11 @@ struct BandPlan {
 };
 
 /// kInput if the band does not exist, or is complex.
-Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const ReadOptions& options, RasterInfo& info);
+Result<BandSense> find_band_sense(GDALDatasetH dataset, const std::string& path, const ReadOptions& options,
+                                  RasterInfo& info);
 
 /// Adds what seems odd about a band of heights, or of values: that it is a colour or the number of one.
-void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, bool as_values, RasterInfo& info);
+void warn_of_colours(GDALDatasetH dataset, const BandSense& sense, bool as_values, RasterInfo& info);
 
 /// The findings of reading.
 struct Findings {
@@ -95,7 +96,7 @@ class WindowReader {
 };
 
 /// The reader of one band.
-std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan);
+std::unique_ptr<WindowReader> make_band_reader(const BandSense& sense);
 /// The reader of heights packed into bands of colour.
 std::unique_ptr<WindowReader> make_packed_reader(GDALDatasetH dataset, const ReadOptions& options);
 
@@ -115,16 +116,16 @@ Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowRead
 
 /// The same for several bands of one raster, each into the field of its number; windows are read for all bands before
 /// the next, so that interleaved files are decoded once.
-Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const ReadOptions& options,
+Result<void> read_bands(Session& session, std::span<const BandSense> bands, const ReadOptions& options,
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities);
 
 /// True if every sample that the band can hold is a float32: no rounding is to be found.
-bool is_float32(const BandPlan& plan);
+bool is_float32(const BandSense& sense);
 /// True if the band's samples can be kept as 16-bit codes.
-bool has_codes(const BandPlan& plan);
+bool has_codes(const BandSense& sense);
 /// Reads such a band as codes into field.source. Sets field.sample_rounding and the range of field.info; counts
 /// infinities. Fails as read_windows(), and with kInput if the machine refuses the memory.
-Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
+Result<void> read_codes(Session& session, const BandSense& sense, const ReadOptions& options, OwnedHeightField& field,
                         std::uint64_t& infinities);
 
 /// Adds what speaks against heights that were read from colours.

@@ -2,7 +2,7 @@
 
 namespace scarp::gdal {
 
-WindowPlan::WindowPlan(GDALRasterBandH band, int cols, int rows) : cols_(cols), rows_(rows) {
+WindowOrder::WindowOrder(GDALRasterBandH band, int cols, int rows) : cols_(cols), rows_(rows) {
   constexpr int kWindowSamples = 1 << 18;  // 2 MB of doubles
   int block_cols = 1, block_rows = 1;
   GDALGetBlockSize(band, &block_cols, &block_rows);
@@ -24,7 +24,7 @@ WindowPlan::WindowPlan(GDALRasterBandH band, int cols, int rows) : cols_(cols), 
   most_at_once_ = static_cast<std::size_t>(std::max<GIntBig>(1, GDALGetCacheMax64() / std::max<GIntBig>(1, block)));
 }
 
-Window WindowPlan::stack(std::size_t i) const {
+Window WindowOrder::stack(std::size_t i) const {
   const int col = static_cast<int>(i % across_ * static_cast<std::size_t>(size_.cols));
   const int row = static_cast<int>(i / across_ * stack_rows());
   return {col, row, std::min(size_.cols, cols_ - col), std::min(stack_rows_, rows_ - row)};

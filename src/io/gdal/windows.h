@@ -22,9 +22,9 @@ constexpr int kWindowSamples = 1 << 18;  // 2 MB of doubles
 
 /// How a raster is read: each of the file's blocks once. A window is whole blocks, as many as kWindowSamples hold, and
 /// full rows where blocks are full rows. Larger blocks are read in slices, one after the other: windows of one stack.
-class WindowPlan {
+class WindowOrder {
  public:
-  WindowPlan(GDALRasterBandH band, int cols, int rows);
+  WindowOrder(GDALRasterBandH band, int cols, int rows);
 
   /// Stacks, rows of them from the top.
   std::size_t count() const { return across_ * ((static_cast<std::size_t>(rows_) - 1) / stack_rows() + 1); }
@@ -103,10 +103,10 @@ Result<void> for_each_slice(const Window& stack, int rows_at_once, Use use) {
 template <class Read>
 Result<void> for_each_window(Session& session, GDALRasterBandH band, const Extent& raster,
                              const ProgressCallback& progress, Read read) {
-  const WindowPlan plan(band, raster.cols, raster.rows);
+  const WindowOrder order(band, raster.cols, raster.rows);
   ReadProgress done(raster, progress);
-  for (std::size_t i = 0; i < plan.count(); ++i) {
-    const auto all = for_each_slice(plan.stack(i), plan.rows_at_once(), [&](const Window& window) {
+  for (std::size_t i = 0; i < order.count(); ++i) {
+    const auto all = for_each_slice(order.stack(i), order.rows_at_once(), [&](const Window& window) {
       const auto seen = read_or_explain(session, window, raster.path, read);
       return seen ? done.add(window) : seen;
     });

@@ -15,7 +15,7 @@
 #include "refine/domain.h"
 #include "scarp/measure.h"
 
-namespace scarp::row_fit_laws_test {
+namespace scarp::strip_fit_laws_test {
 namespace {
 
 using testing::ArraySource;
@@ -45,7 +45,7 @@ SimplifyOptions any_options() {
 Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const SimplifyOptions& options,
                                             std::int32_t tile_side, StripTotals& fits) {
   TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = tile_side};
-  work_by_strips(Plan(field, options), nullptr, nullptr, *options.goals.max_error, fits, tiles);
+  work_by_strips(Recipe(field, options), nullptr, nullptr, *options.goals.max_error, fits, tiles);
   return refine_tiled(field, tiles);
 }
 
@@ -53,7 +53,7 @@ VertexLattice lattice_of(const Tiled& tiled) {
   return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
-RC_GTEST_PROP(rows, that_are_fitted_keep_the_bound_and_the_domain, ()) {
+RC_GTEST_PROP(strips, that_are_fitted_keep_the_bound_and_the_domain, ()) {
   const Field field = any_field();
   const SimplifyOptions options = any_options();
   const ArraySource source(field.view());
@@ -81,7 +81,7 @@ RC_GTEST_PROP(rows, that_are_fitted_keep_the_bound_and_the_domain, ()) {
   RC_ASSERT(judged->max_error <= *options.goals.max_error + 1e-9);
 }
 
-RC_GTEST_PROP(rows, are_fitted_alike_by_any_number_of_threads, ()) {
+RC_GTEST_PROP(strips, are_fitted_alike_by_any_number_of_threads, ()) {
   const Field field = any_field();
   SimplifyOptions options = any_options();
   const ArraySource source(field.view());
@@ -120,7 +120,7 @@ Field smooth_field(std::int32_t cols, std::int32_t rows) {
   return field;
 }
 
-TEST(rows, efforts_take_fewer_triangles_than_refinement_at_the_public_door) {
+TEST(strips, efforts_take_fewer_triangles_than_refinement_at_the_public_door) {
   Field field = smooth_field(900, 1200);
   for (std::size_t i = 400'000; i < 400'100; ++i) field.samples[i] = NAN;
   const ArraySource source(field.view());
@@ -141,7 +141,7 @@ TEST(rows, efforts_take_fewer_triangles_than_refinement_at_the_public_door) {
   }
 }
 
-TEST(rows, that_break_while_they_are_read_end_the_run_with_their_own_error) {
+TEST(strips, that_break_while_they_are_read_end_the_run_with_their_own_error) {
   const Field field = smooth_field(900, 1200);
   const ArraySource source(field.view(), 800);
   const auto result = simplify(with_source(field.view(), source), in_little_memory(field.view(), 5, Effort::kNormal));
@@ -149,7 +149,7 @@ TEST(rows, that_break_while_they_are_read_end_the_run_with_their_own_error) {
   EXPECT_EQ(result.error().message, "row 800 is broken");
 }
 
-TEST(rows, are_cancelled_while_they_are_fitted) {
+TEST(strips, are_cancelled_while_they_are_fitted) {
   const Field field = testing::random_field(31, 300, 200, Relief::kRidges);
   const ArraySource source(field.view());
   SimplifyOptions options;
@@ -159,11 +159,11 @@ TEST(rows, are_cancelled_while_they_are_fitted) {
   TiledOptions tiles{.threshold = 4, .threads = 1, .tile_side = 64};
   int calls = 0;
   tiles.progress = [&](double share, std::uint64_t) { return share > 0 || ++calls < 2; };
-  work_by_strips(Plan(field.view(), options), nullptr, nullptr, 4, fits, tiles);
+  work_by_strips(Recipe(field.view(), options), nullptr, nullptr, 4, fits, tiles);
   const auto cancelled = refine_tiled(with_source(field.view(), source), tiles);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);
 }
 
 }  // namespace
-}  // namespace scarp::row_fit_laws_test
+}  // namespace scarp::strip_fit_laws_test

@@ -1,26 +1,14 @@
-// Goals, budgets and progress of a run, for rasters and scattered points alike.
+// Budgets of vertices and triangles, for rasters and scattered points alike.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
-#include "base/clock.h"
-#include "base/memory_budget.h"
-#include "base/reporter.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 
 namespace scarp {
-
-/// Fails unless there is a goal and max_error is a number of at least 0.
-Result<void> check_goals(const SimplifyOptions& options);
-Result<void> check_max_error(const std::optional<double>& max_error);
-
-/// Bytes a vertex: the peak of a run, in the proof, while the mesh is written, or while it is fitted as a whole.
-MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options);
 
 struct MeshSize {
   std::uint64_t vertices = 0, triangles = 0;

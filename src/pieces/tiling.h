@@ -11,10 +11,10 @@
 namespace scarp {
 
 /// Tiles of nearly equal sides.
-class TilePlan {
+class Tiling {
  public:
   /// Sides within half and one and a half times `side` where the raster is that large.
-  TilePlan(std::int32_t cols, std::int32_t rows, std::int32_t side);
+  Tiling(std::int32_t cols, std::int32_t rows, std::int32_t side);
 
   std::size_t per_row() const { return x_.size() - 1; }
   std::size_t per_column() const { return y_.size() - 1; }

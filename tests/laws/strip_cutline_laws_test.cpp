@@ -25,7 +25,7 @@
 #include "scarp/cliffs.h"
 #include "scarp/measure.h"
 
-namespace scarp::row_cutline_laws_test {
+namespace scarp::strip_cutline_laws_test {
 namespace {
 
 using testing::any_field;
@@ -93,7 +93,7 @@ struct CutScene {
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     StripTotals fits;
     TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
-    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
+    work_by_strips(Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
     const HeightField edited = lines.apply(streamed);
     const CutSource near(*edited.source, lines.graph.cut->rows);
     return refine_tiled(with_source(edited, near), tiles);
@@ -132,7 +132,7 @@ void check_cut(CutScene& scene) {
   RC_ASSERT(judged->is_sound());
 }
 
-RC_GTEST_PROP(row_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_bound_and_nothing_else, ()) {
+RC_GTEST_PROP(strip_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_bound_and_nothing_else, ()) {
   CutScene scene(40);
   scene.options.features.cutline =
       *rc::gen::arbitrary<bool>() ? scene.draughtsman.rings(scene.field) : scene.draughtsman.rectangles(scene.field);
@@ -140,7 +140,7 @@ RC_GTEST_PROP(row_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_
   check_cut(scene);
 }
 
-RC_GTEST_PROP(row_cutlines, around_walls_keep_the_bound_and_the_domain_too, ()) {
+RC_GTEST_PROP(strip_cutlines, around_walls_keep_the_bound_and_the_domain_too, ()) {
   CutScene scene(testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(20, 60),
                                        *rc::gen::inRange(20, 60), *rc::gen::element(Relief::kFlat, Relief::kRidges),
                                        *rc::gen::element(0.0, 0.0, 0.02)));
@@ -148,7 +148,7 @@ RC_GTEST_PROP(row_cutlines, around_walls_keep_the_bound_and_the_domain_too, ()) 
   check_cut(scene);
 }
 
-RC_GTEST_PROP(row_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()) {
+RC_GTEST_PROP(strip_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()) {
   CutScene scene(30);
   scene.options.features.cutline = scene.draughtsman.rectangles(scene.field);
   const auto lines = scene.lines();
@@ -163,7 +163,7 @@ RC_GTEST_PROP(row_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data
             static_cast<double>(testing::doubled_area(scene.field, scene.options.features.cutline)));
 }
 
-RC_GTEST_PROP(row_cutlines, are_inserted_alike_by_any_number_of_threads, ()) {
+RC_GTEST_PROP(strip_cutlines, are_inserted_alike_by_any_number_of_threads, ()) {
   CutScene scene(40);
   scene.options.features.cutline = scene.draughtsman.rings(scene.field);
   scene.options.run.threads = 1;
@@ -178,7 +178,7 @@ RC_GTEST_PROP(row_cutlines, are_inserted_alike_by_any_number_of_threads, ()) {
   RC_ASSERT(a.positions == b.positions && a.triangles == b.triangles);
 }
 
-RC_GTEST_PROP(row_cutlines, in_one_row_are_those_of_a_raster_in_memory, ()) {
+RC_GTEST_PROP(strip_cutlines, in_one_strip_are_those_of_a_raster_in_memory, ()) {
   CutScene scene(40);
   scene.options.features.cutline = scene.draughtsman.rings(scene.field);
   scene.add_lines();
@@ -200,7 +200,7 @@ RC_GTEST_PROP(row_cutlines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   RC_ASSERT(streamed->edits.size() == held->edits.size());
 }
 
-RC_GTEST_PROP(row_cutlines, mask_windows_as_they_mask_the_whole, ()) {
+RC_GTEST_PROP(strip_cutlines, mask_windows_as_they_mask_the_whole, ()) {
   CutScene scene(40);
   scene.options.features.cutline = scene.draughtsman.rings(scene.field);
   const auto held = prepare_lines(scene.field.view(), {}, scene.options.features.cutline, 1, 1);
@@ -226,7 +226,7 @@ RC_GTEST_PROP(row_cutlines, mask_windows_as_they_mask_the_whole, ()) {
   }
 }
 
-RC_GTEST_PROP(row_cutlines, along_cells_leave_the_samples_that_they_leave_in_memory, ()) {
+RC_GTEST_PROP(strip_cutlines, along_cells_leave_the_samples_that_they_leave_in_memory, ()) {
   CutScene scene(40);
   const Cutline cutline = scene.draughtsman.rings(scene.field);
   const std::int32_t cols = scene.field.cols, rows = scene.field.rows;
@@ -255,7 +255,7 @@ RC_GTEST_PROP(row_cutlines, along_cells_leave_the_samples_that_they_leave_in_mem
   }
 }
 
-TEST(row_cutlines, say_what_the_source_says) {
+TEST(strip_cutlines, say_what_the_source_says) {
   const Field field = testing::random_field(3, 60, 50, testing::Relief::kRidges);
   const ArraySource broken(field.view(), 30);
   SimplifyOptions options;
@@ -276,7 +276,7 @@ TEST(row_cutlines, say_what_the_source_says) {
 }
 
 /// By the definition: samples stay in and around cells that the outline passes or that have a corner in the polygons.
-TEST(row_cutlines, leave_two_samples_beyond_the_polygons) {
+TEST(strip_cutlines, leave_two_samples_beyond_the_polygons) {
   const Field field = testing::random_field(5, 40, 30, testing::Relief::kRidges);
   const ArraySource source(field.view());
   Line ring;
@@ -300,7 +300,7 @@ TEST(row_cutlines, leave_two_samples_beyond_the_polygons) {
   }
 }
 
-TEST(row_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_leaves) {
+TEST(strip_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_leaves) {
   Field field{300, 700, {}};
   for (std::int32_t y = 0; y < field.rows; ++y) {
     for (std::int32_t x = 0; x < field.cols; ++x)
@@ -360,4 +360,4 @@ TEST(row_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_
 }
 
 }  // namespace
-}  // namespace scarp::row_cutline_laws_test
+}  // namespace scarp::strip_cutline_laws_test

@@ -27,30 +27,30 @@ GDALRasterBandH find_mask(GDALDatasetH dataset, GDALRasterBandH band, const Read
   return nullptr;
 }
 
-void plan_nodata(const ReadOptions& options, BandPlan& plan, RasterInfo& info) {
+void find_nodata(const ReadOptions& options, BandSense& sense, RasterInfo& info) {
   int declared = 0;
-  if (plan.type == GDT_Int64) {
-    const std::int64_t value = GDALGetRasterNoDataValueAsInt64(plan.band, &declared);
-    if (declared) plan.nodata_int64 = value;
-    if (declared) plan.nodata = static_cast<double>(value);
-  } else if (plan.type == GDT_UInt64) {
-    const std::uint64_t value = GDALGetRasterNoDataValueAsUInt64(plan.band, &declared);
-    if (declared) plan.nodata_uint64 = value;
-    if (declared) plan.nodata = static_cast<double>(value);
+  if (sense.type == GDT_Int64) {
+    const std::int64_t value = GDALGetRasterNoDataValueAsInt64(sense.band, &declared);
+    if (declared) sense.nodata_int64 = value;
+    if (declared) sense.nodata = static_cast<double>(value);
+  } else if (sense.type == GDT_UInt64) {
+    const std::uint64_t value = GDALGetRasterNoDataValueAsUInt64(sense.band, &declared);
+    if (declared) sense.nodata_uint64 = value;
+    if (declared) sense.nodata = static_cast<double>(value);
   } else {
-    const double value = GDALGetRasterNoDataValue(plan.band, &declared);
-    if (declared) plan.nodata = value;
+    const double value = GDALGetRasterNoDataValue(sense.band, &declared);
+    if (declared) sense.nodata = value;
   }
   if (options.nodata) {
     const double wanted = *options.nodata;
     const bool whole = std::floor(wanted) == wanted;
-    plan.nodata = wanted;
-    plan.nodata_int64.reset();
-    plan.nodata_uint64.reset();
-    if (whole && std::abs(wanted) < 0x1p63) plan.nodata_int64 = static_cast<std::int64_t>(wanted);
-    if (whole && wanted >= 0 && wanted < 0x1p64) plan.nodata_uint64 = static_cast<std::uint64_t>(wanted);
+    sense.nodata = wanted;
+    sense.nodata_int64.reset();
+    sense.nodata_uint64.reset();
+    if (whole && std::abs(wanted) < 0x1p63) sense.nodata_int64 = static_cast<std::int64_t>(wanted);
+    if (whole && wanted >= 0 && wanted < 0x1p64) sense.nodata_uint64 = static_cast<std::uint64_t>(wanted);
   }
-  info.nodata = plan.nodata;
+  info.nodata = sense.nodata;
 }
 
 /// The attributes of a netCDF variable that declare depths; empty unless its values count downwards.
@@ -68,49 +68,49 @@ std::string find_depths(GDALRasterBandH band) {
 
 }  // namespace
 
-Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const ReadOptions& options,
-                           RasterInfo& info) {
+Result<BandSense> find_band_sense(GDALDatasetH dataset, const std::string& path, const ReadOptions& options,
+                                  RasterInfo& info) {
   const int count = GDALGetRasterCount(dataset);
   if (options.band < 1 || options.band > count) {
     return fail(ErrorKind::kInput,
                 fmt::format("{} has {} band{}; there is no band {}", path, count, count == 1 ? "" : "s", options.band));
   }
-  BandPlan plan;
-  plan.band = GDALGetRasterBand(dataset, options.band);
-  plan.type = GDALGetRasterDataType(plan.band);
-  info.sample_type = GDALGetDataTypeName(plan.type);
-  if (GDALDataTypeIsComplex(plan.type)) {
+  BandSense sense;
+  sense.band = GDALGetRasterBand(dataset, options.band);
+  sense.type = GDALGetRasterDataType(sense.band);
+  info.sample_type = GDALGetDataTypeName(sense.type);
+  if (GDALDataTypeIsComplex(sense.type)) {
     return fail(
         ErrorKind::kInput,
         fmt::format("{}: band {} holds complex numbers ({}), which are no heights; take their real parts first ({})",
                     path, options.band, info.sample_type,
                     translate_command(fmt::format("-ot Float64 -b {}", options.band), path)));
   }
-  const char* pixel_type = GDALGetMetadataItem(plan.band, "PIXELTYPE", "IMAGE_STRUCTURE");
-  plan.signed_byte = plan.type == GDT_Byte && pixel_type != nullptr && EQUAL(pixel_type, "SIGNEDBYTE");
-  if (plan.signed_byte) info.sample_type = "Int8";
-  plan_nodata(options, plan, info);
-  plan.mask = find_mask(dataset, plan.band, options);
+  const char* pixel_type = GDALGetMetadataItem(sense.band, "PIXELTYPE", "IMAGE_STRUCTURE");
+  sense.signed_byte = sense.type == GDT_Byte && pixel_type != nullptr && EQUAL(pixel_type, "SIGNEDBYTE");
+  if (sense.signed_byte) info.sample_type = "Int8";
+  find_nodata(options, sense, info);
+  sense.mask = find_mask(dataset, sense.band, options);
 
   int given = 0;
-  plan.scale = GDALGetRasterScale(plan.band, &given);
-  if (!given) plan.scale = 1;
-  plan.offset = GDALGetRasterOffset(plan.band, &given);
-  if (!given) plan.offset = 0;
-  if (plan.scale == 0 || !std::isfinite(plan.scale) || !std::isfinite(plan.offset)) {
+  sense.scale = GDALGetRasterScale(sense.band, &given);
+  if (!given) sense.scale = 1;
+  sense.offset = GDALGetRasterOffset(sense.band, &given);
+  if (!given) sense.offset = 0;
+  if (sense.scale == 0 || !std::isfinite(sense.scale) || !std::isfinite(sense.offset)) {
     info.warnings.push_back(
         fmt::format("band {} declares scale {} and offset {}, which make no heights and are ignored", options.band,
-                    plan.scale, plan.offset));
-    plan.scale = 1;
-    plan.offset = 0;
+                    sense.scale, sense.offset));
+    sense.scale = 1;
+    sense.offset = 0;
   }
-  info.unit = GDALGetRasterUnitType(plan.band);
-  plan.depths = find_depths(plan.band);
-  return plan;
+  info.unit = GDALGetRasterUnitType(sense.band);
+  sense.depths = find_depths(sense.band);
+  return sense;
 }
 
-void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, bool as_values, RasterInfo& info) {
-  const GDALColorInterp meaning = GDALGetRasterColorInterpretation(plan.band);
+void warn_of_colours(GDALDatasetH dataset, const BandSense& sense, bool as_values, RasterInfo& info) {
+  const GDALColorInterp meaning = GDALGetRasterColorInterpretation(sense.band);
   if (as_values) {
     if (meaning == GCI_RedBand && GDALGetRasterCount(dataset) >= 3)
       info.warnings.push_back(info.path +
@@ -120,7 +120,7 @@ void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, bool as_values,
           info.path + ": this is a picture with a palette, and the numbers of its colours are taken for the values");
     return;
   }
-  if (plan.type == GDT_Byte && GDALGetRasterCount(dataset) >= 3 && meaning == GCI_RedBand) {
+  if (sense.type == GDT_Byte && GDALGetRasterCount(dataset) >= 3 && meaning == GCI_RedBand) {
     info.warnings.push_back(
         "this is a colour picture, and its red is taken as height: heights packed into colours need to be "
         "decoded as terrarium or mapbox");

@@ -1,4 +1,4 @@
-#include "simplify/checks.h"
+#include "pieces/checks.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "lines/breaklines.h"
+#include "grid/samples.h"
 #include "metric/criterion.h"
 #include "pieces/effort.h"
-#include "pieces/goals.h"
 #include "scarp/cliffs.h"
 #include "scarp/conflicts.h"
 #include "scarp/ridges.h"
@@ -86,10 +85,6 @@ Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
   return {};
 }
 
-}  // namespace
-
-namespace {
-
 /// A number of two digits, at least this one. REQUIRES: value > 0.
 double round_to_two_digits(double value) {
   const double exponent = std::floor(std::log10(value)) - 1, unit = std::pow(10, std::abs(exponent));
@@ -112,10 +107,40 @@ Result<void> check_places(const HeightField& field) {
   return {};
 }
 
+Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& options) {
+  const std::vector<Conflict> conflicts = find_conflicts(field, options);
+  if (conflicts.empty()) return {};
+  return usage(describe(conflicts.front()));
+}
+
+Result<void> check_needs(const HeightField& field, const SimplifyOptions& options) {
+  const bool has_error_for_all = options.goals.max_error || has_budget(options);
+  if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
+    return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
+  SCARP_RETURN_IF_ERROR(check_border(field, options));
+  if (options.goals.objective == Objective::kRms && !has_budget(options))
+    return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
+  if (options.quality.vertices == Vertices::kFree && !traits_of(options.quality.effort).moves_vertices)
+    return usage("free vertices need high effort or more: leave them on samples");
+  if (has_lines(options) && !has_error_for_all)
+    return usage(fmt::format("a mesh with {} needs a max error or a budget", name_lines(options)));
+  if (options.quality.shape.any() && !has_error_for_all)
+    return usage("a mesh with goals for angles and edges needs a max error or a budget");
+  return check_shape(field, options.quality.shape);
+}
+
 }  // namespace
 
+Result<void> check_max_error(const std::optional<double>& max_error) {
+  if (!max_error || (*max_error >= 0 && std::isfinite(*max_error))) return {};
+  return usage(fmt::format("max_error must be a finite number of at least 0, not {}", *max_error));
+}
+
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options) {
-  SCARP_RETURN_IF_ERROR(check_goals(options));
+  const Goals& goals = options.goals;
+  if (!goals.max_error && !goals.max_triangles && !goals.max_vertices && !has_tolerances(options))
+    return usage("no goal given: set max_error, max_triangles, max_vertices or tolerance");
+  SCARP_RETURN_IF_ERROR(check_max_error(goals.max_error));
   SCARP_RETURN_IF_ERROR(check_places(field));
   if (!(options.domain.outline_tolerance >= 0 && std::isfinite(options.domain.outline_tolerance)))
     return usage(fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
@@ -130,48 +155,11 @@ Result<void> check_values(const HeightField& field, const SimplifyOptions& optio
   return {};
 }
 
-Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& options) {
-  const std::vector<Conflict> conflicts = find_conflicts(field, options);
-  if (conflicts.empty()) return {};
-  return usage(describe(conflicts.front()));
-}
-
-Result<void> check_needs(const HeightField& field, const SimplifyOptions& options) {
-  const bool has_error_for_all = options.goals.max_error || has_budget(options);
-  if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
-    return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
-  SCARP_RETURN_IF_ERROR(check_border(field, options));
-  if (options.goals.objective == Objective::kRms && !has_budget(options))
-    return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
-  if (options.quality.vertices == Vertices::kFree && options.quality.effort != Effort::kHigh &&
-      options.quality.effort != Effort::kMax)
-    return usage("free vertices need high effort or more: leave them on samples");
-  if (has_lines(options) && !has_error_for_all)
-    return usage(fmt::format("a mesh with {} needs a max error or a budget", name_lines(options)));
-  if (options.quality.shape.any() && !has_error_for_all)
-    return usage("a mesh with goals for angles and edges needs a max error or a budget");
-  return check_shape(field, options.quality.shape);
-}
-
-bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
-  const bool has_goal = options.goals.max_error || has_tolerances(options);
-  if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
-  // Inserting the worst of the whole raster first needs fewer triangles where bounds differ.
-  if (options.quality.order == Order::kAuto && has_own_bounds(field, options)) return false;
-  // A locked border is refined as one tile, which may begin with points.
-  const auto of_order = [&](const Conflict& conflict) {
-    return conflict.one == Field::kOrderDominant &&
-           !(conflict.other == Field::kPoints && options.domain.border.is_locked);
-  };
-  const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kOrderDominant));
-  return std::none_of(conflicts.begin(), conflicts.end(), of_order);
-}
-
-Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
-  if (options.quality.effort != Effort::kAuto) return options.quality.effort;
-  const Fields set = fields_of(field, options);
-  if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
-  return set.has(Field::kOrderGreedy) ? Effort::kFast : Effort::kNormal;
+Result<void> check_options(const HeightField& field, const SimplifyOptions& options) {
+  for (const auto check : {check_values, check_conflicts, check_needs}) {
+    SCARP_RETURN_IF_ERROR(check(field, options));
+  }
+  return check_size(field);
 }
 
 }  // namespace scarp

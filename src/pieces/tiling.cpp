@@ -1,4 +1,4 @@
-#include "pieces/tile_plan.h"
+#include "pieces/tiling.h"
 
 #include <algorithm>
 
@@ -16,15 +16,14 @@ std::vector<std::int32_t> cut(std::int32_t samples, std::int32_t side) {
 
 }  // namespace
 
-TilePlan::TilePlan(std::int32_t cols, std::int32_t rows, std::int32_t side)
-    : x_(cut(cols, side)), y_(cut(rows, side)) {}
+Tiling::Tiling(std::int32_t cols, std::int32_t rows, std::int32_t side) : x_(cut(cols, side)), y_(cut(rows, side)) {}
 
-TileWindow TilePlan::window(std::size_t tile) const {
+TileWindow Tiling::window(std::size_t tile) const {
   const std::size_t i = tile % per_row(), j = tile / per_row();
   return {x_[i], y_[j], x_[i + 1] - x_[i] + 1, y_[j + 1] - y_[j] + 1};
 }
 
-SharedSides TilePlan::shared(std::size_t tile) const {
+SharedSides Tiling::shared(std::size_t tile) const {
   const std::size_t i = tile % per_row(), j = tile / per_row();
   return {i > 0, j > 0, i + 1 < per_row(), j + 1 < per_column()};
 }

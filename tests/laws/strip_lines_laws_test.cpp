@@ -1,4 +1,4 @@
-// Laws of lines where samples come strip by strip: they are chains of edges across all rows, and the
+// Laws of lines where samples come strip by strip: they are chains of edges across all strips, and the
 // promise is that of lines in memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -34,14 +34,14 @@ using testing::Field;
 using testing::with_source;
 
 /// A field that is read window by window, and its lines cut where strips meet.
-struct RowScene {
+struct StripScene {
   Field field = any_field(50);
   ArraySource source{field.view()};
   HeightField streamed = with_source(field.view(), source);
   std::int32_t side = *rc::gen::element(8, 16, 31);
   SimplifyOptions options;
 
-  RowScene() {
+  StripScene() {
     options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
     options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
     options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
@@ -49,7 +49,7 @@ struct RowScene {
     options.run.threads = *rc::gen::element(1, 2);
     if (*rc::gen::arbitrary<bool>()) add_first_lines();
   }
-  RowScene(const RowScene&) = delete;
+  StripScene(const StripScene&) = delete;
   /// Lines that are inserted before the surface is refined.
   void add_first_lines() {
     auto& lines = options.features.breaklines.lines;
@@ -70,7 +70,7 @@ struct RowScene {
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     StripTotals fits;
     TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
-    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
+    work_by_strips(Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
     return refine_tiled(lines.apply(streamed), tiles);
   }
 };
@@ -120,8 +120,8 @@ bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph, bool with_sta
   return true;
 }
 
-RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edited_source, ()) {
-  const RowScene scene;
+RC_GTEST_PROP(strip_lines, are_chains_of_edges_and_the_bound_holds_against_the_edited_source, ()) {
+  const StripScene scene;
   const auto lines = scene.lines();
   RC_PRE(lines.has_value());
   const auto domain = build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
@@ -147,8 +147,8 @@ RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edi
   RC_ASSERT(judged->max_error <= *scene.options.goals.max_error + 1e-9);
 }
 
-RC_GTEST_PROP(row_lines, are_inserted_alike_by_any_number_of_threads, ()) {
-  RowScene scene;
+RC_GTEST_PROP(strip_lines, are_inserted_alike_by_any_number_of_threads, ()) {
+  StripScene scene;
   const auto lines = scene.lines();
   RC_PRE(lines.has_value());
   scene.options.run.threads = 1;
@@ -166,8 +166,8 @@ RC_GTEST_PROP(row_lines, are_inserted_alike_by_any_number_of_threads, ()) {
                        (*again)->heights.end(), is_same));
 }
 
-RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
-  const RowScene scene;
+RC_GTEST_PROP(strip_lines, in_one_strip_are_those_of_a_raster_in_memory, ()) {
+  const StripScene scene;
   const auto streamed = prepare_lines(scene.streamed, scene.options.features.breaklines, {},
                                       *scene.options.goals.max_error / 2, 1, shared_rows(scene.streamed, 4096));
   const auto held =
@@ -191,7 +191,7 @@ RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   }
 }
 
-TEST(row_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
+TEST(strip_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
   Field field{700, 900, {}};
   for (std::int32_t y = 0; y < field.rows; ++y) {
     for (std::int32_t x = 0; x < field.cols; ++x)
@@ -228,7 +228,7 @@ TEST(row_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
   EXPECT_LE(shaped->measurement.max_error, 5 + 1e-9);
 }
 
-TEST(row_lines, tell_what_the_source_says) {
+TEST(strip_lines, tell_what_the_source_says) {
   const Field field = testing::random_field(3, 60, 50, testing::Relief::kRidges);
   const ArraySource broken(field.view(), 30);
   SimplifyOptions options;

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "lines/breaklines.h"
-#include "pieces/effort.h"
-#include "scarp/cliffs.h"
-#include "scarp/ridges.h"
+#include "pieces/recipe.h"
 #include "scarp/tile.h"
 
 namespace scarp {

@@ -1,0 +1,222 @@
+#include "pieces/recipe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "grid/vertex_lattice.h"
+#include "metric/criterion.h"
+#include "metric/source_bounds.h"
+#include "scarp/conflicts.h"
+#include "shape/shape_refinement.h"
+
+namespace scarp {
+
+namespace {
+
+/// The effort that was asked for, or what Effort::kAuto stands for.
+Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
+  if (options.quality.effort != Effort::kAuto) return options.quality.effort;
+  const Fields set = fields_of(field, options);
+  if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
+  return set.has(Field::kOrderGreedy) ? Effort::kFast : Effort::kNormal;
+}
+
+/// Used if no number is asked for: few samples are done before another thread has started.
+int choose_threads(const HeightField& field, int asked, Effort effort) {
+  constexpr std::int64_t kFewSamples = 1 << 14;
+  const bool is_small = std::int64_t{field.cols} * field.rows <= kFewSamples;
+  return asked == 0 && !traits_of(effort).moves_vertices && is_small ? 1 : asked;
+}
+
+bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
+  const bool has_goal = options.goals.max_error || has_tolerances(options);
+  if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
+  // Inserting the worst of the whole raster first needs fewer triangles where bounds differ.
+  if (options.quality.order == Order::kAuto && has_own_bounds(options, field.samples == nullptr)) return false;
+  // A locked border is refined as one tile, which may begin with points.
+  const auto of_order = [&](const Conflict& conflict) {
+    return conflict.one == Field::kOrderDominant &&
+           !(conflict.other == Field::kPoints && options.domain.border.is_locked);
+  };
+  const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kOrderDominant));
+  return std::none_of(conflicts.begin(), conflicts.end(), of_order);
+}
+
+/// Goals for shapes have no search for squares, nor has a locked border, which has an error of its own; nor have
+/// samples in a source with lines, tolerances and curved frames: refinement of a fine start reads triangle by triangle
+/// there.
+Search choose_search(const Recipe& recipe) {
+  const SimplifyOptions& options = recipe.options;
+  if (!recipe.has_budget || (!recipe.fits && recipe.insertion_stops)) return Search::kNone;
+  const bool needs_strips = recipe.has_lines || recipe.has_source_bounds || !recipe.field.frame.is_affine();
+  const bool lowers_squares = options.goals.objective == Objective::kRms && recipe.fits &&
+                              !(recipe.is_streamed && needs_strips) && !options.quality.shape.any() &&
+                              !options.domain.border.is_locked;
+  return lowers_squares ? Search::kSquares : Search::kError;
+}
+
+bool rows_run_along_x(const Frame& frame) { return frame.is_affine() && frame.affine[2] == 0 && frame.affine[4] == 0; }
+
+/// Share of the max error for the rounding of heights.
+constexpr double kHeightShare = 0x1p-8;
+
+double choose_height_step(const HeightField& field, const SimplifyOptions& options) {
+  const Tolerances& own = options.tolerances;
+  const bool has_own =
+      !own.values.empty() || own.source != nullptr || !own.weights.empty() || own.weights_source != nullptr;
+  if (!options.output.lattice || !rows_run_along_x(field.frame) || has_own || has_norm(field)) return 0;
+  // Meshes that share a border share its bound, and not always their own: levels, and neighbours of other errors.
+  const Border& border = options.domain.border;
+  const double asked = options.goals.max_error.value_or(0);
+  const double shared = border.is_locked ? border.max_error.value_or(asked) : asked;
+  const double bound = std::min(asked, shared) - field.sample_rounding;
+  if (!(bound > 0) || std::isinf(bound)) return 0;
+  return std::ldexp(1.0, std::ilogb(2 * kHeightShare * bound));
+}
+
+/// The judge moves a position to a place of the lattice that is as near as rounding may have moved it, but not farther
+/// off than this share of a cell: cells that are tiny compared with their coordinates lose their places.
+bool doubles_hold_lattice(const HeightField& field, std::int32_t steps) {
+  const auto& a = field.frame.affine;
+  const double near = steps > 1 ? 0x1p-16 : 0x1p-8;
+  const double cell = std::min(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
+  const double x = std::max({std::abs(a[0]), std::abs(a[1]) * field.cols, std::abs(a[2]) * field.rows});
+  const double y = std::max({std::abs(a[3]), std::abs(a[4]) * field.cols, std::abs(a[5]) * field.rows});
+  return 0x1p-50 * std::max(x, y) <= near * cell;
+}
+
+/// True if the mesh holds all lattice points exactly, at so many steps between two samples.
+bool lattice_is_exact(const HeightField& field, bool rounds_offsets, std::int32_t steps) {
+  if (!field.frame.is_affine()) return false;
+  return rounds_offsets ? offsets_are_exact(field.frame, field.cols, field.rows, steps)
+                        : doubles_hold_lattice(field, steps);
+}
+
+/// True if samples are multiples of a power of two; false where that is not known.
+bool samples_are_multiples(const HeightField& field, double step) {
+  if (field.samples == nullptr) return false;
+  const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+  return std::all_of(field.samples, field.samples + count, [step](float z) {
+    const double multiple = z / step;
+    return !std::isfinite(z) || multiple == std::floor(multiple);
+  });
+}
+
+double choose_aim(const Recipe& recipe) {
+  constexpr double kRoundingShare = 0x1p-9;
+  const double step = recipe.height_step;
+  const bool is_between = recipe.lattice_steps > 1;
+  if (step > 0 && (is_between || !samples_are_multiples(recipe.field, step))) return 1 - kHeightShare;
+  return is_between && !recipe.is_exact ? 1 - kRoundingShare : 1;
+}
+
+MemoryBudget memory_budget(const Recipe& recipe) {
+  constexpr std::uint64_t kMesh = 48, kProof = 145;
+  const SimplifyOptions& options = recipe.options;
+  const bool has_shapes = options.quality.shape.any();
+  const bool is_fitted_whole = recipe.fits && (!recipe.is_streamed || has_shapes);
+  const std::uint64_t fit = is_fitted_whole ? kFitBytesPerVertex + kFitBytesPerVertexAndThread : 0;
+  const std::uint64_t shape = has_shapes ? kShapeBytesPerVertex : 0;
+  const std::uint64_t normals = options.output.normals ? 3 * sizeof(float) : 0;
+  return {options.run.memory.limit, options.run.memory.taken,
+          std::max({kProof + normals, kMesh + normals + options.run.memory.per_vertex, fit, shape})};
+}
+
+using Question = std::function<bool()>;
+
+Question either(const Question& first, const Question& second) {
+  if (!first || !second) return first ? first : second;
+  return [first, second] { return first() || second(); };
+}
+
+/// A short edge is worth any try.
+constexpr double kAnyPatience = 100;
+
+FitOptions fit_options(const Recipe& recipe) {
+  // On samples a floor would cost up to a tenth more, and could result in more triangles than normal effort.
+  constexpr double kUsualShape = 0.1;
+  const SimplifyOptions& options = recipe.options;
+  const Frame& frame = recipe.field.frame;
+  const auto& a = frame.affine;
+  FitOptions fit;
+  if (frame.transform || options.domain.border.is_locked) fit.free_sides = {false, false, false, false};
+  fit.vertices_are_free = recipe.frees_vertices;
+  fit.depth = recipe.traits.depth;
+  // Two neighbours that are too near to each other are mostly both needed, but one between them may do.
+  if (options.quality.shape.min_edge && recipe.traits.moves_vertices) {
+    fit.depth.repair = kMaxDepth.repair;
+    fit.depth.repair.patience = kAnyPatience;
+  }
+  fit.min_shape = options.quality.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
+  fit.floor_yields = !options.quality.min_shape;
+  fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
+  if (options.quality.shape.any()) {
+    fit.shape = shape_rule(options.quality.shape, frame);
+    fit.floor_yields = false;
+  }
+  if (!recipe.has_budget) fit.is_time_up = either(options.run.is_time_up, options.run.is_enough);
+  fit.goes_on = recipe.traits.goes_on && options.run.is_time_up;
+  return fit;
+}
+
+}  // namespace
+
+Request settle_request(const HeightField& field, const SimplifyOptions& asked) {
+  Request request = asked;
+  request.chose_effort = asked.quality.effort == Effort::kAuto;
+  request.quality.effort = choose_effort(field, asked);
+  if (has_norm(field)) request.quality.vertices = Vertices::kSamples;
+  request.run.threads = choose_threads(field, asked.run.threads, request.quality.effort);
+  Border& border = request.domain.border;
+  if (!border.max_error) border.max_error = asked.goals.max_error;
+  return request;
+}
+
+Recipe::Recipe(const HeightField& given, const Request& asked, const Scale& by)
+    : field(given),
+      options(asked),
+      scale(by),
+      effort(by.refines_only ? Effort::kFast : asked.quality.effort),
+      traits(traits_of(effort)),
+      is_streamed(given.samples == nullptr),
+      has_budget(scarp::has_budget(asked)),
+      has_lines(scarp::has_lines(asked)),
+      has_source_bounds(scarp::has_source_bounds(asked, is_streamed)),
+      is_dominant(may_be_dominant(given, asked)),
+      route(asked.domain.border.is_locked ? Route::kLocked
+            : is_dominant                 ? Route::kTiles
+                                          : Route::kGreedy),
+      insertion_stops(!is_streamed && asked.quality.order != Order::kDominant && !asked.quality.shape.any() &&
+                      !has_lines),
+      fits(traits.fits),
+      search(choose_search(*this)),
+      frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples && given.frame.is_affine() &&
+                     !has_norm(given)),
+      releases_starts((traits.fits && !traits.moves_vertices) || frees_vertices),
+      // Shape goals need strips without the redundant vertices of tile borders, whatever the effort.
+      fits_pieces((fits && !by.squares) || asked.quality.shape.any()),
+      removes_last(asked.quality.shape.any() && shape_rule(asked.quality.shape, given.frame)),
+      fits_strips(is_streamed && fits_pieces),
+      finishes_strips(fits_strips || (is_streamed && (has_lines || has_source_bounds))),
+      reads_beyond(asked.output.normals || !given.frame.is_affine() || fits || has_lines ||
+                   has_own_bounds(asked, is_streamed)),
+      rounds_offsets(asked.output.float32_positions && !(asked.output.lattice && rows_run_along_x(given.frame))),
+      height_step(choose_height_step(given, asked)),
+      lattice_steps(has_lines || asked.quality.shape.any() ? kLatticeSteps
+                    : frees_vertices                       ? kLatticeSteps / kFreeStep
+                                                           : 1),
+      is_exact(lattice_is_exact(given, rounds_offsets, lattice_steps)),
+      is_exact_on_samples(lattice_is_exact(given, rounds_offsets, 1)),
+      aim(choose_aim(*this)),
+      memory(memory_budget(*this)),
+      fit(fit_options(*this)) {}
+
+Recipe Recipe::on(const HeightField& prepared) const {
+  Recipe recipe = *this;
+  recipe.field = prepared;
+  return recipe;
+}
+
+}  // namespace scarp

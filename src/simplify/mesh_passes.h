@@ -1,0 +1,25 @@
+// The passes over the whole mesh, from the first triangles, or those of tiles, to the mesh that was proven.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "grid/raster.h"
+#include "metric/criterion.h"
+#include "pieces/recipe.h"
+#include "pieces/tiled.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+struct ConstraintGraph;
+
+/// Carries out a recipe on `raster`, the samples of its field: from the mesh of the dominant order where `tiled` is
+/// given, else greedily. `lines`: to be inserted into the mesh; null: none. `border`: the vertices of a locked border
+/// (locked_border.h), whose raster it then is; empty: none. Fails as simplify() does. REQUIRES:
+/// `criterion` was made for the recipe; all outlive the call.
+Result<Simplified> run_passes(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
+                              const ConstraintGraph* lines, std::optional<Tiled> tiled,
+                              std::span<const Point> border = {});
+
+}  // namespace scarp
