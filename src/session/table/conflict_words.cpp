@@ -1,0 +1,86 @@
+#include "session/table/conflict_words.h"
+
+#include <string>
+#include <vector>
+
+#include "scarp/conflicts.h"
+#include "session/table/field_options.h"
+
+namespace scarp::cli {
+namespace {
+
+/// The options where there are some, else the library's word.
+std::vector<std::string> words_of(Field field) {
+  switch (field) {
+    case Field::kIgnored:
+      return {"--script (lines i, u)"};
+    case Field::kPoints:
+      return {"--script (lines s)"};
+    case Field::kMaskSource:
+      return {"--mask (streamed)"};
+    case Field::kTolerance:
+      return {"--tolerance", "--roi"};
+    case Field::kToleranceSource:
+      return {"--tolerance", "--roi (streamed)"};
+    case Field::kBreaklines:
+      return {"--breaklines", "--water", "--rivers", "--cliff", "--ridges"};
+    case Field::kStrategy:
+      return {"--importance", "--one-pass", "--algorithm", "--batch", "--edges data"};
+    case Field::kShape:
+      return {"--min-angle", "--max-edge", "--grade"};
+    case Field::kChannels:
+      return {"--texture", "--image"};
+    case Field::kCurvedFrame:
+      return {"--crs (of another projection)"};
+    case Field::kSpaceFrame:
+      return {"--crs enu", "--crs EPSG:4978"};
+    case Field::kSource:
+      return {"--memory (where samples are streamed)"};
+    default:
+      break;
+  }
+  const char* const option = option_of(field);
+  return {option != nullptr ? std::string(option) : std::string(name_of(field))};
+}
+
+std::vector<std::string> words_of(Fields fields) {
+  // Differences that the program's options do not show.
+  if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
+  if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
+  std::vector<std::string> words;
+  for (int k = 0; k < kFieldCount; ++k) {
+    if (!fields.has(static_cast<Field>(k))) continue;
+    for (std::string& word : words_of(static_cast<Field>(k))) words.push_back(std::move(word));
+  }
+  return words;
+}
+
+bool is_of_tiles(const ConflictRule& rule) {
+  for (int k = kSimplifyFieldCount; k < kFieldCount; ++k) {
+    if (rule.one.has(static_cast<Field>(k))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+nlohmann::ordered_json describe_conflicts() {
+  auto rows = nlohmann::ordered_json::array();
+  for (const ConflictRule& rule : conflict_rules()) {
+    // The program reads the weights and tolerances of streamed samples as these.
+    const bool is_of_source = rule.one.has(Field::kSource);
+    const Fields other = is_of_source ? rule.other.without(Field::kTolerance).without(Field::kMask) : rule.other;
+    if (other.empty()) continue;
+    std::vector<std::string> beside = words_of(rule.beside);
+    if (!is_of_source && rule.where != Where::kAlways)
+      beside = {rule.where == Where::kInMemory ? "samples in memory" : "streamed samples"};
+    rows.push_back({{"tiles", is_of_tiles(rule)},
+                    {"setting", words_of(rule.one)},
+                    {"with", words_of(other)},
+                    {"beside", beside},
+                    {"because", rule.reason}});
+  }
+  return rows;
+}
+
+}  // namespace scarp::cli
