@@ -90,7 +90,7 @@ bench:
 	@tools/install_packages.sh build bench
 	@tools/configure.sh $(BUILD) -DSCARP_BUILD_BENCH=ON $(CMAKE_FLAGS)
 	@cmake --build $(BUILD) -j $(JOBS) --target scarp_program
-	@for what in reference quality efforts edges orders memory peers speed; do cmake --build $(BUILD) -j $(JOBS) --target bench_$$what || exit 1; done
+	@for what in reference efforts high_normal edges orders memory peers speed; do cmake --build $(BUILD) -j $(JOBS) --target bench_$$what || exit 1; done
 
 paper:
 	@tools/install_packages.sh build paper

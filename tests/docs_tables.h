@@ -18,7 +18,7 @@ struct DocsTable {
   std::string text;
 };
 
-/// Fails unless the page ("docs/conflicts.md") holds the tables. With SCARP_UPDATE_DOCS=1 it writes them. `tests`: the
+/// Fails unless the page ("docs/formats.md") holds the tables. With SCARP_UPDATE_DOCS=1 it writes them. `tests`: the
 /// filter that runs this test.
 inline void expect_tables(const std::string& page, const std::vector<DocsTable>& tables, const std::string& tests) {
   const std::string path = source_dir() + "/" + page;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes the man page, the completions and a page of all options from the program's table of options.
+"""Writes the man page, the completions and pages of all options and conflicts from the program's tables.
 
 usage: generate_docs.py PROGRAM FOLDER
 
-PROGRAM is build/bin/scarp, whose `help --json` prints the table. FOLDER gets man/man1/scarp.1 (packaging/scarp.1.in, with
+PROGRAM is build/bin/scarp, whose `help --json` prints the tables. FOLDER gets man/man1/scarp.1 (packaging/scarp.1.in, with
 synopsis and options), bash-completion/completions/scarp, zsh/site-functions/_scarp, fish/vendor_completions.d/scarp.fish
-and doc/scarp/options.md: the places below share/ where they are installed. The build runs it after it has linked the
-program.
+doc/scarp/options.md and doc/scarp/conflicts.md: the places below share/ where they are installed. The build runs it after
+it has linked the program.
 """
 
 import argparse
@@ -26,7 +26,7 @@ class Table:
         self.commands = [command["name"] for command in table["commands"]]
         self.summaries = {command["name"]: command["help"] for command in table["commands"]}
         self.usages = {command["name"]: command["usage"] for command in table["commands"]}
-        self.options = table["options"]
+        self.options, self.conflicts = table["options"], table["conflicts"]
 
     def of(self, command):
         return [option for option in self.options if option["command"] == command]
@@ -141,6 +141,37 @@ def options_page(table):
         for group in dict.fromkeys(option["group"] for option in table.listed(command)):
             options = [option for option in table.listed(command) if option["group"] == group]
             lines += ["", f"### {command}: {group[0].lower()}{group[1:]}", "", *option_rows(options)]
+    return "\n".join(lines) + "\n"
+
+
+# The page of conflicts.
+
+
+def setting(word):
+    """`--option value` (remark)."""
+    name, _, remark = word.partition(" (")
+    name = name if name.endswith("samples") or name == "samples in memory" else f"`{name}`"
+    return f"{name} ({remark}" if remark else name
+
+
+def conflicts_page(table):
+    def rows(keys, of_tiles):
+        for row in table.conflicts:
+            if row["tiles"] == of_tiles:
+                yield "| " + " | ".join(", ".join(map(setting, row[key])) for key in keys) + f" | {row['because']} |"
+
+    lines = [
+        "# Settings that do not go together", "",
+        "All settings of a simplification or of tiles can be combined, but for the pairs in these tables. The program refuses",
+        "such a pair in a sentence that names both options; the library's `simplify()` fails with `kUsage` and the same reason.",
+        "`find_conflicts()` of `scarp/conflicts.h` lists all conflicts of a call before it is made.", "", f"{NOTE}.", "",
+        "Each setting of the first column conflicts with each of the second. Where the third column names settings, there is a",
+        "conflict only if one of these is set, too.", "",
+        "| setting | does not go with | if there is also | because |", "|---|---|---|---|",
+        *rows(("setting", "with", "beside"), False), "",
+        "Tiles (`scarp tile`, `tile plan`, `serve`): without `--grid` and `--of` the raster decides the grid, and the grid the",
+        "format. `plan_pyramid()` refuses conflicts of its settings in the same way.", "",
+        "| setting of tiles | does not go with | because |", "|---|---|---|", *rows(("setting", "with"), True)]
     return "\n".join(lines) + "\n"
 
 
@@ -283,7 +314,8 @@ def fish(table):
 
 
 FILES = {"man/man1/scarp.1": man_page, "bash-completion/completions/scarp": bash, "zsh/site-functions/_scarp": zsh,
-         "fish/vendor_completions.d/scarp.fish": fish, "doc/scarp/options.md": options_page}
+         "fish/vendor_completions.d/scarp.fish": fish, "doc/scarp/options.md": options_page,
+         "doc/scarp/conflicts.md": conflicts_page}
 
 
 def main():

@@ -8,17 +8,14 @@ shift 3
 mkdir -p "$folder"
 "$scarp" tile "$raster" "$folder/tiles" --overwrite "$@"
 if [ ! -e "$folder/cesium/Cesium.js" ]; then
-  modules=${CESIUM_MODULES:-}
-  if [ -z "$modules" ]; then
+  rm -rf "$folder/cesium" "$folder/package"
+  if [ -n "${CESIUM_MODULES:-}" ]; then
+    cp -r "$CESIUM_MODULES/cesium/Build/Cesium" "$folder/cesium"
+  else
     command -v npm > /dev/null || { echo "The page needs CesiumJS, which npm fetches: install npm, then run this again" >&2; exit 1; }
-    modules=$folder/npm
-    mkdir -p "$modules"
-    cp "$here/globe/package.json" "$here/globe/package-lock.json" "$modules/"
-    (cd "$modules" && npm ci --no-audit --no-fund --silent)
-    modules=$modules/node_modules
+    (cd "$folder" && npm pack --silent cesium@1.140.0 > /dev/null && tar -xzf cesium-1.140.0.tgz package/Build/Cesium && rm cesium-1.140.0.tgz)
+    mv "$folder/package/Build/Cesium" "$folder/cesium"
+    rm -r "$folder/package"
   fi
-  rm -rf "$folder/cesium"
-  cp -r "$modules/cesium/Build/Cesium" "$folder/cesium"
-  rm -rf "$folder/npm"
 fi
 cp "$here/globe/index.html" "$folder/index.html"

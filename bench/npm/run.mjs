@@ -1,4 +1,4 @@
-// The npm package compared with delatin and martini: node bench/npm/run.mjs RASTER... > bench/npm/results.csv
+// The npm package compared with delatin and martini: node bench/npm/run.mjs RASTER...
 //
 // RASTER: name=file:columns:rows:errors, float32 samples, such as everest=everest.f32:513:513:20,80; martini needs 2^n
 // + 1 a side. They are made by gdal_translate -of ENVI -ot Float32 -srcwin 400 300 513 513 N27E086.hgt everest.f32

@@ -106,19 +106,18 @@ void simplify(Mesh& mesh, Checkpoints& checkpoints, std::string_view policy) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 8) bench::die("usage: peer_cgal RASTER COLS ROWS Z_SCALE POLICY PREFIX EDGES...");
-  const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
-  const double z_scale = std::atof(argv[4]);
-  const std::string prefix = argv[6];
+  const bench::Arguments arguments(argc, argv, "peer_cgal RASTER COLS ROWS Z_SCALE POLICY PREFIX EDGES...");
+  const bench::RawRaster raster = bench::read_raw(arguments);
+  const double z_scale = arguments.number(3);
   std::vector<std::size_t> edges;
-  for (int k = 7; k < argc; ++k) edges.push_back(static_cast<std::size_t>(std::atoll(argv[k])));
+  for (const std::string& size : arguments.from(6)) edges.push_back(std::stoull(size));
   Mesh mesh = mesh_of(bench::full_grid(raster), z_scale);
   Checkpoints checkpoints(edges, [&](const Mesh& left, std::size_t wanted, double cpu_seconds) {
     const bench::Surface surface = surface_of(left, z_scale);
-    bench::write_surface((prefix + "." + std::to_string(wanted)).c_str(), surface);
+    bench::write_mesh(arguments[5] + "." + std::to_string(wanted), surface);
     std::printf("{\"version\": \"%s\", \"edges\": %zu, \"cpu_seconds\": %.6f, \"triangles\": %zu}\n", CGAL_VERSION_STR,
                 wanted, cpu_seconds, surface.triangles.size() / 3);
     std::fflush(stdout);
   });
-  simplify(mesh, checkpoints, argv[5]);
+  simplify(mesh, checkpoints, arguments[4]);
 }

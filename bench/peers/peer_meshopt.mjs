@@ -107,7 +107,7 @@ function writeSurface(file, left, positions) {
 }
 
 await MeshoptSimplifier.ready;
-const { version } = JSON.parse(readFileSync(new URL('node_modules/meshoptimizer/package.json', import.meta.url)));
+const { version } = JSON.parse(readFileSync(new URL('../node_modules/meshoptimizer/package.json', import.meta.url)));
 const grid = gridTriangles();
 const places = gridPositions();
 for (const size of sizes) {

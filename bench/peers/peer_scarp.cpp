@@ -3,48 +3,38 @@
 //   peer_scarp RASTER COLS ROWS -e ERROR VARIANT [SURFACE]         VARIANT: one of kVariants of ../quality/variants.h
 //   peer_scarp RASTER COLS ROWS -t TRIANGLES VARIANT [SURFACE]     one of its kBudgetVariants
 
-#include <string_view>
-
 #include "../quality/variants.h"
+#include "../speed/field.h"
 #include "scarp/scarp.h"
-#include "surface.h"
 
 namespace {
 
-scarp::SimplifyOptions options_of(std::string_view goal, const char* amount, const char* name) {
-  if (goal == "-t") {
-    const bench::BudgetVariant* variant = bench::find_budget_variant(name);
-    if (variant != nullptr) return bench::options_of(*variant, std::strtoull(amount, nullptr, 10));
-  } else {
-    const bench::Variant* variant = bench::find_variant(name);
-    if (variant != nullptr) return bench::options_of(*variant, std::atof(amount));
+scarp::SimplifyOptions options_of(const bench::Arguments& arguments) {
+  if (arguments[3] == "-t") {
+    if (const auto* variant = bench::find_budget_variant(arguments[5]))
+      return bench::options_of(*variant, std::stoull(arguments[4]));
+  } else if (const auto* variant = bench::find_variant(arguments[5])) {
+    return bench::options_of(*variant, arguments.number(4));
   }
-  bench::die(std::string("there is no variant ") + name);
+  bench::die("there is no variant " + arguments[5]);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 7 && argc != 8) bench::die("usage: peer_scarp RASTER COLS ROWS -e|-t GOAL VARIANT [SURFACE]");
-  const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
-  scarp::HeightField field;
-  field.samples = raster.samples.data();
-  field.cols = raster.cols;
-  field.rows = raster.rows;
-  field.frame = scarp::grid_frame(raster.rows);
-  const scarp::SimplifyOptions options = options_of(argv[4], argv[5], argv[6]);
-
+  const bench::Arguments arguments(argc, argv, "peer_scarp RASTER COLS ROWS -e|-t GOAL VARIANT [SURFACE]");
+  const bench::RawRaster raster = bench::read_raw(arguments);
+  const scarp::HeightField field = bench::field_of(raster);
+  const scarp::SimplifyOptions options = options_of(arguments);
   const bench::Stopwatch watch;
-  const auto made = scarp::simplify(field, options);
-  const bench::Times times = watch.read();
-  if (!made) bench::die(made.error().message);
-  bench::print_result(scarp::version(), times, made->mesh.vertex_count(), made->mesh.triangle_count());
-  if (argc == 7) return 0;
+  const auto made = bench::check(scarp::simplify(field, options));
+  bench::print_result(scarp::version(), watch.read(), made.mesh.vertex_count(), made.mesh.triangle_count());
+  if (arguments.count() == 6) return 0;
   bench::Surface surface;
-  for (std::size_t v = 0; v < made->mesh.vertex_count(); ++v) {
-    const auto point = made->mesh.vertex(v);
+  for (std::size_t v = 0; v < made.mesh.vertex_count(); ++v) {
+    const auto point = made.mesh.vertex(v);
     surface.points.insert(surface.points.end(), point.begin(), point.end());
   }
-  surface.triangles = made->mesh.triangles;
-  bench::write_surface(argv[7], surface);
+  surface.triangles = made.mesh.triangles;
+  bench::write_mesh(arguments[6], surface);
 }

@@ -14,8 +14,6 @@
 #include <vtkPolyData.h>
 #include <vtkQuadricDecimation.h>
 
-#include <string_view>
-
 #include "surface.h"
 
 namespace {
@@ -59,15 +57,15 @@ bench::Surface surface_of(vtkPolyData* mesh, double z_scale) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 8) bench::die("usage: peer_vtk RASTER COLS ROWS Z_SCALE MODE PREFIX TRIANGLES...");
-  const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
-  const double z_scale = std::atof(argv[4]);
-  const std::string_view mode = argv[5];
+  const bench::Arguments arguments(argc, argv, "peer_vtk RASTER COLS ROWS Z_SCALE MODE PREFIX TRIANGLES...");
+  const bench::RawRaster raster = bench::read_raw(arguments);
+  const double z_scale = arguments.number(3);
+  const std::string& mode = arguments[4];
   const bench::Surface grid = bench::full_grid(raster);
   vtkObject::GlobalWarningDisplayOff();  // warnings about each collapse whose least square has no single place
   const auto mesh = mesh_of(grid, z_scale);
-  for (int k = 7; k < argc; ++k) {
-    const double wanted = std::atof(argv[k]), all = static_cast<double>(grid.triangles.size() / 3);
+  for (const std::string& size : arguments.from(6)) {
+    const double wanted = std::stod(size), all = static_cast<double>(grid.triangles.size() / 3);
     vtkNew<vtkQuadricDecimation> decimation;
     decimation->SetInputData(mesh);
     decimation->SetTargetReduction(1 - wanted / all);
@@ -77,9 +75,9 @@ int main(int argc, char** argv) {
     decimation->Update();
     const double seconds = watch.cpu();
     const bench::Surface surface = surface_of(decimation->GetOutput(), z_scale);
-    bench::write_surface((std::string(argv[6]) + "." + argv[k]).c_str(), surface);
+    bench::write_mesh(arguments[5] + "." + size, surface);
     std::printf("{\"version\": \"%s\", \"size\": %s, \"cpu_seconds\": %.6f, \"triangles\": %zu}\n", SCARP_VTK_VERSION,
-                argv[k], seconds, surface.triangles.size() / 3);
+                size.c_str(), seconds, surface.triangles.size() / 3);
     std::fflush(stdout);
   }
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Triangles of Scarp and of its peers at equal *measured* max error; keeps ../quality/peers.csv and peers_seconds.csv.
+"""Triangles of Scarp and of its peers at equal *measured* max error; keeps ../quality/peers.csv.
 
   peers.py --bin build/bin                       everything (about half an hour of CPU time)
   peers.py --bin build/bin --only crater         some rasters, printed only
@@ -11,18 +11,15 @@ sample, it is the smallest that keeps the goal where it covers, and the table ha
 cover. A row whose max error is above what was asked shows that no mesh that was tried keeps the goal.
 """
 
-import argparse
-import csv
-import json
 import math
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 SPEED, QUALITY = HERE.parent / "speed", HERE.parent / "quality"
-sys.path.insert(0, str(SPEED))
+sys.path[:0] = [str(SPEED), str(HERE.parent)]
+from harness import arguments_of, call, install, keep_rows, read_table, write_table  # noqa: E402
 from rasters import find_file, to_raw  # noqa: E402
 
 # name: (file, window: 384 × 384 samples of the larger ones, since CGAL needs a minute a million samples and run)
@@ -47,17 +44,6 @@ COARSE, FINE = 1.3, 1.02  # neighbouring sizes that are tried first, and last
 PROMISING = 1.4            # settings whose first size is worse than this by the best one's are not searched further
 
 
-def call(*command):
-    done = subprocess.run([str(part) for part in command], check=True, stdout=subprocess.PIPE, text=True)
-    return [json.loads(line) for line in done.stdout.splitlines()]
-
-
-def install(folder):
-    """Installs the packages that package-lock.json pins."""
-    if not (folder / "node_modules").is_dir():
-        subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=folder, check=True)
-
-
 class Case:
     """A raster, and where programs find it."""
 
@@ -74,12 +60,12 @@ class Case:
 
     def run(self, program, *arguments):
         """The report of a program that writes one mesh."""
-        return call(self.bin / program, self.raw, self.cols, self.rows, *arguments, self.mesh)[0]
+        return call([self.bin / program, self.raw, self.cols, self.rows, *arguments, self.mesh])[0]
 
     def judge(self, form, report, mesh=None):
         """The report with the verdict on the mesh, which is deleted."""
         mesh = mesh or self.mesh
-        verdict = call(self.bin / "peer_judge", self.raw, self.cols, self.rows, form, mesh)[0]
+        verdict = call([self.bin / "peer_judge", self.raw, self.cols, self.rows, form, mesh])[0]
         mesh.unlink()
         return {**report, **verdict}
 
@@ -105,8 +91,8 @@ class Meshopt:
     @staticmethod
     def probe(case, setting, sizes):
         flattened, mode = setting
-        reports = call("node", HERE / "peer_meshopt.mjs", case.raw, case.cols, case.rows, case.z_scale(flattened), mode,
-                       "free", case.mesh, *sizes)
+        reports = call(["node", HERE / "peer_meshopt.mjs", case.raw, case.cols, case.rows, case.z_scale(flattened), mode,
+                       "free", case.mesh, *sizes])
         return {report["size"]: case.judge_surface(report, report["size"]) for report in reports}
 
 
@@ -124,8 +110,8 @@ class Cgal:
 
     def probe(self, case, setting, sizes):
         edges = {3 * size // 2: size for size in sorted(sizes, reverse=True)}
-        reports = call(case.bin / "peer_cgal", case.raw, case.cols, case.rows, case.z_scale(setting), self.policy,
-                       case.mesh, *edges)
+        reports = call([case.bin / "peer_cgal", case.raw, case.cols, case.rows, case.z_scale(setting), self.policy,
+                       case.mesh, *edges])
         return {edges[report["edges"]]: case.judge_surface(report, report["edges"]) for report in reports}
 
 
@@ -145,7 +131,7 @@ class Inserting:
         return {size: self.probe_one(case, 1e9 / size) for size in sizes}
 
     def probe_one(self, case, error):
-        report = call(*self.command(case.bin), case.raw, case.cols, case.rows, error, case.mesh)[0]
+        report = call([*self.command(case.bin), case.raw, case.cols, case.rows, error, case.mesh])[0]
         return case.judge("lattice", report)
 
 
@@ -267,34 +253,26 @@ def compare(case, options):
     return made
 
 
-def read_rows(path):
-    if not path.exists():
-        return []
-    with open(path, newline="") as stream:
-        return list(csv.DictReader(stream))
-
-
-def keep(rows):
-    """Old rows of other rasters, goals or programs stay. Times go to a file of their own."""
-    table, times = QUALITY / "peers.csv", QUALITY / "peers_seconds.csv"
-    key = ("raster", "percent_of_relief", "program")
+def keep(rows, times):
+    """Old rows of other rasters, goals or programs stay. CPU times in greedy insertion's are kept as means, of whole
+    runs alone."""
     programs = [f"Scarp {variant}" for variant in VARIANTS] + [peer.name for peer in PEERS]
 
     def place(row):
-        return (list(RASTERS).index(row["raster"]), -float(row["percent_of_relief"]), programs.index(row["program"]))
+        return list(RASTERS).index(row["raster"]), -float(row["percent_of_relief"]), programs.index(row["program"])
 
-    for path, columns in ((table, [name for name in rows[0] if name != "cpu_seconds"]), (times, [*key, "cpu_seconds"])):
-        merged = {tuple(row[name] for name in key): row for row in [*read_rows(path), *rows]}
-        with open(path, "w", newline="") as stream:
-            writer = csv.DictWriter(stream, columns, lineterminator="\n", extrasaction="ignore")
-            writer.writeheader()
-            writer.writerows(sorted(merged.values(), key=place))
+    keep_rows(QUALITY / "peers.csv", rows, ("raster", "percent_of_relief", "program"), place)
+    if times:
+        means = [{"table": "peers", "variant": program,
+                  "mean": f"{math.exp(sum(map(math.log, ratios)) / len(ratios)):.4g}",
+                  "least": f"{min(ratios):.4g}", "most": f"{max(ratios):.4g}"} for program, ratios in times.items()]
+        others = [row for row in read_table(QUALITY / "times.csv") if row["table"] != "peers"]
+        write_table(QUALITY / "times.csv", [*others, *means])
 
 
 def parse():
     names = [peer.name for peer in PEERS]
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
+    parser = arguments_of(__doc__)
     parser.add_argument("--only", nargs="+", choices=RASTERS, help="some of the rasters; printed only")
     parser.add_argument("--programs", nargs="*", choices=names, help="some of the peers; printed only")
     parser.add_argument("--goals", nargs="+", type=float, default=GOALS, help="percent of the relief; printed only")
@@ -305,16 +283,26 @@ def parse():
     return options
 
 
+def add_times(rows, times):
+    """CPU times of the rows that satisfy their goal, in greedy insertion's; the rows are then without."""
+    seconds = {(row["percent_of_relief"], row["program"]): float(row.pop("cpu_seconds")) for row in rows}
+    for row in rows:
+        if row["program"] != "Scarp greedy" and float(row["max_error"]) <= float(row["max_error_asked"]) * (1 + 1e-7):
+            goal = row["percent_of_relief"]
+            times.setdefault(row["program"], []).append(seconds[goal, row["program"]] / seconds[goal, "Scarp greedy"])
+
+
 def main():
-    options = parse()
-    for program, folder in (("delatin", SPEED), ("meshoptimizer", HERE)):
+    options, times = parse(), {}
+    for program in ("delatin", "meshoptimizer"):
         if program in options.programs:
-            install(folder)
+            install(program)
     for name in options.only or RASTERS:
         with tempfile.TemporaryDirectory() as scratch:
             rows = compare(Case(name, options, scratch), options)
+        add_times(rows, times)
         if options.whole or options.keep:
-            keep(rows)
+            keep(rows, times if options.whole and name == list(RASTERS)[-1] else {})
 
 
 if __name__ == "__main__":

@@ -10,13 +10,10 @@ the smallest mesh of at least as many triangles as Scarp's, `high rms`, and at m
 settings counts. Samples that a mesh does not cover have no error, which is in that mesh's favour.
 """
 
-import argparse
-import csv
 import sys
 import tempfile
-from pathlib import Path
 
-from peers import FLATTENED, HERE, QUALITY, RASTERS, Case, Meshopt, call, install, read_rows
+from peers import FLATTENED, QUALITY, RASTERS, Case, Cgal, Meshopt, arguments_of, call, install, keep_rows
 
 PERCENT = 1  # percent of the relief
 MOST_MORE = 1.01  # a mesh of more triangles than this by Scarp's does not count: VTK's attributes stop it early on walls
@@ -44,22 +41,15 @@ def keep_smallest(case, sizes, triangles, least):
     return best
 
 
-class Cgal:
+class CgalSquares(Cgal):
     """Its size is a number of edges, which for as many triangles grows with the border: all are tried in one run."""
 
-    program, settings = "peer_cgal", FLATTENED
-
-    def __init__(self, name, policy):
-        self.name, self.policy = name, policy
-
-    @staticmethod
-    def describe(setting):
-        return f"relief {setting:g} of the side"
+    settings = FLATTENED
 
     def make(self, case, setting, least):
         edges = range(3 * least // 2 + case.cols + case.rows, 3 * least // 2, -3)
-        reports = call(case.bin / self.program, case.raw, case.cols, case.rows, case.z_scale(setting), self.policy,
-                       case.mesh, *edges)
+        reports = call([case.bin / self.program, case.raw, case.cols, case.rows, case.z_scale(setting), self.policy,
+                       case.mesh, *edges])
         by_size = {report["edges"]: report for report in reports}
         best = keep_smallest(case, by_size, {size: report["triangles"] for size, report in by_size.items()}, least)
         return best and case.judge_surface(by_size[best], best)
@@ -80,25 +70,20 @@ class MeshoptSquares(ByTriangles, Meshopt):
     pass
 
 
-class Vtk(ByTriangles):
+class Vtk(MeshoptSquares):
     name, program = "VTK quadrics", "peer_vtk"
     # VolumePreservation changed nothing on mars_gale, and attributes were better at 0.2 than at flatter surfaces.
     settings = ((0.2, "plain"), (0.04, "plain"), (0.008, "plain"), (0.2, "attribute"))
 
     @staticmethod
-    def describe(setting):
-        flattened, mode = setting
-        return f"{mode}; relief {flattened:g} of the side"
-
-    @staticmethod
     def probe(case, setting, sizes):
         flattened, mode = setting
-        reports = call(case.bin / "peer_vtk", case.raw, case.cols, case.rows, case.z_scale(flattened), mode, case.mesh,
-                       *sizes)
+        reports = call([case.bin / "peer_vtk", case.raw, case.cols, case.rows, case.z_scale(flattened), mode, case.mesh,
+                       *sizes])
         return {report["size"]: case.judge_surface(report, report["size"]) for report in reports}
 
 
-PEERS = (MeshoptSquares(), Cgal("CGAL Lindstrom-Turk", "lt"), Cgal("CGAL Garland-Heckbert", "gh"), Vtk())
+PEERS = (MeshoptSquares(), CgalSquares("CGAL Lindstrom-Turk", "lt"), CgalSquares("CGAL Garland-Heckbert", "gh"), Vtk())
 
 
 def row_of(case, program, setting, verdict, scarp):
@@ -137,26 +122,20 @@ def compare(case, options):
 
 def keep(rows):
     """Old rows of other rasters or programs stay."""
-    table = QUALITY / "squares.csv"
     programs = [f"Scarp {name}" for name in ("greedy", *SCARP)] + [peer.name for peer in PEERS]
-    merged = {(row["raster"], row["program"]): row for row in [*read_rows(table), *rows]}
-    with open(table, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(sorted(merged.values(), key=lambda row: (list(RASTERS).index(row["raster"]),
-                                                                  programs.index(row["program"]))))
+    keep_rows(QUALITY / "squares.csv", rows, ("raster", "program"),
+              lambda row: (list(RASTERS).index(row["raster"]), programs.index(row["program"])))
 
 
 def main():
     names = [peer.name for peer in PEERS]
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
+    parser = arguments_of(__doc__)
     parser.add_argument("--only", nargs="+", choices=RASTERS, help="some of the rasters; printed only")
     parser.add_argument("--programs", nargs="*", choices=names, default=names, help="some of the peers")
     parser.add_argument("--keep", action="store_true", help="keep the rows of some rasters nevertheless")
     options = parser.parse_args()
     if MeshoptSquares.name in options.programs:
-        install(HERE)
+        install("meshoptimizer")
     for name in options.only or RASTERS:
         with tempfile.TemporaryDirectory() as scratch:
             rows = compare(Case(name, options, scratch), options)

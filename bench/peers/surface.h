@@ -1,44 +1,9 @@
-// Meshes whose vertices lie anywhere, as files for the judge.
+// The full grid of a raster, with which edge collapse begins.
 #pragma once
-
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "../speed/raw.h"
 
 namespace bench {
-
-/// Points (x = column, y = rows − 1 − row, z), triangles as triples of their ids, counter-clockwise from above.
-struct Surface {
-  std::vector<double> points;
-  std::vector<std::uint32_t> triangles;
-};
-
-/// Two counts (native uint32), then the two arrays.
-inline void write_surface(const char* path, const Surface& surface) {
-  const File file = open_file(path, "wb");
-  const std::uint32_t counts[2] = {static_cast<std::uint32_t>(surface.points.size() / 3),
-                                   static_cast<std::uint32_t>(surface.triangles.size() / 3)};
-  const bool written =
-      std::fwrite(counts, sizeof counts, 1, file.get()) == 1 &&
-      std::fwrite(surface.points.data(), 8, surface.points.size(), file.get()) == surface.points.size() &&
-      std::fwrite(surface.triangles.data(), 4, surface.triangles.size(), file.get()) == surface.triangles.size();
-  if (!written) die(std::string("cannot write ") + path);
-}
-
-inline Surface read_surface(const char* path) {
-  const File file = open_file(path, "rb");
-  std::uint32_t counts[2] = {};
-  Surface surface;
-  bool read = std::fread(counts, sizeof counts, 1, file.get()) == 1;
-  surface.points.resize(3 * std::size_t{counts[0]});
-  surface.triangles.resize(3 * std::size_t{counts[1]});
-  read = read && std::fread(surface.points.data(), 8, surface.points.size(), file.get()) == surface.points.size() &&
-         std::fread(surface.triangles.data(), 4, surface.triangles.size(), file.get()) == surface.triangles.size();
-  if (!read) die(std::string(path) + " is not a whole mesh");
-  return surface;
-}
 
 /// Every sample a vertex, every cell two triangles cut along alternating diagonals.
 inline Surface full_grid(const RawRaster& raster) {

@@ -19,11 +19,14 @@ import argparse
 import csv
 import ctypes
 import itertools
-import resource
+import pathlib
 import statistics
 import subprocess
 import sys
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from harness import seconds_of_children  # noqa: E402
 
 
 def find_calls(side):
@@ -83,11 +86,6 @@ def time_calls(side, rounds, in_a_row):
                 free(made)
             beyond[name].append(1e6 * (clock() - again + end - begin - seconds))
     return {name: statistics.median(values) for name, values in beyond.items()}
-
-
-def seconds_of_children():
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def time_imports(rounds):

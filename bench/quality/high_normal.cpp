@@ -1,31 +1,19 @@
-// Checks if `high` ever needs more triangles than `normal` for the same max error, and what its default floor of shapes
-// yields: rasters and generated fields × errors → triangles, max errors, RMSE, thin triangles, as measure() judges
-// them.
-//
-//   scarp_high_normal PROJECT TABLE.csv [NAME...]
-//
-// All of PROJECT/bench/quality/rasters.txt and the fields below, or the named ones, whose rows then are put in place of
-// the old ones. `hard` is high with --min-shape 0.1, which does not yield; it is run where a raster is small. Ends with
-// 3 as soon as a mesh breaks its bound, does not cover a sample or is not sound; and, when all is done, if `high`
-// needed more triangles than `normal` anywhere.
+// `high` against `normal` for the same max error, and what its default floor of shapes yields: rasters and generated
+// fields × errors → triangles, max errors, RMSE, thin triangles. `hard` is high with --min-shape 0.1, which does not
+// yield; it is run where a raster is small. Fails where `high` has more triangles than `normal`.
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
-#include <cstdio>
+#include "suite.h"
 
-#include "files.h"
-#include "judge.h"
-#include "scarp/scarp.h"
-#include "variants.h"
-
+namespace bench {
 namespace {
 
+constexpr char kList[] = "rasters";
 constexpr double kPercentsOfRelief[] = {5, 1};
 constexpr std::uint64_t kMostOfFine = 600'000;  ///< rasters of more samples: the first error only, and not `hard`
 constexpr int kSide = 384;
-
-constexpr const char* kHeader =
-    "raster,cols,rows,valid,percent_of_relief,max_error_asked,variant,triangles,max_error,rmse,angle_p1,thin_percent\n";
 
 /// Heights of samples by column and row.
 using Shape = float (*)(int col, int row);
@@ -64,7 +52,14 @@ constexpr const char* kStyles[] = {
     "cliff",      "step",    "sharp-step", "diagonal-step", "sharp-diagonal-step", "pyramid", "diagonal-pyramid",
     "paraboloid", "fractal", "smooth"};
 
-scarp::Result<scarp::OwnedHeightField> field_of(const std::filesystem::path& project, const std::string& name) {
+std::vector<std::string> names(const std::filesystem::path& project) {
+  std::vector<std::string> all = names_in<kList>(project);
+  all.insert(all.end(), std::begin(kStyles), std::end(kStyles));
+  for (const Generated& generated : kGenerated) all.emplace_back(generated.name);
+  return all;
+}
+
+scarp::Result<scarp::OwnedHeightField> read(const std::filesystem::path& project, const std::string& name) {
   for (const Generated& generated : kGenerated) {
     if (name != generated.name) continue;
     scarp::OwnedHeightField field;
@@ -79,8 +74,7 @@ scarp::Result<scarp::OwnedHeightField> field_of(const std::filesystem::path& pro
     field.info.valid = field.samples.size();
     return field;
   }
-  if (const auto style = scarp::find_field_style(name)) return scarp::generate_field(*style, kSide, kSide);
-  return bench::read_field(project, name);
+  return read_field(project, name, kSide);
 }
 
 scarp::SimplifyOptions options_of(std::string_view variant, double max_error) {
@@ -92,55 +86,31 @@ scarp::SimplifyOptions options_of(std::string_view variant, double max_error) {
   return options;
 }
 
-/// All errors and variants of one field; the program's exit code.
-int run(const std::string& name, const scarp::OwnedHeightField& field, std::string& table, int& worse) {
+void measure(const std::string& name, const scarp::OwnedHeightField& field, Rows& rows) {
   const bool is_small = field.info.valid <= kMostOfFine;
   for (const double percent : kPercentsOfRelief) {
     if (!is_small && percent < kPercentsOfRelief[0]) continue;
-    const double max_error = percent / 100 * (field.info.max - field.info.min);
+    const double max_error = percent / 100 * relief_of(field);
     std::uint64_t normal = 0;
     for (const std::string_view variant : {"normal", "high", "hard"}) {
       if (!is_small && variant == "hard") continue;
-      const auto made = bench::make(field, options_of(variant, max_error));
-      const std::string fault = made ? bench::find_fault(made->judged, max_error) : made.error().message;
-      if (!fault.empty()) {
-        fmt::print(stderr, "{}, {:g} % of the relief, {}: {}\n", name, percent, variant, fault);
-        return 3;
-      }
-      const scarp::Measurement& judged = made->judged;
-      table += fmt::format("{},{},{},{},{:g},{:.9g},{},{},{:.7g},{:.7g},{:.3f},{:.2f}\n", name, field.cols, field.rows,
+      const std::string what = fmt::format("{}, {:g} % of the relief, {}", name, percent, variant);
+      const Made made = make(what, field, options_of(variant, max_error));
+      const scarp::Measurement& judged = made.judged;
+      rows.add(fmt::format("{},{},{},{},{:g},{:.9g},{},{},{:.7g},{:.7g},{:.3f},{:.2f}", name, field.cols, field.rows,
                            field.info.valid, percent, max_error, variant, judged.triangles, judged.max_error,
-                           judged.rmse, judged.angle_percentiles[0], made->thin_percent);
-      fmt::print("{:28}{:4g} %  {:8}{:9}{:9.3f} s\n", name, percent, variant, judged.triangles, made->seconds);
-      std::fflush(stdout);
+                           judged.rmse, judged.angle_percentiles[0], made.thin_percent));
       if (variant == "normal") normal = judged.triangles;
-      worse += variant == "high" && judged.triangles > normal ? 1 : 0;
+      if (variant == "high" && judged.triangles > normal) die(what + ": more triangles than normal", 3);
     }
   }
-  return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: scarp_high_normal PROJECT TABLE.csv [NAME...]\n");
-    return 1;
-  }
-  const std::filesystem::path project = argv[1];
-  std::vector<std::string> all = bench::read_names(project / "bench/quality/rasters.txt");
-  all.insert(all.end(), std::begin(kStyles), std::end(kStyles));
-  for (const Generated& generated : kGenerated) all.emplace_back(generated.name);
-  std::vector<std::string> names(argv + 3, argv + argc);
-  if (names.empty()) names = all;
-  int worse = 0;
-  for (const std::string& name : names) {
-    const auto field = field_of(project, name);
-    if (!field) return bench::fail_with(field.error().message);
-    std::string table = kHeader;
-    if (const int code = run(name, *field, table, worse)) return code;
-    if (const int code = bench::write_table(argv[2], bench::replace_rows(argv[2], table, name, all))) return code;
-  }
-  if (worse > 0) fmt::print(stderr, "high took more triangles than normal in {} cases\n", worse);
-  return worse == 0 ? 0 : 3;
-}
+const Suite kHighNormal{"high_normal",
+                        "raster,cols,rows,valid,percent_of_relief,max_error_asked,variant,triangles,max_error,rmse,"
+                        "angle_p1,thin_percent",
+                        names, measure, read};
+
+}  // namespace bench

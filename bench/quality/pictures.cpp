@@ -1,16 +1,10 @@
 // The same scenes under the same max error by greedy insertion and by each effort, and under the same budget by each
-// objective: the mesh over the relief, all of a scene in the same light and scale.
-//
-//   scarp_pictures PROJECT FOLDER PICTURES.csv     FOLDER/effort_SCENE_VARIANT.png, and what each shows
+// objective: the mesh over the relief, all of a scene in the same light and scale, as bench/images/effort_*.png.
 
-#include <fmt/format.h>
-
-#include <cstdio>
-
-#include "files.h"
-#include "scarp/scarp.h"
+#include "suite.h"
 #include "variants.h"
 
+namespace bench {
 namespace {
 
 /// A square window of a raster.
@@ -23,18 +17,18 @@ struct Scene {
   std::uint64_t budget;  ///< triangles that both objectives get; 0: neither is drawn
 };
 
-/// The table's row for a picture.
-struct Row {
-  std::string scene, variant, goal;
-};
-
 constexpr Scene kScenes[] = {
     {"fuji", "fuji.tif", 204, 114, 192, 25, 440, 800},
     {"essen", "nrw_dom1_essen.tif", 300, 300, 128, 2, 440, 0},
 };
-constexpr std::string_view kShown[] = {"greedy", "normal", "high"};
 /// Variants of a budget, and the objectives that they are drawn for.
 constexpr std::pair<const char*, const char*> kObjectives[] = {{"high", "max"}, {"high rms", "rms"}};
+
+std::vector<std::string> names(const std::filesystem::path& /*project*/) {
+  std::vector<std::string> files;
+  for (const Scene& scene : kScenes) files.emplace_back(scene.file);
+  return files;
+}
 
 scarp::OwnedHeightField cut(const scarp::OwnedHeightField& field, const Scene& scene) {
   scarp::OwnedHeightField window;
@@ -47,52 +41,36 @@ scarp::OwnedHeightField cut(const scarp::OwnedHeightField& field, const Scene& s
   return window;
 }
 
-/// The mesh of some variant, drawn and listed in the table; the program's exit code.
-int draw(const Scene& scene, const scarp::OwnedHeightField& window, const scarp::SimplifyOptions& options,
-         const Row& row, const std::string& folder, std::string& table) {
-  const auto made = scarp::simplify(window, options);
-  if (!made) return bench::fail_with(made.error().message);
-  const auto picture = scarp::draw_preview(window, made->mesh, {.max_side = scene.pixels});
-  if (!picture) return bench::fail_with(picture.error().message);
-  const auto png = scarp::encode_png(*picture);
-  if (!png) return bench::fail_with(png.error().message);
-  const std::string name = fmt::format("effort_{}_{}.png", row.scene, row.variant);
-  if (const auto written = scarp::write_file(folder + "/" + name, *png); !written)
-    return bench::fail_with(written.error().message);
-  table += fmt::format("{},{},{},{},{},{},{},{:.7g},{:.7g}\n", row.scene, scene.file, scene.side, row.goal, row.variant,
-                       name, made->mesh.triangle_count(), made->measurement.max_error, made->measurement.rmse);
-  return 0;
+/// The mesh of some variant, drawn and listed in the table.
+void draw(const Scene& scene, const scarp::OwnedHeightField& window, const scarp::SimplifyOptions& options,
+          const std::string& title, const std::string& goal, std::string_view variant, Rows& rows) {
+  const auto made = check(scarp::simplify(window, options));
+  const auto picture = check(scarp::draw_preview(window, made.mesh, {.max_side = scene.pixels}));
+  const std::string name = fmt::format("effort_{}_{}.png", title, variant);
+  if (const auto written = scarp::write_file((rows.project / "bench/images" / name).string(), check(scarp::encode_png(picture)));
+      !written)
+    die(written.error().message);
+  rows.add(fmt::format("{},{},{},{},{},{},{},{:.7g},{:.7g}", scene.file, title, scene.side, goal, variant, name,
+                       made.mesh.triangle_count(), made.measurement.max_error, made.measurement.rmse));
 }
 
-int draw_all(const Scene& scene, const scarp::OwnedHeightField& window, const std::string& folder, std::string& table) {
-  for (const std::string_view variant : kShown) {
-    const auto options = bench::options_of(*bench::find_variant(variant), scene.max_error);
-    const Row row{scene.name, std::string(variant), fmt::format("{:g}", scene.max_error)};
-    if (const int code = draw(scene, window, options, row, folder, table)) return code;
+void measure(const std::string& name, const scarp::OwnedHeightField& field, Rows& rows) {
+  for (const Scene& scene : kScenes) {
+    if (name != scene.file) continue;
+    const scarp::OwnedHeightField window = cut(field, scene);
+    for (const std::string_view variant : {"greedy", "normal", "high"})
+      draw(scene, window, options_of(*find_variant(variant), scene.max_error), scene.name,
+           fmt::format("{:g}", scene.max_error), variant, rows);
+    for (const auto& [variant, objective] : kObjectives) {
+      if (scene.budget == 0) continue;
+      draw(scene, window, options_of(*find_budget_variant(variant), scene.budget), fmt::format("{}_budget", scene.name),
+           fmt::format("{} triangles", scene.budget), objective, rows);
+    }
   }
-  if (scene.budget == 0) return 0;
-  for (const auto& [variant, objective] : kObjectives) {
-    const auto options = bench::options_of(*bench::find_budget_variant(variant), scene.budget);
-    const Row row{fmt::format("{}_budget", scene.name), objective, fmt::format("{} triangles", scene.budget)};
-    if (const int code = draw(scene, window, options, row, folder, table)) return code;
-  }
-  return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (argc != 4) {
-    fmt::print(stderr, "usage: scarp_pictures PROJECT FOLDER PICTURES.csv\n");
-    return 1;
-  }
-  std::string table = "scene,raster,side,goal,effort,picture,triangles,max_error,rmse\n";
-  for (const Scene& scene : kScenes) {
-    const auto path = bench::find_raster(argv[1], scene.file);
-    if (!path) return bench::fail_with(fmt::format("{} is not there", scene.file));
-    const auto field = scarp::read_height_field(*path);
-    if (!field) return bench::fail_with(field.error().message);
-    if (const int code = draw_all(scene, cut(*field, scene), argv[2], table)) return code;
-  }
-  return bench::write_table(argv[3], table);
-}
+const Suite kPictures{"pictures", "raster,scene,side,goal,effort,picture,triangles,max_error,rmse", names, measure};
+
+}  // namespace bench

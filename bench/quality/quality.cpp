@@ -1,97 +1,130 @@
-// The quality table: rasters × goals → vertices, triangles, max error and RMSE as measure() judges the mesh. No times
-// in it: the file is the same on every machine and only changes when the meshes do.
+// Measures meshes and keeps the tables bench/quality/SUITE.csv. They hold no times, so that they only change when the
+// meshes do; the mean ratios of CPU times go to times.csv, after a run over all rasters.
 //
-//   scarp_quality PROJECT RESULTS.csv [NAME...]     all of PROJECT/bench/quality/rasters.txt, or the named ones
+//   scarp_quality PROJECT SUITE [NAME...]     all rasters of the suite, or the named ones, whose rows are replaced
+//
+// SUITE: efforts, budgets, high_normal, edges, orders, ridges, pictures. Exit code 2: a raster is not there, its rows
+// are left as they were; 3: a mesh is not what it should be.
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
-#include <cstdio>
-#include <iostream>
-#include <vector>
+#include "suite.h"
 
-#include "files.h"
-#include "scarp/scarp.h"
-
+namespace bench {
 namespace {
 
-struct Goal {
-  const char* name;
-  double error_of_relief;    ///< max error as a share of the relief; 0: none
-  double vertices_of_valid;  ///< vertex budget as a share of the valid samples; 0: none
-};
+constexpr std::array kSuites{&kEfforts, &kBudgets, &kHighNormal, &kEdges, &kOrders, &kRidges, &kPictures};
 
-constexpr Goal kGoals[] = {
-    {"error 0.5%", 0.005, 0}, {"error 2%", 0.02, 0}, {"error 10%", 0.1, 0}, {"vertices 1%", 0, 0.01}};
+double smallest_angle(const scarp::Mesh& mesh, std::size_t triangle) {
+  std::array<std::array<double, 2>, 3> at{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto point = mesh.vertex(mesh.triangles[3 * triangle + k]);
+    at[k] = {point[0], point[1]};
+  }
+  double least = 180;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto &p = at[k], &q = at[(k + 1) % 3], &r = at[(k + 2) % 3];
+    const double ax = q[0] - p[0], ay = q[1] - p[1], bx = r[0] - p[0], by = r[1] - p[1];
+    least = std::min(least, std::atan2(std::abs(ax * by - ay * bx), ax * bx + ay * by) * 180 / std::numbers::pi);
+  }
+  return least;
+}
 
-constexpr const char* kHeader =
-    "raster,cols,rows,valid,relief,goal,asked,vertices,triangles,percent_of_full,max_error,rmse,uncovered\n";
+double thin_percent(const scarp::Mesh& mesh) {
+  std::size_t thin = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) thin += smallest_angle(mesh, t) < 5 ? 1 : 0;
+  return 100.0 * static_cast<double>(thin) / static_cast<double>(std::max<std::size_t>(1, mesh.triangle_count()));
+}
 
-std::string run(const std::string& name, const scarp::OwnedHeightField& field, const Goal& goal) {
-  const double relief = field.info.max - field.info.min;
-  scarp::SimplifyOptions options;
-  options.quality.effort = scarp::Effort::kFast;
-  double asked = 0;
-  if (goal.error_of_relief > 0) {
-    asked = goal.error_of_relief * relief;
-    options.goals.max_error = asked;
-  } else {
-    options.goals.max_vertices =
-        static_cast<std::uint64_t>(goal.vertices_of_valid * static_cast<double>(field.info.valid));
-    asked = static_cast<double>(*options.goals.max_vertices);
+/// The fault of a mesh; nothing if nothing is.
+std::string find_fault(const scarp::Measurement& judged, const scarp::SimplifyOptions& options) {
+  // Planes through vertices between samples are no numbers of double.
+  constexpr double kRounding = 1 + 1e-12;
+  const auto& goals = options.goals;
+  if (goals.max_error && judged.max_error > kRounding * *goals.max_error)
+    return fmt::format("its max error is {:.9g}", judged.max_error);
+  if (goals.max_triangles && judged.triangles > *goals.max_triangles)
+    return fmt::format("it has {} triangles", judged.triangles);
+  if (judged.uncovered > 0) return fmt::format("{} samples are uncovered", judged.uncovered);
+  return judged.is_sound() ? "" : "it folds, gapes or degenerates";
+}
+
+std::string times_of(const Suite& suite, const std::map<std::string, std::vector<double>>& times) {
+  std::string rows;
+  for (const auto& [variant, ratios] : times) {
+    double logs = 0;
+    for (const double ratio : ratios) logs += std::log(ratio);
+    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+    rows += fmt::format("{},{},{:.4g},{:.4g},{:.4g}\n", suite.name, variant,
+                        std::exp(logs / static_cast<double>(ratios.size())), *least, *most);
   }
-  const std::string key = fmt::format("{},{},{},{},{:.9g},{},{:.9g}", name, field.cols, field.rows, field.info.valid,
-                                      relief, goal.name, asked);
-  const auto result = scarp::simplify(field, options);
-  if (!result) {
-    fmt::print(stderr, "{}, {}: {}\n", name, goal.name, result.error().message);
-    return fmt::format("{},,,,,,\n", key);
+  return rows;
+}
+
+int run(const Suite& suite, const std::filesystem::path& project, const std::vector<std::string>& some) {
+  const std::filesystem::path folder = project / "bench/quality", path = folder / (std::string(suite.name) + ".csv");
+  const std::vector<std::string> all = suite.names(project);
+  std::map<std::string, std::vector<double>> times;
+  int code = 0;
+  for (const std::string& name : some.empty() ? all : some) {
+    const auto field = suite.read != nullptr ? suite.read(project, name) : read_field(project, name);
+    if (!field) {
+      fmt::print(stderr, "{}\n", field.error().message);
+      code = 2;
+      continue;
+    }
+    Rows rows(project, suite.header);
+    suite.measure(name, *field, rows);
+    keep_rows(path, rows.table(), name, all);
+    for (const auto& [variant, ratios] : rows.times())
+      times[variant].insert(times[variant].end(), ratios.begin(), ratios.end());
   }
-  scarp::MeasureOptions heights_only;
-  heights_only.topology = false;
-  const auto judged = scarp::measure(field, result->mesh, heights_only);
-  if (!judged) {
-    fmt::print(stderr, "{}, {}: {}\n", name, goal.name, judged.error().message);
-    return fmt::format("{},,,,,,\n", key);
-  }
-  const double full = 2.0 * (field.cols - 1) * (field.rows - 1);
-  return fmt::format("{},{},{},{:.4f},{:.7g},{:.7g},{}\n", key, judged->vertices, judged->triangles,
-                     100 * static_cast<double>(judged->triangles) / full, judged->max_error, judged->rmse,
-                     judged->uncovered);
+  if (some.empty() && code == 0 && !times.empty())
+    keep_rows(folder / "times.csv", "table,variant,mean,least,most\n" + times_of(suite, times), suite.name,
+              {"efforts", "budgets", "peers"});
+  return code;
 }
 
 }  // namespace
 
+void Rows::add(const std::string& row) {
+  table_ += row + "\n";
+  fmt::print("{}\n", row);
+  std::fflush(stdout);
+}
+
+void Rows::add_time(std::string_view variant, double ratio) { times_[std::string(variant)].push_back(ratio); }
+
+scarp::Result<scarp::OwnedHeightField> read_field(const std::filesystem::path& project, const std::string& name,
+                                                  int generated_side) {
+  if (const auto style = scarp::find_field_style(name))
+    return scarp::generate_field(*style, generated_side, generated_side);
+  const auto path = find_raster(project, name);
+  if (!path) return tl::unexpected(scarp::Error{scarp::ErrorKind::kInput, name + " is not there"});
+  return scarp::read_height_field(*path);
+}
+
+Made make(const std::string& what, const scarp::OwnedHeightField& field, const scarp::SimplifyOptions& options) {
+  const Stopwatch watch;
+  const auto simplified = scarp::simplify(field, options);
+  Made made;
+  made.seconds = watch.cpu();
+  if (!simplified) die(what + ": " + simplified.error().message, 3);
+  made.judged = check(scarp::measure(field, simplified->mesh));
+  if (const std::string fault = find_fault(made.judged, options); !fault.empty()) die(what + ": " + fault, 3);
+  made.thin_percent = thin_percent(simplified->mesh);
+  return made;
+}
+
+}  // namespace bench
+
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: scarp_quality PROJECT RESULTS.csv [NAME...]\n");
-    return 1;
+  const bench::Arguments arguments(argc, argv, "scarp_quality PROJECT SUITE [NAME...]");
+  for (const bench::Suite* suite : bench::kSuites) {
+    if (arguments[1] == suite->name) return bench::run(*suite, arguments[0], arguments.from(2));
   }
-  const std::filesystem::path project = argv[1];
-  std::vector<std::string> names(argv + 3, argv + argc);
-  if (names.empty()) names = bench::read_names(project / "bench/quality/rasters.txt");
-  std::string table = kHeader;
-  int missing = 0;
-  for (const auto& name : names) {
-    const auto path = bench::find_raster(project, name);
-    if (!path) {
-      fmt::print(stderr, "{} is not there\n", name);
-      ++missing;
-      continue;
-    }
-    const auto field = scarp::read_height_field(*path);
-    if (!field) {
-      fmt::print(stderr, "{}\n", field.error().message);
-      return 2;
-    }
-    for (const Goal& goal : kGoals) {
-      const std::string row = run(name, *field, goal);
-      table += row;
-      std::cout << row << std::flush;
-    }
-  }
-  if (missing > 0) {
-    fmt::print(stderr, "{} rasters are not there: {} is left as it was\n", missing, argv[2]);
-    return 2;
-  }
-  return bench::write_table(argv[2], table);
+  bench::die("there is no suite " + arguments[1], 1);
 }

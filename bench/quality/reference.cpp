@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "files.h"
+#include "../harness.h"
 #include "reference_rows.h"
 #include "scarp/scarp.h"
 
@@ -32,63 +32,42 @@ constexpr const char* kHeader =
 
 double percent(double ours, double theirs) { return 100 * (ours / theirs - 1); }
 
-/// A field that is refined further and further.
-struct Run {
-  scarp::OwnedHeightField field;
-  std::optional<scarp::Refiner> refiner;
-
-  scarp::Result<void> start() {
-    auto created = scarp::Refiner::create(field);
-    if (!created) return tl::unexpected(created.error());
-    refiner = std::move(*created);
-    return {};
-  }
-
-  scarp::Result<scarp::Measurement> refine_to(std::uint64_t vertices) {
-    while (refiner->vertex_count() < vertices && refiner->insert_worst()) {
-    }
-    scarp::MeasureOptions heights_only;
-    heights_only.topology = false;
-    return scarp::measure(field, refiner->mesh(), heights_only);
-  }
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    fmt::print(stderr, "usage: scarp_reference PROJECT TABLE.md\n");
-    return 1;
-  }
+  const bench::Arguments arguments(argc, argv, "scarp_reference PROJECT TABLE.md");
   std::string table = kHeader, field_name;
-  Run run;
+  scarp::OwnedHeightField field;
+  std::optional<scarp::Refiner> refiner;
+  scarp::MeasureOptions heights_only;
+  heights_only.topology = false;
   double worst_rmse = 0, worst_triangles = 0;
   for (const auto& row : bench::kReferenceRows) {
     if (field_name != row.field) {
       field_name = row.field;
       const std::string file = fmt::format("scape_{}.stm", row.field);
-      const auto path = bench::find_raster(argv[1], file);
-      if (!path) return bench::fail_with(fmt::format("{} is not there: {} is left as it was", file, argv[2]));
-      auto field = scarp::read_height_field(*path);
-      if (!field) return bench::fail_with(field.error().message);
-      run.field = std::move(*field);
-      if (auto started = run.start(); !started) return bench::fail_with(started.error().message);
+      const auto path = bench::find_raster(arguments[0], file);
+      if (!path) bench::die(fmt::format("{} is not there: {} is left as it was", file, arguments[1]));
+      refiner.reset();
+      field = bench::check(scarp::read_height_field(*path));
+      refiner = bench::check(scarp::Refiner::create(field));
     }
-    const auto judged = run.refine_to(row.vertices);
-    if (!judged) return bench::fail_with(judged.error().message);
-    const double rmse = percent(judged->rmse, row.rmse);
-    const double triangles = percent(static_cast<double>(judged->triangles), static_cast<double>(row.triangles));
+    while (refiner->vertex_count() < row.vertices && refiner->insert_worst()) {
+    }
+    const auto judged = bench::check(scarp::measure(field, refiner->mesh(), heights_only));
+    const double rmse = percent(judged.rmse, row.rmse);
+    const double triangles = percent(static_cast<double>(judged.triangles), static_cast<double>(row.triangles));
     worst_rmse = std::max(worst_rmse, std::abs(rmse));
     worst_triangles = std::max(worst_triangles, std::abs(triangles));
     const std::string line =
         fmt::format("| {} | {} | {} | {} | {:+.3f} % | {:.4f} | {:.4f} | {:+.2f} % | {:.3f} | {:.3f} |\n", row.field,
-                    judged->vertices, judged->triangles, row.triangles, triangles, judged->rmse, row.rmse, rmse,
-                    judged->max_error, row.max_error);
+                    judged.vertices, judged.triangles, row.triangles, triangles, judged.rmse, row.rmse, rmse,
+                    judged.max_error, row.max_error);
     fmt::print("{}", line);
     table += line;
   }
   table += fmt::format("\nLargest differences: RMSE {:.2f} %, triangles {:.3f} %.\n", worst_rmse, worst_triangles);
-  if (const int code = bench::write_table(argv[2], table); code != 0) return code;
+  bench::write_file(arguments[1], table);
   const bool kept = worst_rmse <= 100 * bench::kRmseTolerance && worst_triangles <= 100 * bench::kTriangleTolerance;
   return kept ? 0 : 3;
 }

@@ -2,24 +2,18 @@
 // gathers and where it parts; and how much of the network of streams the mesh keeps. Streams are the samples through
 // which at least 100 others drain, by steepest descent over the raster filled to its spills (D8; priority flood),
 // divides the same on the raster upside down: both know nothing of how the lines were found. A stream is kept where the
-// mesh, sampled on the raster's grid, has one within a sample of it. No times in it: the file only changes when the
-// meshes do.
-//
-//   scarp_ridges PROJECT RESULTS.csv [RASTER]...     the height asked of ridges is twice the max error
-
-#include <fmt/format.h>
+// mesh, sampled on the raster's grid, has one within a sample of it. The height asked of ridges is twice the max error.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <queue>
 #include <vector>
 
-#include "files.h"
-#include "scarp/scarp.h"
+#include "suite.h"
 
+namespace bench {
 namespace {
 
 using Marks = std::vector<std::uint8_t>;
@@ -27,13 +21,15 @@ using Marks = std::vector<std::uint8_t>;
 constexpr std::uint32_t kLeastDrained = 100;
 constexpr std::size_t kNowhere = SIZE_MAX;
 
-struct Case {
-  const char* raster;
-  std::array<double, 2> errors;
-};
-constexpr Case kCases[] = {{"fuji.tif", {20, 50}},          {"bigtujunga30m.tif", {15, 35}},
-                           {"bigtujunga30m.tif", {20, 50}}, {"jacksboro_fault.tif", {20, 50}},
-                           {"crater.tif", {10, 25}},        {"gabilan_lidar_1m.tif", {0.5, 1}}};
+const std::map<std::string, std::vector<double>> kErrors = {{"fuji.tif", {20, 50}},
+                                                            {"bigtujunga30m.tif", {15, 35, 20, 50}},
+                                                            {"jacksboro_fault.tif", {20, 50}},
+                                                            {"crater.tif", {10, 25}},
+                                                            {"gabilan_lidar_1m.tif", {0.5, 1}}};
+
+std::vector<std::string> names(const std::filesystem::path& /*project*/) {
+  return {"fuji.tif", "bigtujunga30m.tif", "jacksboro_fault.tif", "crater.tif", "gabilan_lidar_1m.tif"};
+}
 
 /// The flow of water over a grid of heights.
 class Drainage {
@@ -167,8 +163,7 @@ double rmse_at(const Marks& marks, const std::vector<float>& errors) {
 
 enum class Lines { kNone, kPreferred, kKept };
 
-scarp::Result<std::string> row_of(const scarp::OwnedHeightField& field, double error, scarp::Effort effort,
-                                  Lines lines) {
+std::string row_of(const scarp::OwnedHeightField& field, double error, scarp::Effort effort, Lines lines) {
   scarp::SimplifyOptions options;
   options.goals.max_error = error;
   options.quality.effort = effort;
@@ -178,62 +173,51 @@ scarp::Result<std::string> row_of(const scarp::OwnedHeightField& field, double e
   asked.max_error = error;
   asked.affine = options.features.breaklines.affine = scarp::map_affine(field.info, field.rows);
   asked.are_kept = lines == Lines::kKept;
-  auto ridges = scarp::detect_ridges(field.view(), asked);
-  if (!ridges) return tl::unexpected(ridges.error());
-  for (const auto* found : {&ridges->ridges, &ridges->valleys}) {
+  const auto ridges = check(scarp::detect_ridges(field.view(), asked));
+  for (const auto* found : {&ridges.ridges, &ridges.valleys}) {
     if (lines != Lines::kNone)
       options.features.breaklines.lines.insert(options.features.breaklines.lines.end(), found->begin(), found->end());
   }
-  const auto result = scarp::simplify(field, options);
-  if (!result) return tl::unexpected(result.error());
+  const auto result = check(scarp::simplify(field, options));
 
   std::vector<float> errors;
   scarp::MeasureOptions measuring;
   measuring.topology = false;
   measuring.run.threads = 0;
   measuring.on_row = [&](int, std::span<const float> row) { errors.insert(errors.end(), row.begin(), row.end()); };
-  const auto measured = scarp::measure(field, result->mesh, measuring);
-  if (!measured) return tl::unexpected(measured.error());
+  const auto measured = check(scarp::measure(field, result.mesh, measuring));
   std::vector<float> surface = field.samples;
   for (std::size_t i = 0; i < surface.size(); ++i) surface[i] += errors[i];
   const auto streams_of = [&](const std::vector<float>& heights) {
     return Drainage(heights, field.cols, field.rows).streams();
   };
   const Marks streams = streams_of(field.samples), divides = streams_of(turned(field.samples));
-  return fmt::format("{},{},{},{},{:.6g},{:.4g},{:.4g},{:.4g},{:.4f},{:.4f}", ridges->ridges.size(),
-                     ridges->valleys.size(), ridges->vertices, result->mesh.triangle_count(), measured->max_error,
-                     measured->rmse, rmse_at(streams, errors), rmse_at(divides, errors),
+  return fmt::format("{},{},{},{},{:.6g},{:.4g},{:.4g},{:.4g},{:.4f},{:.4f}", ridges.ridges.size(),
+                     ridges.valleys.size(), ridges.vertices, result.mesh.triangle_count(), measured.max_error,
+                     measured.rmse, rmse_at(streams, errors), rmse_at(divides, errors),
                      share_kept(streams, streams_of(surface), field.cols, field.rows),
                      share_kept(divides, streams_of(turned(surface)), field.cols, field.rows));
 }
 
-}  // namespace
+constexpr std::pair<const char*, scarp::Effort> kEfforts[] = {
+    {"fast", scarp::Effort::kFast}, {"normal", scarp::Effort::kNormal}, {"high", scarp::Effort::kHigh}};
+constexpr std::pair<const char*, Lines> kLines[] = {
+    {"none", Lines::kNone}, {"preferred", Lines::kPreferred}, {"kept", Lines::kKept}};
 
-int main(int argc, char** argv) {
-  if (argc < 3) return bench::fail_with("usage: scarp_ridges PROJECT RESULTS.csv [RASTER]...");
-  constexpr std::pair<const char*, scarp::Effort> kEfforts[] = {
-      {"fast", scarp::Effort::kFast}, {"normal", scarp::Effort::kNormal}, {"high", scarp::Effort::kHigh}};
-  constexpr std::pair<const char*, Lines> kLines[] = {
-      {"none", Lines::kNone}, {"preferred", Lines::kPreferred}, {"kept", Lines::kKept}};
-  std::string table =
-      "raster,error,effort,lines,ridges,valleys,line_vertices,triangles,max_error,rmse,stream_rmse,divide_rmse,"
-      "streams_kept,divides_kept\n";
-  for (const Case& each : kCases) {
-    const auto is_named = [&](const char* name) { return std::string(name) == each.raster; };
-    if (argc > 3 && std::none_of(argv + 3, argv + argc, is_named)) continue;
-    const auto path = bench::find_raster(argv[1], each.raster);
-    if (!path) return bench::fail_with(fmt::format("{} is not there", each.raster));
-    const auto field = scarp::read_height_field(*path);
-    if (!field) return bench::fail_with(field.error().message);
-    for (const double error : each.errors) {
-      for (const auto& [effort, level] : kEfforts) {
-        for (const auto& [name, lines] : kLines) {
-          const auto row = row_of(*field, error, level, lines);
-          if (!row) return bench::fail_with(row.error().message);
-          table += fmt::format("{},{},{},{},{}\n", each.raster, error, effort, name, *row);
-        }
-      }
+void measure(const std::string& name, const scarp::OwnedHeightField& field, Rows& rows) {
+  for (const double error : kErrors.at(name)) {
+    for (const auto& [effort, level] : kEfforts) {
+      for (const auto& [kind, lines] : kLines)
+        rows.add(fmt::format("{},{},{},{},{}", name, error, effort, kind, row_of(field, error, level, lines)));
     }
   }
-  return bench::write_table(argv[2], table);
 }
+
+}  // namespace
+
+const Suite kRidges{"ridges",
+                    "raster,error,effort,lines,ridges,valleys,line_vertices,triangles,max_error,rmse,stream_rmse,"
+                    "divide_rmse,streams_kept,divides_kept",
+                    names, measure};
+
+}  // namespace bench

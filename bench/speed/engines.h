@@ -1,19 +1,16 @@
 // Scarp's two engines as the programs of bench/speed run them: from samples in memory to the triangulation.
 #pragma once
 
-#include <cstring>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "field.h"
 #include "metric/height_metric.h"
 #include "pieces/release.h"
 #include "pieces/tiled.h"
-#include "raw.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
-#include "scarp/height_field.h"
-#include "scarp/quality.h"
 
 namespace bench {
 
@@ -25,19 +22,8 @@ struct EngineRun {
 
 inline scarp::Raster view_of(const RawRaster& raw) { return {raw.samples.data(), raw.cols, raw.rows}; }
 
-inline scarp::HeightField field_of(const RawRaster& raw) {
-  scarp::HeightField field;
-  field.samples = raw.samples.data();
-  field.cols = raw.cols;
-  field.rows = raw.rows;
-  field.frame = scarp::grid_frame(raw.rows);
-  return field;
-}
-
 inline scarp::DomainMesh start_greedy(const scarp::Raster& raster) {
-  auto domain = scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows));
-  if (!domain) die(domain.error().message);
-  return std::move(*domain);
+  return check(scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows)));
 }
 
 inline EngineRun refine_greedily(const RawRaster& raw, double error) {
@@ -56,12 +42,11 @@ inline EngineRun refine_dominantly(const RawRaster& raw, double error, int threa
   options.threshold = error;
   options.threads = threads;
   options.tile_side = side;
-  auto tiled = scarp::refine_tiled(field_of(raw), options);
-  if (!tiled) die(tiled.error().message);
-  if (!*tiled) return refine_greedily(raw, error);
-  EngineRun run{std::move((*tiled)->domain), scarp::Order::kDominant, (*tiled)->work};
+  auto tiled = check(scarp::refine_tiled(field_of(raw), options));
+  if (!tiled) return refine_greedily(raw, error);
+  EngineRun run{std::move(tiled->domain), scarp::Order::kDominant, tiled->work};
   const scarp::HeightMetric metric(view_of(raw), error);
-  const scarp::Work seams = scarp::release_seams(run.domain.tin, metric, std::move((*tiled)->seams));
+  const scarp::Work seams = scarp::release_seams(run.domain.tin, metric, std::move(tiled->seams));
   run.work.samples_scanned += seams.samples_scanned;
   run.work.triangles_scanned += seams.triangles_scanned;
   return run;

@@ -9,23 +9,19 @@ machine.
   goals.py --bin build/bin [--peer PROGRAM --peer-name hmm] [--only GOAL...] [--rounds N]
 """
 
-import argparse
-import csv
-import json
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
-from programs import make_tif, measure_process
+from programs import make_tif
 from rasters import ERRORS, HERE, RASTERS, find_file, make_raw
+
+sys.path.insert(0, str(HERE.parent))
+from harness import arguments_of, install, interleave, measure_process, read_table, report_of, write_table  # noqa: E402
 
 TABLE = HERE / "goals.csv"
 LARGE, SMALL = ("sierra_3601", "moon_4096", "fractal_4096"), ("fuji", "essen_dom")
-
-
-def call(command):
-    done = subprocess.run([str(part) for part in command], check=True, stdout=subprocess.PIPE, text=True)
-    return json.loads(done.stdout.splitlines()[-1])
 
 
 class Measure:
@@ -37,16 +33,13 @@ class Measure:
 
     def least(self, commands, run, rounds=None):
         """Least of the rounds of run(command), by name; by turns."""
-        found = {}
-        for _ in range(rounds or self.rounds):
-            for name, command in commands.items():
-                value = run(command)
-                found[name] = min(value, found.get(name, value))
-        return found
+        runs = {name: lambda _, one=command: run(one) for name, command in commands.items()}
+        return {name: min(values) for name, values in interleave(runs, rounds or self.rounds).items()}
 
     def peer(self, raster, error):
         if self.options.peer:
             return [self.options.peer, *raster, error]
+        install("delatin")
         return ["node", HERE / "speed_delatin.mjs", *raster, error]
 
     def simplify(self, source, error, *more):
@@ -54,7 +47,7 @@ class Measure:
 
 
 def cpu(command):
-    return call(command)["cpu_seconds"]
+    return report_of(command)["cpu_seconds"]
 
 
 def of_program(command):
@@ -130,7 +123,7 @@ def calls(bench):
             command = [bench.bin / "speed_scarp", *raster, error, "--repeat", 6 if name == "sierra_3601" else 30]
             first = later = float("inf")
             for _ in range(bench.rounds):
-                done = call(command)
+                done = report_of(command)
                 first, later = min(first, done["first"]["cpu_seconds"]), min(later, done["cpu_seconds"])
             yield f"{name} {error}", first / later, f"{1e3 * first:.2f} ÷ {1e3 * later:.2f} ms"
 
@@ -141,7 +134,7 @@ def proof(bench):
         raster = bench.raw(name)
         for error in ERRORS[name] if raster else ():
             judge = cpu([bench.bin / "speed_proof", *raster, error, "--threads", 1, "--repeat", 2 * bench.rounds])
-            scans = [call([bench.bin / "speed_verify", *raster, error]) for _ in range(bench.rounds)]
+            scans = [report_of([bench.bin / "speed_verify", *raster, error]) for _ in range(bench.rounds)]
             scan = min(one["cpu_seconds"] + one["load_seconds"] for one in scans)
             yield f"{name} {error}", judge / scan, f"{1e3 * judge:.3f} ÷ {1e3 * scan:.3f} ms"
 
@@ -152,9 +145,9 @@ def small(bench):
         raster = bench.raw(name)
         if raster is None:
             continue
-        budget = call([bench.bin / "speed_small", *raster, "--triangles", 200])
+        budget = report_of([bench.bin / "speed_small", *raster, "--triangles", 200])
         yield f"{name} 200 triangles", budget["milliseconds"], f"dearest {budget['dearest']:.2f} ms"
-        error = call([bench.bin / "speed_small", *raster, "--error", f"{budget['mean_error']:.4g}"])
+        error = report_of([bench.bin / "speed_small", *raster, "--error", f"{budget['mean_error']:.4g}"])
         yield (f"{name} their mean error", error["milliseconds"],
                f"{error['triangles'] / error['windows']:.0f} triangles a window")
 
@@ -163,17 +156,13 @@ GOALS = {one.__name__: one for one in (engine, normal, high, program, threads, c
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
+    parser = arguments_of(__doc__)
     parser.add_argument("--peer", type=Path, help="the program to compare with")
     parser.add_argument("--peer-name", default="delatin")
     parser.add_argument("--only", nargs="+", choices=GOALS, default=list(GOALS))
     parser.add_argument("--rounds", type=int, default=3)
     options = parser.parse_args()
-    kept = []
-    if TABLE.exists():
-        with open(TABLE, newline="") as stream:
-            kept = [row for row in csv.DictReader(stream) if row["goal"] not in options.only]
+    kept = [row for row in read_table(TABLE) if row["goal"] not in options.only]
     with tempfile.TemporaryDirectory() as scratch:
         bench = Measure(options, scratch)
         for goal in options.only:
@@ -182,11 +171,7 @@ def main():
                 kept.append({"goal": goal, "case": case, "value": f"{value:.3f}", "how": how, "peer": peer})
                 print(*kept[-1].values(), sep=",", flush=True)
     order = list(GOALS)
-    kept.sort(key=lambda row: order.index(row["goal"]))
-    with open(TABLE, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, ("goal", "case", "value", "how", "peer"), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(kept)
+    write_table(TABLE, sorted(kept, key=lambda row: order.index(row["goal"])))
 
 
 if __name__ == "__main__":

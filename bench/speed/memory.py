@@ -9,9 +9,6 @@ the process less that of the same run on 16×16 samples).
   memory.py --bin build/bin
 """
 
-import argparse
-import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -19,19 +16,12 @@ from pathlib import Path
 
 from rasters import ERRORS, HERE, make_raw
 
+sys.path.insert(0, str(HERE.parent))
+from harness import arguments_of, markdown, measure_process, report_of  # noqa: E402
+
 CASES = ("fuji", "essen_dom", "everest", "sierra_3601")
 # Bytes a sample and a vertex.
 ALLOWED = {"dominant": (4.25, 72), "greedy": (5, 120), "simplify": (5, 80)}
-
-
-def peak_of(command):
-    """Peak resident bytes of a child process; it must succeed."""
-    child = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
-        raise SystemExit(f"{' '.join(map(str, command))} ended with {child.returncode}")
-    return 1024 * usage.ru_maxrss
 
 
 def fit(points):
@@ -50,26 +40,22 @@ def fit(points):
 def table(title, points, allowed):
     per_sample, per_vertex = allowed
     lines = [f"## {title}", "",
-             f"| raster | samples | vertices | peak MB | bytes ÷ ({per_sample}·samples + {per_vertex}·vertices) |",
-             "|---|---|---|---|---|"]
-    for name, samples, vertices, size in points:
-        share = size / (per_sample * samples + per_vertex * vertices)
-        lines.append(f"| {name} | {samples} | {vertices} | {size / 1e6:.1f} | {share:.2f} |")
+             *markdown(["raster", "samples", "vertices", "peak MB", f"bytes ÷ ({per_sample}·samples + {per_vertex}·vertices)"],
+                       [[name, samples, vertices, f"{size / 1e6:.1f}", f"{size / (per_sample * samples + per_vertex * vertices):.2f}"]
+                        for name, samples, vertices, size in points])]
     constant, a, b = fit([point[1:] for point in points])
     lines += ["", f"Fitted: **{a:.2f} bytes a sample + {b:.0f} bytes a vertex** {constant / 1e6:+.1f} MB.", ""]
     return lines
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
-    options = parser.parse_args()
+    options = arguments_of(__doc__).parse_args()
     program = options.bin / "scarp"
     engine, whole, baseline = {"dominant": [], "greedy": []}, [], None
 
     def simplify(raster, error):
-        return peak_of([program, "simplify", raster, Path(scratch) / "mesh.glb", "-e", error, "--effort", "fast", "-q",
-                        "--overwrite"])
+        return measure_process([program, "simplify", raster, Path(scratch) / "mesh.glb", "-e", error, "--effort", "fast", "-q",
+                                "--overwrite"])["peak"]
 
     with tempfile.TemporaryDirectory() as scratch:
         for name in CASES:
@@ -85,9 +71,7 @@ def main():
                 baseline = simplify(tiny, 1)
             for error in (*ERRORS[name], ERRORS[name][-1] / 4):
                 for order, rows in engine.items():
-                    run = subprocess.run([options.bin / "speed_memory", *map(str, raster), str(error), "--order", order],
-                                         check=True, stdout=subprocess.PIPE)
-                    report = json.loads(run.stdout)
+                    report = report_of([options.bin / "speed_memory", *raster, error, "--order", order])
                     rows.append((name, report["samples"], report["vertices"], report["bytes"]))
                     print(order, *rows[-1], flush=True)
                 if program.exists():

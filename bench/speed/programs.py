@@ -5,28 +5,18 @@ once, not warmed up, and writes 12 bytes a vertex and 12 a triangle, without a p
 """
 
 import json
-import os
 import statistics
 import subprocess
-import time
+import sys
 
 from rasters import ERRORS, HERE
+
+sys.path.insert(0, str(HERE.parent))
+from harness import install, interleave, measure_process  # noqa: E402
 
 EFFORTS = ("fast", "normal", "high")
 # Many seconds at fine errors: at the two coarsest of each raster only.
 SLOW = ("high",)
-
-
-def measure_process(command):
-    """Seconds of a child, and its peak resident bytes; it must succeed."""
-    start = time.perf_counter()
-    child = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(child.pid, 0)
-    wall = time.perf_counter() - start
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
-        raise SystemExit(f"{' '.join(map(str, command))} ended with {child.returncode}")
-    return {"wall": wall, "cpu": usage.ru_utime + usage.ru_stime, "peak": 1024 * usage.ru_maxrss}
 
 
 def make_tif(raster, scratch):
@@ -58,15 +48,10 @@ def time_programs(bench, name, raster, error):
     efforts = [effort for effort in EFFORTS if effort not in SLOW or coarsest]
     commands = {(effort, threads): scarp(effort, threads) for effort in efforts for threads in bench.options.threads}
     if "delatin" in (bench.options.programs or ["delatin"]):
-        bench.install_delatin()
+        install("delatin")
         commands["delatin", 1] = ["node", HERE / "speed_delatin.mjs", *raster, error, bench.scratch / "delatin.mesh",
                                   "once"]
-    runs = {key: [] for key in commands}
-    keys = list(commands)
-    for number in range(bench.rounds(raster)):
-        turn = number % len(keys)
-        for key in keys[turn:] + keys[:turn]:
-            runs[key].append(measure_process(commands[key]))
+    runs = interleave({key: lambda _, run=command: measure_process(run) for key, command in commands.items()}, bench.rounds(raster))
     for (who, threads), done in runs.items():
         passes, vertices = ({}, "") if who == "delatin" else passes_of(program, tif, glb, error, who)
         yield {

@@ -89,10 +89,3 @@ def to_raw(source, window, raw):
     if size["byte order"] != (0 if sys.byteorder == "little" else 1):
         raise SystemExit(f"{raw} is not in this machine's byte order")
     return raw, size["samples"], size["lines"]
-
-
-def cpu_model():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.partition(":")[2].strip()
-    return "unknown"

@@ -1,16 +1,14 @@
-// Common parts of the programs of bench/speed: raw rasters, clocks, the line they report, and the mesh file for the
-// judge.
+// Raw rasters, and meshes as files for the judge: what the timed programs and the peers read and write.
 #pragma once
 
-#include <sys/resource.h>
-
-#include <chrono>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "../harness.h"
 
 namespace bench {
 
@@ -22,119 +20,78 @@ struct RawRaster {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-[[noreturn]] inline void die(const std::string& sentence) {
-  std::fprintf(stderr, "%s\n", sentence.c_str());
-  std::exit(2);
-}
-
-inline File open_file(const char* path, const char* mode) {
-  File file(std::fopen(path, mode), &std::fclose);
-  if (!file) die(std::string("cannot open ") + path);
+inline File open_file(const std::string& path, const char* mode) {
+  File file(std::fopen(path.c_str(), mode), &std::fclose);
+  if (!file) die("cannot open " + path);
   return file;
 }
 
-inline RawRaster read_raw(const char* path, const char* cols, const char* rows) {
+/// The raster that the first three arguments, RASTER COLS ROWS, name.
+inline RawRaster read_raw(const Arguments& arguments) {
   RawRaster raster;
-  raster.cols = std::atoi(cols);
-  raster.rows = std::atoi(rows);
+  raster.cols = static_cast<int>(arguments.number(1));
+  raster.rows = static_cast<int>(arguments.number(2));
   if (raster.cols < 2 || raster.rows < 2) die("COLS and ROWS must be at least 2");
   raster.samples.resize(static_cast<std::size_t>(raster.cols) * static_cast<std::size_t>(raster.rows));
-  const File file = open_file(path, "rb");
+  const File file = open_file(arguments[0], "rb");
   if (std::fread(raster.samples.data(), sizeof(float), raster.samples.size(), file.get()) != raster.samples.size())
-    die(std::string(path) + " holds fewer samples than COLS times ROWS");
+    die(arguments[0] + " holds fewer samples than COLS times ROWS");
   return raster;
+}
+
+inline RawRaster window_of(const RawRaster& raster, int col, int row, int cols, int rows) {
+  RawRaster part{{}, cols, rows};
+  for (int y = row; y < row + rows; ++y) {
+    const auto begin = raster.samples.begin() + static_cast<std::ptrdiff_t>(y) * raster.cols + col;
+    part.samples.insert(part.samples.end(), begin, begin + cols);
+  }
+  return part;
 }
 
 /// The input of the warm-up: the raster itself, or its upper left 512×512 samples where it has more than 2 million.
 inline RawRaster warm_up_part(const RawRaster& raster) {
   if (raster.samples.size() <= 2'000'000) return raster;
-  RawRaster part;
-  part.cols = raster.cols < 512 ? raster.cols : 512;
-  part.rows = raster.rows < 512 ? raster.rows : 512;
-  for (int row = 0; row < part.rows; ++row) {
-    const auto begin = raster.samples.begin() + static_cast<std::ptrdiff_t>(row) * raster.cols;
-    part.samples.insert(part.samples.end(), begin, begin + part.cols);
-  }
-  return part;
+  return window_of(raster, 0, 0, std::min(raster.cols, 512), std::min(raster.rows, 512));
 }
 
-/// Vertices as (column, row) pairs, triangles as triples of ids.
-struct RawMesh {
-  std::vector<std::uint32_t> vertices, triangles;
+/// Vertices of kPer numbers each, triangles as triples of their ids.
+template <class Number, std::size_t kPer>
+struct ArrayMesh {
+  static constexpr std::size_t kNumbers = kPer;
+  std::vector<Number> points;
+  std::vector<std::uint32_t> triangles;
 };
+using RawMesh = ArrayMesh<std::uint32_t, 2>;  ///< (column, row) pairs
+using Surface = ArrayMesh<double, 3>;         ///< (column, rows − 1 − row, z), counter-clockwise from above
 
-/// Two counts, then the two arrays, all native uint32.
-inline void write_raw_mesh(const char* path, const RawMesh& mesh) {
+/// Two counts (native uint32), then the two arrays.
+template <class Mesh>
+void write_mesh(const std::string& path, const Mesh& mesh) {
   const File file = open_file(path, "wb");
-  const std::uint32_t counts[2] = {static_cast<std::uint32_t>(mesh.vertices.size() / 2),
+  const std::uint32_t counts[2] = {static_cast<std::uint32_t>(mesh.points.size() / Mesh::kNumbers),
                                    static_cast<std::uint32_t>(mesh.triangles.size() / 3)};
-  const bool written =
-      std::fwrite(counts, sizeof counts, 1, file.get()) == 1 &&
-      std::fwrite(mesh.vertices.data(), 4, mesh.vertices.size(), file.get()) == mesh.vertices.size() &&
-      std::fwrite(mesh.triangles.data(), 4, mesh.triangles.size(), file.get()) == mesh.triangles.size();
-  if (!written) die(std::string("cannot write ") + path);
+  const auto write = [&](const auto* data, std::size_t count) {
+    if (std::fwrite(data, sizeof *data, count, file.get()) != count) die("cannot write " + path);
+  };
+  write(counts, 2);
+  write(mesh.points.data(), mesh.points.size());
+  write(mesh.triangles.data(), mesh.triangles.size());
 }
 
-inline RawMesh read_raw_mesh(const char* path) {
+template <class Mesh>
+Mesh read_mesh(const std::string& path) {
   const File file = open_file(path, "rb");
+  const auto read = [&](auto* data, std::size_t count) {
+    if (std::fread(data, sizeof *data, count, file.get()) != count) die(path + " is not a whole mesh");
+  };
   std::uint32_t counts[2] = {};
-  RawMesh mesh;
-  bool read = std::fread(counts, sizeof counts, 1, file.get()) == 1;
-  mesh.vertices.resize(2 * std::size_t{counts[0]});
+  read(counts, 2);
+  Mesh mesh;
+  mesh.points.resize(Mesh::kNumbers * std::size_t{counts[0]});
   mesh.triangles.resize(3 * std::size_t{counts[1]});
-  read = read && std::fread(mesh.vertices.data(), 4, mesh.vertices.size(), file.get()) == mesh.vertices.size() &&
-         std::fread(mesh.triangles.data(), 4, mesh.triangles.size(), file.get()) == mesh.triangles.size();
-  if (!read) die(std::string(path) + " is not a whole mesh");
+  read(mesh.points.data(), mesh.points.size());
+  read(mesh.triangles.data(), mesh.triangles.size());
   return mesh;
-}
-
-/// Times of a stretch of work, all threads together.
-struct Times {
-  double wall = 0, user = 0, system = 0;  // seconds
-  double page_faults = 0;                 // pages mapped: exact where the kernel only samples system time
-
-  double cpu() const { return user + system; }
-};
-
-/// Since it was made.
-class Stopwatch {
- public:
-  Times read() const {
-    const Times now = used();
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(), now.user - start_.user,
-            now.system - start_.system, now.page_faults - start_.page_faults};
-  }
-  double wall() const { return read().wall; }
-  double cpu() const { return read().cpu(); }
-
- private:
-  static double seconds(const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  }
-  static Times used() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return {0, seconds(usage.ru_utime), seconds(usage.ru_stime), static_cast<double>(usage.ru_minflt)};
-  }
-  Times start_ = used();
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-};
-
-/// "seconds": …, of `times`, as members of a JSON object.
-inline std::string json_of(const Times& times) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "\"seconds\": %.6f, \"cpu_seconds\": %.6f, \"user_seconds\": %.6f, \"system_seconds\": %.6f, "
-                "\"page_faults\": %.1f",
-                times.wall, times.cpu(), times.user, times.system, times.page_faults);
-  return text;
-}
-
-/// The one line of a timed program, JSON; `more`: further members, each with a comma before it.
-inline void print_result(const std::string& version, const Times& times, std::size_t vertices, std::size_t triangles,
-                         const std::string& more = "") {
-  std::printf("{\"version\": \"%s\", %s, \"vertices\": %zu, \"triangles\": %zu%s}\n", version.c_str(),
-              json_of(times).c_str(), vertices, triangles, more.c_str());
 }
 
 }  // namespace bench

@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
-"""Times triangulation only (but for "programs"), in interleaved rounds; keeps CSV tables next to this file and writes
-results.md from them.
+"""Times triangulation only (but for "programs"), in interleaved rounds; keeps CSV tables next to this file.
 
   peers    Scarp's two orders, delatin (node), VTK, one verification of Scarp's mesh     results.csv
   kernels  the instruction sets of this machine, forced one by one                       kernels.csv
   threads  one thread against more                                                       threads.csv
   calls    the first call of a process against later ones                                calls.csv
-  tiles    vertices and time by side of the tiles, with and without coarse starts        tiles.csv
   programs whole programs, GeoTIFF to GLB, by effort; delatin's process                  programs.csv
 
 A round runs each program once on the same raw raster with the same error. Each is one process that warms up, then
@@ -18,8 +16,6 @@ reports its own time; reading and writing are outside of it. In the last round e
   run.py --bin build/bin --find              chooses the errors of rasters.py anew
 """
 
-import argparse
-import csv
 import json
 import os
 import statistics
@@ -28,12 +24,14 @@ import sys
 import tempfile
 from pathlib import Path
 
-import report
 from programs import time_programs
-from rasters import ERRORS, HERE, LARGE, RASTERS, SHARES, cpu_model, make_raw
+from rasters import ERRORS, HERE, LARGE, RASTERS, SHARES, make_raw
+
+sys.path.insert(0, str(HERE.parent))
+import report  # noqa: E402
+from harness import arguments_of, install, interleave, keep_rows, report_of  # noqa: E402
 
 KERNELS = ("AVX3", "AVX2", "SSE4", "NEON", "WASM", "SCALAR")
-TILE_SIDES = (128, 256, 512, 1024, 2048, 4096)
 
 # Rasters of the parts that need not see all of them.
 PART_RASTERS = {
@@ -41,15 +39,8 @@ PART_RASTERS = {
     "kernels": ("fuji", "essen_dom", "sierra_3601", "moon_4096"),
     "threads": ("essen_dom", "sierra_3601", "moon_4096", "fractal_4096", "sierra_mosaic"),
     "calls": ("fuji", "essen_dom", "sierra_3601"),
-    "tiles": ("essen_dom", "everest", "sierra_3601", "moon_4096", "fractal_4096"),
     "programs": ("fuji", "essen_dom", "sierra_3601", "moon_4096"),
 }
-
-
-def call(command, **environment):
-    done = subprocess.run([str(part) for part in command], check=True, stdout=subprocess.PIPE, text=True,
-                          env={**os.environ, **environment})
-    return [json.loads(line) for line in done.stdout.splitlines()]
 
 
 class Bench:
@@ -62,25 +53,8 @@ class Bench:
     def rounds(self, raster):
         return self.options.rounds or (5 if raster[1] * raster[2] <= LARGE else 2)
 
-    @staticmethod
-    def install_delatin():
-        if not (HERE / "node_modules" / "delatin").is_dir():
-            subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=HERE, check=True)
-
     def scarp(self, *arguments):
         return [self.bin / "speed_scarp", *arguments]
-
-    def interleave(self, commands, raster, once=()):
-        """Reports of each command, by name; `commands` maps names to functions of "is this the last round"."""
-        reports = {name: [] for name in commands}
-        names, rounds = list(commands), self.rounds(raster)
-        for number in range(rounds):
-            last = number == rounds - 1
-            turn = number % len(names)
-            for name in names[turn:] + names[:turn]:
-                if last or name not in once:
-                    reports[name] += commands[name](last)
-        return reports
 
 
 def times_of(reports):
@@ -100,34 +74,34 @@ def time_peers(bench, name, raster, error):
     def runner(program, command, option=()):
         def run(last):
             if not last:
-                return call([*command, *raster, error])
+                return report_of([*command, *raster, error])
             mesh = bench.scratch / f"{program}.mesh"
-            done = call([*command, *raster, error, *option, mesh])
-            judged[program] = call([bench.bin / "speed_judge", *raster, mesh])[0]
+            done = report_of([*command, *raster, error, *option, mesh])
+            judged[program] = report_of([bench.bin / "peer_judge", *raster, "lattice", mesh])
             mesh.unlink()
             return done
         return run
 
     def order(which):
         judged_run = runner(which, bench.scarp(), ("--order", which, "--mesh"))
-        return lambda last: judged_run(True) if last else call(bench.scarp(*raster, error, "--order", which))
+        return lambda last: judged_run(True) if last else report_of(bench.scarp(*raster, error, "--order", which))
 
     commands = {
         "dominant": order("dominant"),
         "greedy": order("greedy"),
         "delatin": runner("delatin", ["node", HERE / "speed_delatin.mjs"]),
         "vtk": runner("vtk", [bench.bin / "speed_vtk"]),
-        "verify": lambda last: call([bench.bin / "speed_verify", *raster, error]),
+        "verify": lambda last: report_of([bench.bin / "speed_verify", *raster, error]),
     }
     wanted = bench.options.programs or list(commands)
     if not (bench.bin / "speed_vtk").exists():
         wanted = [program for program in wanted if program != "vtk"]
     commands = {program: run for program, run in commands.items() if program in wanted}
     if "delatin" in commands:
-        bench.install_delatin()
+        install("delatin")
     samples = raster[1] * raster[2]
     once = ("vtk", "delatin") if samples > 10 * LARGE else ("vtk",) if samples > LARGE else ()
-    for program, reports in bench.interleave(commands, raster, once).items():
+    for program, reports in interleave(commands, bench.rounds(raster), once).items():
         last, verdict = reports[-1], judged.get(program, {})
         bench.versions["scarp" if program in ("dominant", "greedy", "verify") else program] = last["version"]
         yield {
@@ -143,25 +117,25 @@ def time_peers(bench, name, raster, error):
 
 def kernel_runs(bench, kernel, raster):
     """The program ignores the sets that the machine lacks, and names the one that it used."""
-    return call(bench.scarp(*raster, 1e30), SCARP_KERNEL=kernel)[0]["kernel"] == kernel
+    return report_of(bench.scarp(*raster, 1e30), SCARP_KERNEL=kernel)["kernel"] == kernel
 
 
 def time_kernels(bench, name, raster, error):
     def forced(kernel):
-        return lambda last: call(bench.scarp(*raster, error), SCARP_KERNEL=kernel)
+        return lambda last: report_of(bench.scarp(*raster, error), SCARP_KERNEL=kernel)
 
     usable = [kernel for kernel in KERNELS if kernel_runs(bench, kernel, raster)]
-    for kernel, reports in bench.interleave({kernel: forced(kernel) for kernel in usable}, raster).items():
+    for kernel, reports in interleave({kernel: forced(kernel) for kernel in usable}, bench.rounds(raster)).items():
         yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "kernel": kernel,
                "vertices": reports[-1]["vertices"], **times_of(reports)}
 
 
 def time_threads(bench, name, raster, error):
     def threaded(threads):
-        return lambda last: call(bench.scarp(*raster, error, "--threads", threads))
+        return lambda last: report_of(bench.scarp(*raster, error, "--threads", threads))
 
     commands = {threads: threaded(threads) for threads in bench.options.threads}
-    for threads, reports in bench.interleave(commands, raster).items():
+    for threads, reports in interleave(commands, bench.rounds(raster)).items():
         yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "threads": threads,
                "vertices": reports[-1]["vertices"], **times_of(reports),
                "user_min_ms": f"{1e3 * min(one['user_seconds'] for one in reports):.3f}"}
@@ -170,7 +144,7 @@ def time_threads(bench, name, raster, error):
 def time_calls(bench, name, raster, error):
     large = raster[1] * raster[2] > LARGE
     for order in ("dominant",) if large else ("dominant", "greedy"):
-        done = call(bench.scarp(*raster, error, "--order", order, "--repeat", 10 if large else 50))[0]
+        done = report_of(bench.scarp(*raster, error, "--order", order, "--repeat", 10 if large else 50))
         for which, times in (("first", done["first"]), ("later", done)):
             yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "order": order,
                    "call": which, "wall_ms": f"{1e3 * times['seconds']:.3f}",
@@ -178,58 +152,36 @@ def time_calls(bench, name, raster, error):
                    "system_ms": f"{1e3 * times['system_seconds']:.3f}", "page_faults": f"{times['page_faults']:.1f}"}
 
 
-def time_tiles(bench, name, raster, error):
-    sides = [side for side in TILE_SIDES if side <= max(raster[1:])]
-    sides += [4096] if max(raster[1:]) <= 4097 and 4096 not in sides else []
-    for one in call([bench.bin / "speed_tiles", *raster, error, *sides]):
-        yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "side": one["side"],
-               "start": one["start"], "vertices": one["vertices"], "cpu_ms": f"{1e3 * one['cpu_seconds']:.3f}"}
-
-
 PARTS = {
     "peers": (time_peers, "results.csv", ("raster", "error", "program")),
     "kernels": (time_kernels, "kernels.csv", ("raster", "error", "kernel")),
     "threads": (time_threads, "threads.csv", ("raster", "error", "threads")),
     "calls": (time_calls, "calls.csv", ("raster", "error", "order", "call")),
-    "tiles": (time_tiles, "tiles.csv", ("raster", "error", "side", "start")),
     "programs": (time_programs, "programs.csv", ("raster", "error", "program", "threads")),
 }
 
 
-def merge(old, new, keys, complete):
-    """New rows in place of old ones of the same keys; the order is that of the rasters. Complete: no old ones stay."""
-    def key(row):
-        return tuple(str(row[name]) for name in keys)
-
-    rows = {} if complete else {key(row): row for row in old if float(row["error"]) in ERRORS[row["raster"]]}
-    rows.update((key(row), row) for row in new)
-    places = {name: place for place, name in enumerate(RASTERS)}
-    return sorted(rows.values(), key=lambda row: (places[row["raster"]], -float(row["error"])))
-
-
 def keep(part, new, complete):
+    """Puts new rows in place of old ones of the same keys, in the order of the rasters. Complete: no old ones stay."""
     _, file, keys = PARTS[part]
-    if not new:
-        return
-    path = HERE / file
-    old = report.read_table(path)
-    if old and list(old[0]) != list(new[0]):
-        old = []
-    with open(path, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, new[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(merge(old, new, keys, complete))
+    places = {name: place for place, name in enumerate(RASTERS)}
+    if complete and new:
+        (HERE / file).unlink(missing_ok=True)
+    keep_rows(HERE / file, new, keys, lambda row: (places[row["raster"]], -float(row["error"])))
 
 
 def describe_machine(options, bench, load, partial):
     """Remarks are written by hand, about rows of several sittings; a complete run needs none."""
-    old = report.read_machine()
-    flags = next((line for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("flags")), "")
-    return {
-        "machine": cpu_model(), "processors": os.cpu_count(),
-        "avx512": "avx512f" in flags, "compiler": options.compiler or old.get("compiler", "not told"),
-        "load": f"{load:.1f}", "remarks": old.get("remarks", []) if partial else [], "versions": {**old.get("versions", {}), **bench.versions},
-    }
+    path = HERE / "machine.json"
+    old = json.loads(path.read_text()) if path.exists() else {}
+    facts = dict(line.split(":", 1) for line in Path("/proc/cpuinfo").read_text().splitlines() if ":" in line)
+    facts = {key.strip(): value.strip() for key, value in facts.items()}
+    path.write_text(json.dumps({
+        "machine": facts.get("model name", "unknown"), "processors": os.cpu_count(),
+        "avx512": "avx512f" in facts.get("flags", ""), "compiler": options.compiler or old.get("compiler", "not told"),
+        "load": f"{load:.1f}", "remarks": old.get("remarks", []) if partial else [],
+        "versions": {**old.get("versions", {}), **bench.versions},
+    }, indent=2) + "\n")
 
 
 def find_errors(bench, names):
@@ -247,8 +199,7 @@ def powers_of_two(most):
 
 
 def parse():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
+    parser = arguments_of(__doc__)
     parser.add_argument("--compiler", help="for the record")
     parser.add_argument("--rounds", type=int, help="instead of 5, or 2 above 2 million samples")
     parser.add_argument("--parts", nargs="+", choices=PARTS, default=list(PARTS), help="some of the tables")
@@ -282,7 +233,7 @@ def main():
             if options.keep or not partial:
                 keep(part, rows, complete=not partial)
         if options.keep or not partial:
-            report.write_machine(describe_machine(options, bench, load, partial))
+            describe_machine(options, bench, load, partial)
             report.write()
     return None
 

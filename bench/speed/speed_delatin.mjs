@@ -44,7 +44,7 @@ const tin = refine(samples, width, height);
 const seconds = (performance.now() - start) / 1000;
 const used = process.cpuUsage(cpu);
 
-const { version } = JSON.parse(readFileSync(new URL('node_modules/delatin/package.json', import.meta.url)));
+const { version } = JSON.parse(readFileSync(new URL('../node_modules/delatin/package.json', import.meta.url)));
 console.log(
   JSON.stringify({
     version: `${version}, node ${process.versions.node}`,

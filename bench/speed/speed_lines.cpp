@@ -1,28 +1,24 @@
 // Times the arrangement of lines: seconds of one core for several kinds of lines, and of reading them from a file.
 //
 //   speed_lines            a Markdown table, on a raster of 3601 × 3601 samples
-//   speed_lines --meshes [PROJECT]
+//   speed_lines --meshes PROJECT
 //                          what 100,000 vertices of lines add to the time of a mesh of 10 million samples, read and
 //                          written: of a synthetic terrain, and of a real one where its raster is there
 //   speed_lines FILE...    reads each file, file.gpkg:layer, as it is
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <optional>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "../quality/files.h"
+#include "../harness.h"
 #include "geom/arrangement.h"
 #include "scarp/scarp.h"
 
@@ -31,8 +27,6 @@ namespace {
 using scarp::Point;
 
 constexpr std::int32_t kSize = 3600 * 256;
-
-double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 class Drawing {
  public:
@@ -91,16 +85,13 @@ class Drawing {
 void time_arrangement(const char* name, const scarp::Polylines& lines) {
   const std::vector<scarp::Segment> border{
       {{0, 0}, {kSize, 0}}, {{kSize, 0}, {kSize, kSize}}, {{kSize, kSize}, {0, kSize}}, {{0, kSize}, {0, 0}}};
-  double least = 1e9;
   std::size_t vertices = 0, edges = 0;
-  for (int run = 0; run < 3; ++run) {
-    const double start = seconds();
+  const bench::Times least = bench::least_of(3, [&] {
     const auto arranged = scarp::arrange(lines, border, kSize, kSize);
-    least = std::min(least, seconds() - start);
     vertices = arranged.vertices.size();
     edges = arranged.edges.size();
-  }
-  std::printf("| %s | %zu | %zu | %zu | %.2f |\n", name, lines.points.size() - lines.size(), vertices, edges, least);
+  });
+  std::printf("| %s | %zu | %zu | %zu | %.2f |\n", name, lines.points.size() - lines.size(), vertices, edges, least.cpu());
   std::fflush(stdout);
 }
 
@@ -122,40 +113,29 @@ struct Kind {
   scarp::LineConstraints lines;
 };
 
-struct Times {
-  double cpu = 1e9, wall = 1e9;  ///< seconds of all cores together, and by the clock
-};
-
-/// Times of the program's work: reading the raster, simplify(), writing the mesh. Nothing if that fails.
-std::optional<Times> time_mesh(const std::string& raster, const scarp::SimplifyOptions& options,
-                               scarp::Simplified& mesh) {
-  using Clock = std::chrono::steady_clock;
+/// Times of the program's work: reading the raster, simplify(), writing the mesh.
+bench::Times time_mesh(const std::string& raster, const scarp::SimplifyOptions& options, scarp::Simplified& mesh) {
   const std::string path = (std::filesystem::temp_directory_path() / "speed_lines.glb").string();
-  const double start = seconds();
-  const auto clock_start = Clock::now();
-  const auto field = scarp::read_height_field(raster);
-  if (!field) return std::nullopt;
-  auto made = scarp::simplify(field->view(), options);
-  const bool is_written = made && scarp::write_mesh(made->mesh, path).has_value();
-  const Times times{seconds() - start, std::chrono::duration<double>(Clock::now() - clock_start).count()};
+  const bench::Stopwatch watch;
+  const auto field = bench::check(scarp::read_height_field(raster));
+  mesh = bench::check(scarp::simplify(field.view(), options));
+  if (const auto written = scarp::write_mesh(mesh.mesh, path); !written) bench::die(written.error().message);
+  const bench::Times times = watch.read();
   std::filesystem::remove(path);
-  if (!is_written) return std::nullopt;
-  mesh = std::move(*made);
   return times;
 }
 
 /// One row of the table for each kind of lines, the first of which is none; the least of five runs, by turns.
-bool time_meshes(const char* terrain, const std::string& raster, std::vector<Kind>& kinds, const char* effort,
+void time_meshes(const char* terrain, const std::string& raster, std::vector<Kind>& kinds, const char* effort,
                  scarp::SimplifyOptions options) {
   constexpr int kRuns = 5;
-  std::vector<Times> least(kinds.size());
+  std::vector<std::array<double, 2>> least(kinds.size(), {1e9, 1e9});  // CPU, wall clock
   std::vector<scarp::Simplified> meshes(kinds.size());
   for (int run = 0; run < kRuns; ++run) {
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       options.features.breaklines = kinds[k].lines;
-      const auto times = time_mesh(raster, options, meshes[k]);
-      if (!times) return false;
-      least[k] = {std::min(least[k].cpu, times->cpu), std::min(least[k].wall, times->wall)};
+      const bench::Times times = time_mesh(raster, options, meshes[k]);
+      least[k] = {std::min(least[k][0], times.cpu()), std::min(least[k][1], times.wall)};
     }
   }
   for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -165,21 +145,10 @@ bool time_meshes(const char* terrain, const std::string& raster, std::vector<Kin
       if (pass.name == "lines") insert += pass.seconds;
     }
     std::printf("| %s | %s | %g | %s | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", terrain, effort,
-                *options.goals.max_error, kinds[k].name, meshes[k].mesh.triangle_count(), least[k].cpu,
-                least[k].cpu / least[0].cpu, least[k].wall, least[k].wall / least[0].wall, arrange, insert);
+                *options.goals.max_error, kinds[k].name, meshes[k].mesh.triangle_count(), least[k][0],
+                least[k][0] / least[0][0], least[k][1], least[k][1] / least[0][1], arrange, insert);
   }
   std::fflush(stdout);
-  return true;
-}
-
-/// A raster as a file of its own.
-bool write_raster(const scarp::OwnedHeightField& field, const std::string& path) {
-  const auto bytes = scarp::encode_raster({field.samples, field.cols, field.rows}, scarp::RasterFormat::kGeoTiff);
-  if (!bytes) return false;
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-  file.close();
-  return !file.fail();
 }
 
 /// The window of a raster in the grid's frame.
@@ -195,65 +164,54 @@ scarp::OwnedHeightField crop(const scarp::OwnedHeightField& whole, int col, int 
 }
 
 /// On one terrain, for bounds with fewer triangles than the lines need up to bounds with several times as many.
-bool time_terrain(const char* terrain, const scarp::OwnedHeightField& field, const std::vector<double>& errors) {
+void time_terrain(const char* terrain, const scarp::OwnedHeightField& field, const std::vector<double>& errors) {
   std::vector<Kind> kinds{{"none", {}},
                           {"1,000 walks", soft_lines(Drawing().walks(1000), field.cols)},
                           {"1,000 circles", soft_lines(Drawing().circles(1000), field.cols)}};
   const std::string raster = (std::filesystem::temp_directory_path() / "speed_lines.tif").string();
-  bool is_timed = write_raster(field, raster);
+  const auto bytes =
+      bench::check(scarp::encode_raster({field.samples, field.cols, field.rows}, scarp::RasterFormat::kGeoTiff));
+  bench::write_file(raster, {bytes.begin(), bytes.end()});
   for (const auto& [name, effort] :
        {std::pair{"fast", scarp::Effort::kFast}, std::pair{"normal", scarp::Effort::kNormal}}) {
     for (const double error : errors) {
       scarp::SimplifyOptions options;
       options.goals.max_error = error;
       options.quality.effort = effort;
-      is_timed = is_timed && time_meshes(terrain, raster, kinds, name, std::move(options));
+      time_meshes(terrain, raster, kinds, name, std::move(options));
     }
   }
   std::filesystem::remove(raster);
-  return is_timed;
 }
 
 /// 10 million samples each.
-int time_meshes(const std::string& project) {
+void time_meshes(const std::string& project) {
   constexpr int kSide = 3163;
   std::printf(
       "| terrain | effort | max error | lines | triangles | CPU s | to none | s | to none | arrange | lines "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-  const auto fractal = scarp::generate_field(scarp::FieldStyle::kFractal, kSide, kSide);
-  if (!fractal || !time_terrain("fractal", *fractal, {10, 5, 2.5})) return 1;
+  time_terrain("fractal", bench::check(scarp::generate_field(scarp::FieldStyle::kFractal, kSide, kSide)), {10, 5, 2.5});
   const char* kName = "srtm3_sierra_nevada_basin_range.tif";
   const auto path = bench::find_raster(project, kName);
-  if (!path) {
-    std::printf("%s: skipped, it is not there\n", kName);
-    return 0;
-  }
-  const auto sierra = scarp::read_height_field(*path);
-  constexpr int kCol = 3800, kRow = 800;
-  if (!sierra || sierra->cols < kCol + kSide || sierra->rows < kRow + kSide) return 1;
-  return time_terrain("Sierra Nevada", crop(*sierra, kCol, kRow, kSide), {40, 20, 10}) ? 0 : 1;
+  if (!path) bench::die(std::string(kName) + ": skipped, it is not there", 0);
+  time_terrain("Sierra Nevada", crop(bench::check(scarp::read_height_field(*path)), 3800, 800, kSide), {40, 20, 10});
 }
 
-int time_reading(const char* path) {
-  const double start = seconds();
-  const auto set = scarp::read_lines(path);
-  if (!set) {
-    std::fprintf(stderr, "speed_lines: %s\n", set.error().message.c_str());
-    return 1;
-  }
+void time_reading(const std::string& path) {
+  const bench::Stopwatch watch;
+  const auto set = bench::check(scarp::read_lines(path));
   std::size_t vertices = 0;
-  for (const auto& line : set->lines) vertices += line.points.size();
-  std::printf("%s: %zu lines, %zu vertices, %.2f s\n", path, set->lines.size(), vertices, seconds() - start);
-  return 0;
+  for (const auto& line : set.lines) vertices += line.points.size();
+  std::printf("%s: %zu lines, %zu vertices, %.2f s\n", path.c_str(), set.lines.size(), vertices, watch.cpu());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "--meshes") return time_meshes(argc > 2 ? argv[2] : ".");
-  int status = EXIT_SUCCESS;
-  for (int k = 1; k < argc; ++k) status |= time_reading(argv[k]);
-  if (argc > 1) return status;
+  const bench::Arguments arguments(argc, argv, "speed_lines [FILE...] [--meshes PROJECT]");
+  for (const std::string& path : arguments.from(0)) time_reading(path);
+  if (arguments.has("--meshes")) time_meshes(arguments.value("--meshes", "."));
+  if (argc > 1) return 0;
   Drawing drawing;
   std::printf("| lines | segments | vertices | edges | s |\n|---|---|---|---|---|\n");
   time_arrangement("1,000 walks", drawing.walks(1000));
@@ -261,5 +219,4 @@ int main(int argc, char** argv) {
   time_arrangement("10,000 circles", drawing.circles(10000));
   time_arrangement("2,000 chords", drawing.chords(2000));
   time_arrangement("5,000 chords through one place", Drawing::star(5000));
-  return status;
 }

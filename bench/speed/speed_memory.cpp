@@ -3,8 +3,6 @@
 //
 //   speed_memory RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N]     one JSON line
 
-#include <cstring>
-
 #include "engines.h"
 #include "pieces/freeze.h"
 
@@ -21,28 +19,16 @@ std::size_t peak_memory() {
   bench::die("/proc/self/status tells no VmHWM");
 }
 
-[[noreturn]] void show_usage() {
-  bench::die("usage: speed_memory RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N]");
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 5 || argc % 2 == 0) show_usage();
-  const double error = std::atof(argv[4]);
-  bool is_greedy = false;
-  int threads = 1;
-  for (int i = 5; i < argc; i += 2) {
-    const std::string name = argv[i], value = argv[i + 1];
-    if (name == "--order" && (value == "greedy" || value == "dominant"))
-      is_greedy = value == "greedy";
-    else if (name == "--threads")
-      threads = std::atoi(value.c_str());
-    else
-      show_usage();
-  }
+  const bench::Arguments arguments(argc, argv,
+                                   "speed_memory RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N]");
+  const double error = arguments.number(3);
+  const bool is_greedy = arguments.value("--order", "dominant") == "greedy";
+  const int threads = arguments.number("--threads", 1);
   const std::size_t before = peak_memory();
-  const bench::RawRaster raw = bench::read_raw(argv[1], argv[2], argv[3]);
+  const bench::RawRaster raw = bench::read_raw(arguments);
   bench::EngineRun run = is_greedy ? bench::refine_greedily(raw, error) : bench::refine_dominantly(raw, error, threads);
   const scarp::SampleHeights heights(bench::view_of(raw));
   const scarp::Frame frame = scarp::grid_frame(raw.rows);

@@ -7,55 +7,12 @@
 // least CPU time of N calls (5), after one unseen. Divided by the seconds of speed_verify for the same raster and error
 // this shows how far the judge is from one scan of the triangles.
 
-#include <algorithm>
-#include <limits>
-
-#include "engines.h"
+#include "field.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 #include "scarp/version.h"
 
 namespace {
-
-struct Options {
-  scarp::SimplifyOptions simplify;
-  bool degrees = false;
-  int calls = 5;
-};
-
-[[noreturn]] void show_usage() {
-  bench::die(
-      "usage: speed_proof RASTER COLS ROWS ERROR [--effort fast|normal|high] [--frame grid|degrees] [--repeat N] "
-      "[--threads N]");
-}
-
-scarp::Effort effort_of(const std::string& name) {
-  if (name == "fast") return scarp::Effort::kFast;
-  if (name == "normal") return scarp::Effort::kNormal;
-  if (name == "high") return scarp::Effort::kHigh;
-  show_usage();
-}
-
-Options parse(int argc, char** argv) {
-  Options options;
-  if (argc < 5 || argc % 2 == 0) show_usage();
-  options.simplify.goals.max_error = std::atof(argv[4]);
-  options.simplify.quality.effort = scarp::Effort::kFast;
-  for (int i = 5; i < argc; i += 2) {
-    const std::string name = argv[i], value = argv[i + 1];
-    if (name == "--effort")
-      options.simplify.quality.effort = effort_of(value);
-    else if (name == "--frame")
-      options.degrees = value == "degrees";
-    else if (name == "--repeat")
-      options.calls = std::atoi(value.c_str());
-    else if (name == "--threads")
-      options.simplify.run.threads = std::atoi(value.c_str());
-    else
-      show_usage();
-  }
-  return options;
-}
 
 /// Cells of 3 arc seconds, whose offsets are no float32.
 scarp::Frame degrees() {
@@ -65,43 +22,36 @@ scarp::Frame degrees() {
   return frame;
 }
 
-bench::Times least_of(int calls, const scarp::HeightField& field, const scarp::Mesh& mesh, bool topology, int threads,
-                      scarp::Measurement& measured) {
-  scarp::MeasureOptions options;
-  options.topology = topology;
-  options.run.threads = threads;
-  bench::Times least;
-  least.user = std::numeric_limits<double>::infinity();
-  for (int call = 0; call <= calls; ++call) {
-    const bench::Stopwatch watch;
-    auto result = scarp::measure(field, mesh, options);
-    const bench::Times times = watch.read();
-    if (!result) bench::die(result.error().message);
-    measured = std::move(*result);
-    if (call > 0 && times.cpu() < least.cpu()) least = times;
-  }
-  return least;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Options options = parse(argc, argv);
-  const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
+  const bench::Arguments arguments(argc, argv,
+                                   "speed_proof RASTER COLS ROWS ERROR [--effort fast|normal|high] "
+                                   "[--frame grid|degrees] [--repeat N] [--threads N]");
+  scarp::SimplifyOptions options;
+  options.goals.max_error = arguments.number(3);
+  options.quality.effort = bench::effort_of(arguments.value("--effort", "fast"));
+  options.run.threads = arguments.number("--threads", options.run.threads);
+  const bench::RawRaster raster = bench::read_raw(arguments);
   scarp::HeightField field = bench::field_of(raster);
-  if (options.degrees) field.frame = degrees();
+  if (arguments.value("--frame", "grid") == "degrees") field.frame = degrees();
   const bench::Stopwatch watch;
-  const auto made = scarp::simplify(field, options.simplify);
-  if (!made) bench::die(made.error().message);
+  const auto made = bench::check(scarp::simplify(field, options));
   const double all = watch.cpu();
   scarp::Measurement measured;
-  const int threads = options.simplify.run.threads;
-  const bench::Times heights = least_of(options.calls, field, made->mesh, false, threads, measured);
-  const bench::Times whole = least_of(options.calls, field, made->mesh, true, threads, measured);
+  const auto time = [&](bool topology) {
+    scarp::MeasureOptions asked;
+    asked.topology = topology;
+    asked.run.threads = options.run.threads;
+    const auto work = [&] { measured = bench::check(scarp::measure(field, made.mesh, asked)); };
+    work();
+    return bench::least_of(arguments.number("--repeat", 5), work);
+  };
+  const bench::Times heights = time(false), whole = time(true);
   char text[300];
   std::snprintf(text, sizeof text,
                 ", \"topology_seconds\": %.6f, \"simplify_seconds\": %.6f, \"max_error\": %.17g, \"rmse\": %.17g, "
                 "\"p95\": %.17g",
                 whole.cpu() - heights.cpu(), all, measured.max_error, measured.rmse, measured.p95);
-  bench::print_result(scarp::version(), heights, made->mesh.vertex_count(), made->mesh.triangle_count(), text);
+  bench::print_result(scarp::version(), heights, made.mesh.vertex_count(), made.mesh.triangle_count(), text);
 }

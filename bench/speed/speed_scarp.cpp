@@ -5,7 +5,7 @@
 //                                      [--repeat N]
 //   speed_scarp RASTER COLS ROWS --find SHARE...
 //
-// One JSON line; the environment variable SCARP_KERNEL forces an instruction set. --mesh: for speed_judge. --repeat: no
+// One JSON line; the environment variable SCARP_KERNEL forces an instruction set. --mesh: for peer_judge. --repeat: no
 // warm-up, but N calls, the first reported as "first", the mean of the others as the result. --find: the errors that
 // keep about SHARE... (ascending) of the samples in the greedy order.
 
@@ -20,68 +20,25 @@
 namespace {
 
 struct Options {
-  double error = 0;
-  scarp::Order order = scarp::Order::kDominant;
-  int threads = 1, side = 0, calls = 0;
-  const char* mesh = nullptr;
-  std::vector<double> shares;
+  double error;
+  bool is_greedy;
+  int threads, side, calls;
 };
 
-[[noreturn]] void show_usage() {
-  bench::die(
-      "usage: speed_scarp RASTER COLS ROWS (ERROR [--order dominant|greedy] [--threads N] [--tile SIDE] [--mesh FILE] "
-      "[--repeat N] | --find SHARE...)");
-}
-
-scarp::Order order_of(const std::string& name) {
-  if (name == "greedy") return scarp::Order::kGreedy;
-  if (name != "dominant") show_usage();
-  return scarp::Order::kDominant;
-}
-
-Options parse(int argc, char** argv) {
-  Options options;
-  if (argc < 5) show_usage();
-  if (std::strcmp(argv[4], "--find") == 0) {
-    for (int i = 5; i < argc; ++i) options.shares.push_back(std::atof(argv[i]));
-    if (options.shares.empty()) show_usage();
-    return options;
-  }
-  options.error = std::atof(argv[4]);
-  if (argc % 2 == 0) show_usage();
-  for (int i = 5; i < argc; i += 2) {
-    const std::string name = argv[i];
-    const char* value = argv[i + 1];
-    if (name == "--order")
-      options.order = order_of(value);
-    else if (name == "--threads")
-      options.threads = std::atoi(value);
-    else if (name == "--tile")
-      options.side = std::atoi(value);
-    else if (name == "--mesh")
-      options.mesh = value;
-    else if (name == "--repeat")
-      options.calls = std::atoi(value);
-    else
-      show_usage();
-  }
-  return options;
-}
-
 bench::EngineRun refine(const bench::RawRaster& raw, const Options& options) {
-  if (options.order == scarp::Order::kGreedy) return bench::refine_greedily(raw, options.error);
+  if (options.is_greedy) return bench::refine_greedily(raw, options.error);
   return bench::refine_dominantly(raw, options.error, options.threads, options.side);
 }
 
 /// Max error is not monotone in the vertices: the smallest that was seen on the way to each share.
-void print_errors(const bench::RawRaster& raw, const std::vector<double>& shares) {
+void print_errors(const bench::RawRaster& raw, const std::vector<std::string>& shares) {
   const scarp::Raster raster = bench::view_of(raw);
   scarp::DomainMesh domain = bench::start_greedy(raster);
   const scarp::HeightMetric metric(raster, 0);
   scarp::Refinement refinement(metric, domain.tin);
   double error = std::numeric_limits<double>::infinity();
-  for (const double share : shares) {
-    const double most = share * static_cast<double>(raw.samples.size());
+  for (const std::string& share : shares) {
+    const double most = std::stod(share) * static_cast<double>(raw.samples.size());
     while (!refinement.done() && static_cast<double>(domain.tin.vertex_count()) < most) {
       refinement.insert_worst();
       error = std::min(error, refinement.worst_error());
@@ -93,8 +50,8 @@ void print_errors(const bench::RawRaster& raw, const std::vector<double>& shares
 bench::RawMesh mesh_of(const scarp::Triangulation& tin) {
   bench::RawMesh mesh;
   for (scarp::Vertex v = 0; v < tin.vertex_count(); ++v) {
-    mesh.vertices.push_back(static_cast<std::uint32_t>(tin.point(v).x));
-    mesh.vertices.push_back(static_cast<std::uint32_t>(tin.point(v).y));
+    mesh.points.push_back(static_cast<std::uint32_t>(tin.point(v).x));
+    mesh.points.push_back(static_cast<std::uint32_t>(tin.point(v).y));
   }
   for (scarp::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) mesh.triangles.push_back(tin.origin(h));
   return mesh;
@@ -118,12 +75,17 @@ bench::Times mean_of_calls(const bench::RawRaster& raw, const Options& options, 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Options options = parse(argc, argv);
-  const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
-  if (!options.shares.empty()) {
-    print_errors(raster, options.shares);
+  const bench::Arguments arguments(argc, argv,
+                                   "speed_scarp RASTER COLS ROWS [ERROR] [--order dominant|greedy] [--threads N] "
+                                   "[--tile SIDE] [--mesh FILE] [--repeat N] [--find SHARE...]");
+  const bench::RawRaster raster = bench::read_raw(arguments);
+  if (arguments.has("--find")) {
+    print_errors(raster, arguments.values("--find"));
     return 0;
   }
+  if (arguments.count() < 4) bench::die("give an ERROR, or --find");
+  const Options options{arguments.number(3), arguments.value("--order", "dominant") == "greedy",
+                        arguments.number("--threads", 1), arguments.number("--tile", 0), arguments.number("--repeat", 0)};
   std::string more;
   if (options.calls > 0) {
     const bench::Times first = time_call(raster, options);
@@ -142,5 +104,5 @@ int main(int argc, char** argv) {
           ", \"insertions\": " + std::to_string(run.work.passes);
   const scarp::Triangulation& tin = run.domain.tin;
   bench::print_result(scarp::version(), times, tin.vertex_count(), tin.triangle_count(), more);
-  if (options.mesh != nullptr) bench::write_raw_mesh(options.mesh, mesh_of(tin));
+  if (arguments.has("--mesh")) bench::write_mesh(arguments.value("--mesh", ""), mesh_of(tin));
 }

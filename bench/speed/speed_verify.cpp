@@ -71,23 +71,16 @@ class Verifier {
     for (const Patch& patch : patches) {
       const bench::Stopwatch loading;
       if (const auto loaded = tile_.load(field_, patch.window()); !loaded) bench::die(loaded.error().message);
-      add(pass.load, loading.read());
+      pass.load += loading.read();
       localize(patch);
       const bench::Stopwatch scanning;
       scan(pass);
-      add(pass.scan, scanning.read());
+      pass.scan += scanning.read();
     }
     return pass;
   }
 
  private:
-  static void add(bench::Times& sum, const bench::Times& times) {
-    sum.wall += times.wall;
-    sum.user += times.user;
-    sum.system += times.system;
-    sum.page_faults += times.page_faults;
-  }
-
   void localize(const Patch& patch) {
     corners_.clear();
     for (const auto& triangle : patch.triangles) {
@@ -122,11 +115,11 @@ class Verifier {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5 && argc != 6) bench::die("usage: speed_verify RASTER COLS ROWS ERROR [SIDE]");
-  const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
-  const double error = std::atof(argv[4]);
+  const bench::Arguments arguments(argc, argv, "speed_verify RASTER COLS ROWS ERROR [SIDE]");
+  const bench::RawRaster raster = bench::read_raw(arguments);
+  const double error = arguments.number(3);
   const scarp::DomainMesh domain = bench::refine_dominantly(raster, error, 1).domain;
-  const auto patches = sort_by_tiles(domain.tin, argc == 6 ? std::atoi(argv[5]) : 256);
+  const auto patches = sort_by_tiles(domain.tin, arguments.count() > 4 ? static_cast<int>(arguments.number(4)) : 256);
   Verifier verifier(raster, error);
   verifier.verify(patches);
   const Verifier::Pass pass = verifier.verify(patches);

@@ -39,8 +39,8 @@ bench::RawMesh mesh_of(vtkPolyData* surface) {
   for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v) {
     double point[3];
     surface->GetPoint(v, point);
-    mesh.vertices.push_back(static_cast<std::uint32_t>(std::lround(point[0])));
-    mesh.vertices.push_back(static_cast<std::uint32_t>(std::lround(point[1])));
+    mesh.points.push_back(static_cast<std::uint32_t>(std::lround(point[0])));
+    mesh.points.push_back(static_cast<std::uint32_t>(std::lround(point[1])));
   }
   vtkNew<vtkIdList> corners;
   for (vtkIdType t = 0; t < surface->GetNumberOfCells(); ++t) {
@@ -53,9 +53,9 @@ bench::RawMesh mesh_of(vtkPolyData* surface) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5 && argc != 6) bench::die("usage: speed_vtk RASTER COLS ROWS ERROR [MESH]");
-  bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
-  const double error = std::atof(argv[4]);
+  const bench::Arguments arguments(argc, argv, "speed_vtk RASTER COLS ROWS ERROR [MESH]");
+  bench::RawRaster raster = bench::read_raw(arguments);
+  const double error = arguments.number(3);
   {
     bench::RawRaster part = bench::warm_up_part(raster);
     vtkNew<vtkImageData> image;
@@ -72,5 +72,5 @@ int main(int argc, char** argv) {
   vtkPolyData* surface = decimation->GetOutput();
   bench::print_result(SCARP_VTK_VERSION, times, static_cast<std::size_t>(surface->GetNumberOfPoints()),
                       static_cast<std::size_t>(surface->GetNumberOfCells()));
-  if (argc == 6) bench::write_raw_mesh(argv[5], mesh_of(surface));
+  if (arguments.count() > 4) bench::write_mesh(arguments[4], mesh_of(surface));
 }

@@ -6,7 +6,6 @@
 `scarp tile check` decodes all tiles and compares both sides of each edge, and all tiles at each corner; it shares no
 code with what made them. Exit code 1 where one differs. Needs gdal-bin."""
 
-import csv
 import json
 import pathlib
 import subprocess
@@ -14,6 +13,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from harness import write_table  # noqa: E402
 
 # land, raster, options
 LAND = [
@@ -57,10 +58,7 @@ def main():
                          **{key: check[key] for key in ("tiles", "edges", "edges_apart", "corners", "corners_apart")},
                          "other_faults": sum(check["faults"].values()) - check["faults"]["border"]})
             print(*rows[-1].values(), sep="  ", flush=True)
-    with open(HERE / "borders.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(HERE / "borders.csv", rows)
     edges, apart = (sum(row[key] for row in rows) for key in ("edges", "edges_apart"))
     print(f"{edges:,} shared edges, {apart:,} differ")
     sys.exit(apart + sum(row["corners_apart"] + row["other_faults"] for row in rows) > 0)

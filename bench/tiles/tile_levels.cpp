@@ -7,16 +7,14 @@
 // their triangles and bytes, CPU milliseconds a tile (of each tile the least of N rounds, 3) to read its nodes, to make
 // it of them, and to encode it, and a hash of all bytes: the same before and after what changes the time alone.
 
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "../speed/field.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_set.h"
@@ -25,60 +23,6 @@
 #include "tiles/tile_nodes.h"
 
 namespace {
-
-[[noreturn]] void die(const std::string& sentence) {
-  std::fprintf(stderr, "%s\n", sentence.c_str());
-  std::exit(2);
-}
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-struct Options {
-  std::string raster;
-  scarp::ReadOptions reading;
-  scarp::PyramidSettings settings;
-  int first = 0, last = scarp::kMaxTileLevel, tiles = 20, rounds = 3;
-};
-
-Options parse(int argc, char** argv) {
-  Options options;
-  if (argc < 2) die("usage: tile_levels RASTER [OPTION...]");
-  options.raster = argv[1];
-  int k = 2;
-  const auto next = [&] { return k < argc ? std::string(argv[k++]) : (die("a value is missing"), std::string()); };
-  const auto number = [&] { return std::atof(next().c_str()); };
-  while (k < argc) {
-    const std::string name = next();
-    if (name == "--te") {
-      std::array<double, 4> box{};
-      for (double& side : box) side = number();
-      options.reading.view.extent = box;
-    } else if (name == "--effort") {
-      const std::string effort = next();
-      options.settings.effort = effort == "fast"   ? scarp::Effort::kFast
-                                : effort == "high" ? scarp::Effort::kHigh
-                                                   : scarp::Effort::kNormal;
-    } else if (name == "--error") {
-      options.settings.max_error = number();
-    } else if (name == "--zoom") {
-      options.settings.max_zoom = static_cast<int>(number());
-    } else if (name == "--levels") {
-      options.first = static_cast<int>(number());
-      options.last = static_cast<int>(number());
-    } else if (name == "--tiles") {
-      options.tiles = static_cast<int>(number());
-    } else if (name == "--rounds") {
-      options.rounds = static_cast<int>(number());
-    } else {
-      die("no option " + name);
-    }
-  }
-  return options;
-}
 
 /// Tiles of a level that the raster covers wholly; else those that it covers in part.
 std::vector<scarp::TileId> choose_tiles(const scarp::PyramidPlan& plan, int z, int most) {
@@ -103,38 +47,45 @@ std::vector<scarp::TileId> choose_tiles(const scarp::PyramidPlan& plan, int z, i
   return chosen;
 }
 
-template <class T>
-T take(scarp::Result<T> result) {
-  if (!result) die(result.error().message);
-  return std::move(*result);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options = parse(argc, argv);
-  options.reading.with_range = true;
-  const auto raster = take(scarp::GlobeRaster::open({{options.raster}}, options.reading, {scarp::Vertical::kNone}));
-  options.settings.ellipsoid = raster->place().ellipsoid;
-  const scarp::PyramidPlan plan = take(scarp::plan_pyramid(raster->facts(), options.settings));
+  const bench::Arguments arguments(argc, argv,
+                                   "tile_levels RASTER [--te W S E N] [--effort fast|normal|high] [--error M] "
+                                   "[--zoom Z] [--levels A B] [--tiles N] [--rounds N]");
+  scarp::ReadOptions reading;
+  reading.with_range = true;
+  scarp::PyramidSettings settings;
+  if (const auto box = arguments.values("--te"); !box.empty())
+    reading.view.extent = std::array{std::stod(box[0]), std::stod(box[1]), std::stod(box[2]), std::stod(box[3])};
+  settings.effort = bench::effort_of(arguments.value("--effort", "normal"));
+  if (arguments.has("--error")) settings.max_error = arguments.number("--error", 0.0);
+  if (arguments.has("--zoom")) settings.max_zoom = arguments.number("--zoom", 0);
+  const auto levels = arguments.values("--levels");
+  const int first = levels.empty() ? 0 : std::stoi(levels[0]);
+  const int last = levels.empty() ? scarp::kMaxTileLevel : std::stoi(levels[1]);
+  const int most = arguments.number("--tiles", 20), rounds = arguments.number("--rounds", 3);
+  const auto raster = bench::check(scarp::GlobeRaster::open({{arguments[0]}}, reading, {scarp::Vertical::kNone}));
+  settings.ellipsoid = raster->place().ellipsoid;
+  const scarp::PyramidPlan plan = bench::check(scarp::plan_pyramid(raster->facts(), settings));
   const scarp::TileEncoder encode = scarp::make_tile_encoder(scarp::TileFormat::kQuantizedMesh, plan);
   std::printf("level  tiles  triangles   bytes   read   make  encode  [CPU ms a tile]  hash\n");
-  for (int z = std::max(plan.block_level, options.first); z <= std::min(plan.max_zoom(), options.last); ++z) {
-    const std::vector<scarp::TileId> ids = choose_tiles(plan, z, options.tiles);
+  for (int z = std::max(plan.block_level, first); z <= std::min(plan.max_zoom(), last); ++z) {
+    const std::vector<scarp::TileId> ids = choose_tiles(plan, z, most);
     std::uint64_t triangles = 0, bytes = 0, hash = 0xcbf29ce484222325;
     std::array<double, 3> sum{};
     for (const scarp::TileId id : ids) {
       std::array<double, 3> least{};
-      for (int round = 0; round < options.rounds; ++round) {
+      for (int round = 0; round < rounds; ++round) {
         const std::int32_t steps = scarp::steps_of(plan, z);
-        const double start = cpu_seconds();
-        const auto nodes = take(scarp::TileNodes::read(plan, id, steps, scarp::normal_reach(steps), raster->nodes()));
-        const double is_read = cpu_seconds();
-        const auto tile = take(scarp::make_proven_tile(plan, id, nodes, raster->nodes(), {})).tile;
-        const double is_made = cpu_seconds();
-        const auto packed = take(encode(tile));
-        const double end = cpu_seconds();
-        const std::array<double, 3> took{is_read - start, is_made - is_read, end - is_made};
+        const bench::Stopwatch watch;
+        const auto nodes = bench::check(scarp::TileNodes::read(plan, id, steps, scarp::normal_reach(steps), raster->nodes()));
+        const double is_read = watch.cpu();
+        const auto tile = bench::check(scarp::make_proven_tile(plan, id, nodes, raster->nodes(), {})).tile;
+        const double is_made = watch.cpu();
+        const auto packed = bench::check(encode(tile));
+        const double end = watch.cpu();
+        const std::array<double, 3> took{is_read, is_made - is_read, end - is_made};
         for (std::size_t k = 0; k < 3; ++k) least[k] = round == 0 ? took[k] : std::min(least[k], took[k]);
         if (round > 0) continue;
         triangles += tile.triangles.size() / 3;

@@ -8,10 +8,8 @@ The raster is a part of srtm3_sierra_nevada_basin_range.tif, resampled to the no
 that all start from the same numbers. Each tile is encoded as quantized-mesh, decoded, and judged at every node below
 it. Needs numpy, gdal-bin, node and npm."""
 
-import csv
 import gzip
 import pathlib
-import resource
 import struct
 import subprocess
 import sys
@@ -20,6 +18,8 @@ import tempfile
 import numpy
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from harness import install, seconds_of_children, write_table  # noqa: E402
 FINEST, CELLS = 12, 64
 LEVEL, COLUMN, ROW, ACROSS = 8, 86, 180, 2  # the area: tiles of this level, y from the south
 SIDE = (ACROSS << FINEST - LEVEL) * CELLS + 1
@@ -109,10 +109,9 @@ def encode(columns, rows, heights, triangles):
 
 
 def cpu_seconds(command):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = seconds_of_children()
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return seconds_of_children() - before
 
 
 class Area:
@@ -177,17 +176,9 @@ def judge(area, z, tiles):
             "edges_places_differ": sum([place for place, _ in a] != [place for place, _ in b] for a, b in shared)}
 
 
-def write(path, rows):
-    with open(path, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def main():
     program, data = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-    if not (HERE / "node_modules" / "@mapbox" / "martini").is_dir():
-        subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=HERE, check=True)
+    install("@mapbox/martini")
     rows, seconds = [], []
     with tempfile.TemporaryDirectory() as scratch:
         area = Area(data, pathlib.Path(scratch))
@@ -200,8 +191,8 @@ def main():
             levels, milliseconds = area.scarp(program, effort)
             rows += [{"maker": effort, **judge(area, z, tiles)} for z, tiles in levels.items()]
             seconds.append({"maker": effort, "cpu_ms": f"{milliseconds:.2f}"})
-    write(HERE / "tiles.csv", rows)
-    write(HERE / "tiles_seconds.csv", seconds)
+    write_table(HERE / "tiles.csv", rows)
+    write_table(HERE / "tiles_seconds.csv", seconds)
 
 
 main()

@@ -1,5 +1,5 @@
 // The time of the viewer to its first picture, and to answer its slider: node bench/viewer/run.mjs PAGE.html [RUNS]
-// [CHROMIUM] > results.csv
+// [CHROMIUM]
 //
 // PAGE: what `scarp view MESH RASTER` wrote with the engine inside. Each run is a new Chromium, which draws by
 // software. Wall clock, pixels read back: from the page's navigation to its first picture, and from an input of the

@@ -7,7 +7,7 @@
 //
 // Against one patch for all, over 32 cases of eight rasters from 2 to 0.2 % of the relief, kHighDepth in patches keeps
 // 98.9 to 100.6 % of the triangles. With squares that stay, and without the last round, it was 101.1 to 101.3 % on one
-// of 1197 x 643 samples; that round needs some 3 % of the time (bench/quality/fit.cpp).
+// of 1197 x 643 samples; that round needs some 3 % of the time.
 //
 // If there is time left, rounds continue. Repair alone soon finds nothing more; but it does after all vertices have
 // been moved a little, within the bound. Max at 1 % of the relief, with shapes of at least a tenth, keeps 0.237 of

@@ -3,7 +3,7 @@
 // Greedy insertion keeps its edges Delaunay, that is, blind to heights; removal chooses the edges of each ring, but not
 // those between rings. A flip that lowers the energy Σ (error / threshold)⁸ turns edges along ridges, and carries an
 // error that a ring cannot hold out of it. Within repair flips save up to 3 % of the triangles on samples, 1 % with
-// free vertices (bench/quality/fit.cpp, Fuji and Crater Lake at 2 to 0.5 % of the relief).
+// free vertices (Fuji and Crater Lake at 2 to 0.5 % of the relief).
 //
 // Stars of a ring overlap, so repair asks for the same flip again and again, half of the times with nothing changed in
 // between. A flip refused lately is remembered by all that it depends on, and refused at once.

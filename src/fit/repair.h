@@ -17,7 +17,7 @@
 // of all vertices of a ring, instead of those at triangles above 0.9 of the bound, save at most 0.5 % of the triangles,
 // for a tenth of the time. Choices made here, by triangles on Fuji at 1 %, vertices on samples: powers 4, 6, 8, 12, 16
 // of the energy keep 0.358, 0.344, 0.344, 0.340, 0.340; a slack of 1.3, 1.5, 2 0.359, 0.344, 0.335, for some 0.6, 1 and
-// 1.5 times the time; 2, 4, 8 rounds 0.349, 0.344, 0.343 (bench/quality/fit.cpp).
+// 1.5 times the time; 2, 4, 8 rounds 0.349, 0.344, 0.343.
 #pragma once
 
 #include <cstdint>

@@ -231,7 +231,7 @@ class BudgetSearch {
   }
 
   /// The share of a refined mesh that effort is expected to keep: the more, the nearer its triangles come to the full
-  /// grid's. Lines through what bench/quality/fit.cpp has measured.
+  /// grid's. Lines through measured triangles.
   double expected_after(const Simplified& refined) const {
     const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(best_.measurement.samples, 1));
     const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);

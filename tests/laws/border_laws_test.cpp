@@ -28,13 +28,6 @@ std::vector<std::int32_t> chain_of(const Field& field, const BorderLine& line, d
   return *simplify_border(field.view(), line, threshold);
 }
 
-Field transposed(const Field& field) {
-  Field turned{field.rows, field.cols, {}};
-  for (int y = 0; y < field.cols; ++y)
-    for (int x = 0; x < field.rows; ++x) turned.samples.push_back(field.raster().at({y, x}));
-  return turned;
-}
-
 /// Corners of a cell that are heights; 0 beyond the raster.
 int valid_corners_of(const Raster& raster, std::int32_t x, std::int32_t y) {
   if (x < 0 || y < 0 || x + 1 >= raster.cols || y + 1 >= raster.rows) return 0;

@@ -98,16 +98,6 @@ bool keeps_bounds(const Field& field, const std::vector<float>& bounds, const Fi
   return true;
 }
 
-FitCorner any_corner(const Field& field) {
-  const int whole = *rc::gen::element(1, kLatticeSteps);
-  FitCorner corner;
-  corner.x = *rc::gen::inRange(0, (field.cols - 1) * kLatticeSteps / whole + 1) * whole;
-  corner.y = *rc::gen::inRange(0, (field.rows - 1) * kLatticeSteps / whole + 1) * whole;
-  const float near = field.raster().at({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
-  corner.z = std::isnan(near) ? 1.0f : near;
-  return corner;
-}
-
 RC_GTEST_PROP(bounds, of_a_triangle_are_decided_as_exact_arithmetic_does, ()) {
   const Field field = any_field();
   const std::vector<float> bounds = any_bounds(field);

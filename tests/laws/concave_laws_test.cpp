@@ -239,31 +239,6 @@ RC_GTEST_PROP(concave, hull_of_a_length_beyond_all_edges_is_the_convex_one, ()) 
   RC_ASSERT(convex->simplified.mesh.triangles == concave->simplified.mesh.triangles);
 }
 
-/// Points that no triangle covers, and the largest error of the others, by the textbook.
-std::pair<int, double> judge_by_brute_force(const PointSet& points, const Mesh& mesh) {
-  int missed = 0;
-  double worst = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points.x[i] - mesh.origin[0], y = points.y[i] - mesh.origin[1];
-    double error = -1;
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-      const double* p[3];
-      for (std::size_t k = 0; k < 3; ++k) p[k] = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t + k]}];
-      const auto area = [](double ax, double ay, double bx, double by, double cx, double cy) {
-        return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
-      };
-      const double whole = area(p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]);
-      const double u = area(x, y, p[1][0], p[1][1], p[2][0], p[2][1]) / whole,
-                   v = area(p[0][0], p[0][1], x, y, p[2][0], p[2][1]) / whole, w = 1 - u - v;
-      if (std::min({u, v, w}) < -1e-9) continue;
-      error = std::max(error, std::abs(u * p[0][2] + v * p[1][2] + w * p[2][2] - points.z[i]));
-    }
-    missed += error < 0;
-    worst = std::max(worst, error);
-  }
-  return {missed, worst};
-}
-
 double area_of(const Mesh& mesh) {
   double twice = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -291,7 +266,7 @@ RC_GTEST_PROP(concave, meshes_keep_the_promise_at_every_point_and_end_at_the_out
   RC_ASSERT(m.border_loops == 1u);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.max_error <= goal + 1e-12 * (goal + 50));
-  const auto [missed, worst] = judge_by_brute_force(points, mesh);
+  const auto [missed, worst] = testing::judge_by_brute_force(points, mesh);
   RC_ASSERT(missed == 0);
   RC_ASSERT(std::abs(worst - m.max_error) < 1e-5);
   const auto domain = build_concave_domain(snapped, std::move(*hull), length);

@@ -69,6 +69,14 @@ inline Field random_field(std::uint32_t seed, std::int32_t cols, std::int32_t ro
   return field;
 }
 
+/// Columns for rows.
+inline Field transposed(const Field& field) {
+  Field turned{field.rows, field.cols, {}};
+  for (int y = 0; y < field.cols; ++y)
+    for (int x = 0; x < field.rows; ++x) turned.samples.push_back(field.raster().at({y, x}));
+  return turned;
+}
+
 inline constexpr Relief kReliefs[] = {Relief::kTies, Relief::kFlat, Relief::kCliff, Relief::kReal, Relief::kRidges};
 
 }  // namespace scarp::testing

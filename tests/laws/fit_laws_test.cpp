@@ -191,16 +191,6 @@ std::int64_t area_of(const FitCorner& a, const FitCorner& b, const FitCorner& c)
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
 }
 
-FitCorner any_corner(const Field& field) {
-  const int whole = *rc::gen::element(1, kLatticeSteps);
-  FitCorner corner;
-  corner.x = *rc::gen::inRange(0, (field.cols - 1) * kLatticeSteps / whole + 1) * whole;
-  corner.y = *rc::gen::inRange(0, (field.rows - 1) * kLatticeSteps / whole + 1) * whole;
-  const float near = field.raster().at({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
-  corner.z = std::isnan(near) ? 1.0f : near;
-  return corner;
-}
-
 /// The verdict, the energies and the pull by scanning every sample of the raster.
 struct Oracle {
   bool keeps = true;

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "fit/fit.h"
+#include "fit/triangle_error.h"
 #include "geom/exact_error.h"
 #include "laws/fields.h"
+#include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
 #include "metric/height_metric.h"
 #include "refine/domain.h"
@@ -74,17 +77,15 @@ inline bool includes(const Points& all, const Points& some) {
   return std::includes(all.begin(), all.end(), some.begin(), some.end());
 }
 
-inline bool is_same(const Triangulation& a, const Triangulation& b) {
-  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
-  for (Vertex v = 0; v < a.vertex_count(); ++v) {
-    if (!(a.point(v) == b.point(v))) return false;
-  }
-  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
-    if (a.origin(h) != b.origin(h) || a.twin(h) != b.twin(h) || a.is_constrained(h) != b.is_constrained(h) ||
-        a.is_outside(h / 3) != b.is_outside(h / 3))
-      return false;
-  }
-  return true;
+/// A vertex on the lattice, on samples or anywhere, at the height of the sample next to it.
+inline FitCorner any_corner(const Field& field) {
+  const int whole = *rc::gen::element(1, kLatticeSteps);
+  FitCorner corner;
+  corner.x = *rc::gen::inRange(0, (field.cols - 1) * kLatticeSteps / whole + 1) * whole;
+  corner.y = *rc::gen::inRange(0, (field.rows - 1) * kLatticeSteps / whole + 1) * whole;
+  const float near = field.raster().at({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+  corner.z = std::isnan(near) ? 1.0f : near;
+  return corner;
 }
 
 /// The first sample that breaks the bound by exact arithmetic, whose triangles have corners on the lattice.

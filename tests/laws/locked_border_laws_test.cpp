@@ -229,13 +229,6 @@ RC_GTEST_PROP(locked_border, rasters_simplified_apart_meet, ()) {
   RC_ASSERT(vertices_on(left->mesh, west, edges_of(west)[3]) == vertices_on(right->mesh, east, edges_of(east)[2]));
 }
 
-Field transposed(const Field& field) {
-  Field turned{field.rows, field.cols, {}};
-  for (int y = 0; y < field.cols; ++y)
-    for (int x = 0; x < field.rows; ++x) turned.samples.push_back(field.raster().at({y, x}));
-  return turned;
-}
-
 std::vector<float> column(const Field& field, std::int32_t x) {
   std::vector<float> samples;
   for (std::int32_t y = 0; y < field.rows; ++y) samples.push_back(field.raster().at({x, y}));

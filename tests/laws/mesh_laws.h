@@ -45,6 +45,20 @@ inline std::string verify_triangulation(const Triangulation& tin, std::int32_t c
   return "";
 }
 
+/// The same vertices, triangles, constraints and marks, in the same order.
+inline bool is_same(const Triangulation& a, const Triangulation& b) {
+  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
+  for (Vertex v = 0; v < a.vertex_count(); ++v) {
+    if (!(a.point(v) == b.point(v))) return false;
+  }
+  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
+    if (a.origin(h) != b.origin(h) || a.twin(h) != b.twin(h) || a.is_constrained(h) != b.is_constrained(h) ||
+        a.is_outside(h / 3) != b.is_outside(h / 3))
+      return false;
+  }
+  return true;
+}
+
 /// The segment from a to b is a chain of constrained edges.
 inline bool is_constrained_chain(const Triangulation& tin, Vertex a, Vertex b) {
   for (Vertex v = a; v != b;) {

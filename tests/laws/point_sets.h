@@ -1,11 +1,14 @@
 // Random scattered points for laws and oracles.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <utility>
 
+#include "scarp/mesh.h"
 #include "scarp/points.h"
 
 namespace scarp::testing {
@@ -65,6 +68,32 @@ inline PointSet random_points(std::uint32_t seed, int count, Scatter scatter, He
     points.z.push_back(heights == Heights::kReal ? uniform() * 100 - 50 : static_cast<double>(random() % 4));
   }
   return points;
+}
+
+/// Points that no triangle covers, and the largest error of the others, by the textbook: every point
+/// against every triangle, in barycentric coordinates.
+inline std::pair<int, double> judge_by_brute_force(const PointSet& points, const Mesh& mesh) {
+  int missed = 0;
+  double worst = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = points.x[i] - mesh.origin[0], y = points.y[i] - mesh.origin[1];
+    double error = -1;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      const double* p[3];
+      for (std::size_t k = 0; k < 3; ++k) p[k] = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t + k]}];
+      const auto area = [](double ax, double ay, double bx, double by, double cx, double cy) {
+        return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+      };
+      const double whole = area(p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]);
+      const double u = area(x, y, p[1][0], p[1][1], p[2][0], p[2][1]) / whole,
+                   v = area(p[0][0], p[0][1], x, y, p[2][0], p[2][1]) / whole, w = 1 - u - v;
+      if (std::min({u, v, w}) < -1e-9) continue;
+      error = std::max(error, std::abs(u * p[0][2] + v * p[1][2] + w * p[2][2] - points.z[i]));
+    }
+    missed += error < 0;
+    worst = std::max(worst, error);
+  }
+  return {missed, worst};
 }
 
 }  // namespace scarp::testing

@@ -34,32 +34,6 @@ bool has_area(const PointSet& points) {
   return snapped && build_domain(*snapped).has_value();
 }
 
-/// Largest |mesh − z| over the points, by the textbook: every point against every triangle, in barycentric coordinates.
-/// `missed` counts points in no triangle.
-double naive_error(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh, int& missed) {
-  double worst = 0;
-  missed = 0;
-  for (std::size_t i = 0; i < snapped.size(); ++i) {
-    const double x = points.x[snapped.source[i]] - mesh.origin[0], y = points.y[snapped.source[i]] - mesh.origin[1];
-    double error = -1;
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-      const double* p[3];
-      for (std::size_t k = 0; k < 3; ++k) p[k] = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t + k]}];
-      const auto area = [](double ax, double ay, double bx, double by, double cx, double cy) {
-        return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
-      };
-      const double whole = area(p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]);
-      const double u = area(x, y, p[1][0], p[1][1], p[2][0], p[2][1]) / whole,
-                   v = area(p[0][0], p[0][1], x, y, p[2][0], p[2][1]) / whole, w = 1 - u - v;
-      if (std::min({u, v, w}) < -1e-9) continue;
-      error = std::max(error, std::abs(u * p[0][2] + v * p[1][2] + w * p[2][2] - snapped.z[i]));
-    }
-    missed += error < 0;
-    worst = std::max(worst, error);
-  }
-  return worst;
-}
-
 RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
   const Scatter scatter = any_scatter();
   const PointSet points = any_points(120, scatter, *rc::gen::element(Heights::kReal, Heights::kSteps));
@@ -76,8 +50,13 @@ RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.samples + result->duplicates == points.size());
   RC_ASSERT(m.max_error <= goal + 1e-12 * (goal + 50));
-  int missed = 0;
-  const double naive = naive_error(points, snapped, result->simplified.mesh, missed);
+  PointSet merged;
+  for (std::size_t i = 0; i < snapped.size(); ++i) {
+    merged.x.push_back(points.x[snapped.source[i]]);
+    merged.y.push_back(points.y[snapped.source[i]]);
+    merged.z.push_back(snapped.z[i]);
+  }
+  const auto [missed, naive] = testing::judge_by_brute_force(merged, result->simplified.mesh);
   RC_ASSERT(missed == 0);
   RC_ASSERT(std::abs(naive - m.max_error) < 1e-5);
 }

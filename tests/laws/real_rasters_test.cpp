@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "../../bench/quality/files.h"
+#include "../../bench/harness.h"
 #include "scarp/scarp.h"
 #include "source_dir.h"
 

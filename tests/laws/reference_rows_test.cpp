@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../../bench/quality/files.h"
+#include "../../bench/harness.h"
 #include "../../bench/quality/reference_rows.h"
 #include "laws/sanitized.h"
 #include "scarp/scarp.h"

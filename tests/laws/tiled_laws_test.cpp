@@ -19,6 +19,7 @@ namespace scarp::tiled_laws_test {
 namespace {
 
 using testing::Field;
+using testing::is_same;
 using testing::Relief;
 
 /// A tile's mesh with the border that the neighbours have too, and a few points of its own.
@@ -167,19 +168,6 @@ RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
     if (!tin.is_outside(h / 3)) used.insert(tin.origin(h));
   }
   RC_ASSERT(tin.vertex_count() - used.size() == tiled.domain.unused);
-}
-
-bool is_same(const Triangulation& a, const Triangulation& b) {
-  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
-  for (Vertex v = 0; v < a.vertex_count(); ++v) {
-    if (!(a.point(v) == b.point(v))) return false;
-  }
-  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
-    if (a.origin(h) != b.origin(h) || a.twin(h) != b.twin(h) || a.is_constrained(h) != b.is_constrained(h) ||
-        a.is_outside(h / 3) != b.is_outside(h / 3))
-      return false;
-  }
-  return true;
 }
 
 RC_GTEST_PROP(tiled, threads_change_nothing, ()) {

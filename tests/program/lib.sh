@@ -141,6 +141,31 @@ print(value)
 PYTHON
 }
 
+# agree A B KEY...: two JSON files have the same values; words of a key name nested ones ("cutline samples_outside").
+agree() {
+  python3 -I -S - "$@" <<'PYTHON' || fail "$1 and $2 differ"
+import json, sys
+a, b = (json.load(open(path)) for path in sys.argv[1:3])
+for key in sys.argv[3:]:
+    x, y = a, b
+    for word in key.split(): x, y = x[word], y[word]
+    assert x == y, (key, x, y)
+PYTHON
+}
+
+# by_threads RASTER MESH OPTION...: simplify makes the same bytes on one thread and on three, in $within megabytes if
+# that is set, and the mesh is sound; its report is r.json.
+by_threads() {
+  local raster=$1 mesh=$2 threads
+  shift 2
+  for threads in 1 3; do
+    succeeds ${within:+run_within "$within"} "$scarp" simplify "$raster" "$threads.$mesh" "$@" -j "$threads" --report r.json --overwrite
+  done
+  cmp "1.$mesh" "3.$mesh" || fail "-j 3 makes another mesh with $*"
+  [ "$(json r.json topology sound)" = true ] || fail "an unsound mesh with $*"
+  mv "1.$mesh" "$mesh"
+}
+
 # holds EXPRESSION: a comparison of numbers, by awk.
 holds() {
   awk "BEGIN { exit !($1) }" || fail "does not hold: $1"

@@ -23,32 +23,23 @@ with open("long.txt", "w") as script:
 PYTHON
 
 small=74 # the samples, 1.2 MB, may use 1 of it, so they stay in their file, and strips are low
-same() { # same A B KEY...: the reports agree
-  python3 -I -S - "$@" <<'PYTHON' || fail "the figures are not those in memory"
-import json, sys
-a, b = (json.load(open(path)) for path in sys.argv[1:3])
-for key in sys.argv[3:]: assert key in a and a[key] == b[key], (key, a.get(key), b.get(key))
-PYTHON
-}
 check() { # check EFFORT OPTION...: a mesh in little memory, judged in little memory and in much
   local effort=$1
   shift
-  within "$small" "$scarp" simplify hills.tif one.obj -e 20 "$@" --effort "$effort" --normals --memory "${small}M" -j 1 \
-    --report one.json --overwrite
-  succeeds "$scarp" simplify hills.tif two.obj -e 20 "$@" --effort "$effort" --normals --memory "${small}M" -j 2 --overwrite
-  cmp one.obj two.obj || fail "-j 2 makes another mesh with $* and $effort effort"
+  within=$small by_threads hills.tif one.obj -e 20 "$@" --effort "$effort" --normals --memory "${small}M"
+  mv r.json one.json
   [ "$(grep -c '^vn ' one.obj)" = "$(grep -c '^v ' one.obj)" ] || fail "not one normal a vertex"
   within "$small" "$scarp" measure hills.tif one.obj --fail-above 20 "$@" --memory "${small}M" --json
   cp "$logs/out" little.json
   succeeds "$scarp" measure hills.tif one.obj --fail-above 20 "$@" --json
   cp "$logs/out" much.json
-  same little.json much.json ignored max_error rmse bounded_max_error bounded_max_error_at topology passed
-  [[ "$*" != *--mask* ]] || same little.json much.json weighted_max_error weighted_rmse
-  same one.json much.json ignored max_error samples uncovered bounded_max_error
+  agree little.json much.json ignored max_error rmse bounded_max_error bounded_max_error_at topology passed
+  [[ "$*" != *--mask* ]] || agree little.json much.json weighted_max_error weighted_rmse
+  agree one.json much.json ignored max_error samples uncovered bounded_max_error
   [ "$(json much.json topology sound)" = true ] || fail "the mesh is not sound"
   [ "$effort" != high ] || return 0
   succeeds "$scarp" simplify hills.tif held.obj -e 20 "$@" --effort "$effort" --report held.json --overwrite
-  same one.json held.json ignored
+  agree one.json held.json ignored
   holds "$(json one.json triangles) < 1.15 * $(json held.json triangles)"
 }
 check fast --mask weights.tif
@@ -108,7 +99,7 @@ for memory in "--memory ${small}M" ""; do
   [ "$code" = 3 ] || fail "a coarse mesh keeps the weights' bounds"
   cp "$logs/out" "coarse${#memory}.json"
 done
-same coarse0.json coarse12.json weighted_max_error weighted_rmse bounded_max_error max_error
+agree coarse0.json coarse12.json weighted_max_error weighted_rmse bounded_max_error max_error
 
 # Impossible requests are refused before the work.
 refuses 2 "--mask broken.tif: the value -" "$scarp" simplify hills.tif x.obj -e 20 --mask broken.tif --memory "${small}M"

@@ -24,15 +24,9 @@ small=76M # the samples alone are 3 MB, so they stay in their file, and strips a
 cut=(--cutline star.geojson)
 succeeds "$scarp" simplify hills.tif held.obj -e 12 --up z --effort fast "${cut[@]}" --report held.json
 for effort in fast normal high max; do
-  for threads in 1 5; do
-    succeeds "$scarp" simplify hills.tif "cut$threads.obj" -e 12 --up z --effort "$effort" "${cut[@]}" --memory "$small" -j "$threads" \
-      --report r.json --overwrite
-  done
-  cmp cut1.obj cut5.obj || fail "-j 5 makes another mesh with $effort effort"
+  by_threads hills.tif cut1.obj -e 12 --up z --effort "$effort" "${cut[@]}" --memory "$small"
   holds "$(json r.json max_error) <= 12"
-  [ "$(json r.json topology sound)" = true ] || fail "a cutline and $effort effort make an unsound mesh"
-  [ "$(json r.json cutline samples_outside)" = "$(json held.json cutline samples_outside)" ] ||
-    fail "$effort effort leaves other samples out than in memory"
+  agree r.json held.json "cutline samples_outside"
   python3 "$SCARP_SOURCE/tests/program/walk_lines.py" cut1.obj star.geojson 1000 800 100 || fail "rings are not in the mesh of $effort effort"
   python3 - <<'PYTHON' || fail "the mesh of $effort effort has another area than OGR says"
 import json, subprocess
@@ -55,10 +49,7 @@ succeeds "$scarp" measure hills.tif cut1.obj "${cut[@]}" --fail-above 12 --memor
 mv "$logs/out" streamed.json
 succeeds "$scarp" measure hills.tif cut1.obj "${cut[@]}" --fail-above 12 --json
 mv "$logs/out" measured.json
-for key in max_error rmse samples "cutline samples_outside"; do
-  # shellcheck disable=SC2086
-  [ "$(json streamed.json $key)" = "$(json measured.json $key)" ] || fail "measure finds another $key in little memory"
-done
+agree streamed.json measured.json max_error rmse samples "cutline samples_outside"
 
 # With breaklines, moved inwards, with flats and goals for angles, and nothing at all.
 succeeds "$scarp" simplify hills.tif lines.obj -e 12 --up z "${cut[@]}" --breaklines line.geojson --inset 3 --memory "$small" --report lines.json
@@ -74,9 +65,6 @@ refuses 2 "beside the raster" "$scarp" simplify hills.tif x.obj -e 12 --up z --m
 # Along cells of the grid: what is nodata in memory is nodata here.
 succeeds "$scarp" simplify hills.tif mask1.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --memory "$small" --report mask1.json
 succeeds "$scarp" simplify hills.tif mask2.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --report mask2.json
-for key in "cutline samples_outside" samples "input valid" "input min" "input max"; do
-  # shellcheck disable=SC2086
-  [ "$(json mask1.json $key)" = "$(json mask2.json $key)" ] || fail "--mask-outside leaves another $key in little memory"
-done
+agree mask1.json mask2.json "cutline samples_outside" samples "input valid" "input min" "input max"
 succeeds "$scarp" measure hills.tif mask1.obj "${cut[@]}" --mask-outside --fail-above 12 --memory "$small"
 succeeds "$scarp" measure hills.tif mask2.obj "${cut[@]}" --mask-outside --fail-above 12 --memory "$small"

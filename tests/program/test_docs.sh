@@ -1,6 +1,7 @@
 #!/bin/bash
-# One table of options gives the same text to --help, the man page, the completions and the page of all options, and the
-# choices that it lists are those that the program accepts. The words of comments, help and docs are checked.
+# One table of options gives the same text to --help, the man page, the completions and the page of all options, and
+# the choices that it lists are those that the program accepts; the library's table of conflicts gives a page. The words of
+# comments, help and docs are checked.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need python3
 succeeds python3 "$SCARP_SOURCE/tools/generate_docs.py" "$scarp" share
@@ -76,6 +77,16 @@ for text in man.txt "$zsh_completions" fish.txt; do
     grep -qxF -- "$option" all_options || fail "$text names $option, which no command has"
   done
 done
+
+# The page of conflicts names options of commands, and a pair of its table is refused for its reason.
+conflicts=share/doc/scarp/conflicts.md
+grep -qF '| `--lods` | `--time-limit` |  | the finest level would take the time of all |' "$conflicts" || fail "no row on --lods"
+grep -qF '| `--drape` | `--grid local` | images are' "$conflicts" || fail "no row on tiles"
+grep -q 'samples in memory' "$conflicts" && grep -qF '`--script` (lines s)' "$conflicts" || fail "rows without their words"
+for option in $(grep -oE -- '--[a-z][a-z-]+' "$conflicts" | sort -u); do
+  grep -qxF -- "$option" all_options || fail "the page of conflicts names $option, which no command has"
+done
+refuses 1 "the finest level would take the time of all" "$scarp" simplify "$dem" x.glb -e 5 --lods 3 --time-limit 60
 
 bash -n "$bash_completions"
 if command -v zsh >/dev/null; then zsh -n "$zsh_completions" || fail "zsh cannot read _scarp"; fi

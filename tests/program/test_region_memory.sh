@@ -27,41 +27,32 @@ PYTHON
 
 small=74 # the samples, 1.2 MB, may use 1 of it, so they stay in their file, and strips are low
 sites=(--roi site.geojson=2 --roi road.geojson=5 --falloff 90)
-same() { # same A B KEY...: the reports agree
-  python3 -I -S - "$@" <<'PYTHON' || fail "the figures are not those in memory"
-import json, sys
-a, b = (json.load(open(path)) for path in sys.argv[1:3])
-for key in sys.argv[3:]: assert a[key] == b[key], (key, a[key], b[key])
-PYTHON
-}
 check() { # check EFFORT BOUND OPTION...: a mesh in little memory, judged in little memory and in much
   local effort=$1 bound=() judge=()
   [ "$2" = none ] || bound=(-e "$2") judge=(--fail-above "$2")
   shift 2
-  within "$small" "$scarp" simplify hills.tif one.obj "${bound[@]}" "$@" --effort "$effort" --memory "${small}M" -j 1 \
-    --report one.json --overwrite
-  succeeds "$scarp" simplify hills.tif two.obj "${bound[@]}" "$@" --effort "$effort" --memory "${small}M" -j 2 --overwrite
-  cmp one.obj two.obj || fail "-j 2 makes another mesh with $* and $effort effort"
+  within=$small by_threads hills.tif one.obj "${bound[@]}" "$@" --effort "$effort" --memory "${small}M"
+  mv r.json one.json
   within "$small" "$scarp" measure hills.tif one.obj "${judge[@]}" "$@" --memory "${small}M" --json
   cp "$logs/out" little.json
   succeeds "$scarp" measure hills.tif one.obj "${judge[@]}" "$@" --json
   cp "$logs/out" much.json
   [ "$(json little.json over_tolerance)" = 0 ] || fail "samples are above their tolerance"
-  same little.json much.json weighted_max_error weighted_rmse ignored over_tolerance max_error rmse topology passed
-  same one.json much.json weighted_max_error ignored max_error samples uncovered
+  agree little.json much.json weighted_max_error weighted_rmse ignored over_tolerance max_error rmse topology passed
+  agree one.json much.json weighted_max_error ignored max_error samples uncovered
   [ "$(json much.json topology sound)" = true ] || fail "the mesh is not sound"
   [ "$effort" != high ] || return 0
   succeeds "$scarp" simplify hills.tif whole.obj "${bound[@]}" "$@" --effort "$effort" --report whole.json --overwrite
-  same one.json whole.json ignored
+  agree one.json whole.json ignored
   holds "$(json one.json triangles) < 1.1 * $(json whole.json triangles)"
 }
 check fast 40 "${sites[@]}"
 check high 40 "${sites[@]}" --tolerance accuracy.tif
 check normal none --tolerance accuracy.tif
-same little.json much.json bounded_max_error bounded_max_error_at
-same one.json much.json bounded_max_error
+agree little.json much.json bounded_max_error bounded_max_error_at
+agree one.json much.json bounded_max_error
 check fast none --roi site.geojson=2 --roi road.geojson=5
-same little.json much.json bounded_max_error bounded_max_error_at
+agree little.json much.json bounded_max_error bounded_max_error_at
 
 # With goals of shapes.
 within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min-angle 20 --effort normal --memory "${small}M" \
@@ -70,11 +61,8 @@ within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min
 succeeds "$scarp" measure hills.tif shaped.obj "${sites[@]}" --fail-above 40
 
 # Within a budget one factor of all tolerances is searched for.
-for threads in 1 2; do
-  within "$small" "$scarp" simplify hills.tif "few$threads.obj" -t 1500 -e 40 "${sites[@]}" --effort normal --memory "${small}M" \
-    -j "$threads" --report few.json --overwrite
-done
-cmp few1.obj few2.obj || fail "-j 2 makes another mesh of a budget"
+within=$small by_threads hills.tif few.obj -t 1500 -e 40 "${sites[@]}" --effort normal --memory "${small}M"
+mv r.json few.json
 holds "$(json few.json triangles) <= 1500 && 1 < $(json few.json tolerance_factor)"
 holds "$(json few.json weighted_max_error) <= $(json few.json tolerance_factor)"
 succeeds "$scarp" simplify hills.tif whole.obj -t 1500 -e 40 "${sites[@]}" --effort normal --report whole.json --overwrite
@@ -87,7 +75,7 @@ for memory in "--memory ${small}M" ""; do
   [ "$code" = 3 ] || fail "a mesh without regions keeps their bounds"
   cp "$logs/out" "coarse${#memory}.json"
 done
-same coarse0.json coarse12.json over_tolerance weighted_max_error weighted_rmse
+agree coarse0.json coarse12.json over_tolerance weighted_max_error weighted_rmse
 holds "$(json coarse0.json over_tolerance) > 1000"
 
 # Impossible requests are refused before the work.

@@ -9,6 +9,7 @@
 
 #include "scarp/mesh_formats.h"
 #include "scarp/version.h"
+#include "session/table/conflict_words.h"
 #include "session/table/format_words.h"
 
 namespace scarp::cli {
@@ -217,6 +218,7 @@ std::string help_json(const CommandRow* command) {
     table["commands"].push_back({{"name", row.name}, {"usage", row.usage}, {"help", row.summary}});
     for (const OptionRow* option : rows_of(row.command)) table["options"].push_back(describe_option(*option, row));
   }
+  if (command == nullptr) table["conflicts"] = describe_conflicts();
   return table.dump(2) + "\n";
 }
 

@@ -7,37 +7,12 @@ import os
 from typing import Any, NamedTuple, Optional
 
 from . import _abi, _values
+from ._raster import AS_GIVEN, Raster, Turn, crs_text, numpy_if_there, unpack
 from .errors import InputError, UsageError
 
 _GRID, _SOURCE, _DEGREES = 0, 1, 2
 _LARGEST_SIDE = 2**31 - 1
 _SMALL = 2**14  # samples
-
-
-class Turn(NamedTuple):
-    """How a source's array became rows from north to south, and columns from west to east."""
-
-    source: Any = None  #: a DataArray of (y, x), as it was
-    is_transposed: bool = False
-    flips_rows: bool = False
-    flips_cols: bool = False
-
-    def flip(self, rows: Any) -> Any:
-        return rows[::-1 if self.flips_rows else 1, ::-1 if self.flips_cols else 1]
-
-    def apply(self, values: Any) -> Any:
-        """The same with an array in parallel."""
-        return self.flip(values.T if self.is_transposed else values)
-
-    def place(self, rows: int, cols: int, at: Optional[tuple[int, int]]) -> Optional[tuple[int, int]]:
-        """A sample's row and column in the source."""
-        if at is None:
-            return None
-        row, col = rows - 1 - at[0] if self.flips_rows else at[0], cols - 1 - at[1] if self.flips_cols else at[1]
-        return (col, row) if self.is_transposed else (row, col)
-
-
-AS_GIVEN = Turn()
 
 
 class Input(NamedTuple):
@@ -59,32 +34,7 @@ class Input(NamedTuple):
         return self.path is None and bool(self.field.rows * self.field.cols <= _SMALL)
 
 
-class Raster(NamedTuple):
-    samples: Any = None
-    transform: Any = None
-    crs: Any = None
-    nodata: Optional[float] = None
-    name: Optional[str] = None
-    unit: Optional[str] = None
-    turn: Turn = AS_GIVEN
-    is_in_degrees: bool = False  #: by the coordinates' own attributes
-
-
 _NO_PLACE = Raster()
-
-_loaded_numpy: Any = None
-
-
-def _numpy() -> Any:
-    """Imported at its first use; None where it is not there."""
-    global _loaded_numpy
-    if _loaded_numpy is None:
-        try:
-            import numpy
-            _loaded_numpy = numpy
-        except ImportError:
-            pass
-    return _loaded_numpy
 
 
 def shape_of(source: Any) -> Optional[tuple[int, ...]]:
@@ -111,17 +61,6 @@ def _has_file_reader(path: str) -> bool:
     """True if the library itself reads the file: PGM, STM and text of points always, all else with GDAL."""
     own = (".pgm", ".stm", ".csv", ".tsv", ".xyz", ".txt")
     return bool(_abi.lib.scarp_has_gdal()) or path.lower().endswith(own)
-
-
-def unpack(values: Any, voids: Any, scale: Any, offset: Any) -> tuple[Any, Optional[float]]:
-    """Heights of packed values, and the value that still stands for no height."""
-    np = _numpy()
-    scale, offset = float(1 if scale is None else scale), float(0 if offset is None else offset)
-    voids = {float(void) for one in voids if one is not None for void in np.ravel(one) if void == void}
-    if (scale, offset) == (1, 0) and len(voids) <= 1:
-        return values, next(iter(voids), None)
-    is_void = np.isin(np.ma.getdata(values), list(voids)) | np.ma.getmaskarray(values)
-    return np.where(is_void, np.nan, np.ma.getdata(values).astype(np.float64) * scale + offset), None
 
 
 def _read_dataset(dataset: Any, band: int, name: str, nodata: Optional[float]) -> Raster:
@@ -224,17 +163,6 @@ def frame_of_points(crs: Any) -> int:
     return _DEGREES if not _abi.lib.scarp_has_gdal() and _is_geographic(crs) else 0
 
 
-def crs_text(crs: Any) -> str:
-    if hasattr(crs, "__index__"):
-        return "EPSG:%d" % int(crs)
-    for name in ("to_epsg", "to_wkt", "to_string"):
-        if not isinstance(crs, str) and hasattr(crs, name):
-            text = getattr(crs, name)()
-            if text:
-                return "EPSG:%d" % text if isinstance(text, int) else str(text)
-    return str(crs)
-
-
 def _check_shape(shape: tuple[int, ...]) -> None:
     if len(shape) != 2:
         raise UsageError("heights are an array of (rows, columns), not of %d dimension%s%s"
@@ -306,7 +234,7 @@ def _from_buffer(z: Any) -> tuple[int, int, int, Any]:
 
 def grid_values(values: Any, source: Input, name: str) -> Any:
     """A mask or tolerances on the grid of the heights, as float32."""
-    np, turn = _numpy(), source.turn
+    np, turn = numpy_if_there(), source.turn
     if np is None:
         raise UsageError("%s needs numpy" % name)
     if turn.source is not None and _is_of_xarray(values):
@@ -334,7 +262,7 @@ def _is_of_xarray(source: Any) -> bool:
 def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
          wants_array: bool = False) -> Input:
     """The source as the library accepts it. Arguments override the source's own attributes."""
-    np = _numpy()
+    np = numpy_if_there()
     nodata = None if nodata is None else _values.number_of("nodata", nodata)
     if np is not None and type(source) is np.ndarray:  # the most frequent first
         raster = _NO_PLACE

@@ -7,13 +7,10 @@ import html
 import json
 import os
 import shutil
-from typing import TYPE_CHECKING, Any, Optional
+from typing import Any, Optional
 
 from . import _abi, _inputs
 from .errors import InputError
-
-if TYPE_CHECKING:
-    from .mesh import Mesh
 
 _PLACE = "<!--SCARP-DATA-->"
 
@@ -62,8 +59,8 @@ class Page(str):
         return '<iframe title="scarp" style="width: 100%%; height: 600px; border: 0" srcdoc="%s"></iframe>' % page
 
 
-def make_page(mesh: Mesh, source: Any, options: dict[str, Any]) -> str:
-    """The page's text, with the mesh and, if there is one, its raster inside."""
+def make_page(mesh: Any, source: Any, options: dict[str, Any]) -> str:
+    """The page's text, with the mesh (a Mesh, whose method calls this) and, if there is one, its raster inside."""
     glb = mesh.encode("glb")
     data: dict[str, Any] = {"scarp": _abi.lib.scarp_version().decode(), "field": None, "metres": None, "unit": None,
                             "meshes": [{"name": "mesh", "bytes": len(glb), "glb": base64.b64encode(glb).decode()}]}

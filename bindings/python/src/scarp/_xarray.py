@@ -4,7 +4,7 @@ from __future__ import annotations
 import re
 from typing import Any, NamedTuple, Optional
 
-from ._inputs import Raster, Turn, crs_text, unpack
+from ._raster import Raster, Turn, crs_text, unpack
 from .errors import InputError, UsageError
 
 _LONGITUDES, _LATITUDES = ("lon", "long", "longitude"), ("lat", "latitude")

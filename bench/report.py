@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
-"""Writes the tables of bench/quality.md and by_raster.md from efforts.csv, budgets.csv, peers.csv, their times,
-high_normal.csv, squares.csv, cliffs.csv, ridges.csv, images.csv and pictures.csv.
+"""Writes the tables of the pages of bench/ from the CSV files next to them.
 
   report.py            writes them
   report.py --check    fails if a page would change
 """
 
 import argparse
+import json
 import math
 import statistics
 import sys
-from pathlib import Path
+import textwrap
 
-HERE = Path(__file__).resolve().parent
-DOCUMENTS = (HERE.parent / "quality.md", HERE / "by_raster.md")
-sys.path.insert(0, str(HERE.parent))
-from tables import fill, markdown, read_table  # noqa: E402
+from harness import BENCH, fill, markdown, read_table
+
+PAGES = ("quality.md", "performance.md", "tiles.md")
+QUALITY, SPEED, TILES = BENCH / "quality", BENCH / "speed", BENCH / "tiles"
 
 FULL_QUARTER = 25  # percent of the full grid: where greedy insertion needs more, triangles are a few samples in size
 
@@ -31,11 +31,17 @@ def spread(numbers, digits=2):
     return f"{geometric_mean(numbers):.{digits}f} ({min(numbers):.{digits}f} to {max(numbers):.{digits}f})"
 
 
-def by_case(rows, column):
-    """{(raster, percent): {value of column: row}}, in the order of the rows."""
+def times_of(table, digits):
+    """The same of CPU times in greedy insertion's, by variant: these are kept as means."""
+    return {row["variant"]: "{:.{d}f} ({:.{d}f} to {:.{d}f})".format(*(float(row[key]) for key in ("mean", "least", "most")), d=digits)
+            for row in read_table(QUALITY / "times.csv") if row["table"] == table}
+
+
+def by_case(rows, column, goal="percent_of_relief"):
+    """{(raster, goal): {value of column: row}}, in the order of the rows."""
     cases = {}
     for row in rows:
-        cases.setdefault((row["raster"], row["percent_of_relief"]), {})[row[column]] = row
+        cases.setdefault((row["raster"], row[goal]), {})[row[column]] = row
     return cases
 
 
@@ -49,15 +55,11 @@ def title(raster):
 
 
 class Efforts:
-    """efforts.csv with the times in it."""
+    """efforts.csv."""
 
     def __init__(self):
-        rows = read_table(HERE / "efforts.csv")
-        seconds = {tuple(row.values())[:-1]: float(row["cpu_seconds"])
-                   for row in read_table(HERE / "efforts_seconds.csv")}
-        for row in rows:
-            row["seconds"] = seconds.get((row["raster"], row["percent_of_relief"], row["effort"], row["vertices"]))
-        self.rows, self.cases = rows, by_case(rows, "effort")
+        rows = read_table(QUALITY / "efforts.csv")
+        self.rows, self.cases, self.times = rows, by_case(rows, "effort"), times_of("efforts", 1)
         self.efforts = [effort for effort in values(rows, "effort") if effort != "greedy"]
 
     def ratios(self, effort, column, which):
@@ -75,21 +77,9 @@ class Efforts:
         lines = []
         for effort in self.efforts:
             cells = [spread(self.ratios(effort, "triangles", which)) for _, which in kinds]
-            cells += [spread(self.ratios(effort, "rmse", is_any)), spread(self.ratios(effort, "seconds", is_any), 1)]
+            cells += [spread(self.ratios(effort, "rmse", lambda _: True)), self.times[effort]]
             lines.append([f"`{effort}`", *cells])
         return markdown(header, lines)
-
-    def triangles(self):
-        percents = values(self.rows, "percent_of_relief")
-        lines = []
-        for raster in values(self.rows, "raster"):
-            of_raster = {percent: self.cases.get((raster, percent), {}) for percent in percents}
-            lines.append([f"**{title(raster)}**", "greedy",
-                          *(f"{int(case['greedy']['triangles']):,}" for case in of_raster.values())])
-            for effort in self.efforts:
-                lines.append(["", f"`{effort}`", *(f"{float(case[effort]['ratio']):.3f}" if effort in case else "–"
-                                                   for case in of_raster.values())])
-        return markdown(["raster", "", *(f"{percent} %" for percent in percents)], lines)
 
     def angles(self):
         lines = []
@@ -102,10 +92,6 @@ class Efforts:
         return markdown(["", "median of the smallest angles", "their first percentile", "smallest of all"], lines)
 
 
-def is_any(_):
-    return True
-
-
 def is_sparse(greedy):
     return float(greedy["percent_of_full"]) < FULL_QUARTER
 
@@ -115,15 +101,11 @@ def is_broken(row):
 
 
 class Peers:
-    """peers.csv with the times in it."""
+    """peers.csv."""
 
     def __init__(self):
-        rows = read_table(HERE / "peers.csv")
-        seconds = {tuple(row.values())[:-1]: float(row["cpu_seconds"])
-                   for row in read_table(HERE / "peers_seconds.csv")}
-        for row in rows:
-            row["seconds"] = seconds.get((row["raster"], row["percent_of_relief"], row["program"]))
-        self.rows, self.cases = rows, by_case(rows, "program")
+        rows = read_table(QUALITY / "peers.csv")
+        self.rows, self.cases, self.times = rows, by_case(rows, "program"), times_of("peers", 1)
         self.programs = [program for program in values(rows, "program") if program != "Scarp greedy"]
 
     def summary(self):
@@ -139,37 +121,16 @@ class Peers:
 
             lines.append([program, found[0][0]["version"], spread(ratios("triangles")), spread(ratios("rmse")),
                           f"{len(kept)} of {len(found)}", sum(row["uncovered"] != "0" for row, _ in kept),
-                          sum(row["folded"] != "0" for row, _ in kept), spread(ratios("seconds"), 1)])
+                          sum(row["folded"] != "0" for row, _ in kept), self.times.get(program, "–")])
         return markdown(header, lines)
-
-    def triangles(self):
-        """By raster, without programs that never satisfy the goal and Scarp's other efforts."""
-        shown = [program for program in self.programs if program not in ("Scarp fast", "Scarp high on samples")
-                 and not all(is_broken(case[program]) for case in self.cases.values() if program in case)]
-        lines = []
-        for (raster, percent), case in self.cases.items():
-            lines.append([raster, f"{percent} %", f"{int(case['Scarp greedy']['triangles']):,}",
-                          *(peer_cell(case.get(program)) for program in shown)])
-        return markdown(["raster", "max error", "greedy", *shown], lines)
-
-
-def peer_cell(row):
-    if row is None or is_broken(row):
-        return "–"
-    marks = ("†" if row["uncovered"] != "0" else "") + ("‡" if row["folded"] != "0" else "")
-    return f"{float(row['ratio']):.3f}{marks}"
 
 
 class Budgets:
-    """budgets.csv with the times in it."""
+    """budgets.csv."""
 
     def __init__(self):
-        rows = read_table(HERE / "budgets.csv")
-        seconds = {tuple(row.values())[:-1]: float(row["cpu_seconds"])
-                   for row in read_table(HERE / "budgets_seconds.csv")}
-        for row in rows:
-            row["seconds"] = seconds.get((row["raster"], row["percent_of_relief"], row["variant"]))
-        self.rows, self.cases = rows, by_case(rows, "variant")
+        rows = read_table(QUALITY / "budgets.csv")
+        self.rows, self.cases, self.times = rows, by_case(rows, "variant"), times_of("budgets", 0)
         self.variants = [variant for variant in values(rows, "variant") if variant != "greedy"]
 
     def ratios(self, variant, column, to, of_walls=False):
@@ -183,29 +144,18 @@ class Budgets:
                     if row["variant"] == variant and row["raster"] not in STEEP]
             lines.append([f"`{variant}`", len(used), spread(self.ratios(variant, "max_error", "greedy")),
                           spread(self.ratios(variant, "rmse", "greedy")), spread(self.ratios(variant, "rmse", "high")),
-                          f"{100 * min(used):.1f} %", spread(self.ratios(variant, "seconds", "greedy"), 0),
+                          f"{100 * min(used):.1f} %", self.times[variant],
                           spread(self.ratios(variant, "rmse", "high", of_walls=True))])
         return markdown(["geometric mean (least to most)", "cases", "max error ÷ greedy's", "RMSE ÷ greedy's",
                          "RMSE ÷ that of `high`", "least used of the budget", "CPU time ÷ greedy's",
                          "on walls (athens_dsm_1m): RMSE ÷ that of `high`"], lines)
-
-    def errors(self):
-        lines = []
-        for (raster, percent), case in self.cases.items():
-            cells = [f"{float(row['max_error']) / float(case['greedy']['max_error']):.3f}, "
-                     f"{float(row['rmse']) / float(case['greedy']['rmse']):.3f}" if row else "–"
-                     for row in map(case.get, self.variants)]
-            share = float(case["high rms"]["rmse"]) / float(case["high"]["rmse"])
-            lines.append([title(raster), f"{int(case['greedy']['budget']):,}", *cells, f"{share:.3f}"])
-        return markdown(["raster", "budget", *(f"`{variant}`" for variant in self.variants),
-                         "RMSE of `high rms` ÷ `high`"], lines)
 
 
 class Squares:
     """squares.csv."""
 
     def __init__(self):
-        self.rows, self.cases = read_table(HERE / "squares.csv"), {}
+        self.rows, self.cases = read_table(QUALITY / "squares.csv"), {}
         for row in self.rows:
             self.cases.setdefault(row["raster"], {})[row["program"]] = row
         self.programs = [program for program in values(self.rows, "program")
@@ -244,7 +194,7 @@ class HighNormal:
     """high_normal.csv."""
 
     def __init__(self):
-        self.rows = read_table(HERE / "high_normal.csv")
+        self.rows = read_table(QUALITY / "high_normal.csv")
         self.cases = by_case(self.rows, "variant")
 
     def worst(self):
@@ -350,45 +300,120 @@ def picture_table(rows):
     return markdown(header, [pictures, captions])
 
 
+def spread_lines(rows):
+    """The spread in speed/results.csv: lowest, median and highest of each ratio."""
+    lines = []
+    for peer, words in (("greedy", "greedy ÷ Scarp"), ("delatin", "delatin ÷ Scarp"), ("vtk", "VTK ÷ Scarp"),
+                        ("verify", "Scarp ÷ verification")):
+        for large in (False, True):
+            found = []
+            for case in by_case(rows, "program", "error").values():
+                if "dominant" in case and peer in case and (int(case["dominant"]["samples"]) > 10_000_000) == large:
+                    quotient = float(case[peer]["cpu_min_ms"]) / float(case["dominant"]["cpu_min_ms"])
+                    found.append(1 / quotient if peer == "verify" else quotient)
+            if found:
+                lines.append(f"- {words}, CPU, rasters {'above' if large else 'below'} 10 million samples: lowest "
+                             f"{min(found):.2f}, median {statistics.median(found):.2f}, highest {max(found):.2f}")
+    return lines
+
+
+def python_table(rows):
+    header = ["", "beyond the library", "of which Python's"]
+    unit = {"us": "µs", "ms": "ms CPU"}
+    cells = [[("`import %s`" if row["what"] == "import" else "%s") % row["kind"],
+              "%s %s" % (row["beyond"], unit[row["unit"]]), "%s µs" % row["python"] if row["python"] else ""]
+             for row in rows]
+    return markdown(header, cells)
+
+
+def order_table(rows):
+    """The table of bench_orders: the highest ratios, and the summaries."""
+    meshes = [row for row in rows if row["samples"]]
+    groups = (("below 0.1", 0, 0.1), ("0.1 to 1", 0.1, 1), ("above 1", 1, 101))
+    lines = []
+    for words, low, high in groups:
+        ratios = [float(row["ratio"]) for row in meshes if low <= float(row["greedy_percent_kept"]) < high]
+        if ratios:
+            lines.append([words, len(ratios), f"{min(ratios):.3f}", f"{statistics.median(ratios):.3f}",
+                          f"{max(ratios):.3f}", sum(one > 1.01 for one in ratios)])
+    return markdown(["kept %", "meshes", "lowest", "median", "highest", "above 1.01"], lines)
+
+
+def machine_lines():
+    """The machine of the tables of speed."""
+    machine = json.loads((SPEED / "machine.json").read_text())
+    has = "has" if machine.get("avx512") else "has no"
+    lines = [f"{machine.get('machine')}, {machine.get('processors')} logical processors; it {has} AVX-512; load average at the start "
+             f"{machine.get('load')}", f"compiler: {machine.get('compiler')}, CMake's Release flags and the project's",
+             *machine.get("remarks", []), *(f"{name}: {version}" for name, version in machine.get("versions", {}).items())]
+    return [wrapped for line in lines
+            for wrapped in textwrap.wrap(line, 118, initial_indent="- ", subsequent_indent="  ", break_on_hyphens=False)]
+
+
+MAKERS = {"ctb": "", "martini": "martini", "fast": "Scarp `fast`", "normal": "Scarp `normal`",
+          "high": "Scarp `high`"}
+
+
+def number(text):
+    return f"{float(text):,.0f}" if text else "–"
+
+
+def tile_row(row):
+    differ = f"{number(row['edges_differ'])} of {number(row['edges'])}" if row["edges"] else "–"
+    if row.get("edges_places_differ") not in (None, "", "0"):
+        differ += f", {number(row['edges_places_differ'])} by their vertices"
+    return [MAKERS[row["maker"]], number(row["triangles"]), number(row["bytes"]),
+            f"{float(row['error_median']):,.1f} / {float(row['error_worst']):,.1f} m", differ]
+
+
+def tile_tables():
+    header = ["triangles a tile", "bytes a tile", "true error, median / worst tile", "edges that differ"]
+    rows = read_table(TILES / "tiles.csv")
+    return {
+        **{f"level_{z}": markdown(["", *header], [tile_row(row) for row in rows if row["level"] == str(z)]) for z in (12, 10, 8)},
+        "ctb": markdown(["level, asked", *header],
+                        [[f"{row['level']}, {row['asked']} m", *tile_row(row)[1:]] for row in read_table(TILES / "ctb.csv")]),
+        "time": markdown(["", "CPU ms a tile"], [[MAKERS[row["maker"]], f"{float(row['cpu_ms']):.1f}"]
+                                                 for row in read_table(TILES / "tiles_seconds.csv")]),
+    }
+
+
 def tables():
-    """Every table by its name, without those whose file is not there."""
-    efforts, peers, found = Efforts(), Peers(), {}
-    if efforts.rows:
-        found.update(efforts=efforts.summary(), triangles=efforts.triangles(), angles=efforts.angles())
-    if peers.rows:
-        found.update(peers=peers.summary(), peer_triangles=peers.triangles())
-    pictures = read_table(HERE / "pictures.csv")
-    for scene in values(pictures, "scene"):
-        found[f"pictures_{scene}"] = picture_table([row for row in pictures if row["scene"] == scene])
-    for name, table in (("cliffs", cliff_table), ("ridges", ridge_table), ("images", image_table)):
-        if rows := read_table(HERE / f"{name}.csv"):
-            found[name] = table(rows)
-    budgets, squares, floors = Budgets(), Squares(), HighNormal()
-    if budgets.rows:
-        found.update(budget_summary=budgets.summary(), budgets=budgets.errors())
-    if squares.rows:
-        found.update(squares=squares.table())
-    if floors.rows:
-        found.update(high_normal=floors.worst(), floor_angles=floors.angles())
-    return found
+    """Every table by its name."""
+    efforts, budgets, floors = Efforts(), Budgets(), HighNormal()
+    of = lambda name: read_table(QUALITY / f"{name}.csv")  # noqa: E731
+    pictures = of("pictures")
+    return {
+        "efforts": efforts.summary(), "angles": efforts.angles(), "peers": Peers().summary(), "budget_summary": budgets.summary(),
+        "squares": Squares().table(), "high_normal": floors.worst(), "floor_angles": floors.angles(),
+        "cliffs": cliff_table(of("cliffs")), "ridges": ridge_table(of("ridges")), "images": image_table(of("images")),
+        **{f"pictures_{scene}": picture_table([row for row in pictures if row["scene"] == scene]) for scene in values(pictures, "scene")},
+        "spread": spread_lines(read_table(SPEED / "results.csv")), "orders": order_table(of("orders")),
+        "python": python_table(read_table(BENCH / "python" / "calls.csv")), "machine": machine_lines(), **tile_tables(),
+    }
+
+
+def write(check=False):
+    """Fills the pages again; the names of those that change, which stay as they are with `check`."""
+    found, changed = tables(), []
+    for page in PAGES:
+        old = (BENCH / page).read_text()
+        new = fill(old, found)
+        if new != old:
+            changed.append(page)
+        if not check:
+            (BENCH / page).write_text(new)
+    return changed
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="change nothing, fail if anything would change")
-    check, found = parser.parse_args().check, tables()
-    stale = []
-    for document in DOCUMENTS:
-        old = document.read_text()
-        new = fill(old, found)
-        if check and new != old:
-            stale.append(document.name)
-        elif not check:
-            document.write_text(new)
-    if stale:
-        print(f"{' and '.join(stale)}: not what the CSV files say; run bench/quality/report.py")
-    return int(bool(stale))
+    check = parser.parse_args().check
+    changed = write(check)
+    if check and changed:
+        sys.exit(f"{' and '.join(changed)}: not what the CSV files hold; run bench/report.py")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

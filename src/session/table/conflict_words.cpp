@@ -1,0 +1,91 @@
+#include "session/table/conflict_words.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "scarp/conflicts.h"
+#include "session/table/field_options.h"
+
+namespace scarp::cli {
+namespace {
+
+/// The options where there are some, else the library's word.
+std::vector<std::string> words_of(Field field) {
+  using enum OptionId;
+  const auto with = [](OptionId id, const char* note) { return fmt::format("{} ({})", id, note); };
+  switch (field) {
+    case Field::kIgnored:
+      return {with(kScript, "lines i, u")};
+    case Field::kPoints:
+      return {with(kScript, "lines s")};
+    case Field::kMaskSource:
+      return {with(kMask, "streamed")};
+    case Field::kTolerance:
+      return {name_of(kTolerance), name_of(kRoi)};
+    case Field::kToleranceSource:
+      return {name_of(kTolerance), with(kRoi, "streamed")};
+    case Field::kBreaklines:
+      return {name_of(kBreaklines), name_of(kWater), name_of(kRivers), name_of(kCliff), name_of(kRidges)};
+    case Field::kStrategy:
+      return {name_of(kImportance), name_of(kOnePass), name_of(kAlgorithm), name_of(kBatch),
+              name_of(OptionTerm{kEdges, "data"})};
+    case Field::kShape:
+      return {name_of(kMinAngle), name_of(kMaxEdge), name_of(kGrade)};
+    case Field::kChannels:
+      return {name_of(kTexture), name_of(kImage)};
+    case Field::kCurvedFrame:
+      return {with(kCrs, "of another projection")};
+    case Field::kSpaceFrame:
+      return {name_of(OptionTerm{kCrs, "enu"}), name_of(OptionTerm{kCrs, "EPSG:4978"})};
+    case Field::kSource:
+      return {with(kMemory, "where samples are streamed")};
+    default:
+      break;
+  }
+  const OptionTerm option = option_of(field);
+  return {option.id != kNone ? name_of(option) : std::string(scarp::name_of(field))};
+}
+
+std::vector<std::string> words_of(Fields fields) {
+  // Differences that the program's options do not show.
+  if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
+  if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
+  std::vector<std::string> words;
+  for (int k = 0; k < kFieldCount; ++k) {
+    if (!fields.has(static_cast<Field>(k))) continue;
+    for (std::string& word : words_of(static_cast<Field>(k))) words.push_back(std::move(word));
+  }
+  return words;
+}
+
+bool is_of_tiles(const ConflictRule& rule) {
+  for (int k = kSimplifyFieldCount; k < kFieldCount; ++k) {
+    if (rule.one.has(static_cast<Field>(k))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+nlohmann::ordered_json describe_conflicts() {
+  auto rows = nlohmann::ordered_json::array();
+  for (const ConflictRule& rule : conflict_rules()) {
+    // The program reads the weights and tolerances of streamed samples as these.
+    const bool is_of_source = rule.one.has(Field::kSource);
+    const Fields other = is_of_source ? rule.other.without(Field::kTolerance).without(Field::kMask) : rule.other;
+    if (other.empty()) continue;
+    std::vector<std::string> beside = words_of(rule.beside);
+    if (!is_of_source && rule.where != Where::kAlways)
+      beside = {rule.where == Where::kInMemory ? "samples in memory" : "streamed samples"};
+    rows.push_back({{"tiles", is_of_tiles(rule)},
+                    {"setting", words_of(rule.one)},
+                    {"with", words_of(other)},
+                    {"beside", beside},
+                    {"because", rule.reason}});
+  }
+  return rows;
+}
+
+}  // namespace scarp::cli
