@@ -20,6 +20,7 @@
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_set.h"
+#include "scarp/tile_sink.h"
 #include "tiles/tile_maker.h"
 #include "tiles/tile_mesh_parts.h"
 #include "tiles/tile_nodes.h"

@@ -301,6 +301,10 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path);
 /// (.aux.xml, .prj, …), the sources of a VRT, and the archive that it lies in (/vsizip/z.zip/a.tif, /vsitar/…). A file
 /// that GDAL cannot open is itself alone. Empty for remote files, what does not exist, and in a build without GDAL.
 std::vector<std::string> list_files(const std::string& path);
+/// The rasters, those of folders in place of these, put together to mosaics: neighbours in the list that lie on one
+/// grid, have one type and one nodata value, and one CRS, its datum of heights included. A raster that cannot be opened
+/// stands alone.
+std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
 
 /// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in
 /// kPendingOutputs slots; an unused slot is empty. Points to a static buffer; async-signal-safe. With more files at

@@ -52,6 +52,7 @@
 #include "scarp/tile_lines.h"
 #include "scarp/tile_set.h"
 #include "scarp/tile_set_mesh.h"
+#include "scarp/tile_sink.h"
 #include "scarp/tile_waters.h"
 #include "scarp/tiles3d.h"
 #include "scarp/tolerances.h"

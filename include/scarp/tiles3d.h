@@ -118,20 +118,6 @@ struct NamedFile {
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
                                       const LayerFacts& facts = {});
 
-/// Tiles into a set of 3D Tiles.
-class TerrainTilesetSink final : public TileSetSink {
- public:
-  /// Borrows both. DEFAULT encoder: that of the format.
-  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder = {});
-
-  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
-  /// The files of encode_tileset(). Adds lattice_error() to the bounds.
-  Result<void> put_files(PyramidReport& report, LayerFacts facts) override;
-
- private:
-  FactsByTile facts_;
-};
-
 }  // namespace scarp
 
 #pragma GCC visibility pop

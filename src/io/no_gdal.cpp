@@ -23,8 +23,8 @@
 #include "scarp/drape.h"
 #include "scarp/globe_image.h"
 #include "scarp/globe_place.h"
+#include "scarp/io.h"
 #include "scarp/lines.h"
-#include "scarp/tile_job.h"
 
 namespace scarp {
 namespace {

@@ -19,6 +19,7 @@
 #include "scarp/gzip.h"
 #include "scarp/io.h"
 #include "scarp/tile_check.h"
+#include "scarp/tile_sink.h"
 #include "scarp/tiles3d.h"
 
 namespace scarp::tile_check_laws_test {

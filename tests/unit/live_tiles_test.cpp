@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "scarp/tile_sink.h"
 
 namespace scarp::live_tiles_test {
 namespace {

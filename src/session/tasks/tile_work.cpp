@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "scarp/tile_sink.h"
 #include "session/reports/tile_report.h"
 #include "session/tasks/counted_set.h"
 #include "session/text/paths.h"

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "base/reporter.h"
-#include "io/tiles/core_seconds.h"
-#include "io/tiles/part_writer.h"
+#include "jobs/core_seconds.h"
+#include "jobs/part_writer.h"
 #include "scarp/commands.h"
 #include "scarp/tile_job.h"
+#include "scarp/tile_sink.h"
 
 namespace scarp {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "scarp/tile_sink.h"
 
 namespace scarp {
 namespace {

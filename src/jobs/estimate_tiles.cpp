@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "io/tiles/core_seconds.h"
+#include "jobs/core_seconds.h"
 #include "scarp/tile_job.h"
 
 namespace scarp {

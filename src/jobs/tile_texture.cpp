@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "io/mesh/srgb.h"
-#include "scarp/globe_image.h"
+#include "scarp/tile_sink.h"
 
 namespace scarp {
 namespace {

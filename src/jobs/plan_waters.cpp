@@ -1,4 +1,4 @@
-#include "io/tiles/plan_waters.h"
+#include "jobs/plan_waters.h"
 
 #include <bit>
 #include <cmath>

@@ -16,7 +16,7 @@
 #include "base/fnv.h"
 #include "io/tiles/byte_source.h"
 #include "io/tiles/grid_json.h"
-#include "io/tiles/plan_waters.h"
+#include "jobs/plan_waters.h"
 #include "scarp/commands.h"
 #include "scarp/tile_job.h"
 #include "scarp/version.h"

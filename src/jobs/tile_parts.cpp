@@ -22,7 +22,7 @@
 
 #include "io/file_reason.h"
 #include "io/tiles/byte_source.h"
-#include "io/tiles/part_writer.h"
+#include "jobs/part_writer.h"
 
 namespace scarp {
 namespace {
