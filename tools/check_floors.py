@@ -30,8 +30,10 @@ ROOMS = {
     "metric": (2, ["base", "grid", "geom"],
                ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
-    "io": (2, ["base", "grid", "mesh"],
-           ["alike", "commands", "cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_image", "globe_place", "gzip", "height_field", "io", "lent", "lines", "mesh", "points", "progress", "raster_lines", "result", "solid", "strategy", "tile", "tile_set", "tiles3d", "version", "zones"],
+    "globe": (2, ["base", "grid"], ["degrees", "geoid", "result", "tile", "tile_grid"],
+              "places on a globe or a plane: the ellipsoid, grids of tiles, geoids"),
+    "io": (3, ["base", "grid", "mesh", "globe"],
+           ["alike", "commands", "cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_image", "globe_place", "gzip", "height_field", "io", "lent", "lines", "mesh", "points", "progress", "raster_lines", "result", "solid", "quality", "strategy", "tile", "tile_grid", "tile_set", "tiles3d", "version", "zones"],
            "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],
@@ -52,19 +54,22 @@ ROOMS = {
                "a window worked on alone, borders first: tiles, strips, seams, freezing"),
     "simplify": (6, ["base", "grid", "geom", "mesh", "tin", "metric", "io", "measure", "refine", "fit", "lines", "shape",
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
-    "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh, places in space"),
+    "tiles/nodes": (3, ["base", "grid", "globe"], ANY, "heights by place: of rasters, raised, stacked, held, decimated"),
+    "tiles/water": (5, ["base", "grid", "globe"], ANY, "lakes and rivers on nodes, and masks of them"),
+    "tiles/mesh": (7, ["base", "globe"], ANY, "one tile: its nodes, lines, edges, mesh, and the judge of what clients decode"),
+    "tiles/pyramid": (8, ["base", "globe", "tiles/nodes", "tiles/mesh"], ANY, "levels, blocks, and what these hand to the levels above"),
     "check": (6, ["base", "grid", "io"], ANY, "finished sets of tiles, judged without knowing how they were made"),
-    "jobs": (7, ["base", "grid", "io"], ANY,
+    "jobs": (9, ["base", "grid", "io"], ANY,
              "what runs the engine of tiles: plans of jobs, blocks in parts, estimate, survey, sets made on demand"),
     "session/text": (7, [], ["result"], "numbers and sentences for people: text, names of files, clocks, the type of reports"),
     "session/table": (8, ["session/text"], ["alike", "conflicts", "result", "version"], "the table of options, and what is made of it: help, proposals for unknown words"),
-    "session/options": (9, ["session/text", "session/table"], ANY, "the arguments of each command: registered, parsed, spelled canonically"),
-    "session/inputs": (10, ["session/text", "session/options"], ANY, "the files that options name, read: channels, companions, lines, waters, zones"),
-    "session/plan": (10, ["session/text", "session/table", "session/options"], ANY, "what a command will do, decided before its work: plans, conflicts, outputs"),
-    "session/reports": (11, ["session/text", "session/options", "session/inputs", "session/plan"], ANY, "what a run came to, as JSON, lines of a summary and warnings"),
-    "session/tasks": (12, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
+    "session/options": (10, ["session/text", "session/table"], ANY, "the arguments of each command: registered, parsed, spelled canonically"),
+    "session/inputs": (11, ["session/text", "session/options"], ANY, "the files that options name, read: channels, companions, lines, waters, zones"),
+    "session/plan": (11, ["session/text", "session/table", "session/options"], ANY, "what a command will do, decided before its work: plans, conflicts, outputs"),
+    "session/reports": (12, ["session/text", "session/options", "session/inputs", "session/plan"], ANY, "what a run came to, as JSON, lines of a summary and warnings"),
+    "session/tasks": (13, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
                      "the commands without their terminal: simplify, measure, points, tiles"),
-    "apps": (13, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
+    "apps": (14, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
 }
 
 # Headers that only some files may include: (pattern of the header, files that may, why).
@@ -103,7 +108,7 @@ def room_of(path):
 def room_of_header(header):
     """The room of a header as `#include "header"` names it; "loose" where it lies in none."""
     parts = header.split("/")
-    depth = 2 if parts[0] == "session" else 1
+    depth = 2 if parts[0] in ("session", "tiles") else 1
     return "/".join(parts[:depth]) if len(parts) > depth else "loose"
 
 

@@ -21,9 +21,9 @@
 #include "scarp/tile_job.h"
 #include "scarp/tile_set.h"
 #include "scarp/tile_sink.h"
-#include "tiles/tile_maker.h"
-#include "tiles/tile_mesh_parts.h"
-#include "tiles/tile_nodes.h"
+#include "tiles/mesh/tile_maker.h"
+#include "tiles/mesh/tile_mesh_parts.h"
+#include "tiles/mesh/tile_nodes.h"
 
 namespace {
 

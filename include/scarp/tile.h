@@ -60,7 +60,7 @@ class NodeSource {
   /// Shows all samples that lie in the box, and others around it, some perhaps twice; longitudes continue beyond 180°
   /// where the box does. A row is valid during its visit. Several threads may call it at once. Fails as the samples'
   /// source does. DEFAULT: shows none.
-  virtual Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const;
+  virtual Result<void> visit_samples(const DegreeBox& /*box*/, const SampleVisitor& /*visit*/) const { return {}; }
 };
 
 /// The position of a raster on the globe, and the meaning of its samples.

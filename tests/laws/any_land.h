@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "scarp/tile.h"
-#include "tiles/sine.h"
+#include "globe/sine.h"
 
 namespace scarp::testing {
 inline constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();

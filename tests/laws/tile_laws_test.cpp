@@ -11,11 +11,11 @@
 #include "laws/any_land.h"
 #include "scarp/measure.h"
 #include "scarp/tile.h"
-#include "tiles/coarse_nodes.h"
-#include "tiles/globe.h"
-#include "tiles/node_scan.h"
-#include "tiles/sine.h"
-#include "tiles/tile_mesh_parts.h"
+#include "tiles/pyramid/coarse_nodes.h"
+#include "globe/globe.h"
+#include "tiles/mesh/node_scan.h"
+#include "globe/sine.h"
+#include "tiles/mesh/tile_mesh_parts.h"
 
 namespace scarp::tile_laws_test {
 namespace {
