@@ -131,7 +131,8 @@ int main(int argc, char** argv) {
         const double start = cpu_seconds();
         const auto nodes = take(scarp::TileNodes::read(plan, id, steps, scarp::normal_reach(steps), raster->nodes()));
         const double is_read = cpu_seconds();
-        const auto tile = take(scarp::make_proven_tile(plan, id, nodes, raster->nodes(), {})).tile;
+        const auto tile =
+            take(scarp::make_tile_of(plan, id, nodes, scarp::proof_at_nodes(plan, nodes, raster->nodes()), {})).tile;
         const double is_made = cpu_seconds();
         const auto packed = take(encode(tile));
         const double end = cpu_seconds();

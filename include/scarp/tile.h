@@ -237,17 +237,6 @@ struct TerrainTile {
   double source_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The tile, of as many bytes as it needs. Its node_error is at most the level's max error, but where positions in
-/// 32767ths of the tile cannot follow the land, next to a cliff; its source_error too, if the plan binds samples, but
-/// where these are too far from the land between the nodes around them. REQUIRES: plan.block_level <= id.z <=
-/// plan.max_zoom(). Fails as the source does.
-Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
-
-/// A tile above the plan's block level, of the nodes that its mesh needs and no others: the mesh of finish_pyramid(),
-/// but without its proof. node_error is NaN, since no nodes between these were examined. REQUIRES: id.z <
-/// plan.block_level. Cost: some 70,000 nodes, each read alone where they are far apart. Fails as the source does.
-Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
-
 /// The bytes that are kept of a tile. Several threads call it at once.
 using TileEncoder = std::function<Result<std::vector<std::uint8_t>>(const TerrainTile&)>;
 
@@ -257,10 +246,19 @@ struct KeptTile {
 };
 
 /// The tile as a set keeps it, within plan.max_tile_bytes where that can be: a function of (id, plan, nodes, encoder).
-/// Without a limit it is that of make_tile(), or above plan.block_level of make_unproven_tile(). Fails as these and the
-/// encoder do.
-Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
-                                const TileEncoder& encode);
+///
+/// At plan.block_level and below, its node_error is at most its max error, but where positions in 32767ths of the tile
+/// cannot follow the land, next to a cliff; its source_error too, if the plan binds samples, but where these are too
+/// far from the land between the nodes around them.
+///
+/// Above plan.block_level it is made of the nodes that its mesh needs and no others: the mesh of finish_pyramid(), but
+/// without its proof. node_error is NaN, since no nodes between these were examined. Cost: some 70,000 nodes, each read
+/// alone where they are far apart.
+///
+/// REQUIRES: 0 <= id.z <= plan.max_zoom(). Fails as the source and the encoder do.
+Result<KeptTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source, const TileEncoder& encode);
+/// The tile, of as many bytes as it needs.
+Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
 /// The tiles of make_pyramid(), without making one: by level, rows and columns, y · 2^32 + x, sorted. Reads each node
 /// once; without a source no node, and then tiles below the blocks count as soon as the plan's source may cover them.
@@ -322,12 +320,11 @@ struct BlockReport {
 };
 
 /// Makes the tiles of one block that have heights, their siblings if the plan wants them, and the block's own in any
-/// case. A tile's bytes are those of
-/// make_kept_tile(). Tiles of levels below `deepest` are omitted, and their errors from the report; all else is that of
-/// the whole block. REQUIRES: find_blocks() names the block.
+/// case. A tile's bytes are those of make_tile(). Tiles of levels below `deepest` are omitted, and their errors from
+/// the report; all else is that of the whole block. REQUIRES: find_blocks() names the block.
 ///
 /// Cost: each node is read once; memory: that of its nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
-/// make_kept_tile() and the sink do, and with kCancelled.
+/// make_tile() and the sink do, and with kCancelled.
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
                                const Run& run = {}, int deepest = std::numeric_limits<int>::max());
 

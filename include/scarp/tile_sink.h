@@ -28,8 +28,6 @@ Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, Im
 /// The encoder of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
 /// Borrows the plan.
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
-/// The encoder of kGlb, with a texture of the image on each tile.
-TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format);
 
 /// Tiles of a format into a set.
 class TileSetSink : public TileSink {

@@ -88,7 +88,7 @@ Result<LevelLook> look_at(const PyramidPlan& plan, const std::vector<TileId>& bl
     look.reading += reading;
     ++look.looked_at;
     if (!is_land) continue;
-    SCARP_TRY(const auto& tile, make_kept_tile(plan, id, nodes, encode));
+    SCARP_TRY(const auto& tile, make_tile(plan, id, nodes, encode));
     look.making += std::max(0.0, core_seconds() - start - 2 * reading);
     look.bytes += static_cast<double>(tile.bytes.size());
     ++look.made;

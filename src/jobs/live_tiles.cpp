@@ -188,7 +188,7 @@ Result<std::shared_ptr<const LiveTile>> LiveTileSet::make(TileId id) const {
   if (auto prepared = impl_->prepared.find(id)) return prepared;
   if (auto kept = impl_->cache.with([&](TileCache& cache) { return cache.find(id); })) return kept;
   const PyramidPlan& plan = impl_->job.plan;
-  SCARP_TRY(auto&& made, make_kept_tile(plan, id, *impl_->nodes, impl_->encode));
+  SCARP_TRY(auto&& made, make_tile(plan, id, *impl_->nodes, impl_->encode));
   auto tile = std::make_shared<LiveTile>();
   tile->bytes = std::move(made.bytes);
   if (id.z >= plan.block_level) tile->bound = made.tile.bound();

@@ -12,6 +12,20 @@
 
 namespace scarp {
 
+namespace {
+
+/// The encoder of kGlb, with a texture of the image on each tile.
+TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
+  return [&plan, image = std::move(image), format](const TerrainTile& tile) -> Result<std::vector<std::uint8_t>> {
+    SCARP_TRY(auto&& texture, make_tile_texture(*image, format, plan, tile.id));
+    TileGlbOptions options;
+    options.texture = std::move(texture);
+    return encode_tile_glb(place_on_earth(tile, plan), options);
+  };
+}
+
+}  // namespace
+
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
   if (format == TileFormat::kGlb)
     return [&plan](const TerrainTile& tile) { return encode_tile_glb(place_on_earth(tile, plan)); };
@@ -20,15 +34,6 @@ TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
   return [&plan, masks](const TerrainTile& tile) {
     const std::vector<std::uint8_t> mask = masks ? masks->draw(tile.id) : std::vector<std::uint8_t>();
     return compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid, mask));
-  };
-}
-
-TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
-  return [&plan, image = std::move(image), format](const TerrainTile& tile) -> Result<std::vector<std::uint8_t>> {
-    SCARP_TRY(auto&& texture, make_tile_texture(*image, format, plan, tile.id));
-    TileGlbOptions options;
-    options.texture = std::move(texture);
-    return encode_tile_glb(place_on_earth(tile, plan), options);
   };
 }
 

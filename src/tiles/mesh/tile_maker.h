@@ -19,26 +19,22 @@ struct TileVerdict {
 using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
 /// Sets what else is known of a tile.
 using TileCompletion = std::function<Result<void>(TerrainTile& tile)>;
+struct TileProof {
+  TileJudge judge;
+  TileCompletion complete;
+};
 
 /// The errors at the nodes themselves. Where the grid's rows are not even the offenders are the worst of each triangle.
 Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid);
 
+/// The proof of a tile at or below the plan's block level: at its nodes, and at the samples of its source. Borrows all.
+TileProof proof_at_nodes(const PyramidPlan& plan, const TileNodes& nodes, const NodeSource& source);
+
 /// A mesh of the nodes that satisfies the tile's max error where rounded positions can, else the one with the least.
 /// That max error is the level's, doubled while the tile's bytes are more than the plan's limit and its interior can
-/// have fewer vertices. Without an encoder there are no bytes and no limit.
-Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge,
-                              const TileCompletion& complete, const TileEncoder& encode);
-
-/// A tile at or below the plan's block level, judged at its nodes and at the samples of its source.
-Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
-                                  const TileEncoder& encode);
-
-/// make_unproven_tile() as it is kept.
-Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
-                                         const TileEncoder& encode);
-
-/// A tile without a height, of the background alone: the same on its edges as its neighbours.
-Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileCompletion& complete,
-                                const TileEncoder& encode);
+/// have fewer vertices. Without an encoder there are no bytes and no limit. Nodes without a height become a tile of the
+/// background, judged at fewer of them: the same on its edges as its neighbours.
+Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileProof& proof,
+                              const TileEncoder& encode);
 
 }  // namespace scarp

@@ -89,7 +89,7 @@ Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, 
     SCARP_TRY(const auto& parent, read_nodes(plan, {id.z - 1, id.x / 2, id.y / 2}, source));
     if (!parent.has_heights()) return std::optional<KeptTile>();
   }
-  SCARP_TRY(auto&& kept, make_proven_tile(plan, id, nodes, source, encode));
+  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, proof_at_nodes(plan, nodes, source), encode));
   return std::optional(std::move(kept));
 }
 
@@ -114,7 +114,7 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
       return {};
     };
     const auto make_flat = [&](TileId id, const TileEncoder& encode) -> Result<std::optional<KeptTile>> {
-      SCARP_TRY(auto&& flat, make_flat_tile(plan, id, complete, encode));
+      SCARP_TRY(auto&& flat, make_tile_of(plan, id, TileNodes::flat(plan, id, 1), {{}, complete}, encode));
       return std::optional(std::move(flat));
     };
     SCARP_RETURN_IF_ERROR(output.make({block}, make_flat));

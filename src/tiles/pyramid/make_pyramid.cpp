@@ -1,6 +1,5 @@
 // All tiles: block by block, then the levels above, of what the blocks handed upwards.
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,7 +9,6 @@
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"
 #include "tiles/mesh/tile_nodes.h"
-#include "tiles/nodes/decimated_nodes.h"
 #include "tiles/pyramid/coarse_nodes.h"
 #include "tiles/pyramid/pyramid_tiles.h"
 #include "tiles/pyramid/tile_output.h"
@@ -37,8 +35,7 @@ Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, 
     tile.source_error = source_error;
     return {};
   };
-  SCARP_TRY(auto&& kept, nodes.is_flat() ? make_flat_tile(plan, id, complete, encode)
-                                         : make_tile_of(plan, id, nodes, judge, complete, encode));
+  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, {judge, complete}, encode));
   return std::optional(std::move(kept));
 }
 
@@ -56,26 +53,6 @@ CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles
 }
 
 }  // namespace
-
-Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
-                                         const TileEncoder& encode) {
-  const std::int32_t steps = 2 * kCoarseCells;
-  const DecimatedNodes few(source, plan.grid.per_turn(plan.max_zoom(), plan.cells));
-  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), few));
-  // Like make_coarse(): the first mesh that does not fold is the tile, whatever its error.
-  const auto accept = [](const TerrainTile&) -> Result<TileVerdict> { return TileVerdict{0, {}}; };
-  const auto complete = [](TerrainTile& tile) -> Result<void> {
-    tile.node_error = std::numeric_limits<double>::quiet_NaN();
-    return {};
-  };
-  return nodes.is_flat() ? make_flat_tile(plan, id, complete, encode)
-                         : make_tile_of(plan, id, nodes, accept, complete, encode);
-}
-
-Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
-  SCARP_TRY(auto&& kept, make_kept_unproven_tile(plan, id, source, {}));
-  return std::move(kept.tile);
-}
 
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
                                      const Run& run) {

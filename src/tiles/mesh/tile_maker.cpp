@@ -1,4 +1,6 @@
 // A tile from its nodes: edges first, then the mesh between them, then the proof of what clients will decode.
+#include "tiles/mesh/tile_maker.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +18,6 @@
 #include "tiles/mesh/node_scan.h"
 #include "tiles/mesh/source_samples.h"
 #include "tiles/mesh/tile_edges.h"
-#include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"
 #include "tiles/mesh/tile_nodes.h"
 #include "tiles/mesh/tile_rows.h"
@@ -345,10 +346,6 @@ class TileMaker {
   std::set<std::pair<std::int32_t, std::int32_t>> forced_;  ///< row, column of nodes that must be vertices
 };
 
-}  // namespace
-
-namespace {
-
 /// The nodes next to places in units of the tile.
 std::vector<SampleAt> nodes_at(const std::vector<FarPoint>& points, const TileRows& rows, std::int32_t units) {
   std::vector<SampleAt> nodes;
@@ -379,20 +376,8 @@ Result<TileVerdict> judge_at_nodes_and_samples(const TerrainTile& tile, const Ti
   return verdict;
 }
 
-}  // namespace
-
-Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid) {
-  if (const TileRows rows(grid, tile.id, nodes.steps()); !rows.are_even()) return judge_by_rows(tile, nodes, rows);
-  NodeErrors errors = scan_nodes(tile, nodes, tile.max_error);
-  if (errors.uncovered > 0)
-    return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} leaves {} of its nodes uncovered", tile.id.z,
-                                                  tile.id.x, tile.id.y, errors.uncovered));
-  return TileVerdict{errors.largest, std::move(errors.worst)};
-}
-
-Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge,
-                              const TileCompletion& complete, const TileEncoder& encode) {
-  TileMaker maker(plan, id, nodes, judge);
+Result<KeptTile> make_within_limit(TileMaker maker, const PyramidPlan& plan, TileId id, const TileCompletion& complete,
+                                   const TileEncoder& encode) {
   for (double max_error = plan.levels[static_cast<std::size_t>(id.z)].max_error;; max_error *= 2) {
     SCARP_TRY(auto&& tile, maker.make(max_error));
     SCARP_RETURN_IF_ERROR(complete(tile));
@@ -404,42 +389,37 @@ Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNode
   }
 }
 
-Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileCompletion& complete,
-                                const TileEncoder& encode) {
+}  // namespace
+
+Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid) {
+  if (const TileRows rows(grid, tile.id, nodes.steps()); !rows.are_even()) return judge_by_rows(tile, nodes, rows);
+  NodeErrors errors = scan_nodes(tile, nodes, tile.max_error);
+  if (errors.uncovered > 0)
+    return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} leaves {} of its nodes uncovered", tile.id.z,
+                                                  tile.id.x, tile.id.y, errors.uncovered));
+  return TileVerdict{errors.largest, std::move(errors.worst)};
+}
+
+TileProof proof_at_nodes(const PyramidPlan& plan, const TileNodes& nodes, const NodeSource& source) {
+  return {[&](const TerrainTile& tile) {
+            return plan.binds_samples ? judge_at_nodes_and_samples(tile, nodes, plan.grid, source)
+                                      : judge_at_nodes(tile, nodes, plan.grid);
+          },
+          [&](TerrainTile& tile) -> Result<void> {
+            SCARP_TRY(const SampleVerdict& verdict, judge_at_samples(tile, plan.grid, nodes, source));
+            tile.source_error = verdict.error;
+            return {};
+          }};
+}
+
+Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileProof& proof,
+                              const TileEncoder& encode) {
+  if (!nodes.is_flat()) return make_within_limit({plan, id, nodes, proof.judge}, plan, id, proof.complete, encode);
   const bool has_lines = plan.lines != nullptr && plan.lines->find(id) != nullptr;
   const std::int32_t least = 2 * plan.levels[static_cast<std::size_t>(id.z)].segments;
-  const TileNodes nodes = TileNodes::flat(plan, id, has_lines ? std::max(least, plan.cells) : least);
-  return make_tile_of(
-      plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); }, complete,
-      encode);
-}
-
-Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
-                                  const TileEncoder& encode) {
-  const auto judge = [&](const TerrainTile& tile) {
-    return plan.binds_samples ? judge_at_nodes_and_samples(tile, nodes, plan.grid, source)
-                              : judge_at_nodes(tile, nodes, plan.grid);
-  };
-  const auto complete = [&](TerrainTile& tile) -> Result<void> {
-    SCARP_TRY(const SampleVerdict& verdict, judge_at_samples(tile, plan.grid, nodes, source));
-    tile.source_error = verdict.error;
-    return {};
-  };
-  return nodes.is_flat() ? make_flat_tile(plan, id, complete, encode)
-                         : make_tile_of(plan, id, nodes, judge, complete, encode);
-}
-
-Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
-                                const TileEncoder& encode) {
-  if (id.z < plan.block_level) return make_kept_unproven_tile(plan, id, source, encode);
-  const std::int32_t steps = steps_of(plan, id.z);
-  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), source));
-  return make_proven_tile(plan, id, nodes, source, encode);
-}
-
-Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
-  SCARP_TRY(auto&& kept, make_kept_tile(plan, id, source, {}));
-  return std::move(kept.tile);
+  const TileNodes few = TileNodes::flat(plan, id, has_lines ? std::max(least, plan.cells) : least);
+  const TileJudge judge = [&](const TerrainTile& tile) { return judge_at_nodes(tile, few, plan.grid); };
+  return make_within_limit({plan, id, few, judge}, plan, id, proof.complete, encode);
 }
 
 }  // namespace scarp
