@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_set.h"

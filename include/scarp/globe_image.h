@@ -11,7 +11,7 @@
 #include "scarp/degrees.h"
 #include "scarp/io.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 
 #pragma GCC visibility push(default)
 

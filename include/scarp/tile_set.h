@@ -21,8 +21,9 @@
 
 #include "scarp/globe_image.h"
 #include "scarp/globe_place.h"
+#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 
 #pragma GCC visibility push(default)
 

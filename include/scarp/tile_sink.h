@@ -10,8 +10,8 @@
 
 #include "scarp/globe_image.h"
 #include "scarp/io.h"
+#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
 #include "scarp/tile_set.h"
 #include "scarp/tiles3d.h"
 

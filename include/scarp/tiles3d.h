@@ -17,8 +17,9 @@
 
 #include "scarp/glb.h"
 #include "scarp/globe_image.h"
+#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 #include "scarp/tile_set.h"
 
 #pragma GCC visibility push(default)

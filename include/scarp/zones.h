@@ -3,12 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "scarp/io.h"
 #include "scarp/lines.h"
 #include "scarp/mesh.h"
-#include "scarp/result.h"
 
 #pragma GCC visibility push(default)
 
@@ -18,17 +17,6 @@ namespace scarp {
 struct Zone {
   std::vector<Line> rings;  ///< in map coordinates, the outer one first, then its holes
   std::uint32_t material = 1;
-};
-
-/// A chain of edges: where water flows in, a cross-section, the crest of a dam.
-struct NodeString {
-  std::string name;                  ///< name of the line
-  std::vector<std::uint32_t> nodes;  ///< vertices, neighbours joined by edges; a closed one ends with its first
-};
-
-struct MeshZones {
-  std::vector<std::uint32_t> materials;  ///< one for each triangle. EMPTY: all are 1
-  std::vector<NodeString> node_strings;  ///< EMPTY: none
 };
 
 /// The material of each triangle: that of the first zone that holds its centre, else `elsewhere`. Where the rings are
@@ -42,11 +30,6 @@ std::vector<std::uint32_t> find_materials(const Mesh& mesh, const std::vector<Zo
 /// `reach`: how far vertices may lie from the line, in its units: a hundredth of a sample. Cost: O(n log n).
 std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Line>& lines,
                                           const std::array<double, 6>& to_map, double reach);
-
-/// A 2DM file with materials (in E3T cards) and node strings (NS cards of ten nodes at most, the last one negative and
-/// followed by the string's number, counted from 1). Fails with kOutput for more vertices or triangles than int32
-/// counts, with kUsage for materials of another count than triangles.
-Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh, const MeshZones& zones);
 
 }  // namespace scarp
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "globe/ground.h"
-#include "scarp/tile.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
 

@@ -9,6 +9,10 @@
 #include "io/raster/raster_finish.h"
 #include "scarp/commands.h"
 #include "scarp/io.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/read_lines.h"
+#include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_waters.h"
 

@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "scarp/tile_sink.h"
 
 namespace scarp {

@@ -5,6 +5,9 @@
 
 #include "base/parallel.h"
 #include "base/reporter.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "scarp/tile_job.h"
 
 namespace scarp {

@@ -18,6 +18,8 @@
 #include "io/tiles/grid_json.h"
 #include "jobs/plan_waters.h"
 #include "scarp/commands.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "scarp/version.h"
 

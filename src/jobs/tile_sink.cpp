@@ -7,6 +7,7 @@
 
 #include "base/fnv.h"
 #include "scarp/gzip.h"
+#include "scarp/quantized_mesh.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_waters.h"
 

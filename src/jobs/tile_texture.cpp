@@ -2,6 +2,8 @@
 #include <utility>
 
 #include "io/mesh/srgb.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "scarp/tile_sink.h"
 
 namespace scarp {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "lines/breaklines.h"
-#include "scarp/lines.h"
 #include "shape/shape_refinement.h"
 
 namespace scarp {

@@ -6,8 +6,8 @@
 
 #include "fit/fit.h"
 #include "metric/criterion.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 
 namespace scarp {
 

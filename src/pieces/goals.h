@@ -9,9 +9,10 @@
 #include "base/clock.h"
 #include "base/memory_budget.h"
 #include "base/reporter.h"
+#include "scarp/goals.h"
+#include "scarp/options.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 
 namespace scarp {
 

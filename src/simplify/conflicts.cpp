@@ -6,8 +6,8 @@
 #include "lines/breaklines.h"
 #include "pieces/effort.h"
 #include "scarp/cliffs.h"
+#include "scarp/pyramid.h"
 #include "scarp/ridges.h"
-#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 
 namespace scarp::testing {
 

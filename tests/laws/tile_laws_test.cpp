@@ -8,14 +8,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "globe/globe.h"
+#include "globe/sine.h"
 #include "laws/any_land.h"
 #include "scarp/measure.h"
+#include "scarp/pyramid.h"
+#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
-#include "tiles/pyramid/coarse_nodes.h"
-#include "globe/globe.h"
+#include "scarp/tile_lines.h"
 #include "tiles/mesh/node_scan.h"
-#include "globe/sine.h"
 #include "tiles/mesh/tile_mesh_parts.h"
+#include "tiles/pyramid/coarse_nodes.h"
 
 namespace scarp::tile_laws_test {
 namespace {

@@ -15,7 +15,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/text_comments.h"
-#include "scarp/zones.h"
+#include "scarp/io.h"
 
 namespace scarp {
 namespace {

@@ -1,4 +1,6 @@
 // quantized-mesh 1.0: https://github.com/CesiumGS/quantized-mesh
+#include "scarp/quantized_mesh.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 
 #include "globe/ground.h"
 #include "globe/tile_positions.h"
-#include "scarp/tile.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "scarp/lines.h"
 #include "scarp/version.h"
 #include "session/reports/feature_report.h"
 #include "session/reports/level_report.h"

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "tiles/mesh/tile_nodes.h"
 #include "tiles/mesh/tile_surface.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
 

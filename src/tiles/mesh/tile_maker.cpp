@@ -13,8 +13,10 @@
 
 #include "globe/ground.h"
 #include "scarp/mesh.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "scarp/simplify.h"
-#include "scarp/tile.h"
+#include "scarp/tile_lines.h"
 #include "tiles/mesh/node_scan.h"
 #include "tiles/mesh/source_samples.h"
 #include "tiles/mesh/tile_edges.h"

@@ -4,7 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "tiles/mesh/tile_nodes.h"
 
 namespace scarp {

@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
 
 namespace scarp {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
 
 namespace scarp {
 

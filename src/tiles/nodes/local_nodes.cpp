@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "grid/window.h"
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
 
 namespace scarp {
 namespace {

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "globe/row_range.h"
-#include "scarp/tile.h"
+#include "scarp/geoid.h"
+#include "scarp/nodes.h"
 
 namespace scarp {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/height_field.h"
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
 
 namespace scarp {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
 
 namespace scarp {
 namespace {

@@ -17,7 +17,8 @@
 #include <span>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "tiles/mesh/tile_nodes.h"
 
 namespace scarp {

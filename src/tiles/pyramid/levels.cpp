@@ -10,7 +10,9 @@
 #include "globe/globe.h"
 #include "globe/powers.h"
 #include "scarp/conflicts.h"
+#include "scarp/pyramid.h"
 #include "scarp/tile.h"
+#include "scarp/tile_lines.h"
 #include "tiles/mesh/tile_rows.h"
 
 namespace scarp {

@@ -7,6 +7,8 @@
 
 #include "base/bits.h"
 #include "globe/row_range.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_waters.h"
 #include "tiles/mesh/tile_maker.h"

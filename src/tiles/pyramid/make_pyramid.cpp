@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "base/reporter.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"
@@ -61,7 +63,7 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
   report.tiles.resize(plan.levels.size());
   CoarseLevel below(plan.block_level, plan.background);
   for (BlockReport& block : blocks) {
-    report.add(block.report);
+    add_report(report, block.report);
     if (block.reduced.empty()) continue;
     SCARP_TRY(auto&& coarse, CoarseTile::from_bytes(block.reduced));
     below.add(block.block.x, block.block.y, std::move(coarse));
@@ -77,7 +79,7 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
         output.make(tiles, [&](TileId id, const TileEncoder& encode) { return make_coarse(plan, id, below, encode); }));
     below = join_level(plan, tiles, below);
   }
-  report.add(output.take_report());
+  add_report(report, output.take_report());
   return report;
 }
 

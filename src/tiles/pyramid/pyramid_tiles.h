@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
 

@@ -70,7 +70,8 @@ PyramidReport TileOutput::take_report() {
   return std::move(report_);
 }
 
-void PyramidReport::add(const PyramidReport& more) {
+void add_report(PyramidReport& report, const PyramidReport& more) {
+  auto& [has_heights, levels, tiles] = report;
   has_heights |= more.has_heights;
   levels.resize(std::max(levels.size(), more.levels.size()));
   tiles.resize(std::max(tiles.size(), more.tiles.size()));

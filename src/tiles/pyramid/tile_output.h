@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "base/reporter.h"
-#include "scarp/tile.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
+
+/// Adds the report of other tiles of the same pyramid.
+void add_report(PyramidReport& report, const PyramidReport& more);
 
 class TileOutput {
  public:
