@@ -8,62 +8,66 @@ table of docs/design.md, "Rooms and floors": whoever changes one changes the oth
 usage: check_floors.py [TREE] [--table]
 """
 
+import functools
 import pathlib
 import re
 import sys
 
 MAX_LINES = 600
 
-# room: (floor, rooms it may include, public headers it may include, what it holds).
-# Rooms on one floor are strangers: none includes another.
-ANY = None
+# room: (floor, rooms it may include, rooms of which it may include the public headers besides, what it holds).
+# Rooms on one floor are strangers: none includes another. A public header belongs to the room that implements it, and an
+# include of it is a step to that room. A header of values alone, which no room implements, belongs to the rooms of the
+# headers that it includes.
+ANY = None  # the public headers of all rooms on lower floors
 SESSION = [f"session/{room}" for room in ("text", "table", "options", "inputs", "plan", "reports", "tasks")]
 ROOMS = {
-    "door": (0, [], ANY, "`include/scarp`: the public headers, each a manual"),
-    "base": (0, [], ["alike", "result", "progress", "version"], "lattice points, exact integers, arrays, threads, memory budget, progress"),
-    "grid": (1, ["base"],
-             ["border", "degrees", "edits", "frame", "generate", "height_field", "lines", "points", "progress", "result", "ridges", "strategy"],
-             "rasters: outline, frames, runs, rows; `sources/`: samples that are not one array"),
-    "geom": (1, ["base"], ["result"],
-             "predicates, planes, the scan of a triangle and its kernels, arrangements of lines"),
-    "mesh": (1, ["base"], ["contours", "mesh", "result", "solid"], "the Mesh value: order, solids, print tiles, half-edges, contours"),
-    "tin": (2, ["base", "geom"], ["result"], "triangulations and their assembly; no heights"),
-    "metric": (2, ["base", "grid", "geom"],
-               ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
+    "door": (0, [], [], "`include/scarp`: the public headers, each a manual and a part of the room that implements it"),
+    "base": (0, [], [], "lattice points, exact integers, arrays, threads, memory budget, progress"),
+    "grid": (1, ["base"], [], "rasters: outline, frames, runs, rows; `sources/`: samples that are not one array"),
+    "geom": (1, ["base"], [], "predicates, planes, the scan of a triangle and its kernels, arrangements of lines"),
+    "globe": (2, ["base", "grid"], [], "places on a globe or a plane: the ellipsoid, grids of tiles, geoids"),
+    "mesh": (2, ["base"], ["grid"], "the Mesh value: order, solids, print tiles, half-edges"),
+    "tin": (2, ["base", "geom"], [], "triangulations and their assembly; no heights"),
+    "metric": (2, ["base", "grid", "geom"], [],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
-    "io": (2, ["base", "grid", "mesh"],
-           ["alike", "commands", "cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_image", "globe_place", "gzip", "height_field", "io", "lent", "lines", "live_tiles", "mesh", "mesh_formats", "points", "progress", "raster_lines", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tile_waters", "tiles3d", "version", "zones"],
-           "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
-    "measure": (3, ["base", "grid", "mesh"],
-                ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],
-                "judging a mesh, without knowing how it was made"),
-    "draw": (3, ["base", "grid", "geom", "mesh"], ["frame", "height_field", "io", "mesh", "picture", "result"],
-             "pictures of fields, meshes and errors"),
-    "refine": (3, ["base", "grid", "geom", "tin", "metric"], ["frame", "height_field", "points", "progress", "result", "strategy"],
+    "io": (3, ["base", "grid", "mesh", "globe"], [], "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
+    "measure": (3, ["base", "grid", "mesh"], ["metric"], "judging a mesh, without knowing how it was made"),
+    "refine": (3, ["base", "grid", "geom", "tin", "metric"], [],
                "insertion: greedy, locally dominant, scattered points, the textbook"),
-    "fit": (3, ["base", "grid", "geom", "tin"], ["goals", "result"], "fewer and better vertices within the bound"),
-    "lines": (3, ["base", "grid", "geom", "tin", "metric"],
-              ["cutline", "edits", "frame", "height_field", "lines", "progress", "result", "rivers", "simplify", "strategy"],
-              "lines on the lattice, and as constraints in a triangulation; cuts"),
-    "shape": (4, ["base", "grid", "geom", "tin", "metric", "refine", "fit", "lines"],
-              ["frame", "height_field", "mesh", "progress", "result", "shape", "strategy"],
-              "angles and lengths for simulation"),
-    "features": (4, ["base", "grid", "geom", "lines"], ANY, "the land's own lines: walls, ridges, valleys, lakes, rivers, flats"),
-    "pieces": (5, ["base", "grid", "geom", "mesh", "tin", "metric", "refine", "fit", "lines", "shape"], ANY,
-               "the recipe of a run; a window worked on alone, borders first: tiles, strips, seams, freezing"),
+    "fit": (3, ["base", "grid", "geom", "tin"], [], "fewer and better vertices within the bound"),
+    "lines": (3, ["base", "grid", "geom", "tin", "metric"], [], "lines on the lattice, and as constraints in a triangulation; cuts"),
+    "tiles/nodes": (3, ["base", "grid", "globe"], [], "heights by place: of rasters, raised, stacked, held, decimated"),
+    "draw": (4, ["base", "grid", "geom", "mesh"], ["io"], "pictures of fields, meshes and errors"),
+    "shape": (4, ["base", "grid", "geom", "tin", "metric", "refine", "fit", "lines"], ["mesh"], "angles and lengths for simulation"),
+    "features": (4, ["base", "grid", "geom", "lines"], [], "the land's own lines: walls, ridges, valleys, lakes, rivers, flats"),
+    "pieces": (5, ["base", "grid", "geom", "mesh", "tin", "metric", "refine", "fit", "lines", "shape"], ["io", "features", "globe"],
+               "a window worked on alone, borders first: tiles, strips, seams, freezing"),
+    "tiles/water": (5, ["base", "grid", "globe"], ["tiles/nodes", "features"], "lakes and rivers on nodes, and masks of them"),
     "simplify": (6, ["base", "grid", "geom", "mesh", "tin", "metric", "io", "measure", "refine", "fit", "lines", "shape",
-                     "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
-    "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh, places in space"),
-    "check": (6, ["base", "grid", "io"], ANY, "finished sets of tiles, judged without knowing how they were made"),
-    "session/text": (7, [], ["result"], "numbers and sentences for people: text, names of files, clocks, the type of reports"),
-    "session/table": (8, ["session/text"], ["alike", "conflicts", "mesh_formats", "result", "version"], "the tables of options and of formats, and what is made of them: help, proposals for unknown words"),
-    "session/options": (9, ["session/text", "session/table"], ANY, "the arguments of each command: registered, parsed, spelled canonically"),
-    "session/inputs": (10, ["session/text", "session/options"], ANY, "the files that options name, read: channels, companions, lines, waters, zones"),
-    "session/plan": (10, ["session/text", "session/table", "session/options"], ANY, "what a command will do, decided before its work: plans, conflicts, outputs"),
-    "session/reports": (11, ["session/text", "session/options", "session/inputs", "session/plan"], ANY, "what a run came to, as JSON, lines of a summary and warnings"),
-    "session/tasks": (12, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
+                     "features", "pieces"], ["globe"], "the list: the door, the passes, budgets, the proof, scattered points"),
+    "check": (6, ["base", "grid", "io"], ["globe", "mesh", "tiles/nodes"],
+              "finished sets of tiles, judged without knowing how they were made"),
+    "tiles/mesh": (7, ["base", "globe"], ["grid", "mesh", "tiles/nodes", "simplify"],
+                   "one tile: its nodes, lines, edges, mesh, and the judge of what clients decode"),
+    "tiles/pyramid": (8, ["base", "globe", "tiles/nodes", "tiles/mesh"], ["grid", "pieces", "simplify", "tiles/water"],
+                      "levels, blocks, and what these hand to the levels above"),
+    "jobs": (9, ["base", "grid", "io"], ANY,
+             "what runs the engine of tiles: plans of jobs, blocks in parts, estimate, survey, sets made on demand"),
+    "session/text": (7, [], [], "numbers and sentences for people: text, names of files, clocks, the type of reports"),
+    "session/table": (8, ["session/text"], ["base", "io", "pieces"], "the tables of options and of formats, and what is made of them: help, proposals for unknown words"),
+    "session/options": (10, ["session/text", "session/table"], ANY, "the arguments of each command: registered, parsed, spelled canonically"),
+    "session/inputs": (11, ["session/text", "session/options"], ANY, "the files that options name, read: channels, companions, lines, waters, zones"),
+    "session/plan": (11, ["session/text", "session/table", "session/options"], ANY, "what a command will do, decided before its work: plans, conflicts, outputs"),
+    "session/reports": (12, ["session/text", "session/options", "session/inputs", "session/plan"], ANY, "what a run came to, as JSON, lines of a summary and warnings"),
+    "session/tasks": (13, ["session/text", "session/table", "session/options", "session/inputs", "session/plan", "session/reports"], ANY,
                      "the commands without their terminal: simplify, measure, points, tiles"),
-    "apps": (13, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
+    "apps": (14, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
+}
+
+# (room, public header): why the room may include it though it belongs to a higher one.
+ALLOWED = {
+    ("metric", "options"): "SimplifyOptions have Features, whose functions in src/features the room never calls",
 }
 
 # Headers that only some files may include: (pattern of the header, files that may, why).
@@ -108,21 +112,119 @@ def room_of(path):
 def room_of_header(header):
     """The room of a header as `#include "header"` names it; "loose" where it lies in none."""
     parts = header.split("/")
-    depth = 2 if parts[0] == "session" else 1
+    depth = 2 if parts[0] in ("session", "tiles") else 1
     return "/".join(parts[:depth]) if len(parts) > depth else "loose"
+
+
+def bare(text):
+    """The text without comments, strings and directives."""
+    text = re.sub(r'//[^\n]*|"(?:\\.|[^"\\\n])*"', " ", text)
+    return re.sub(r"^[ \t]*#.*(?:\\\n.*)*$", "", text, flags=re.M)
+
+
+def declared_functions(text):
+    """Names of the functions and member functions that a header declares without a body: `f`, `Type::f`."""
+    scopes, words = [], ""
+    tokens = re.finditer(r"[{};]|[^{};]+", bare(text))
+    for token in tokens:
+        token = token.group()
+        if token == "{":
+            scope = re.search(r"\b(namespace|struct|class)\b\s*(\w*)[^;()]*$", words)
+            if scope and not re.search(r"\benum\b", words):
+                scopes.append(scope.group(2) if scope.group(1) != "namespace" else "")
+                words = ""
+                continue
+            depth = 1
+            while depth:  # a body, an enumeration or a value
+                inner = next(tokens).group()
+                depth += (inner == "{") - (inner == "}")
+            words = "" if re.search(r"\)[\s\w]*(:[^:].*)?$", words, re.S) and not re.search(r"=\s*$", words) else words + "0"
+        elif token == "}":
+            scopes, words = scopes[:-1], ""
+        elif token == ";":
+            words = re.sub(r"\b(public|private|protected)\s*:", "", words).strip()
+            name = re.match(r"(?:[^()=]*[\s*&>])?(~?\w+|operator\W+?)\(", words)
+            if name and not re.match(r"using|friend|typedef|static_assert", words) and not re.search(r"=\s*(0|delete|default)$", words):
+                yield "::".join(filter(None, [*scopes, name.group(1)]))
+            words = ""
+        else:
+            words += token
+
+
+# `Type name(` at the beginning of a line, or `Type Class::name(`; its body follows the parameters.
+DEFINITION = re.compile(r"^(?![ \t}]|return|else|using|namespace)(?:[^;{}()\n=]*[\s*&>])?((?:\w+::)*(?:~?\w+|operator\W+?))\(", re.M)
+STUBS = "src/simplify/without_lines.cpp"  # a build without rooms of lines has these in their place
+
+
+def defined_functions(text):
+    """Names of the functions that a source of namespace scarp defines, but for those of nameless namespaces."""
+    text = re.sub(r"^namespace \{.*?^\}", "", bare(text), flags=re.M | re.S)
+    if not re.search(r"^namespace scarp(::gdal)? \{", text, re.M):
+        return
+    for match in DEFINITION.finditer(text):
+        at, depth = match.end(), 1
+        while at < len(text) and depth:
+            depth += (text[at] == "(") - (text[at] == ")")
+            at += 1
+        if re.match(r"[\s\w]*(:[^:;]|\{|=\s*default)", text[at:at + 80]):
+            yield match.group(1)
+
+
+@functools.cache
+def implementers(tree):
+    """The rooms that implement each public header: those whose sources include it and define one of its functions."""
+    rooms = {path.stem: set() for path in (tree / "include/scarp").glob("*.h")}
+    declared = {name: set(declared_functions((tree / f"include/scarp/{name}.h").read_text(encoding="utf-8"))) for name in rooms}
+    for path in sorted((tree / "src").rglob("*.cpp")):
+        if path.relative_to(tree).as_posix() == STUBS:
+            continue
+        text = path.read_text(encoding="utf-8")
+        own = path.with_suffix(".h")
+        included = re.findall(r'#include "scarp/(\w+)\.h"', text + (own.read_text(encoding="utf-8") if own.is_file() else ""))
+        defined = set(defined_functions(text))
+        for name in set(included) & rooms.keys():
+            if declared[name] & defined:
+                rooms[name].add(room_of(path.relative_to(tree)))
+    return rooms, declared
+
+
+def rooms_of(name, tree, above=()):
+    """The rooms that a public header belongs to."""
+    own = implementers(tree)[0].get(name, set())
+    if own or name in above:
+        return own
+    text = (tree / f"include/scarp/{name}.h").read_text(encoding="utf-8")
+    return set().union(*(rooms_of(one, tree, (*above, name)) for one in re.findall(r'#include "scarp/(\w+)\.h"', text)))
+
+
+def judge_door(room, name, tree):
+    """The fault of a step from a room to the one that implements a public header, or None."""
+    floor, may_include, doors, _ = ROOMS[room]
+    if (room, name) in ALLOWED:
+        return None
+    for top in sorted(rooms_of(name, tree)):
+        if top == room or top in may_include or (doors is not ANY and top in doors) or (doors is ANY and ROOMS[top][0] < floor):
+            continue
+        if ROOMS[top][0] == floor:
+            return f"it belongs to the room {top}: {room} and {top} are strangers on floor {floor}"
+        if ROOMS[top][0] > floor:
+            return f"it belongs to the room {top}: a step upwards from {room} (floor {floor}) to {top} (floor {ROOMS[top][0]})"
+        return f"it belongs to the room {top}: {room} must not know {top}"
+    return None
 
 
 def judge_project_include(path, room, header, tree):
     """The fault of `#include "header"` in this file, or None."""
-    floor, may_include, public, _ = ROOMS[room]
+    floor, may_include, _, _ = ROOMS[room]
     top = room_of_header(header)
     if header.startswith("scarp/"):
         name = pathlib.PurePath(header).stem
         if not (tree / "include" / header).is_file():
             return f"there is no include/{header}"
-        if public is not ANY and name not in public:
-            return f"the room {room} must not know {header}"
-        return None
+        if room != "door":
+            return judge_door(room, name, tree)
+        own = implementers(tree)[0][path.stem] if path.name != "scarp.h" else ()
+        return next(filter(None, (judge_door(one, name, tree) for one in own)), None)
     if room == "apps":
         if (tree / "apps" / path.parts[1] / header).is_file():
             return None
@@ -161,6 +263,11 @@ def judge_file(path, tree):
             yield f"{path}: a public header pushes default visibility, or a shared library hides it"
         if f'#include "scarp/{path.name}"' not in (tree / path.with_name("scarp.h")).read_text(encoding="utf-8"):
             yield f"{path}: scarp.h does not include it, which has all public headers"
+        rooms, declared = (found[path.stem] for found in implementers(tree))
+        if len(rooms) > 1:
+            yield f"{path}: the rooms {', '.join(sorted(rooms))} implement it: split it, a header belongs to one room"
+        if declared and not rooms:
+            yield f"{path}: no source of src that includes it defines {', '.join(sorted(declared))}"
     if len(lines) > MAX_LINES:
         yield f"{path}: {len(lines)} lines, more than {MAX_LINES}: split it by concept"
     for number, line in enumerate(lines, 1):
@@ -188,10 +295,11 @@ def sources(tree):
 def print_table():
     print("| floor | room | holds | may include |")
     print("|---|---|---|---|")
-    for room, (floor, may_include, public, holds) in reversed(ROOMS.items()):
-        doors = "any public header" if public is ANY else ", ".join(f"`{name}.h`" for name in public)
+    for room, (floor, may_include, doors, holds) in sorted(reversed(ROOMS.items()), key=lambda row: -row[1][0]):
         rooms = ", ".join(f"`{name}`" for name in may_include)
-        print(f"| {floor} | `{room}` | {holds} | {'; '.join(filter(None, [rooms, doors]))} |")
+        known = "public headers of all rooms below" if doors is ANY else ", ".join(f"`{name}`" for name in doors)
+        known = f"public headers of {known}" if doors else known
+        print(f"| {floor} | `{room}` | {holds} | {'; '.join(filter(None, [rooms, known]))} |")
 
 
 def main(arguments):

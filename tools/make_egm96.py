@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Packs the grid of EGM96 for the program: data/egm96.bin, which src/tiles/egm96.cpp reads.
+"""Packs the grid of EGM96 for the program: data/egm96.bin, which src/globe/egm96.cpp reads.
 
 The grid has 721 x 1440 heights of the geoid above the ellipsoid of WGS 84, 15 minutes of arc apart. They are rounded to
 centimetres. Packed are their second differences along the rows and then along the columns, from the north-western node

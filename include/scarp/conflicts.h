@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scarp/height_field.h"
-#include "scarp/simplify.h"
+#include "scarp/options.h"
 
 #pragma GCC visibility push(default)
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "scarp/frame.h"
 #include "scarp/result.h"
@@ -40,6 +41,16 @@ std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic =
 /// Fails with kUsage for fewer than 1 column or row, an affine map that is not finite, a centre at or beyond a pole,
 /// and cells too unequal for float32. Cost: O(1).
 Result<Frame> frame_of_degrees(const std::array<double, 6>& affine, int cols, int rows, const Geodetic& geodetic = {});
+
+/// The position of a raster on the globe, and the meaning of its samples.
+struct RasterPlace {
+  /// From samples to the CRS's x and y, as Frame::affine.
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
+  /// From longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
+  std::shared_ptr<const PointTransform> from_degrees = nullptr;
+  /// The inverse. Null where from_degrees is; without it no samples are shown.
+  std::shared_ptr<const PointTransform> to_degrees = nullptr;
+};
 
 }  // namespace scarp
 

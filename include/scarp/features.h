@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "scarp/cliffs.h"
-#include "scarp/cutline.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/result.h"

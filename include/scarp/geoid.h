@@ -2,13 +2,25 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/degrees.h"
+#include "scarp/result.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
+
+/// The surface that heights are above, such as the sea: itself above the ellipsoid.
+class HeightZero {
+ public:
+  virtual ~HeightZero() = default;
+  /// Heights in metres above the ellipsoid at degrees, NaN where they are not known. Each depends on its place alone.
+  /// Several threads may call it at once. The spans have equal sizes.
+  virtual void find(std::span<const double> longitudes, std::span<const double> latitudes,
+                    std::span<double> heights) const = 0;
+};
 
 /// The geoid EGM96 above the ellipsoid of WGS 84, built in: nodes 15 minutes of arc apart, in whole centimetres,
 /// bilinear between them. Within 6 mm of what PROJ makes of the same grid (egm96_15.gtx), everywhere. The same bits on

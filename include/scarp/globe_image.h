@@ -11,7 +11,7 @@
 #include "scarp/degrees.h"
 #include "scarp/io.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 
 #pragma GCC visibility push(default)
 
@@ -42,12 +42,6 @@ struct TileTexture {
   ImageFormat format = ImageFormat::kJpeg;
   int side = 0;  ///< pixels; the outermost on each side lie beyond the tile, so that neighbours' filters agree
 };
-
-/// 256 · 2^k pixels each way: as many as the image has there, at most 512, which is what clients show of a tile before
-/// they load its children, or 2048 where there are none. Nothing where the image has no colour. Fails as
-/// GlobeImage::read() and encode_image().
-Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, ImageFormat format,
-                                                     const PyramidPlan& plan, TileId id);
 
 /// The colour of the ground where a tile has no texture, and of pixels that an image has no colour for.
 inline constexpr std::array<double, 3> kGroundColor{0.47, 0.42, 0.33};  // linear

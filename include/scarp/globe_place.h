@@ -9,9 +9,10 @@
 
 #include "scarp/degrees.h"
 #include "scarp/frame.h"
+#include "scarp/geoid.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 
 #pragma GCC visibility push(default)
 

@@ -39,6 +39,9 @@ struct Goals {
   Norm norm = Norm::kSum;
 };
 
+/// The goal that ended the run.
+enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
+
 }  // namespace scarp
 
 #pragma GCC visibility pop

@@ -198,6 +198,10 @@ HeightRange height_range(const HeightField& field, int threads = 1);
 /// The others must differ, and more heights than HeightRange::kEnds − 1 at one end are not seen through. Cost: O(1).
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale = 1, double offset = 0);
 
+/// From samples to the map coordinates of lines: those of the raster's file, or x = col, y = rows − 1 − row if the file
+/// has none.
+std::array<double, 6> map_affine(const RasterInfo& info, int rows);
+
 /// Fills nodata by interpolation: each nodata sample within `max_distance` samples (Euclidean, along the eight compass
 /// directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by inverse
 /// squared distance. Samples farther away stay nodata. Returns the number of samples filled.

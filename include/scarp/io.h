@@ -12,6 +12,7 @@
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/mesh_formats.h"
+#include "scarp/point_set.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
@@ -213,6 +214,20 @@ class RasterFile {
 /// Largest number of samples that fit `memory_limit` bytes at 5 bytes a sample; 0 = the machine's memory.
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
+/// A chain of edges: where water flows in, a cross-section, the crest of a dam.
+struct NodeString {
+  std::string name;                  ///< name of the line
+  std::vector<std::uint32_t> nodes;  ///< vertices, neighbours joined by edges; a closed one ends with its first
+};
+
+/// encode_mesh() writes them where the format has a place for them (MeshFormatTraits::holds_zones). A 2DM file has
+/// materials in E3T cards, and node strings in NS cards of ten nodes at most, the last one negative and followed by the
+/// string's number, counted from 1.
+struct MeshZones {
+  std::vector<std::uint32_t> materials;  ///< one for each triangle. EMPTY: all are 1
+  std::vector<NodeString> node_strings;  ///< EMPTY: none
+};
+
 /// Choices of a writer, and contents of a mesh file in addition to the mesh.
 struct EncodeOptions {
   bool double_positions = false;     ///< PLY: doubles even where float32 is exact
@@ -287,6 +302,51 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path);
 /// (.aux.xml, .prj, …), the sources of a VRT, and the archive that it lies in (/vsizip/z.zip/a.tif, /vsitar/…). A file
 /// that GDAL cannot open is itself alone. Empty for remote files, what does not exist, and in a build without GDAL.
 std::vector<std::string> list_files(const std::string& path);
+/// The rasters, those of folders in place of these, put together to mosaics: neighbours in the list that lie on one
+/// grid, have one type and one nodata value, and one CRS, its datum of heights included. A raster that cannot be opened
+/// stands alone.
+std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
+
+struct ReadPointsOptions {
+  std::string layer = {};  ///< layer of a vector file. DEFAULT: the first one with points, else with lines.
+  /// Column or attribute with the height. DEFAULT: the third coordinate, unless it is 0 everywhere and an attribute has
+  /// one of the names z, height, elevation, elev, h, alt, ele, hoehe …; where there is none, that attribute.
+  std::string z_field = {};
+  std::string crs =
+      {};  ///< like ReadOptions::crs, "source" and "local" and a CRS; DEFAULT: local metres for degrees, else source
+  ProgressCallback progress = {};
+  /// The contents of a text's columns: "number,northing,easting,height,code", or as letters "pnezd"; - for one that is
+  /// not read. DEFAULT: the names in the header, else guessed from the columns.
+  std::string columns = {};
+  /// Points of this height have none, nor have those whose height is empty or no finite number: they are omitted and
+  /// counted. NaN: only the latter. DEFAULT: the call fails where a height is missing.
+  std::optional<double> nodata = {};
+  /// Heights and their unit, as in ReadOptions. DEFAULT of z_unit: the unit in the name of the column or attribute
+  /// ("elev_ft", "Elevation (mm)"), else the vertical CRS, else the unit of x and y.
+  double z_scale = 1, z_offset = 0;
+  std::string z_unit = {};
+  HeightsIn heights_in = HeightsIn::kFrame;
+  /// kLocal, for points without a chosen `crs`: x and y whose unit is not the metre become local metres; others stay,
+  /// and the caller moves them to local_origin(): their frame is a local one, too, for `heights_in`.
+  DefaultFrame default_frame = DefaultFrame::kMetric;
+};
+
+/// Reads points: text of columns (CSV, XYZ: separated by commas, semicolons, tabs or blanks; decimal commas where
+/// commas do not separate; a header line names them, else the first three are x, y, z, without a first one that counts;
+/// lines that begin with #, % or // are comments), by a reader of our own; all else (GeoPackage, GeoJSON, Shapefile, …)
+/// by GDAL. Where neither the header of a text nor its values show which column is the northing, the call fails and
+/// names `columns`. The vertices of lines are points, too, and PointSet::lines has their order: contours with the
+/// height as an attribute or as third coordinate. Curves become chords of 4 degrees at most. Fails with kInput:
+/// missing, empty, a line without three numbers, a value that is not finite, a feature without a height (names the line
+/// or feature), polygons, neither points nor lines in the layer.
+Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
+
+/// True if `path` names points rather than a raster: by its end (.csv .tsv .xyz .geojson .geojsonl .shp .fgb .gml .kml
+/// .parquet; .txt and .dat unless they begin as an ASCII grid does; .gpkg unless it holds a raster), in any case. Text
+/// of columns is a raster where its points are the nodes of one, in any order, with or without some missing: none lies
+/// off the lattice or on another, two of three have one next to them in both directions, and they are a twentieth of
+/// all nodes at least.
+bool is_point_file(const std::string& path);
 
 /// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in
 /// kPendingOutputs slots; an unused slot is empty. Points to a static buffer; async-signal-safe. With more files at

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scarp/mesh.h"
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 
 #pragma GCC visibility push(default)
 

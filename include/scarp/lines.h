@@ -3,13 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
-
-#include "scarp/height_field.h"
-#include "scarp/progress.h"
-#include "scarp/result.h"
 
 #pragma GCC visibility push(default)
 
@@ -81,43 +76,22 @@ struct LineConstraints {
   LineConflict conflict = LineConflict::kError;
 };
 
-/// From samples to the map coordinates of lines: those of the raster's file, or x = col, y = rows − 1 − row if the file
-/// has none.
-std::array<double, 6> map_affine(const RasterInfo& info, int rows);
-
-struct ReadLinesOptions {
-  /// The CRS of x and y, as RasterInfo::crs. DEFAULT: the layer's.
-  std::string crs = {};
-  /// The attribute that holds the height of a whole feature, such as a contour's; features without a value are soft.
-  /// DEFAULT: the third coordinate, soft where there is none.
-  std::string z_field = {};
-  bool ignore_z = false;  ///< all lines are soft. DEFAULT: false.
-  ProgressCallback progress = {};
+/// The surface within the polygons and on their rings stays. Within a polygon rings count even-odd: holes,
+/// self-intersecting rings and bow-ties need nothing special, and parts enclosed twice are outside.
+struct Cutline {
+  /// Rings of polygons, as read_lines() and close_rings() give them; their heights are ignored. EMPTY: no cut.
+  /// Functions with a cutline fail with kInput for a vertex more than 2^41 samples away, and name it.
+  std::vector<Line> rings;
+  /// From samples to the coordinates of the rings, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
 };
 
-/// Reads the lines and polygons of one layer, by GDAL: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, DXF, CSV with WKT, …
-/// `path` is a file, a URL or a /vsi… name. A layer may follow a colon: "dem.gpkg:ridges". Without a layer name, the
-/// file must have exactly one layer that can hold lines or polygons.
-///
-/// Multilines, multipolygons and collections become their parts; arcs become chords of 4 degrees at most. x and y are
-/// transformed vertex by vertex from the layer's CRS; between two vertices a line is straight in the wanted CRS.
-/// Heights stay; NaN heights are interpolated between the other heights of the line. A layer without CRS is assumed to
-/// be in the wanted CRS. Points, features without geometry, and lines and rings of no extent are omitted and counted.
-/// Warnings report all of this.
-///
-/// Fails in one sentence that names file, layer and feature: kInput for a missing file or layer, none or several layers
-/// to choose from (they are named), no lines in the layer, a coordinate that is not finite (z may be NaN: unknown), a
-/// vertex without coordinates in the wanted CRS, a missing attribute, or an attribute that is no finite number; kUsage
-/// for a wanted CRS unknown to GDAL; kCancelled. Cost: a few tenths of a second for a million vertices of a GeoPackage,
-/// a second with a transformation (bench/speed/speed_lines.cpp).
-Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
-/// The lines of several files as one set: polygons count on from file to file. It has no path and no CRS. Fails as
-/// read_lines() of the first that does.
-Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options = {});
-
-/// kInput unless all lines are rings of polygons. `user` is what needs them ("--water"), `otherwise` what accepts lines
-/// ("--rivers"), or empty: both for the sentence.
-Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise = {});
+/// The breakline farthest above or below the raster, at a vertex as given; lines that are 0 everywhere count tenfold.
+struct FarthestLine {
+  std::string name;         ///< empty: none has heights
+  double distance = 0;      ///< in z units
+  bool is_at_zero = false;  ///< all its heights are 0
+};
 
 }  // namespace scarp
 

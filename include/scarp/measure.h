@@ -11,6 +11,7 @@
 
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
+#include "scarp/point_set.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 
@@ -127,6 +128,14 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
 /// as measure(). Cost: O(triangles).
 Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                               Measurement& result);
+
+/// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,
+/// max_error_at is {index of the point, 0}, and so are offenders; on_row is called once, with all points. Duplicates
+/// are given up by the same policy first. coverage_tolerance counts mean distances between points, √(area / points).
+/// Gaps are open edges within the convex hull, but see MeasureOptions::inlets. Same failures and cost as measure();
+/// kUsage for MeasureOptions::tolerance; kInput for points that simplify_points() cannot keep apart.
+Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
+                                   const MeasureOptions& options = {});
 
 }  // namespace scarp
 

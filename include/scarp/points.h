@@ -7,10 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/io.h"
-#include "scarp/measure.h"
-#include "scarp/mesh.h"
-#include "scarp/progress.h"
+#include "scarp/point_set.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/simplify.h"
@@ -19,87 +16,9 @@
 
 namespace scarp {
 
-/// A line through points of a set: a contour, a ridge, the foot of a dam.
-struct PointLine {
-  std::vector<std::uint32_t> points;  ///< indices; at least two, successive ones differ; a ring ends with its first
-  std::string name;                   ///< for messages: "contours.gpkg feature 12"
-};
-
-/// Samples anywhere: z over (x, y), in one plane coordinate system. x east, y north.
-struct PointSet {
-  std::vector<double> x, y, z;   ///< coordinates, of equal size; all finite
-  std::vector<PointLine> lines;  ///< lines that no triangle crosses. EMPTY: the points are scattered
-  std::string path;              ///< their source, for messages
-  std::string format;            ///< "CSV", "GPKG", …
-  std::string crs;               ///< CRS of x and y: "EPSG:32611", WKT, or empty
-  std::string description;       ///< one line for reports: what x and y are, and in which unit
-  bool is_local = false;         ///< x and y are metres around the middle of the points
-  double unit_in_metres = 0;     ///< unit of x and y; 0 for degrees, and where it is unknown
-  /// Known facts about z, like those about a raster's heights: unit, unit_in_metres, unit_is_assumed, file_unit,
-  /// z_scale, z_offset; and crs_unit, crs_unit_in_metres of x and y in the file.
-  RasterInfo heights = {};
-  std::vector<std::string> warnings;
-  std::string columns;               ///< one line for reports: how each column was read, or where heights come from
-  std::uint64_t without_height = 0;  ///< number omitted, as ReadPointsOptions::nodata asks
-  bool is_geographic = false;        ///< for points that are lent: without a CRS that GDAL knows, x and y are degrees
-
-  std::size_t size() const { return x.size(); }
-};
-
-/// Rule for several points at one place: with equal x and equal y as given.
-enum class DuplicatePolicy { kFirst, kLast, kHighest, kLowest, kMean };
-
-struct ReadPointsOptions {
-  std::string layer = {};  ///< layer of a vector file. DEFAULT: the first one with points, else with lines.
-  /// Column or attribute with the height. DEFAULT: the third coordinate, unless it is 0 everywhere and an attribute has
-  /// one of the names z, height, elevation, elev, h, alt, ele, hoehe …; where there is none, that attribute.
-  std::string z_field = {};
-  std::string crs =
-      {};  ///< like ReadOptions::crs, "source" and "local" and a CRS; DEFAULT: local metres for degrees, else source
-  ProgressCallback progress = {};
-  /// The contents of a text's columns: "number,northing,easting,height,code", or as letters "pnezd"; - for one that is
-  /// not read. DEFAULT: the names in the header, else guessed from the columns.
-  std::string columns = {};
-  /// Points of this height have none, nor have those whose height is empty or no finite number: they are omitted and
-  /// counted. NaN: only the latter. DEFAULT: the call fails where a height is missing.
-  std::optional<double> nodata = {};
-  /// Heights and their unit, as in ReadOptions. DEFAULT of z_unit: the unit in the name of the column or attribute
-  /// ("elev_ft", "Elevation (mm)"), else the vertical CRS, else the unit of x and y.
-  double z_scale = 1, z_offset = 0;
-  std::string z_unit = {};
-  HeightsIn heights_in = HeightsIn::kFrame;
-  /// kLocal, for points without a chosen `crs`: x and y whose unit is not the metre become local metres; others stay,
-  /// and the caller moves them to local_origin(): their frame is a local one, too, for `heights_in`.
-  DefaultFrame default_frame = DefaultFrame::kMetric;
-};
-
-/// Reads points: text of columns (CSV, XYZ: separated by commas, semicolons, tabs or blanks; decimal commas where
-/// commas do not separate; a header line names them, else the first three are x, y, z, without a first one that counts;
-/// lines that begin with #, % or // are comments), by a reader of our own; all else (GeoPackage, GeoJSON, Shapefile, …)
-/// by GDAL. Where neither the header of a text nor its values show which column is the northing, the call fails and
-/// names `columns`. The vertices of lines are points, too, and PointSet::lines has their order: contours with the
-/// height as an attribute or as third coordinate. Curves become chords of 4 degrees at most. Fails with kInput:
-/// missing, empty, a line without three numbers, a value that is not finite, a feature without a height (names the line
-/// or feature), polygons, neither points nor lines in the layer.
-Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
-
-/// True if `path` names points rather than a raster: by its end (.csv .tsv .xyz .geojson .geojsonl .shp .fgb .gml .kml
-/// .parquet; .txt and .dat unless they begin as an ASCII grid does; .gpkg unless it holds a raster), in any case. Text
-/// of columns is a raster where its points are the nodes of one, in any order, with or without some missing: none lies
-/// off the lattice or on another, two of three have one next to them in both directions, and they are a twentieth of
-/// all nodes at least.
-bool is_point_file(const std::string& path);
-
 /// The middle of the points' extent, rounded so coarsely that offsets from it are exact: the origin of a local frame.
 /// REQUIRES: some points, finite.
 std::array<double, 2> local_origin(const PointSet& points);
-
-/// How the convex hull fits points.
-struct HullFit {
-  double bridged = 0;          ///< share of its area that lies across bays, where no points are
-  std::uint64_t slivers = 0;   ///< long steep triangles at it, where the points' rim is nearly straight
-  double boundary_length = 0;  ///< for a mesh that ends at the points instead; 0: the hull fits
-};
 
 struct SimplifiedPoints {
   Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
@@ -156,14 +75,6 @@ struct PointOptions {
 /// extent so large), with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m)
 /// for n points, with boundary_length O(n log n); about 50 bytes a point in addition to the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
-
-/// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,
-/// max_error_at is {index of the point, 0}, and so are offenders; on_row is called once, with all points. Duplicates
-/// are given up by the same policy first. coverage_tolerance counts mean distances between points, √(area / points).
-/// Gaps are open edges within the convex hull, but see MeasureOptions::inlets. Same failures and cost as measure();
-/// kUsage for MeasureOptions::tolerance; kInput for points that simplify_points() cannot keep apart.
-Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
-                                   const MeasureOptions& options = {});
 
 }  // namespace scarp
 

@@ -7,12 +7,14 @@
 #include <string_view>
 #include <vector>
 
-#include "scarp/border.h"
+#include "scarp/edits.h"
 #include "scarp/features.h"
 #include "scarp/goals.h"
 #include "scarp/height_field.h"
+#include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
+#include "scarp/options.h"
 #include "scarp/quality.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
@@ -24,54 +26,12 @@
 
 namespace scarp {
 
-/// The part of the raster that the mesh covers.
-struct Domain {
-  /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
-  /// nodata: no valid sample is cut off. Voids that hold no sample close where they are nowhere farther from their
-  /// outline. DEFAULT: 0, the exact outline.
-  double outline_tolerance = 0;
-  /// The edge of the raster. DEFAULT: simplified with the surface.
-  Border border = {};
-};
-
-/// The contents of the mesh.
-struct Output {
-  /// Round positions to float32, as GLB and STL hold them, so that what is proven is what is written. False: positions
-  /// are double, as OBJ and PLY hold them, and vertices lie on their samples in every affine frame. DEFAULT: true.
-  bool float32_positions = true;
-  /// Positions that glb.h compresses without moving them, where rows run along x (elsewhere this changes nothing): x
-  /// and y are double, whatever float32_positions is, and heights are rounded to multiples of a power of two, at most
-  /// 1/128 of max_error and of a locked border's. The engine aims 1/256 below max_error for it, unless the samples are
-  /// such multiples. Heights stay as they are without a max_error, or where tolerances, weights or channels bound
-  /// errors. DEFAULT: false.
-  bool lattice = false;
-  bool normals = false;  ///< fill Mesh::normals from the full-resolution samples. DEFAULT: false.
-  bool uvs = false;      ///< fill Mesh::uvs. DEFAULT: false.
-};
-
-/// The goals, and how to reach them. Conflicts between settings: conflicts.h.
-struct SimplifyOptions {
-  Goals goals = {};
-  Tolerances tolerances = {};
-  Features features = {};
-  Quality quality = {};
-  Domain domain = {};
-  Output output = {};
-  Run run = {};
-};
-
 /// A pass of simplify() and what it cost.
 struct Pass {
   std::string_view name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "shape";
                           ///< "freeze", "order", "prove"
   double seconds = 0;     ///< wall clock
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0, removals = 0;
-};
-
-/// A sample that a breakline changed.
-struct SampleEdit {
-  std::int32_t col = 0, row = 0;
-  float before = 0, after = 0;
 };
 
 /// Why Effort::kAuto became Effort::kFast.
@@ -81,16 +41,6 @@ enum class WhyFast {
   kStrategy,  ///< simplify_by_paper()
   kMemory,    ///< removal needs more than the memory limit allows
   kBudget,    ///< for the budget, no mesh of normal effort was better than that of insertion
-};
-
-/// The goal that ended the run.
-enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
-
-/// The breakline farthest above or below the raster, at a vertex as given; lines that are 0 everywhere count tenfold.
-struct FarthestLine {
-  std::string name;         ///< empty: none has heights
-  double distance = 0;      ///< in z units
-  bool is_at_zero = false;  ///< all its heights are 0
 };
 
 struct Simplified {

@@ -1,4 +1,4 @@
-// Tile pyramids of terrain on the globe: which tiles there are, how each is made, and the bytes of quantized-mesh.
+// Tile pyramids of terrain on the globe: which tiles there are, and how each is made.
 //
 // The grid (tile_grid.h) lists the tiles. A tile is a function of (its id, the plan, the heights of its nodes and a few
 // nodes around it). No neighbour enters it, so tiles may be made in any order, on any machine; two neighbours still
@@ -9,185 +9,23 @@
 //
 // A LOCAL GRID lies on a plane, its nodes are the samples of one raster, and tiles end where that does. All terms for
 // the earth's curve are 0 there.
-//
-// HEIGHTS are multiples of a quantum that a level shares, and a tile's header is chosen so that clients decode a height
-// to the same float32 in each tile.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "scarp/degrees.h"
-#include "scarp/frame.h"
-#include "scarp/height_field.h"
-#include "scarp/quality.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/tile_grid.h"
-#include "scarp/tile_lines.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
-
-/// Samples of a source side by side on a straight line, at equal steps of degrees; NaN where there is none.
-struct SampleRow {
-  double longitude = 0, latitude = 0;            ///< position of the first sample
-  double step_longitude = 0, step_latitude = 0;  ///< to the next
-  std::span<const float> heights;                ///< metres, as NodeSource::read() has them
-};
-using SampleVisitor = std::function<void(const SampleRow&)>;
-
-/// Heights by place.
-class NodeSource {
- public:
-  virtual ~NodeSource() = default;
-  /// Writes cols × rows heights in metres to `out`, the northern row first, NaN where there is none. A node's height is
-  /// a function of its place alone. Several threads may call it at once. Fails as the samples' source does.
-  virtual Result<void> read(const NodeWindow& window, std::span<float> out) const = 0;
-  /// A part of the window outside which no node has a height; without columns or rows where none has. DEFAULT: all of
-  /// it.
-  virtual NodeWindow land(const NodeWindow& window) const { return window; }
-  /// True if nodes are made of samples that visit_samples() shows. DEFAULT: false.
-  virtual bool has_samples() const { return false; }
-  /// Shows all samples that lie in the box, and others around it, some perhaps twice; longitudes continue beyond 180°
-  /// where the box does. A row is valid during its visit. Several threads may call it at once. Fails as the samples'
-  /// source does. DEFAULT: shows none.
-  virtual Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const;
-};
-
-/// The position of a raster on the globe, and the meaning of its samples.
-struct RasterPlace {
-  /// From samples to the CRS's x and y, as Frame::affine.
-  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
-  /// From longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
-  std::shared_ptr<const PointTransform> from_degrees = nullptr;
-  /// The inverse. Null where from_degrees is; without it no samples are shown.
-  std::shared_ptr<const PointTransform> to_degrees = nullptr;
-};
-
-/// Nodes by interpolation between the samples of a raster: cubic (Catmull-Rom) where all 16 samples around a node are
-/// heights, else bilinear between those of four that are. No height where the nearest sample has none. The raster's
-/// place of a node is exact at each 16th node and interpolated between where `from_degrees` is given; so is the place
-/// of a sample on the globe. Borrows the field's samples. Fails with kUsage for an affine map without an inverse.
-Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, const RasterPlace& place);
-
-/// The samples of the raster of a local grid, whose north is up: nodes of its finest level, or every second, fourth …
-/// one. Beyond the raster its outermost samples are repeated: tiles read them, and end before. Borrows the field's
-/// samples.
-std::unique_ptr<NodeSource> make_local_nodes(const HeightField& field);
-
-/// The surface that heights are above, such as the sea: itself above the ellipsoid.
-class HeightZero {
- public:
-  virtual ~HeightZero() = default;
-  /// Heights in metres above the ellipsoid at degrees, NaN where they are not known. Each depends on its place alone.
-  /// Several threads may call it at once. The spans have equal sizes.
-  virtual void find(std::span<const double> longitudes, std::span<const double> latitudes,
-                    std::span<double> heights) const = 0;
-};
-
-/// The nodes of `source`, raised by their zero's height, which is exact at most 1/32° apart and interpolated between.
-/// Its read() fails with kInput for a height whose zero is not known. Borrows the source.
-std::unique_ptr<NodeSource> make_raised_source(const NodeSource& source, std::shared_ptr<const HeightZero> zero);
-
-/// A source of a stack.
-struct StackedSource {
-  const NodeSource* nodes = nullptr;  ///< borrowed
-  DegreeBox covered = {};             ///< it has no heights elsewhere
-};
-/// Several sources as one: a node has the height of the first that has one there. The samples are shown of one source
-/// alone. Cost: each source reads what those before it left open, as a rectangle.
-std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
-
-/// Degrees that the raster covers, half a cell around the outer samples included. Fails with kInput where its outline
-/// has no longitude or latitude, or lies beyond a pole or 720 degrees from Greenwich. `to_degrees`: from x and y to
-/// degrees, null as in RasterPlace.
-Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
-                                  const PointTransform* to_degrees);
-
-/// The goals of a pyramid.
-struct PyramidSettings {
-  /// Nodes' cells a side of tiles of the finest level, a power of two, 16 … 256. DEFAULT: 128.
-  int cells = 128;
-  /// Levels 0 … max_zoom. DEFAULT (−1): the first level whose nodes are no farther apart than 1.1 cells of the source.
-  int max_zoom = -1;
-  /// Metres, of the finest level; above 0. DEFAULT (0): a quarter of its geometric error, or what the
-  /// format holds for such heights if that is more.
-  double max_error = 0;
-  /// A level's max error is the geometric error over this, or max_error if that is more. At least 1/2. DEFAULT: 2.
-  double quality = 2;
-  /// DEFAULT: kNormal.
-  Effort effort = Effort::kNormal;
-  /// Height of nodes without a height, metres. DEFAULT: 0, the ellipsoid.
-  float background = 0;
-  /// True if each tile with a child has all four, also those without a height: clients of 3D Tiles show a hole where
-  /// one is missing, those of quantized-mesh cut it out of its parent. DEFAULT: false.
-  bool has_siblings = false;
-  Geodetic ellipsoid = {};
-  TileGrid grid = {};  ///< DEFAULT: geographic.
-  /// Blocks that do not touch it are treated as places without heights. The others' tiles are those of the whole
-  /// pyramid. DEFAULT: all.
-  std::optional<DegreeBox> only = {};
-  /// Largest size of a tile, as it is kept. Where a tile has more, the max error of its interior is doubled until it
-  /// fits, or until only its border remains; the border stays. DEFAULT: 0, any.
-  std::uint64_t max_tile_bytes = 0;
-  /// True if the source's samples, each at its own place, are bound as nodes are. The finest level is then that of half
-  /// the cells: nodes are half as far apart as they need be, since samples far from the land between nodes cannot be
-  /// reached. REQUIRES then: a source that has_samples(). DEFAULT: false.
-  bool binds_samples = false;
-  /// Edges of all tiles' meshes. DEFAULT: none.
-  std::vector<DegreeLine> lines = {};
-};
-
-struct TileWaters;
-
-/// A level of a pyramid.
-struct PyramidLevel {
-  double geometric_error = 0;  ///< metres
-  double max_error = 0;        ///< max error of the tiles' meshes at their nodes, metres
-  double quantum = 0;          ///< heights are multiples of this power of two, metres
-  int segments = 1;            ///< edges of triangles span at most 1/segments of a tile, for the earth's curvature
-};
-
-/// A source of a stack, as the plan knows it.
-struct PlannedSource {
-  DegreeBox covered = {};
-  int max_zoom = 0;  ///< the finest level that it asks for
-};
-
-/// The settings, resolved: all that a tile depends on besides its nodes.
-struct PyramidPlan {
-  int cells = 128;
-  int block_level =
-      0;  ///< tiles of this level and below count all nodes; those above, nodes reduced to 256 cells a side
-  std::vector<PyramidLevel> levels;  ///< 0 … the finest
-  double least_quantum = 0;          ///< the finest that holds the source's heights; 0 in a plan that was read
-  Effort effort = Effort::kNormal;
-  float background = 0;
-  bool has_siblings = false;  ///< like PyramidSettings::has_siblings
-  std::uint64_t max_tile_bytes = 0;
-  bool binds_samples = false;                        ///< like PyramidSettings::has_siblings
-  std::shared_ptr<const TileLines> lines = nullptr;  ///< null: none
-  Geodetic ellipsoid = {};
-  TileGrid grid = {};
-  DegreeBox covered = {};  ///< by the source
-  /// Sources of a stack, else empty. Tiles below the block level are made only where a source asks for their level.
-  std::vector<PlannedSource> sources = {};
-  /// Water of the nodes, tile_waters.h; null without water.
-  std::shared_ptr<const TileWaters> waters = nullptr;
-  /// True if tiles have masks of the lakes. REQUIRES then: waters; quantized-mesh. DEFAULT: false.
-  bool has_water_mask = false;
-
-  int max_zoom() const { return static_cast<int>(levels.size()) - 1; }
-};
 
 /// The facts about the source that a plan needs.
 struct SourceFacts {
@@ -210,96 +48,26 @@ void set_lines(PyramidPlan& plan, std::vector<DegreeLine> lines);
 /// heights there.
 int finest_level(const PyramidPlan& plan, TileId id);
 
-/// A tile's mesh, as clients decode it.
-struct TerrainTile {
-  TileId id;
-  std::int32_t units = 32767;                        ///< a side of the tile, as TileGrid::side_units()
-  std::vector<std::uint16_t> u, v;                   ///< 0 … units from west, from south
-  std::vector<std::int32_t> heights;                 ///< in quanta of the level
-  std::vector<std::array<std::uint8_t, 2>> normals;  ///< octahedral, earth-centred or on the plane
-  std::vector<std::uint32_t> triangles;              ///< counter-clockwise seen from above
-  double quantum = 1;
-  double max_error = 0;  ///< asked of its interior, metres: the level's, or more because of max_tile_bytes
-  /// Straight pieces of lines that are no edges: rounded to 32767ths of the tile, they would turn triangles over.
-  std::uint64_t lines_left_out = 0;
-
-  /// Largest |mesh − node| over all nodes of the tile, of the heights as clients decode them, in metres, where edges
-  /// are straight on the map. Above the plan's block level an upper bound.
-  double node_error = 0;
-  /// The most that flat triangles lie below the ellipsoid's curve, in metres: adds to node_error in space.
-  double sag = 0;
-
-  double bound() const { return node_error + sag; }
-
-  /// Largest |mesh − sample| over the source's samples in the tile, each at its own place, as node_error else; above
-  /// the plan's block level an upper bound. Samples next to a node without a height, where the mesh goes down to the
-  /// background, do not count. NaN where it is not known: the source has no samples to show, or they were not examined.
-  double source_error = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// The tile, of as many bytes as it needs. Its node_error is at most the level's max error, but where positions in
-/// 32767ths of the tile cannot follow the land, next to a cliff; its source_error too, if the plan binds samples, but
-/// where these are too far from the land between the nodes around them. REQUIRES: plan.block_level <= id.z <=
-/// plan.max_zoom(). Fails as the source does.
-Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
-
-/// A tile above the plan's block level, of the nodes that its mesh needs and no others: the mesh of finish_pyramid(),
-/// but without its proof. node_error is NaN, since no nodes between these were examined. REQUIRES: id.z <
-/// plan.block_level. Cost: some 70,000 nodes, each read alone where they are far apart. Fails as the source does.
-Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
-
-/// The bytes that are kept of a tile. Several threads call it at once.
-using TileEncoder = std::function<Result<std::vector<std::uint8_t>>(const TerrainTile&)>;
-
-struct KeptTile {
-  TerrainTile tile;
-  std::vector<std::uint8_t> bytes;
-};
-
 /// The tile as a set keeps it, within plan.max_tile_bytes where that can be: a function of (id, plan, nodes, encoder).
-/// Without a limit it is that of make_tile(), or above plan.block_level of make_unproven_tile(). Fails as these and the
-/// encoder do.
-Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
-                                const TileEncoder& encode);
+///
+/// At plan.block_level and below, its node_error is at most its max error, but where positions in 32767ths of the tile
+/// cannot follow the land, next to a cliff; its source_error too, if the plan binds samples, but where these are too
+/// far from the land between the nodes around them.
+///
+/// Above plan.block_level it is made of the nodes that its mesh needs and no others: the mesh of finish_pyramid(), but
+/// without its proof. node_error is NaN, since no nodes between these were examined. Cost: some 70,000 nodes, each read
+/// alone where they are far apart.
+///
+/// REQUIRES: 0 <= id.z <= plan.max_zoom(). Fails as the source and the encoder do.
+Result<KeptTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source, const TileEncoder& encode);
+/// The tile, of as many bytes as it needs.
+Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
 /// The tiles of make_pyramid(), without making one: by level, rows and columns, y · 2^32 + x, sorted. Reads each node
 /// once; without a source no node, and then tiles below the blocks count as soon as the plan's source may cover them.
 /// Progress: pass "look". Fails as the source does, and with kCancelled.
 Result<std::vector<std::vector<std::uint64_t>>> find_tiles(const PyramidPlan& plan, const NodeSource* source,
                                                            const Run& run = {});
-
-/// The destination of a pyramid's tiles.
-class TileSink {
- public:
-  virtual ~TileSink() = default;
-  /// The bytes to keep. Several threads call it at once.
-  virtual Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const = 0;
-  /// Called in the same order for any number of threads, by one thread at a time.
-  virtual Result<void> put(TileId id, std::span<const std::uint8_t> bytes) = 0;
-};
-
-/// Statistics about the tiles of a level.
-struct LevelSummary {
-  std::uint64_t tiles = 0, triangles = 0, bytes = 0;
-  double node_error = 0, bound = 0;  ///< the largest of its tiles
-  double source_error = 0;           ///< the same; NaN where one of them is
-  /// Tiles whose node_error, or source_error if the plan binds samples, is above their max error: those with cliffs
-  /// that rounded positions cannot follow, with samples that nodes cannot, and above the block level those whose
-  /// reduced nodes allow no smaller proven error.
-  std::uint64_t over = 0;
-  std::uint64_t coarser = 0;         ///< tiles whose max error is above the level's because of plan.max_tile_bytes
-  std::uint64_t oversized = 0;       ///< number of these that have more bytes all the same: their borders alone do
-  std::uint64_t lines_left_out = 0;  ///< sum of TerrainTile::lines_left_out
-};
-
-struct PyramidReport {
-  bool has_heights = false;                       ///< some node has one
-  std::vector<LevelSummary> levels;               ///< 0 … the finest
-  std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
-
-  /// Adds the report of other tiles of the same pyramid.
-  void add(const PyramidReport& more);
-};
 
 /// The blocks of a pyramid: its tiles of plan.block_level, along Hilbert's curve, so that neighbours in the list are
 /// neighbours on the globe. All tiles below a block are made with it; any process may make any block.
@@ -308,26 +76,12 @@ std::vector<TileId> find_blocks(const PyramidPlan& plan);
 /// Relative cost of a block, about: 1, and 1000 times the share of it that the source may cover.
 std::uint64_t block_cost(const PyramidPlan& plan, TileId block);
 
-/// The facts about a block that was made.
-struct BlockReport {
-  TileId block;
-  PyramidReport report;
-  /// For finish_pyramid(): its nodes reduced to 128 cells a side, and bounds of what the reduction lost, 390 kB. The
-  /// same bytes on every machine. Empty for a block without heights.
-  std::vector<std::uint8_t> reduced;
-  std::uint64_t hash = 0;  ///< result of hash_block()
-  /// Cost of making it: CPU time, and the most memory that the process had until then. Set by whoever measures it.
-  double core_seconds = 0;
-  std::uint64_t memory = 0;
-};
-
 /// Makes the tiles of one block that have heights, their siblings if the plan wants them, and the block's own in any
-/// case. A tile's bytes are those of
-/// make_kept_tile(). Tiles of levels below `deepest` are omitted, and their errors from the report; all else is that of
-/// the whole block. REQUIRES: find_blocks() names the block.
+/// case. A tile's bytes are those of make_tile(). Tiles of levels below `deepest` are omitted, and their errors from
+/// the report; all else is that of the whole block. REQUIRES: find_blocks() names the block.
 ///
 /// Cost: each node is read once; memory: that of its nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
-/// make_kept_tile() and the sink do, and with kCancelled.
+/// make_tile() and the sink do, and with kCancelled.
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
                                const Run& run = {}, int deepest = std::numeric_limits<int>::max());
 
@@ -347,36 +101,6 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
 /// their order, and then finish_pyramid().
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink,
                                    const Run& run = {});
-
-/// The bytes of a quantized-mesh 1.0 file, not compressed. With normals (extension 1), and with a water mask (extension
-/// 2) that is not empty. Deterministic: no function of the machine's mathematics library is called.
-std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid = {},
-                                                const TileGrid& grid = {},
-                                                std::span<const std::uint8_t> water_mask = {});
-
-/// A quantized-mesh file, as clients read it.
-struct QuantizedMesh {
-  std::array<double, 3> center{};
-  float min_height = 0, max_height = 0;
-  std::array<double, 4> sphere{};  ///< centre, radius
-  std::array<double, 3> horizon_point{};
-  std::vector<std::uint16_t> u, v, h;  ///< 0 … 32767
-  std::vector<std::uint32_t> triangles;
-  std::vector<std::uint32_t> west, south, east, north;  ///< vertices on the edges
-  std::vector<std::array<std::uint8_t, 2>> normals;     ///< empty, or one a vertex
-  /// 0 land, 255 water; of all the tile, or 256 rows of 256 texels from the north. Empty without one; any other size is
-  /// a fault of the file's.
-  std::vector<std::uint8_t> water_mask;
-
-  /// The height that clients decode: min + (max − min) · h / 32767.
-  double height(std::size_t vertex) const {
-    const double low = double{min_height}, high = double{max_height};
-    return low + (high - low) * (static_cast<double>(h[vertex]) / 32767);
-  }
-};
-
-/// Fails with kInput for what is no such file; never trusts a length or an index in it.
-Result<QuantizedMesh> decode_quantized_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 
 }  // namespace scarp
 

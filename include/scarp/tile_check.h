@@ -28,9 +28,10 @@
 #include <vector>
 
 #include "scarp/degrees.h"
+#include "scarp/nodes.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 #include "scarp/tile_set.h"
 
 #pragma GCC visibility push(default)

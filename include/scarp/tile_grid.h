@@ -10,10 +10,12 @@
 // cells of the raster, to the east and to the north of its south-western sample.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #pragma GCC visibility push(default)
 
@@ -33,6 +35,9 @@ inline constexpr int kMaxTileLevel = 23;
 struct DegreeBox {
   double west = 0, south = 0, east = 0, north = 0;
 };
+
+/// Longitudes and latitudes of a line's vertices. A step of more than 180° goes the other way round.
+using DegreeLine = std::vector<std::array<double, 2>>;
 
 enum class GridKind {
   kGeographic,  ///< TMS in degrees: two tiles of 180° at level 0, side by side

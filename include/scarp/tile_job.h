@@ -72,11 +72,6 @@ class GlobeRaster {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The rasters, those of folders in place of these, put together to mosaics: neighbours in the list that lie on one
-/// grid, have one type and one nodata value, and one CRS, its datum of heights included. A raster that cannot be opened
-/// stands alone.
-std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
-
 /// The facts that distinguish a file from a later one of the same name.
 struct FileStamp {
   std::string path;  ///< absolute, where it names a file

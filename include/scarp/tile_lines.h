@@ -19,9 +19,6 @@
 
 namespace scarp {
 
-/// Longitudes and latitudes of a line's vertices. A step of more than 180° goes the other way round.
-using DegreeLine = std::vector<std::array<double, 2>>;
-
 class TileLines {
  public:
   /// A node of a tile: column, row, from its north-western corner.

@@ -21,8 +21,9 @@
 
 #include "scarp/globe_image.h"
 #include "scarp/globe_place.h"
+#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 
 #pragma GCC visibility push(default)
 
@@ -115,41 +116,6 @@ inline const char* unit_behind(std::string_view units) { return units.empty() ||
 /// holds no errors of tiles: those of tiles that are not made yet.
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
-
-/// The encoder of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
-/// Borrows the plan.
-TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
-/// The encoder of kGlb, with a texture of the image on each tile.
-TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format);
-
-/// Tiles of a format into a set.
-class TileSetSink : public TileSink {
- public:
-  /// Borrows both. DEFAULT encoder: that of the format.
-  TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan, TileEncoder encoder = {});
-
-  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
-  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
-  /// A hash of all tiles put so far, whatever their order: 16 hexadecimal digits.
-  std::string version() const;
-  /// Writes the metadata file for clients: layer.json. Once, after all tiles. Fails with kOutput. Adds to the report's
-  /// bounds what the format adds to the tiles'.
-  virtual Result<void> put_files(PyramidReport& report, LayerFacts facts);
-
- protected:
-  TileSetWriter& writer() { return *writer_; }
-  const PyramidPlan& plan() const { return *plan_; }
-
- private:
-  TileSetWriter* writer_;
-  const PyramidPlan* plan_;
-  TileEncoder encoder_;
-  std::uint64_t hash_ = 0;
-};
-
-/// The sink of a format. Borrows both. DEFAULT encoder: that of the format.
-std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,
-                                            TileEncoder encoder = {});
 
 }  // namespace scarp
 

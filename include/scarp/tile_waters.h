@@ -10,9 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "scarp/geoid.h"
 #include "scarp/lines.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 
 #pragma GCC visibility push(default)
 

@@ -17,8 +17,9 @@
 
 #include "scarp/glb.h"
 #include "scarp/globe_image.h"
+#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 #include "scarp/tile_set.h"
 
 #pragma GCC visibility push(default)
@@ -117,20 +118,6 @@ struct NamedFile {
 /// parent.
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
                                       const LayerFacts& facts = {});
-
-/// Tiles into a set of 3D Tiles.
-class TerrainTilesetSink final : public TileSetSink {
- public:
-  /// Borrows both. DEFAULT encoder: that of the format.
-  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder = {});
-
-  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
-  /// The files of encode_tileset(). Adds lattice_error() to the bounds.
-  Result<void> put_files(PyramidReport& report, LayerFacts facts) override;
-
- private:
-  FactsByTile facts_;
-};
 
 }  // namespace scarp
 

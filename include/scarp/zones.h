@@ -3,12 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "scarp/io.h"
 #include "scarp/lines.h"
 #include "scarp/mesh.h"
-#include "scarp/result.h"
 
 #pragma GCC visibility push(default)
 
@@ -18,20 +17,6 @@ namespace scarp {
 struct Zone {
   std::vector<Line> rings;  ///< in map coordinates, the outer one first, then its holes
   std::uint32_t material = 1;
-};
-
-/// A chain of edges: where water flows in, a cross-section, the crest of a dam.
-struct NodeString {
-  std::string name;                  ///< name of the line
-  std::vector<std::uint32_t> nodes;  ///< vertices, neighbours joined by edges; a closed one ends with its first
-};
-
-/// encode_mesh() writes them where the format has a place for them (MeshFormatTraits::holds_zones). A 2DM file has
-/// materials in E3T cards, and node strings in NS cards of ten nodes at most, the last one negative and followed by the
-/// string's number, counted from 1.
-struct MeshZones {
-  std::vector<std::uint32_t> materials;  ///< one for each triangle. EMPTY: all are 1
-  std::vector<NodeString> node_strings;  ///< EMPTY: none
 };
 
 /// The material of each triangle: that of the first zone that holds its centre, else `elsewhere`. Where the rings are

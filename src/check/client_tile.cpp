@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scarp/gzip.h"
+#include "scarp/quantized_mesh.h"
 
 namespace scarp {
 namespace {

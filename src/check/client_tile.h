@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "check/space.h"
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 #include "scarp/tile_set.h"
 #include "scarp/tiles3d.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 
 namespace scarp {
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "grid/local_frame.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 namespace {
@@ -70,6 +71,12 @@ bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps) {
   const bool sums_x = a[1] == 0 || a[2] == 0 || sums_are_float32(a[1], a[2], reach_col, reach_row);
   const bool sums_y = a[4] == 0 || a[5] == 0 || sums_are_float32(a[4], a[5], reach_col, reach_row);
   return sums_x && sums_y;
+}
+
+std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
+  if (!info.has_georeference) return grid_frame(rows).affine;
+  const auto& g = info.geotransform;  // coefficients of pixel corners
+  return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
 }
 
 }  // namespace scarp

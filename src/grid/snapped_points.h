@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/point.h"
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 #include "scarp/result.h"
 
 namespace scarp {

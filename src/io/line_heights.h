@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scarp/lines.h"
+#include "scarp/read_lines.h"
 
 namespace scarp {
 

@@ -18,13 +18,13 @@
 #include "io/raster/crs_description.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
-#include "scarp/cutline.h"
 #include "scarp/degrees.h"
 #include "scarp/drape.h"
 #include "scarp/globe_image.h"
 #include "scarp/globe_place.h"
+#include "scarp/io.h"
 #include "scarp/lines.h"
-#include "scarp/tile_job.h"
+#include "scarp/read_lines.h"
 
 namespace scarp {
 namespace {

@@ -8,7 +8,7 @@
 #include "io/line_heights.h"
 #include "io/raster/height_unit.h"
 #include "scarp/commands.h"
-#include "scarp/raster_lines.h"
+#include "scarp/read_lines.h"
 
 namespace scarp {
 namespace {

@@ -339,12 +339,6 @@ double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, 
 
 bool is_inserted_first(const Line& line) { return is_wall(line) || is_ridge_line(line); }
 
-std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
-  if (!info.has_georeference) return grid_frame(rows).affine;
-  const auto& g = info.geotransform;  // coefficients of pixel corners
-  return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
-}
-
 double height_between_samples(const SampleView& heights, Point point) {
   return bilinear_at(heights, heights.cols(), heights.rows(), point);
 }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarp/cutline.h"
 #include "scarp/lines.h"
 
 namespace scarp {

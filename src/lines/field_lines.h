@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "lines/constraints.h"
-#include "scarp/cutline.h"
+#include "scarp/edits.h"
 #include "scarp/height_field.h"
+#include "scarp/lines.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 
 namespace scarp {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarp/cutline.h"
+#include "scarp/lines.h"
 
 namespace scarp::judge {
 

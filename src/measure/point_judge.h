@@ -4,7 +4,7 @@
 #include "grid/snapped_points.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 #include "scarp/result.h"
 
 namespace scarp::judge {

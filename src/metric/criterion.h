@@ -14,7 +14,7 @@
 #include "metric/sample_metric.h"
 #include "metric/source_bounds.h"
 #include "scarp/height_field.h"
-#include "scarp/simplify.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

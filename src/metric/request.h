@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "scarp/paper.h"
-#include "scarp/simplify.h"
+#include "scarp/options.h"
+#include "scarp/strategy.h"
 
 namespace scarp {
 
@@ -12,15 +12,6 @@ namespace scarp {
 struct Request : SimplifyOptions {
   // NOLINTNEXTLINE(google-explicit-constructor): the engine accepts options as they are.
   Request(SimplifyOptions options) : SimplifyOptions(std::move(options)) {}
-  explicit Request(const PaperOptions& options)
-      : SimplifyOptions{.goals = options.goals,
-                        .tolerances = options.tolerances,
-                        .features = {.points = options.points},
-                        .quality = {.effort = Effort::kFast, .order = Order::kGreedy},
-                        .domain = options.domain,
-                        .output = options.output,
-                        .run = options.run},
-        strategy(options.strategy) {}
 
   Strategy strategy;
   bool chose_effort = false;  ///< the effort was not asked for

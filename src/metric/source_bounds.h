@@ -11,8 +11,8 @@
 #include "grid/raster.h"
 #include "metric/bound_rule.h"
 #include "scarp/height_field.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 
 namespace scarp {
 

@@ -5,8 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "scarp/goals.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 
 namespace scarp {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "scarp/result.h"
-#include "scarp/simplify.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

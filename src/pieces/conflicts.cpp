@@ -4,7 +4,7 @@
 #include <array>
 
 #include "pieces/recipe.h"
-#include "scarp/tile.h"
+#include "scarp/pyramid.h"
 
 namespace scarp {
 

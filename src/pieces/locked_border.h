@@ -13,8 +13,8 @@
 #include "base/point.h"
 #include "grid/raster.h"
 #include "scarp/height_field.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 #include "tin/triangulation.h"
 
 namespace scarp {

@@ -1,4 +1,6 @@
 // Normals of all samples as an image.
+#include "scarp/normal_map.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 
 #include "base/caught.h"
 #include "pieces/normals.h"
-#include "scarp/picture.h"
 
 namespace scarp {
 namespace {

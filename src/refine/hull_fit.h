@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid/snapped_points.h"
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 
 namespace scarp {
 

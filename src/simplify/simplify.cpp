@@ -14,6 +14,7 @@
 #include "pieces/checks.h"
 #include "pieces/recipe.h"
 #include "scarp/conflicts.h"
+#include "scarp/paper.h"
 #include "simplify/budget_search.h"
 #include "simplify/budget_task.h"
 #include "simplify/pass_work.h"
@@ -115,7 +116,14 @@ Result<Simplified> simplify(const HeightField& field, const Goals& goals) {
 
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options) {
   return without_exceptions([&]() -> Result<Simplified> {
-    const Request request(options);
+    Request request(SimplifyOptions{.goals = options.goals,
+                                    .tolerances = options.tolerances,
+                                    .features = {.points = options.points},
+                                    .quality = {.effort = Effort::kFast, .order = Order::kGreedy},
+                                    .domain = options.domain,
+                                    .output = options.output,
+                                    .run = options.run});
+    request.strategy = options.strategy;
     if (options.domain.border.is_locked)
       return fail(ErrorKind::kUsage, describe(find_conflicts(Fields(Field::kStrategy, Field::kBorder)).front()));
     SCARP_RETURN_IF_ERROR(check_options(field, request));

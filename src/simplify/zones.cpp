@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/sort.h"
+#include "scarp/io.h"
 
 namespace scarp {
 

@@ -16,6 +16,7 @@
 #include "bytes.h"
 #include "scarp/cliffs.h"
 #include "scarp/measure.h"
+#include "scarp/read_lines.h"
 #include "scarp/ridges.h"
 #include "scarp/rivers.h"
 #include "scarp/simplify.h"

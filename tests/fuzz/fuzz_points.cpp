@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "io/points/point_source.h"
+#include "scarp/measure.h"
 #include "scarp/points.h"
 
 namespace {

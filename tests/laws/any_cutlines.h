@@ -14,7 +14,7 @@
 
 #include "grid/vertex_lattice.h"
 #include "laws/fields.h"
-#include "scarp/cutline.h"
+#include "scarp/lines.h"
 #include "scarp/mesh.h"
 
 namespace scarp::testing {

@@ -12,8 +12,11 @@
 #include <tuple>
 #include <vector>
 
+#include "globe/sine.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
-#include "tiles/sine.h"
 
 namespace scarp::testing {
 inline constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();

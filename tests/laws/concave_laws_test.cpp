@@ -16,6 +16,7 @@
 #include "laws/point_sets.h"
 #include "refine/concave_outline.h"
 #include "refine/hull_fit.h"
+#include "scarp/measure.h"
 #include "scarp/points.h"
 
 namespace scarp::concave_laws_test {

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "laws/sanitized.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "scarp/tiles3d.h"
 
 namespace scarp::local_tiles_laws_test {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "scarp/mesh.h"
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 
 namespace scarp::testing {
 

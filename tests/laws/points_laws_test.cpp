@@ -12,6 +12,7 @@
 #include "laws/fields.h"
 #include "laws/point_sets.h"
 #include "refine/scattered.h"
+#include "scarp/measure.h"
 #include "scarp/points.h"
 
 namespace scarp::points_laws_test {

@@ -12,6 +12,8 @@
 
 #include "laws/any_land.h"
 #include "laws/sanitized.h"
+#include "scarp/pyramid.h"
+#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::pyramid_laws_test {
@@ -110,7 +112,7 @@ TEST(pyramid_laws, tiles_within_a_limit_of_bytes_and_with_lines_are_those_made_a
   for (const auto& [key, bytes] : one->kept.files) {
     const auto [z, x, y] = key;
     const auto level = static_cast<std::size_t>(z);
-    const auto tile = make_kept_tile(one->plan, {z, x, y}, land, encode);
+    const auto tile = make_tile(one->plan, {z, x, y}, land, encode);
     ASSERT_TRUE(tile) << tile.error().message;
     EXPECT_EQ(tile->bytes, bytes) << z << "/" << x << "/" << y;
     coarser[level] += tile->tile.max_error > one->plan.levels[level].max_error;
@@ -133,7 +135,7 @@ TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_til
     for (const auto& [key, bytes] : made->kept.files) {
       const auto [z, x, y] = key;
       if (z >= made->plan.block_level) continue;
-      const auto tile = make_unproven_tile(made->plan, {z, x, y}, land);
+      const auto tile = make_tile(made->plan, {z, x, y}, land);
       ASSERT_TRUE(tile) << tile.error().message;
       EXPECT_TRUE(std::isnan(tile->node_error));
       EXPECT_EQ(encode_quantized_mesh(*tile, {}, grid), bytes) << z << "/" << x << "/" << y;

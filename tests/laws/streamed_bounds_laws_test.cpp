@@ -20,6 +20,7 @@
 #include "refine/domain.h"
 #include "scarp/measure.h"
 #include "scarp/ridges.h"
+#include "scarp/simplify.h"
 
 namespace scarp::streamed_bounds_laws_test {
 namespace {

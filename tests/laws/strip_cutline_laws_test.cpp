@@ -23,7 +23,9 @@
 #include "pieces/freeze.h"
 #include "pieces/strips.h"
 #include "scarp/cliffs.h"
+#include "scarp/cutline.h"
 #include "scarp/measure.h"
+#include "scarp/simplify.h"
 
 namespace scarp::strip_cutline_laws_test {
 namespace {

@@ -14,6 +14,7 @@
 #include "pieces/strips.h"
 #include "refine/domain.h"
 #include "scarp/measure.h"
+#include "scarp/simplify.h"
 
 namespace scarp::strip_fit_laws_test {
 namespace {

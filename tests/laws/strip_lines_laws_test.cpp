@@ -23,6 +23,7 @@
 #include "scarp/edits.h"
 #include "scarp/measure.h"
 #include "scarp/ridges.h"
+#include "scarp/simplify.h"
 
 namespace scarp {
 namespace {

@@ -18,7 +18,12 @@
 #include "laws/sanitized.h"
 #include "scarp/gzip.h"
 #include "scarp/io.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/quantized_mesh.h"
+#include "scarp/tile.h"
 #include "scarp/tile_check.h"
+#include "scarp/tile_sink.h"
 #include "scarp/tiles3d.h"
 
 namespace scarp::tile_check_laws_test {

@@ -8,14 +8,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "globe/globe.h"
+#include "globe/sine.h"
 #include "laws/any_land.h"
 #include "scarp/measure.h"
+#include "scarp/pyramid.h"
+#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
-#include "tiles/coarse_nodes.h"
-#include "tiles/globe.h"
-#include "tiles/node_scan.h"
-#include "tiles/sine.h"
-#include "tiles/tile_mesh_parts.h"
+#include "scarp/tile_lines.h"
+#include "tiles/mesh/node_scan.h"
+#include "tiles/mesh/tile_mesh_parts.h"
+#include "tiles/pyramid/coarse_nodes.h"
 
 namespace scarp::tile_laws_test {
 namespace {
@@ -117,10 +120,10 @@ RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bou
   const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{2} << z),
                   *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{1} << z)};
   const TileEncoder encode = [](const TerrainTile& tile) { return encode_quantized_mesh(tile); };
-  const auto free = make_kept_tile(plan, id, land, encode);
+  const auto free = make_tile(plan, id, land, encode);
   RC_ASSERT(free.has_value());
   plan.max_tile_bytes = *rc::gen::inRange<std::uint64_t>(1, free->bytes.size() + 100);
-  const auto kept = make_kept_tile(plan, id, land, encode);
+  const auto kept = make_tile(plan, id, land, encode);
   RC_ASSERT(kept.has_value());
   const double asked = plan.levels[static_cast<std::size_t>(z)].max_error;
   RC_ASSERT(kept->tile.max_error >= asked);
@@ -128,7 +131,7 @@ RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bou
   // A tile that does not fit has nothing more to omit.
   if (kept->bytes.size() > plan.max_tile_bytes) {
     plan.max_tile_bytes = 1;
-    const auto least = make_kept_tile(plan, id, land, encode);
+    const auto least = make_tile(plan, id, land, encode);
     RC_ASSERT(least.has_value());
     RC_ASSERT(kept->bytes == least->bytes);
   }

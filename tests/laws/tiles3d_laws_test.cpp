@@ -16,6 +16,10 @@
 #include "io/mesh/glb_json.h"
 #include "io/mesh/meshopt_codec.h"
 #include "laws/sanitized.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
+#include "scarp/tile_sink.h"
 #include "scarp/tiles3d.h"
 
 namespace scarp::tiles3d_laws_test {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scarp/gzip.h"
-#include "scarp/tile.h"
+#include "scarp/quantized_mesh.h"
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "scarp/measure.h"
 #include "scarp/points.h"
 #include "unit/raster_files.h"
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "scarp/read_lines.h"
 #include "unit/raster_files.h"
 
 namespace scarp {

@@ -14,6 +14,10 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
+#include "scarp/tile_sink.h"
 
 namespace scarp::live_tiles_test {
 namespace {

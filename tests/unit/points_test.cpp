@@ -8,6 +8,8 @@
 
 #include "grid/far_points.h"
 #include "grid/snapped_points.h"
+#include "scarp/io.h"
+#include "scarp/measure.h"
 #include "unit/raster_files.h"
 
 namespace scarp {

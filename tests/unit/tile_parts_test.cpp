@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "scarp/tile_job.h"
 
 namespace scarp::tile_parts_test {

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "scarp/gzip.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/quantized_mesh.h"
 
 namespace scarp::tile_test {
 namespace {
@@ -203,7 +206,8 @@ TEST(quantized_mesh, is_read_back) {
 TEST(quantized_mesh, a_water_mask_is_read_back_beside_the_rest) {
   std::vector<std::uint8_t> mask(65536);
   for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = static_cast<std::uint8_t>(k * 7);
-  const auto plain = decode_quantized_mesh(some_file(), "tile"), masked = decode_quantized_mesh(some_file(mask), "tile");
+  const auto plain = decode_quantized_mesh(some_file(), "tile"),
+             masked = decode_quantized_mesh(some_file(mask), "tile");
   ASSERT_TRUE(plain && masked);
   EXPECT_EQ(masked->water_mask, mask);
   EXPECT_EQ(masked->normals, plain->normals);

@@ -10,7 +10,6 @@
 #include "commands/commands.h"
 #include "scarp/io.h"
 #include "scarp/measure.h"
-#include "scarp/points.h"
 #include "scarp/solid.h"
 #include "session/inputs/mesh_place.h"
 #include "session/options/output_kind.h"

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "door.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::wasm {
@@ -123,8 +126,7 @@ Bytes* scarp_tiler_tile(const Tiler* tiler, double z, double x, double y, TileVi
       return scarp::fail(scarp::ErrorKind::kUsage,
                          "there is no such tile: z goes from 0 to maxZoom, x from 0 to 2^(z + 1) - 1, "
                          "and y from 0 to 2^z - 1, from the south");
-    const auto make = id.z < plan.block_level ? scarp::make_unproven_tile : scarp::make_tile;
-    SCARP_TRY(const auto& tile, make(plan, id, *tiler->nodes));
+    SCARP_TRY(const auto& tile, scarp::make_tile(plan, id, *tiler->nodes));
     auto made = std::make_unique<Bytes>();
     made->bytes = scarp::encode_quantized_mesh(tile, plan.ellipsoid, plan.grid);
     *out = {address_of(made->bytes.data()),

@@ -11,7 +11,8 @@
 
 #include "base/caught.h"
 #include "io/gdal/session.h"
-#include "scarp/cutline.h"
+#include "scarp/lines.h"
+#include "scarp/read_lines.h"
 
 namespace scarp::gdal {
 namespace {
@@ -149,7 +150,9 @@ Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, co
   const bool are_valid = to_polygons(rings, unit, polygons);
   const OwnedGeometry whole(are_valid ? polygons.UnionCascaded() : nullptr);
   const bool moves = whole && is_distance(distance, *whole);
-  const OwnedGeometry moved = !whole ? nullptr : moves ? move_inwards(*whole, distance, sample) : OwnedGeometry(whole->clone());
+  const OwnedGeometry moved = !whole  ? nullptr
+                              : moves ? move_inwards(*whole, distance, sample)
+                                      : OwnedGeometry(whole->clone());
   if (!moved)
     return fail(ErrorKind::kInput,
                 fmt::format("the polygons cannot be moved inwards by {}: {}", distance, session.reason()));

@@ -18,7 +18,7 @@
 #include "io/gdal/earth_frame.h"
 #include "io/gdal/join.h"
 #include "scarp/commands.h"
-#include "scarp/tile_job.h"
+#include "scarp/io.h"
 
 namespace scarp::gdal {
 namespace {

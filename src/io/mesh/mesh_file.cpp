@@ -12,7 +12,6 @@
 #include "io/mesh/mesh_file_text.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/zones.h"
 
 namespace scarp {
 namespace {

@@ -16,7 +16,6 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/text_comments.h"
 #include "scarp/io.h"
-#include "scarp/zones.h"
 
 namespace scarp {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scarp/points.h"
+#include "scarp/io.h"
 
 namespace scarp {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 
 namespace scarp {
 

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "io/raster/height_unit.h"
-#include "scarp/points.h"
+#include "scarp/io.h"
+#include "scarp/point_set.h"
 
 namespace scarp {
 

@@ -5,7 +5,8 @@
 #include <span>
 #include <string>
 
-#include "scarp/points.h"
+#include "scarp/io.h"
+#include "scarp/point_set.h"
 
 namespace scarp {
 

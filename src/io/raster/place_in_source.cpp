@@ -1,7 +1,6 @@
 #include "grid/affine_map.h"
 #include "grid/local_frame.h"
 #include "scarp/io.h"
-#include "scarp/lines.h"
 
 namespace scarp {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarp/tile.h"
+#include "scarp/tile_grid.h"
 
 namespace scarp {
 

@@ -273,23 +273,4 @@ std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidRepo
   return files;
 }
 
-TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder)
-    : TileSetSink(writer, TileFormat::kGlb, plan, std::move(encoder)) {}
-
-Result<void> TerrainTilesetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
-  SCARP_TRY(const TileFacts& facts, read_tile_facts(bytes));
-  facts_[{id.z, id.y, id.x}] = facts;
-  return TileSetSink::put(id, bytes);
-}
-
-Result<void> TerrainTilesetSink::put_files(PyramidReport& report, LayerFacts facts) {
-  facts.version = version();
-  for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {
-    SCARP_RETURN_IF_ERROR(writer().put_file(file.name, file.bytes));
-  }
-  for (std::size_t z = 0; z < report.levels.size(); ++z)
-    report.levels[z].bound += lattice_error(plan(), static_cast<int>(z));
-  return {};
-}
-
 }  // namespace scarp

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scarp/commands.h"
+#include "scarp/read_lines.h"
 #include "session/inputs/memory.h"
 #include "session/text/text.h"
 

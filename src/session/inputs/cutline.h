@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scarp/cutline.h"
 #include "scarp/io.h"
+#include "scarp/lines.h"
 #include "session/options/line_options.h"
 
 namespace scarp::cli {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "scarp/commands.h"
-#include "scarp/raster_lines.h"
+#include "scarp/read_lines.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

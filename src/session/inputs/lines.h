@@ -7,6 +7,7 @@
 #include "scarp/frame.h"
 #include "scarp/io.h"
 #include "scarp/lines.h"
+#include "scarp/read_lines.h"
 #include "session/options/line_options.h"
 
 namespace scarp::cli {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "scarp/io.h"
-#include "scarp/lines.h"
 
 namespace scarp::cli {
 namespace {

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scarp/points.h"
+#include "scarp/io.h"
+#include "scarp/point_set.h"
 #include "scarp/result.h"
 #include "session/options/given_options.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/features.h"
+#include "scarp/io.h"
 #include "scarp/simplify.h"
 #include "scarp/zones.h"
 #include "session/inputs/cutline.h"

@@ -7,7 +7,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/mesh.h"
-#include "scarp/points.h"
+#include "scarp/point_set.h"
 #include "scarp/suggest.h"
 #include "session/text/json.h"
 

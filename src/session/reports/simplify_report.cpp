@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "scarp/lines.h"
 #include "scarp/version.h"
 #include "session/options/strategy_options.h"
 #include "session/reports/feature_report.h"

@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
+#include "scarp/tile_sink.h"
 #include "session/reports/tile_report.h"
 #include "session/tasks/counted_set.h"
 #include "session/text/paths.h"

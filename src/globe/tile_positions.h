@@ -1,0 +1,14 @@
+// The vertices of a tile in space.
+#pragma once
+
+#include <vector>
+
+#include "globe/ground.h"
+#include "scarp/pyramid.h"
+
+namespace scarp {
+
+/// Positions of the vertices on the ground.
+std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& grid, const Ground& ground);
+
+}  // namespace scarp

@@ -1,0 +1,92 @@
+#include "scarp/tile_sink.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "base/fnv.h"
+#include "scarp/gzip.h"
+#include "scarp/quantized_mesh.h"
+#include "scarp/tile_job.h"
+#include "scarp/tile_waters.h"
+
+namespace scarp {
+
+namespace {
+
+/// The encoder of kGlb, with a texture of the image on each tile.
+TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
+  return [&plan, image = std::move(image), format](const TerrainTile& tile) -> Result<std::vector<std::uint8_t>> {
+    SCARP_TRY(auto&& texture, make_tile_texture(*image, format, plan, tile.id));
+    TileGlbOptions options;
+    options.texture = std::move(texture);
+    return encode_tile_glb(place_on_earth(tile, plan), options);
+  };
+}
+
+}  // namespace
+
+TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
+  if (format == TileFormat::kGlb)
+    return [&plan](const TerrainTile& tile) { return encode_tile_glb(place_on_earth(tile, plan)); };
+  std::shared_ptr<const WaterMasks> masks;
+  if (plan.has_water_mask && plan.waters) masks = std::make_shared<WaterMasks>(*plan.waters);
+  return [&plan, masks](const TerrainTile& tile) {
+    const std::vector<std::uint8_t> mask = masks ? masks->draw(tile.id) : std::vector<std::uint8_t>();
+    return compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid, mask));
+  };
+}
+
+Result<TileEncoder> open_tile_encoder(const TileJob& job) {
+  if (!job.drape) return make_tile_encoder(job.format, job.plan);
+  SCARP_TRY(auto&& image, open_globe_image(job.drape->path(), job.plan.ellipsoid));
+  return make_draped_encoder(job.plan, std::move(image), job.drape->format);
+}
+
+std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,
+                                            TileEncoder encoder) {
+  if (format == TileFormat::kGlb) return std::make_unique<TerrainTilesetSink>(writer, plan, std::move(encoder));
+  return std::make_unique<TileSetSink>(writer, format, plan, std::move(encoder));
+}
+
+TileSetSink::TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan, TileEncoder encoder)
+    : writer_(&writer), plan_(&plan), encoder_(encoder ? std::move(encoder) : make_tile_encoder(format, plan)) {}
+
+Result<std::vector<std::uint8_t>> TileSetSink::encode(const TerrainTile& tile) const { return encoder_(tile); }
+
+Result<void> TileSetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
+  Fnv name;
+  name.add(std::array{static_cast<std::uint32_t>(id.z), id.x, id.y});
+  name.add(bytes);
+  hash_ += name.hash();  // sums do not depend on the order
+  return writer_->put_tile(id, bytes);
+}
+
+std::string TileSetSink::version() const { return fmt::format("{:016x}", hash_); }
+
+Result<void> TileSetSink::put_files(PyramidReport& report, LayerFacts facts) {
+  facts.version = version();
+  return writer_->put_file("layer.json", encode_layer_json(*plan_, report, facts));
+}
+
+TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder)
+    : TileSetSink(writer, TileFormat::kGlb, plan, std::move(encoder)) {}
+
+Result<void> TerrainTilesetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
+  SCARP_TRY(const TileFacts& facts, read_tile_facts(bytes));
+  facts_[{id.z, id.y, id.x}] = facts;
+  return TileSetSink::put(id, bytes);
+}
+
+Result<void> TerrainTilesetSink::put_files(PyramidReport& report, LayerFacts facts) {
+  facts.version = version();
+  for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {
+    SCARP_RETURN_IF_ERROR(writer().put_file(file.name, file.bytes));
+  }
+  for (std::size_t z = 0; z < report.levels.size(); ++z)
+    report.levels[z].bound += lattice_error(plan(), static_cast<int>(z));
+  return {};
+}
+
+}  // namespace scarp

@@ -1,0 +1,42 @@
+// The samples of a raster at their places on the globe, as straight rows.
+#pragma once
+
+#include "scarp/height_field.h"
+#include "scarp/nodes.h"
+
+namespace scarp {
+
+class SampleRows {
+ public:
+  /// Borrows both.
+  SampleRows(const HeightField& field, const RasterPlace& place);
+
+  /// Like NodeSource::visit_samples(), for a raster whose x, with `turn` added, and y are degrees.
+  Result<void> visit_in_degrees(const DegreeBox& box, double turn, const SampleVisitor& visit) const;
+  /// The same for a raster in another CRS: each 16th sample of each 16th row has its exact place, in between places are
+  /// bilinear; near poles all are exact. REQUIRES: place.to_degrees.
+  Result<void> visit_placed(const DegreeBox& box, const SampleVisitor& visit) const;
+
+ private:
+  /// Columns and rows of the raster.
+  struct Window {
+    int col = 0, row = 0, cols = 0, rows = 0;
+
+    bool is_empty() const { return cols <= 0 || rows <= 0; }
+  };
+  class Reach;
+
+  std::array<double, 2> to_raster(double x, double y) const;
+  Window window_over(const Reach& reach) const;
+  /// Reads the window in bands of rows, a multiple of 16 each.
+  template <class Take>
+  Result<void> read_bands(const Window& window, const Take& take) const;
+  void visit_one_by_one(const Window& window, int row, double longitude, const float* heights,
+                        const SampleVisitor& visit) const;
+
+  const HeightField& field_;
+  const RasterPlace& place_;
+  double determinant_ = 0;
+};
+
+}  // namespace scarp

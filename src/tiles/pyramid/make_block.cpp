@@ -1,0 +1,141 @@
+// A block: the tile of the block level and all below it, of nodes that are read once.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/bits.h"
+#include "globe/row_range.h"
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
+#include "scarp/tile_waters.h"
+#include "tiles/mesh/tile_maker.h"
+#include "tiles/mesh/tile_mesh_parts.h"
+#include "tiles/mesh/tile_nodes.h"
+#include "tiles/nodes/held_nodes.h"
+#include "tiles/pyramid/coarse_nodes.h"
+#include "tiles/pyramid/pyramid_tiles.h"
+#include "tiles/pyramid/tile_output.h"
+
+namespace scarp {
+namespace {
+
+/// All nodes of a block and around it, read by all threads; nothing where none has a height.
+Result<std::optional<HeldNodes>> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source,
+                                            int threads) {
+  if (!is_covered(plan, block)) return std::optional<HeldNodes>();
+  const std::int32_t steps = steps_of(plan, block.z);
+  SCARP_TRY(auto&& nodes, HeldNodes::read(plan.grid.window_of(block, steps, normal_reach(steps)), source, threads));
+  if (!nodes.has_heights()) return std::optional<HeldNodes>();
+  return std::optional(std::move(nodes));
+}
+
+std::uint64_t mixed(std::uint64_t hash, double value) {
+  hash = (hash ^ bit_cast<std::uint64_t>(value)) * 0xff51afd7ed558ccd;
+  return hash ^ (hash >> 32);
+}
+
+/// A hash of the nodes, and of each sample with its place, whatever the order in which the source shows them.
+Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldNodes& nodes) {
+  const DegreeBox box = plan.grid.bounds_of(block);
+  std::uint64_t sum = nodes.hash();
+  auto visited = nodes.visit_samples(box, [&](const SampleRow& row) {
+    const auto [first, end] =
+        range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude, row.heights.size(), box);
+    for (std::size_t i = first; i < end; ++i) {
+      if (std::isnan(row.heights[i])) continue;
+      const auto steps = static_cast<double>(i);
+      sum +=
+          mixed(mixed(mixed(0, row.longitude + steps * row.step_longitude), row.latitude + steps * row.step_latitude),
+                double{row.heights[i]});
+    }
+  });
+  SCARP_RETURN_IF_ERROR(visited);
+  return std::max<std::uint64_t>(sum, 1);
+}
+
+/// With the shapes that masks show, for they are no nodes.
+std::uint64_t with_masks(const PyramidPlan& plan, TileId block, std::uint64_t nodes) {
+  if (!plan.has_water_mask || !plan.waters) return nodes;
+  const std::uint64_t shapes = WaterMasks(*plan.waters).hash(block);
+  return shapes == 0 ? nodes : std::max<std::uint64_t>(nodes * 0xff51afd7ed558ccd + shapes, 1);
+}
+
+/// The block's tile, then level by level those below it, by rows.
+std::vector<TileId> tiles_of(TileId block, int deepest) {
+  std::vector<TileId> tiles;
+  for (int deeper = 0; deeper <= deepest - block.z; ++deeper) {
+    const std::uint32_t side = std::uint32_t{1} << deeper;
+    for (std::uint32_t y = 0; y < side; ++y) {
+      for (std::uint32_t x = 0; x < side; ++x)
+        tiles.push_back({block.z + deeper, (block.x << deeper) + x, (block.y << deeper) + y});
+    }
+  }
+  return tiles;
+}
+
+Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  const std::int32_t steps = steps_of(plan, id.z);
+  return TileNodes::read(plan, id, steps, normal_reach(steps), source);
+}
+
+/// Nothing for a tile without heights, unless it is the block's own or a wanted sibling of one that may have some.
+Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source,
+                                            const TileEncoder& encode) {
+  if (!is_wanted(plan, id)) return std::optional<KeptTile>();
+  SCARP_TRY(const auto& nodes, read_nodes(plan, id, source));
+  if (!nodes.has_heights() && id.z > plan.block_level) {
+    if (!plan.has_siblings) return std::optional<KeptTile>();
+    SCARP_TRY(const auto& parent, read_nodes(plan, {id.z - 1, id.x / 2, id.y / 2}, source));
+    if (!parent.has_heights()) return std::optional<KeptTile>();
+  }
+  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, proof_at_nodes(plan, nodes, source), encode));
+  return std::optional(std::move(kept));
+}
+
+}  // namespace
+
+Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
+  SCARP_TRY(const auto& nodes, read_block(plan, block, source, threads));
+  const auto hash = nodes ? hash_of(plan, block, *nodes) : Result<std::uint64_t>(0);
+  return hash ? with_masks(plan, block, *hash) : hash;
+}
+
+Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
+                               const Run& run, int deepest) {
+  TileOutput output(plan, sink, run);
+  BlockReport made;
+  made.block = block;
+  SCARP_TRY(const auto& read, read_block(plan, block, source, run.threads));
+  const std::optional<HeldNodes>& nodes = read;
+  if (!nodes) {
+    const auto complete = [](TerrainTile& tile) -> Result<void> {
+      tile.source_error = 0;
+      return {};
+    };
+    const auto make_flat = [&](TileId id, const TileEncoder& encode) -> Result<std::optional<KeptTile>> {
+      SCARP_TRY(auto&& flat, make_tile_of(plan, id, TileNodes::flat(plan, id, 1), {{}, complete}, encode));
+      return std::optional(std::move(flat));
+    };
+    SCARP_RETURN_IF_ERROR(output.make({block}, make_flat));
+    made.report = output.take_report();
+    made.hash = with_masks(plan, block, 0);
+    return made;
+  }
+  const auto make = [&](TileId id, const TileEncoder& encode) { return make_if_any(plan, id, *nodes, encode); };
+  SCARP_RETURN_IF_ERROR(output.make(tiles_of(block, std::min(deepest, plan.max_zoom())), make));
+  made.report = output.take_report();
+  made.report.has_heights = true;
+  SCARP_TRY(const auto& hash, hash_of(plan, block, *nodes));
+  made.hash = with_masks(plan, block, hash);
+  if (plan.block_level == 0) return made;
+  const std::int32_t steps = steps_of(plan, block.z);
+  SCARP_TRY(const auto& whole, TileNodes::read(plan, block, steps, 0, *nodes));
+  SCARP_TRY(const auto& reduced, CoarseTile::reduce(plan, block, whole, source));
+  made.reduced = reduced.to_bytes();
+  return made;
+}
+
+}  // namespace scarp

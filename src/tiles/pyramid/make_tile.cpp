@@ -1,0 +1,44 @@
+// A tile alone, of any level.
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "scarp/nodes.h"
+#include "scarp/pyramid.h"
+#include "scarp/tile.h"
+#include "tiles/mesh/tile_maker.h"
+#include "tiles/mesh/tile_mesh_parts.h"
+#include "tiles/mesh/tile_nodes.h"
+#include "tiles/nodes/decimated_nodes.h"
+
+namespace scarp {
+namespace {
+
+/// The first mesh that does not fold is the tile, whatever its error: finish_pyramid() has no other.
+TileProof no_proof() {
+  return {[](const TerrainTile&) -> Result<TileVerdict> {
+            return TileVerdict{0, {}};
+          },
+          [](TerrainTile& tile) -> Result<void> {
+            tile.node_error = std::numeric_limits<double>::quiet_NaN();
+            return {};
+          }};
+}
+
+}  // namespace
+
+Result<KeptTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source, const TileEncoder& encode) {
+  const bool is_above = id.z < plan.block_level;
+  const std::int32_t steps = is_above ? 2 * kCoarseCells : steps_of(plan, id.z);
+  const DecimatedNodes few(source, plan.grid.per_turn(plan.max_zoom(), plan.cells));
+  const NodeSource& read = is_above ? static_cast<const NodeSource&>(few) : source;
+  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), read));
+  return make_tile_of(plan, id, nodes, is_above ? no_proof() : proof_at_nodes(plan, nodes, source), encode);
+}
+
+Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  SCARP_TRY(auto&& kept, make_tile(plan, id, source, {}));
+  return std::move(kept.tile);
+}
+
+}  // namespace scarp

@@ -1,0 +1,41 @@
+// Tiles on their way to a sink, counted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/reporter.h"
+#include "scarp/pyramid.h"
+
+namespace scarp {
+
+/// Adds the report of other tiles of the same pyramid.
+void add_report(PyramidReport& report, const PyramidReport& more);
+
+class TileOutput {
+ public:
+  TileOutput(const PyramidPlan& plan, TileSink& sink, const Run& run);
+
+  /// Makes the tiles on all threads and puts them in this order; `make` returns nothing for a tile that is not wanted.
+  /// Progress: the share of these tiles. Fails as `make` and the sink do, and with kCancelled.
+  Result<void> make(const std::vector<TileId>& tiles,
+                    const std::function<Result<std::optional<KeptTile>>(TileId, const TileEncoder&)>& make);
+
+  /// Its tiles sorted.
+  PyramidReport take_report();
+
+ private:
+  Result<void> put(const KeptTile& kept);
+
+  const PyramidPlan& plan_;
+  TileSink& sink_;
+  const Run& run_;
+  Reporter reporter_;
+  std::uint64_t tiles_ = 0;
+  PyramidReport report_;
+};
+
+}  // namespace scarp
