@@ -15,14 +15,13 @@ import sys
 
 MAX_LINES = 600
 
-# room: (floor, rooms it may include, rooms of which it may include the public headers besides, what it holds).
-# Rooms on one floor are strangers: none includes another. A public header belongs to the room that implements it, and an
-# include of it is a step to that room. A header of values alone, which no room implements, belongs to the rooms of the
-# headers that it includes.
-ANY = None  # the public headers of all rooms on lower floors
+# room: (floor, rooms it may include, rooms of which it may use public functions besides, what it holds).
+# Rooms on one floor are strangers: none includes another. A use of a public function, or of a class with functions, is a
+# step to the room that implements it; values are free.
+ANY = None  # the public functions of all rooms on lower floors
 SESSION = [f"session/{room}" for room in ("text", "table", "options", "inputs", "plan", "reports", "tasks")]
 ROOMS = {
-    "door": (0, [], [], "`include/scarp`: the public headers, each a manual and a part of the room that implements it"),
+    "door": (0, [], [], "`include/scarp`: the public headers, each a manual"),
     "base": (0, [], [], "lattice points, exact integers, arrays, threads, memory budget, progress"),
     "grid": (1, ["base"], [], "rasters: outline, frames, runs, rows; `sources/`: samples that are not one array"),
     "geom": (1, ["base"], [], "predicates, planes, the scan of a triangle and its kernels, arrangements of lines"),
@@ -65,10 +64,9 @@ ROOMS = {
     "apps": (14, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
 }
 
-# (room, public header): why the room may include it though it belongs to a higher one.
-ALLOWED = {
-    ("metric", "options"): "SimplifyOptions have Features, whose functions in src/features the room never calls",
-}
+# Headers of rooms that the session and the program may include, too, as if they were public: manuals like these, but they
+# are not installed and promise nothing.
+SHOWN = []
 
 # Headers that only some files may include: (pattern of the header, files that may, why).
 RESERVED = [
@@ -171,46 +169,91 @@ def defined_functions(text):
 
 
 @functools.cache
-def implementers(tree):
-    """The rooms that implement each public header: those whose sources include it and define one of its functions."""
-    rooms = {path.stem: set() for path in (tree / "include/scarp").glob("*.h")}
-    declared = {name: set(declared_functions((tree / f"include/scarp/{name}.h").read_text(encoding="utf-8"))) for name in rooms}
+def public_functions(tree):
+    """By name, the public functions, and the classes with functions: the headers that declare it, the rooms that define it."""
+    found = {}
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in sorted((tree / "include/scarp").glob("*.h"))}
+    for header, text in texts.items():
+        classes = set(re.findall(r"^class (\w+)", text, re.M))
+        for name in declared_functions(text):
+            kind, _, member = name.partition("::")
+            if not member or kind in classes:
+                found.setdefault(kind, (set(), set(), set()))[0].add(header)
+                found[kind][2].add(name)
     for path in sorted((tree / "src").rglob("*.cpp")):
         if path.relative_to(tree).as_posix() == STUBS:
             continue
-        text = path.read_text(encoding="utf-8")
-        own = path.with_suffix(".h")
-        included = re.findall(r'#include "scarp/(\w+)\.h"', text + (own.read_text(encoding="utf-8") if own.is_file() else ""))
-        defined = set(defined_functions(text))
-        for name in set(included) & rooms.keys():
-            if declared[name] & defined:
-                rooms[name].add(room_of(path.relative_to(tree)))
-    return rooms, declared
+        defined = {name.removeprefix("scarp::") for name in defined_functions(path.read_text(encoding="utf-8"))}
+        reached = reached_headers(path, tree)[0]
+        for name in defined:
+            headers, rooms, names = found.get(name.partition("::")[0], ((), None, ()))
+            if name in names and reached & headers:
+                rooms.add(room_of(path.relative_to(tree)))
+    return found
 
 
-def rooms_of(name, tree, above=()):
-    """The rooms that a public header belongs to."""
-    own = implementers(tree)[0].get(name, set())
-    if own or name in above:
-        return own
-    text = (tree / f"include/scarp/{name}.h").read_text(encoding="utf-8")
-    return set().union(*(rooms_of(one, tree, (*above, name)) for one in re.findall(r'#include "scarp/(\w+)\.h"', text)))
+@functools.cache
+def includes_of(path):
+    return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.M)
 
 
-def judge_door(room, name, tree):
-    """The fault of a step from a room to the one that implements a public header, or None."""
+@functools.cache
+def reached_headers(path, tree):
+    """The names of public headers, and the other headers, that a file reaches by its includes."""
+    public, others, todo = set(), set(), [path]
+    while todo:
+        for header in includes_of(todo.pop()):
+            if header.startswith("scarp/"):
+                file = tree / "include" / header
+                if file.is_file() and file.stem not in public:
+                    public.add(file.stem)
+                    todo.append(file)
+            elif (file := tree / "src" / header).is_file() and file not in others:
+                others.add(file)
+                todo.append(file)
+    return public, others
+
+
+# `Type name(` at the beginning of a line, indented or not.
+DECLARATION = re.compile(r"^[ \t]*(?!return|else|co_return|throw)(?:(?:const|static|inline|virtual|explicit)\s+)*[\w:]+(?:<[^;={}]*>)?[&*]*\s+[&*]*(\w+)\(",
+                         re.M)
+
+
+@functools.cache
+def own_names(path):
+    """The functions that a file has itself, those of nameless namespaces and members included, and its types."""
+    text = bare(path.read_text(encoding="utf-8"))
+    names = {match.group(1).rpartition("::")[2] for match in DEFINITION.finditer(text)}
+    names |= set(DECLARATION.findall(text)) | set(re.findall(r"\bauto&?&? (\w+) = \[", text))
+    return names | set(re.findall(r"\b(?:class|struct|using|typename)\s+(\w+)\b(?!\s*;)", text))
+
+
+def judge_step(room, top):
+    """The fault of a use of what a room implements, or None."""
     floor, may_include, doors, _ = ROOMS[room]
-    if (room, name) in ALLOWED:
+    if top == room or top in may_include or (doors is not ANY and top in doors) or (doors is ANY and ROOMS[top][0] < floor):
         return None
-    for top in sorted(rooms_of(name, tree)):
-        if top == room or top in may_include or (doors is not ANY and top in doors) or (doors is ANY and ROOMS[top][0] < floor):
+    if ROOMS[top][0] == floor:
+        return f"{room} and {top} are strangers on floor {floor}"
+    if ROOMS[top][0] > floor:
+        return f"a step upwards from {room} (floor {floor}) to {top} (floor {ROOMS[top][0]})"
+    return f"{room} must not know {top}"
+
+
+def judge_uses(path, room, tree):
+    """Sentences about the public functions and classes that a file uses."""
+    public, others = reached_headers(tree / path, tree)
+    text = bare((tree / path).read_text(encoding="utf-8"))
+    words = set(re.findall(r"(?<![\w.>:])(?:scarp::)?([a-z]\w*)\(|(?<![\w.>])([A-Z]\w*)\b", text))
+    taken = None
+    for word in sorted({one or other for one, other in words} & public_functions(tree).keys()):
+        headers, rooms, _ = public_functions(tree)[word]
+        faults = [judge_step(room, top) for top in sorted(rooms)]
+        if not headers & public or not faults or None in faults or re.search(rf"^class {word};", text, re.M):
             continue
-        if ROOMS[top][0] == floor:
-            return f"it belongs to the room {top}: {room} and {top} are strangers on floor {floor}"
-        if ROOMS[top][0] > floor:
-            return f"it belongs to the room {top}: a step upwards from {room} (floor {floor}) to {top} (floor {ROOMS[top][0]})"
-        return f"it belongs to the room {top}: {room} must not know {top}"
-    return None
+        taken = taken or set().union(own_names(tree / path), *(own_names(other) for other in others))
+        if word not in taken:
+            yield f"{path}: uses {word} of scarp/{sorted(headers & public)[0]}.h, which the room {sorted(rooms)[0]} implements: {faults[0]}"
 
 
 def judge_project_include(path, room, header, tree):
@@ -218,19 +261,15 @@ def judge_project_include(path, room, header, tree):
     floor, may_include, _, _ = ROOMS[room]
     top = room_of_header(header)
     if header.startswith("scarp/"):
-        name = pathlib.PurePath(header).stem
-        if not (tree / "include" / header).is_file():
-            return f"there is no include/{header}"
-        if room != "door":
-            return judge_door(room, name, tree)
-        own = implementers(tree)[0][path.stem] if path.name != "scarp.h" else ()
-        return next(filter(None, (judge_door(one, name, tree) for one in own)), None)
+        return None if (tree / "include" / header).is_file() else f"there is no include/{header}"
+    if header in SHOWN and (room == "apps" or room.startswith("session/")):
+        return judge_step(room, top) if (tree / "src" / header).is_file() else f"there is no src/{header}"
     if room == "apps":
         if (tree / "apps" / path.parts[1] / header).is_file():
             return None
         if top in may_include and (tree / "src" / header).is_file():
             return None
-        return "apps may include scarp/*.h, session/ and headers of their own program only"
+        return "apps may include scarp/*.h, session/, headers of their own program and those of SHOWN only"
     if room == "door":
         return "a public header may include public headers only"
     if top not in ROOMS or not (tree / "src" / header).is_file():
@@ -258,16 +297,18 @@ def judge_file(path, tree):
         yield f"{path}: the room {room} is not in the table of tools/check_floors.py: sources lie in folders of src/"
         return
     lines = (tree / path).read_text(encoding="utf-8").splitlines()
-    if room == "door" and path.name != "scarp.h":
+    is_public = room == "door" and path.name != "scarp.h"
+    if is_public or "/".join(path.parts[1:]) in SHOWN:
         if "#pragma GCC visibility push(default)" not in lines:
-            yield f"{path}: a public header pushes default visibility, or a shared library hides it"
+            yield f"{path}: a public or shown header pushes default visibility, or a shared library hides it"
+    if is_public:
         if f'#include "scarp/{path.name}"' not in (tree / path.with_name("scarp.h")).read_text(encoding="utf-8"):
             yield f"{path}: scarp.h does not include it, which has all public headers"
-        rooms, declared = (found[path.stem] for found in implementers(tree))
-        if len(rooms) > 1:
-            yield f"{path}: the rooms {', '.join(sorted(rooms))} implement it: split it, a header belongs to one room"
-        if declared and not rooms:
-            yield f"{path}: no source of src that includes it defines {', '.join(sorted(declared))}"
+        lost = sorted(name for name, (headers, rooms, _) in public_functions(tree).items() if path.stem in headers and not rooms)
+        if lost:
+            yield f"{path}: no source of src that includes it defines {', '.join(lost)}"
+    elif room != "door":
+        yield from judge_uses(path, room, tree)
     if len(lines) > MAX_LINES:
         yield f"{path}: {len(lines)} lines, more than {MAX_LINES}: split it by concept"
     for number, line in enumerate(lines, 1):
@@ -297,8 +338,8 @@ def print_table():
     print("|---|---|---|---|")
     for room, (floor, may_include, doors, holds) in sorted(reversed(ROOMS.items()), key=lambda row: -row[1][0]):
         rooms = ", ".join(f"`{name}`" for name in may_include)
-        known = "public headers of all rooms below" if doors is ANY else ", ".join(f"`{name}`" for name in doors)
-        known = f"public headers of {known}" if doors else known
+        known = "public functions of all rooms below" if doors is ANY else ", ".join(f"`{name}`" for name in doors)
+        known = f"public functions of {known}" if doors else known
         print(f"| {floor} | `{room}` | {holds} | {'; '.join(filter(None, [rooms, known]))} |")
 
 
