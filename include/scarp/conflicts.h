@@ -15,8 +15,6 @@
 
 namespace scarp {
 
-struct PyramidSettings;
-
 /// A setting: a field of SimplifyOptions that differs from its default, one of its values where these differ in what
 /// they go with, or what a HeightField holds; or a setting of a pyramid of tiles.
 enum class Field : std::uint8_t {
@@ -115,7 +113,6 @@ static_assert(kFieldCount <= 64);
 
 /// Those that are set.
 Fields fields_of(const HeightField& field, const SimplifyOptions& options);
-Fields fields_of(const PyramidSettings& settings);
 
 /// The fields for which a conflict holds.
 enum class Where { kAlways, kInMemory, kStreamed };
@@ -142,8 +139,6 @@ struct Conflict {
 std::vector<Conflict> find_conflicts(Fields set);
 /// The same of a call of simplify(), which fails with kUsage and describe() of the first.
 std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOptions& options);
-/// And of plan_pyramid(), which fails likewise.
-std::vector<Conflict> find_conflicts(const PyramidSettings& settings);
 
 /// "X cannot be combined with Y: reason", or "X cannot be combined with Y beside Z: reason". `word`: what a setting is
 /// called.

@@ -150,7 +150,7 @@ struct OwnedHeightField {
   double sample_rounding = 0;
   RasterInfo info;
   std::shared_ptr<const SampleSource> source = nullptr;  ///< see open_height_field(). DEFAULT: none.
-  /// The samples of a caller who lent them (lent.h), in place of `samples`; they are never changed. DEFAULT: none.
+  /// The samples of a caller who lent them, in place of `samples`; they are never changed. DEFAULT: none.
   const float* lent = nullptr;
 
   /// Borrows this object's samples: valid while it is alive and `samples` is not resized.

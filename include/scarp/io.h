@@ -253,8 +253,8 @@ Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat forma
 /// A 3MF file (core specification 1.2) of one or more solids, each an object named by its metadata["name"]: positions
 /// rounded to float32 and written so that they read back the same, offsets from the origin of the first object; its
 /// other metadata as the file's. The unit is the millimetre if metadata["placement"] shows that the solid was placed
-/// (solid.h), else the metre. Fails with kOutput for a mesh that is no closed 2-manifold once its positions are rounded
-/// (measure_solid()).
+/// (place_mesh()), else the metre. Fails with kOutput for a mesh that is no closed 2-manifold once its positions are
+/// rounded (measure_solid()).
 Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
 /// One GLB file of several, levels of detail of one thing, the finest first (MSFT_lod): nodes NAME_LOD0, NAME_LOD1 …,
 /// of which the first is the scene's and names the others. Each level stays until the whole covers less than 1 / ratio²

@@ -26,8 +26,8 @@ enum class LineKind : std::uint8_t {
   /// together with all other lines. kWall and kRidge are only a start: from normal effort on their edges may change,
   /// and their vertices may be removed, or moved where vertices are free. They stay where high effort must keep
   /// vertices on samples.
-  kWall,       ///< along the top or foot of a wall (cliffs.h): yields, and never changes a sample
-  kRidge,      ///< a ridge or valley (ridges.h), a preference
+  kWall,       ///< along the top or foot of a wall (detect_cliffs()): yields, and never changes a sample
+  kRidge,      ///< a ridge or valley (detect_ridges()), a preference
   kKeptRidge,  ///< a ridge or valley whose edges stay
 };
 

@@ -56,7 +56,7 @@ bool is_y_up(const Mesh& mesh);
 /// line along x or y have no vertex below them: a part with n border vertices, of which c have one, and h holes gets
 /// n + c triangles for its walls and c + 2h − 2 for its base. Vertices where two parts of the domain meet in a single
 /// point are duplicated, one for each part. The solid is then closed by its indices; formats with positions only (STL)
-/// show four walls along that vertical edge (solid.h separates them).
+/// show four walls along that vertical edge (build_solid() separates them).
 /// Normals are dropped; uvs, colours and channels of a new vertex are those of the vertex above it.
 /// REQUIRES: every edge has one or two triangles, all counter-clockwise from above; base below every vertex.
 /// Returns false (mesh unchanged) if the base is not below every vertex, in float32 offsets too. Cost: O(n log n).

@@ -34,7 +34,7 @@ struct PaperOptions {
 /// Fails as simplify() does; with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy
 /// out of range: an importance of nothing, one pass with batches or without a feature of the raster, a fraction of a
 /// batch not in (0, 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order;
-/// Algorithms I and II as in strategy.h; data-dependent edges need about ten times as long.
+/// Algorithms I and II as Algorithm lists them; data-dependent edges need about ten times as long.
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options);
 
 }  // namespace scarp

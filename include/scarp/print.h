@@ -30,7 +30,7 @@ struct PrintOptions {
   /// none.
   std::optional<double> max_error = std::nullopt;
   int columns = 1, rows = 1;  ///< number of print tiles, at least 1
-  bool dovetail = false;      ///< like PrintTileOptions::dovetail
+  bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two tiles share
   double gap = 0;             ///< between print tiles, in print units, at least 0
 
   bool is_split() const { return columns > 1 || rows > 1; }

@@ -91,7 +91,7 @@ struct PyramidPlan {
   DegreeBox covered = {};  ///< by the source
   /// Sources of a stack, else empty. Tiles below the block level are made only where a source asks for their level.
   std::vector<PlannedSource> sources = {};
-  /// Water of the nodes, tile_waters.h; null without water.
+  /// Water of the nodes; null without water.
   std::shared_ptr<const TileWaters> waters = nullptr;
   /// True if tiles have masks of the lakes. REQUIRES then: waters; quantized-mesh. DEFAULT: false.
   bool has_water_mask = false;

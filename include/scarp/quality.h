@@ -56,9 +56,9 @@ struct Quality {
   /// with kUsage without a max error or a budget, for goals out of range, and for a budget below what they need.
   /// DEFAULT: none.
   ShapeGoals shape = {};
-  /// kAuto is kDominant towards an error where that order has no conflicts (conflicts.h) and, in memory, samples have
-  /// no bounds of their own; else kGreedy. kDominant with such bounds refines tiles to the largest, then greedily to
-  /// each sample's own; if some sample has none, greedily from the start. kDominant with a budget searches for the
+  /// kAuto is kDominant towards an error where that order has no conflicts (list_conflicts()) and, in memory, samples
+  /// have no bounds of their own; else kGreedy. kDominant with such bounds refines tiles to the largest, then greedily
+  /// to each sample's own; if some sample has none, greedily from the start. kDominant with a budget searches for the
   /// error, or the factor of tolerances, whose mesh fits. DEFAULT: kAuto.
   Order order = Order::kAuto;
 };

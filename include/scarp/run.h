@@ -38,6 +38,14 @@ struct Run {
   std::function<bool()> is_enough = {};
 };
 
+/// Counters of the engine.
+struct Work {
+  std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
+  std::uint64_t triangles_scanned = 0;  ///< triangles scanned
+  std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or scanned (kLocal)
+  std::uint64_t passes = 0;             ///< passes over the mesh: insertions, or batches
+};
+
 }  // namespace scarp
 
 #pragma GCC visibility pop

@@ -19,7 +19,6 @@
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/shape.h"
-#include "scarp/strategy.h"
 #include "scarp/tolerances.h"
 
 #pragma GCC visibility push(default)
@@ -92,8 +91,8 @@ struct Simplified {
 /// data.
 ///
 /// Order: towards an error goal the locally dominant order works tile by tile, on all threads; where two tiles meet, an
-/// edge that is not Delaunay is kept if the bound needs it. Budgets, and all that strategy.h offers, keep the greedy
-/// order (Algorithm III), which is one thread's work. The promise is the same.
+/// edge that is not Delaunay is kept if the bound needs it. Budgets, and all that simplify_by_paper() offers, keep the
+/// greedy order (Algorithm III), which is one thread's work. The promise is the same.
 ///
 /// Effort: kNormal then removes each vertex whose place the vertices around it can fill. It considers all
 /// triangulations of the ring around the vertex and uses the one with the least squared error; the cheapest vertices go
@@ -145,15 +144,15 @@ struct Simplified {
 /// with one pass 16 more a sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay
 /// in the process for later calls, on any thread: a second call on a small raster asks the system for next to nothing.
 ///
-/// A locked border (border.h) is on the mesh as it is on its own; every effort keeps it, and max_error holds for its
+/// A locked border (Border) is on the mesh as it is on its own; every effort keeps it, and max_error holds for its
 /// samples, too. Budgets must have room for it. It needs max_error or tolerances, and 4 bytes a sample more.
 ///
-/// Strategies (strategy.h) change which samples become vertices, never what is promised.
+/// Strategies (simplify_by_paper()) change which samples become vertices, never what is promised.
 ///
-/// Fails with kUsage (no goal, an ignored sample or a point outside the raster, settings with a conflict (conflicts.h),
-/// a mask, tolerance or channel out of range, a goal out of range, a budget below what the outline needs),
-/// kMemory (a memory limit that cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that
-/// float32 positions or samples cannot keep, a mesh that rounding or a projection folds over), kCancelled.
+/// Fails with kUsage (no goal, an ignored sample or a point outside the raster, settings with a conflict
+/// (list_conflicts()), a mask, tolerance or channel out of range, a goal out of range, a budget below what the outline
+/// needs), kMemory (a memory limit that cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a
+/// bound that float32 positions or samples cannot keep, a mesh that rounding or a projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 /// The same towards goals alone: `simplify(field, {.max_error = 1.5})`.
 Result<Simplified> simplify(const HeightField& field, const Goals& goals);

@@ -5,8 +5,6 @@
 // the run ends at its error goal.
 #pragma once
 
-#include <cstdint>
-
 #pragma GCC visibility push(default)
 
 namespace scarp {
@@ -99,14 +97,6 @@ struct Strategy {
   bool best_of_budget = true;
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
-};
-
-/// Counters of a run.
-struct Work {
-  std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
-  std::uint64_t triangles_scanned = 0;  ///< triangles scanned
-  std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or scanned (kLocal)
-  std::uint64_t passes = 0;             ///< passes over the mesh: insertions, or batches
 };
 
 }  // namespace scarp

@@ -1,6 +1,6 @@
 // Tile pyramids of terrain on the globe: which tiles there are, and how each is made.
 //
-// The grid (tile_grid.h) lists the tiles. A tile is a function of (its id, the plan, the heights of its nodes and a few
+// The grid (TileGrid) lists the tiles. A tile is a function of (its id, the plan, the heights of its nodes and a few
 // nodes around it). No neighbour enters it, so tiles may be made in any order, on any machine; two neighbours still
 // have the same vertices, heights and normals on the edge that they share.
 //
@@ -15,6 +15,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scarp/nodes.h"
@@ -34,6 +35,9 @@ struct SourceFacts {
   double min = 0, max = 0;  ///< bounds of its heights, metres
   double cell_degrees = 0;  ///< like `cell`, for a raster in degrees; 0 for others
 };
+
+/// The conflicts among the settings, each a sentence: plan_pyramid() fails with kUsage and the first. Empty: none.
+std::vector<std::string> list_conflicts(const PyramidSettings& settings);
 
 /// Fails with kUsage for settings out of range.
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings = {});

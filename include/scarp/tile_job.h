@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "scarp/globe_place.h"
 #include "scarp/io.h"
+#include "scarp/place.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/tile.h"

@@ -10,6 +10,7 @@
 // docs/tiles.md describes what each holds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -19,8 +20,6 @@
 #include <string_view>
 #include <vector>
 
-#include "scarp/globe_image.h"
-#include "scarp/globe_place.h"
 #include "scarp/pyramid.h"
 #include "scarp/result.h"
 #include "scarp/tile_grid.h"
@@ -95,6 +94,21 @@ TileGrid find_grid(const TileSetReader& set);
 
 /// The value of --vertical when the set was made, from its layer.json or tileset.json; empty if they do not hold it.
 std::string find_vertical(const TileSetReader& set);
+
+/// The position of a local grid's plane on the globe.
+struct PlaneOnGlobe {
+  /// From metres east, north and up of the sample at the raster's centre, as LocalRaster has it, to the earth's centre:
+  /// 4 × 4, by columns. It is exact at the centre, where it has the projection's turn and scale.
+  std::array<double, 16> transform{};
+  std::string crs;                  ///< CRS of the raster, as RasterInfo::crs
+  double convergence = 0;           ///< degrees from true north to the raster's, clockwise
+  double scale_x = 1, scale_y = 1;  ///< scale of the projection there: metres of the plane to one on the ground
+  /// Largest distance in metres from where the transform puts the raster to where it lies, along the ground and in
+  /// height. Its causes are the earth's curve, and scale and turn away from the centre.
+  double off_along = 0, off_height = 0;
+
+  friend bool operator==(const PlaneOnGlobe&, const PlaneOnGlobe&) = default;
+};
 
 /// The facts that a set declares in addition to the tiles.
 struct LayerFacts {

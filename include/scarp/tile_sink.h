@@ -3,27 +3,18 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "scarp/globe_image.h"
-#include "scarp/io.h"
 #include "scarp/pyramid.h"
 #include "scarp/result.h"
+#include "scarp/tile_grid.h"
 #include "scarp/tile_set.h"
-#include "scarp/tiles3d.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
-
-/// 256 · 2^k pixels each way: as many as the image has there, at most 512, which is what clients show of a tile before
-/// they load its children, or 2048 where there are none. Nothing where the image has no colour. Fails as
-/// GlobeImage::read() and encode_image().
-Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, ImageFormat format,
-                                                     const PyramidPlan& plan, TileId id);
 
 /// The encoder of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
 /// Borrows the plan.
@@ -57,20 +48,6 @@ class TileSetSink : public TileSink {
 /// The sink of a format. Borrows both. DEFAULT encoder: that of the format.
 std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,
                                             TileEncoder encoder = {});
-
-/// Tiles into a set of 3D Tiles.
-class TerrainTilesetSink final : public TileSetSink {
- public:
-  /// Borrows both. DEFAULT encoder: that of the format.
-  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder = {});
-
-  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
-  /// The files of encode_tileset(). Adds lattice_error() to the bounds.
-  Result<void> put_files(PyramidReport& report, LayerFacts facts) override;
-
- private:
-  FactsByTile facts_;
-};
 
 }  // namespace scarp
 

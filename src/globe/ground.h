@@ -1,4 +1,4 @@
-// The ground of tiles: an ellipsoid, or the plane of a local grid. Places are in the grid's degrees; see tile_grid.h.
+// The ground of tiles: an ellipsoid, or the plane of a local grid. Places are in the grid's degrees; see TileGrid.
 #pragma once
 
 #include "globe/globe.h"

@@ -8,6 +8,7 @@
 #include "grid/small_voids.h"
 #include "io/raster/raster_finish.h"
 #include "scarp/commands.h"
+#include "scarp/globe_place.h"
 #include "scarp/io.h"
 #include "scarp/nodes.h"
 #include "scarp/pyramid.h"

@@ -6,10 +6,13 @@
 #include <utility>
 
 #include "base/fnv.h"
+#include "scarp/globe_image.h"
 #include "scarp/gzip.h"
 #include "scarp/quantized_mesh.h"
 #include "scarp/tile_job.h"
+#include "scarp/tile_texture.h"
 #include "scarp/tile_waters.h"
+#include "scarp/tiles3d.h"
 
 namespace scarp {
 
@@ -24,6 +27,33 @@ TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const G
     return encode_tile_glb(place_on_earth(tile, plan), options);
   };
 }
+
+/// Tiles into a set of 3D Tiles.
+class TerrainTilesetSink final : public TileSetSink {
+ public:
+  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder)
+      : TileSetSink(writer, TileFormat::kGlb, plan, std::move(encoder)) {}
+
+  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override {
+    SCARP_TRY(const TileFacts& facts, read_tile_facts(bytes));
+    facts_[{id.z, id.y, id.x}] = facts;
+    return TileSetSink::put(id, bytes);
+  }
+
+  /// The files of encode_tileset(). Adds lattice_error() to the bounds.
+  Result<void> put_files(PyramidReport& report, LayerFacts facts) override {
+    facts.version = version();
+    for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {
+      SCARP_RETURN_IF_ERROR(writer().put_file(file.name, file.bytes));
+    }
+    for (std::size_t z = 0; z < report.levels.size(); ++z)
+      report.levels[z].bound += lattice_error(plan(), static_cast<int>(z));
+    return {};
+  }
+
+ private:
+  FactsByTile facts_;
+};
 
 }  // namespace
 
@@ -68,25 +98,6 @@ std::string TileSetSink::version() const { return fmt::format("{:016x}", hash_);
 Result<void> TileSetSink::put_files(PyramidReport& report, LayerFacts facts) {
   facts.version = version();
   return writer_->put_file("layer.json", encode_layer_json(*plan_, report, facts));
-}
-
-TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder)
-    : TileSetSink(writer, TileFormat::kGlb, plan, std::move(encoder)) {}
-
-Result<void> TerrainTilesetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
-  SCARP_TRY(const TileFacts& facts, read_tile_facts(bytes));
-  facts_[{id.z, id.y, id.x}] = facts;
-  return TileSetSink::put(id, bytes);
-}
-
-Result<void> TerrainTilesetSink::put_files(PyramidReport& report, LayerFacts facts) {
-  facts.version = version();
-  for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {
-    SCARP_RETURN_IF_ERROR(writer().put_file(file.name, file.bytes));
-  }
-  for (std::size_t z = 0; z < report.levels.size(); ++z)
-    report.levels[z].bound += lattice_error(plan(), static_cast<int>(z));
-  return {};
 }
 
 }  // namespace scarp

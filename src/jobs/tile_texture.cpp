@@ -1,10 +1,11 @@
+#include "scarp/tile_texture.h"
+
 #include <algorithm>
 #include <utility>
 
 #include "io/mesh/srgb.h"
 #include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tile_sink.h"
 
 namespace scarp {
 namespace {

@@ -8,14 +8,14 @@
 //
 // A gap is two polylines instead of one, each half of it away from the cut; no print tile covers the space between.
 
+#include "scarp/print_tiles.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "scarp/solid.h"
 
 namespace scarp {
 namespace {

@@ -4,7 +4,9 @@
 #include <array>
 
 #include "pieces/recipe.h"
+#include "scarp/options.h"
 #include "scarp/pyramid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 
@@ -276,6 +278,12 @@ std::vector<Field> list(Fields all) {
   return list;
 }
 
+std::vector<std::string> sentences(const std::vector<Conflict>& conflicts) {
+  std::vector<std::string> all;
+  for (const Conflict& conflict : conflicts) all.push_back(describe(conflict));
+  return all;
+}
+
 }  // namespace
 
 std::string_view name_of(Field field) { return kNames[static_cast<int>(field)]; }
@@ -336,15 +344,6 @@ Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
   return fields;
 }
 
-Fields fields_of(const PyramidSettings& settings) {
-  Fields fields;
-  if (settings.grid.kind == GridKind::kMercator) fields.add(Field::kTileMercator);
-  if (settings.grid.is_flat()) fields.add(Field::kTileLocal);
-  if (!settings.lines.empty()) fields.add(Field::kTileLines);
-  if (settings.only) fields.add(Field::kTileOnly);
-  return fields;
-}
-
 std::vector<Conflict> find_conflicts(Fields set) {
   std::vector<Conflict> conflicts;
   for (const ConflictRule& rule : kRules) {
@@ -364,8 +363,19 @@ std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOpt
   return find_conflicts(fields_of(field, options));
 }
 
-std::vector<Conflict> find_conflicts(const PyramidSettings& settings) { return find_conflicts(fields_of(settings)); }
-
 std::string describe(const Conflict& conflict) { return describe(conflict, name_of); }
+
+std::vector<std::string> list_conflicts(const HeightField& field, const SimplifyOptions& options) {
+  return sentences(find_conflicts(field, options));
+}
+
+std::vector<std::string> list_conflicts(const PyramidSettings& settings) {
+  Fields fields;
+  if (settings.grid.kind == GridKind::kMercator) fields.add(Field::kTileMercator);
+  if (settings.grid.is_flat()) fields.add(Field::kTileLocal);
+  if (!settings.lines.empty()) fields.add(Field::kTileLines);
+  if (settings.only) fields.add(Field::kTileOnly);
+  return sentences(find_conflicts(fields));
+}
 
 }  // namespace scarp

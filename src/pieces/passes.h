@@ -12,7 +12,7 @@
 #include "metric/error_metric.h"
 #include "pieces/piece.h"
 #include "scarp/result.h"
-#include "scarp/strategy.h"
+#include "scarp/run.h"
 
 namespace scarp {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "metric/error_metric.h"
-#include "scarp/strategy.h"
+#include "scarp/run.h"
 #include "tin/triangulation.h"
 
 namespace scarp {

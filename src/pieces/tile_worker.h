@@ -11,7 +11,7 @@
 #include "refine/tile_scanner.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
-#include "scarp/strategy.h"
+#include "scarp/run.h"
 #include "tin/assembly.h"
 #include "tin/tile_mesh.h"
 

@@ -28,7 +28,7 @@
 #include "refine/domain.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
-#include "scarp/strategy.h"
+#include "scarp/run.h"
 
 namespace scarp {
 

@@ -12,7 +12,7 @@
 
 #include "refine/tile.h"
 #include "refine/tile_scanner.h"
-#include "scarp/strategy.h"
+#include "scarp/run.h"
 #include "tin/tile_mesh.h"
 
 namespace scarp {

@@ -20,6 +20,7 @@
 #include "metric/error_metric.h"
 #include "refine/candidate_queue.h"
 #include "refine/data_dependent.h"
+#include "scarp/run.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metric/error_metric.h"
+#include "scarp/run.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
 

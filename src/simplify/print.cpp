@@ -14,6 +14,7 @@
 #include "scarp/edits.h"
 #include "scarp/judge.h"
 #include "scarp/measure.h"
+#include "scarp/print_tiles.h"
 
 namespace scarp {
 namespace {

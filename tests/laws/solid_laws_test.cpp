@@ -7,6 +7,7 @@
 
 #include "any_field.h"
 #include "scarp/io.h"
+#include "scarp/print_tiles.h"
 #include "scarp/simplify.h"
 #include "scarp/solid.h"
 

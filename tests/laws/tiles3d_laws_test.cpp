@@ -20,6 +20,7 @@
 #include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_sink.h"
+#include "scarp/tile_texture.h"
 #include "scarp/tiles3d.h"
 
 namespace scarp::tiles3d_laws_test {
@@ -207,14 +208,14 @@ PyramidPlan plan_of(const DegreeBox& covered, int finest, int cells) {
 Made make_set(const DegreeBox& covered, int threads) {
   Made made;
   made.plan = plan_of(covered, 7, 16);
-  TerrainTilesetSink sink(made.set, made.plan);
+  const auto sink = make_tile_sink(TileFormat::kGlb, made.set, made.plan);
   Run run;
   run.threads = threads;
-  const auto report = make_pyramid(made.plan, Land(covered), sink, run);
+  const auto report = make_pyramid(made.plan, Land(covered), *sink, run);
   EXPECT_TRUE(report) << report.error().message;
   made.report = *report;
   PyramidReport told = made.report;
-  EXPECT_TRUE(sink.put_files(told, {}));
+  EXPECT_TRUE(sink->put_files(told, {}));
   for (std::size_t z = 0; z < told.levels.size(); ++z)
     EXPECT_EQ(told.levels[z].bound, made.report.levels[z].bound + lattice_error(made.plan, static_cast<int>(z)));
   return made;

@@ -9,7 +9,7 @@
 
 namespace scarp::wasm {
 
-/// By the numbers of their lists in scarp/quality.h and goals.h. NaN and 0: not given.
+/// By the numbers of their lists in scarp/options.h. NaN and 0: not given.
 struct Options {
   double max_error, max_triangles, max_vertices;
   double effort, vertices, order, objective;

@@ -8,7 +8,6 @@
 #include "scarp/goals.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/strategy.h"
 #include "session/options/channel_options.h"
 
 namespace scarp::cli {

@@ -9,7 +9,6 @@
 
 #include "globe/globe.h"
 #include "globe/powers.h"
-#include "scarp/conflicts.h"
 #include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_lines.h"
@@ -212,8 +211,8 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
   if (!std::isfinite(settings.background) || is_high)
     return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within {}",
                                                settings.background, kHighestOnEarth));
-  if (const auto conflicts = find_conflicts(settings); !conflicts.empty())
-    return fail(ErrorKind::kUsage, describe(conflicts.front()));
+  if (auto conflicts = list_conflicts(settings); !conflicts.empty())
+    return fail(ErrorKind::kUsage, std::move(conflicts.front()));
   // The nodes of a local grid are samples.
   const double overshoot = settings.grid.is_flat() ? 0 : kOvershoot * (source.max - source.min);
   const double low = std::min<double>(source.min - overshoot, settings.background);
