@@ -1,7 +1,16 @@
-// Declared features of the land: the lines that the mesh must hold, whatever its max error.
+// Declare features of the land that the mesh must hold, whatever its max error: breaklines, lakes, rivers, walls,
+// ridges, points, and the cutline where it ends.
 //
 // Rivers, walls and ridges are fitted to the max error of the mesh: a coarse mesh needs few vertices along them. A
 // budget searches for that error, and each run of the search makes the lines again.
+//
+// Example:
+//     SCARP_TRY(auto&& dem, scarp::read_height_field("dem.tif"));
+//     SCARP_TRY(const auto& ponds, scarp::read_lines("lakes.geojson", {.crs = dem.info.crs}));
+//     scarp::Features features;  // SimplifyOptions::features
+//     features.breaklines.affine = scarp::map_affine(dem.info, dem.rows);
+//     SCARP_TRY(features.lakes, scarp::flatten_lakes(dem, ponds.lines, {.affine = features.breaklines.affine}));
+//     features.ridges = scarp::RidgeGoals{.height = 40};
 #pragma once
 
 #include <cstdint>

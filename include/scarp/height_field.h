@@ -1,4 +1,15 @@
-// Height fields: samples on a rectangular grid.
+// Describe the heights to simplify: samples on a rectangular grid, borrowed from an array or read through a source, and
+// the frame that maps them to the coordinates of the mesh.
+//
+// Example:
+//     const std::vector<float> heights(300 * 200, 12.5f);  // row by row, the first row in the north; NaN is nodata
+//     scarp::HeightField field;
+//     field.samples = heights.data();  // borrowed
+//     field.cols = 300;
+//     field.rows = 200;
+//     field.frame.kind = scarp::Frame::Kind::kLocal;
+//     field.frame.affine = {0, 10, 0, 0, 0, -10};  // 10 m a cell, the first sample at (0, 0), rows go south
+//     std::printf("%g to %g\n", scarp::height_range(field).min, scarp::height_range(field).max);
 #pragma once
 
 #include <array>

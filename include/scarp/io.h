@@ -1,4 +1,10 @@
-// Reading and writing of rasters and meshes.
+// Read rasters and meshes, and write meshes, rasters and images.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif", {.crs = "EPSG:32616"}));
+//     std::printf("%d x %d samples, %g to %g\n", dem.cols, dem.rows, dem.info.min, dem.info.max);
+//     SCARP_TRY(const auto& mesh, scarp::read_mesh("hills.glb"));
+//     SCARP_RETURN_IF_ERROR(scarp::write_mesh(mesh, "hills.ply"));
 #pragma once
 
 #include <array>

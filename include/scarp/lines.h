@@ -1,4 +1,12 @@
-// Lines and polygons of vector files: breaklines, cutlines, the shores of lakes.
+// Read lines and polygons of vector files, for breaklines, shores and rivers (features.h), regions (tolerances.h) and
+// cutlines.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     SCARP_TRY(auto&& dikes, scarp::read_lines("dikes.geojson", {.crs = dem.info.crs}));
+//     scarp::LineConstraints breaklines;  // Features::breaklines
+//     breaklines.lines = std::move(dikes.lines);
+//     breaklines.affine = scarp::map_affine(dem.info, dem.rows);
 #pragma once
 
 #include <array>

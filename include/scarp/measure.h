@@ -1,4 +1,12 @@
-// Measuring a mesh against its raster, by brute force and without knowing how it was made.
+// Judge any mesh against its raster, by brute force and without knowing how it was made: its errors at all samples, its
+// holes, overlaps and angles.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     SCARP_TRY(const auto& mesh, scarp::read_mesh("hills.glb"));
+//     SCARP_TRY(const auto& measured, scarp::measure(dem, mesh));
+//     std::printf("max error %g at column %d, row %d; sound: %d\n", measured.max_error, measured.max_error_at[0],
+//                 measured.max_error_at[1], measured.is_sound());
 #pragma once
 
 #include <array>

@@ -1,4 +1,11 @@
-// Triangle meshes.
+// Use the triangles that simplify() makes as arrays: order them for a GPU, turn them y up, close them into a solid.
+//
+// Example:
+//     scarp::Mesh mesh;
+//     mesh.positions = {0, 0, 1, 10, 0, 2, 0, 10, 3};  // x, y, z of three vertices, from mesh.origin
+//     mesh.triangles = {0, 1, 2};                      // counter-clockwise from above
+//     SCARP_TRY(const scarp::Mesh& solid, scarp::build_solid(mesh, 0));
+//     std::printf("%zu triangles, closed: %d\n", solid.triangle_count(), scarp::measure_solid(solid).is_solid());
 #pragma once
 
 #include <array>

@@ -1,4 +1,13 @@
-// The options of simplify().
+// Set what the mesh must keep, and how much work may make it small: the options of simplify().
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     scarp::SimplifyOptions options;
+//     options.goals.max_error = 20;                   // in the unit of the heights
+//     options.quality.effort = scarp::Effort::kHigh;  // a third of the triangles, in some ten times the time
+//     options.domain.outline_tolerance = 1;           // samples
+//     options.output.normals = true;
+//     for (const std::string& conflict : scarp::list_conflicts(dem, options)) std::printf("%s\n", conflict.c_str());
 #pragma once
 
 #include <string>

@@ -1,4 +1,13 @@
-// Greedy insertion as in the 1995 paper, with its strategies.
+// Repeat the greedy insertion of the 1995 paper, with its strategies.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     scarp::PaperOptions options;
+//     options.goals.max_triangles = 1000;
+//     options.strategy.importance.feature = scarp::Importance::Feature::kCurvature;
+//     options.strategy.importance.damping = scarp::Importance::Damping::kPlusOne;
+//     SCARP_TRY(const auto& made, scarp::simplify_by_paper(dem, options));
+//     std::printf("max error %g\n", made.measurement.max_error);
 #pragma once
 
 #include <vector>

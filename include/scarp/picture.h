@@ -1,4 +1,11 @@
-// Pictures of height fields, meshes and errors.
+// Draw height fields, meshes and errors.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     SCARP_TRY(const auto& mesh, scarp::read_mesh("hills.glb"));
+//     SCARP_TRY(const auto& picture, scarp::draw_preview(dem, mesh, {.max_side = 600}));
+//     SCARP_TRY(const auto& png, scarp::encode_png(picture));
+//     SCARP_RETURN_IF_ERROR(scarp::write_file("hills.png", png));
 #pragma once
 
 #include <array>

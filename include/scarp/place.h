@@ -28,9 +28,9 @@ enum class Vertical {
 /// The user's statement about a raster's heights and about its globe.
 struct Datum {
   Vertical vertical = Vertical::kAuto;
-  int epsg = 0;       ///< code for kEpsg: 3855 is EGM2008
-  std::string geoid;  ///< file for kGeoid: a raster of the surface's heights above the ellipsoid, in metres (GTX,
-                      ///< GeoTIFF, …)
+  int epsg = 0;            ///< code for kEpsg: 3855 is EGM2008
+  std::string geoid = {};  ///< file for kGeoid: a raster of the surface's heights above the ellipsoid, in metres (GTX,
+                           ///< GeoTIFF, …)
   /// In place of the CRS's: longitude and latitude are the raster's own, on this one.
   std::optional<Geodetic> ellipsoid = std::nullopt;
 };

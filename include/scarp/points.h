@@ -1,4 +1,10 @@
-// Scattered samples: the same job where the heights do not lie on a grid.
+// Make a mesh of scattered points, which read_points() of io.h reads.
+//
+// Example:
+//     SCARP_TRY(const auto& survey, scarp::read_points("survey.csv"));
+//     SCARP_TRY(const auto& made, scarp::simplify_points(survey, {.max_error = 5}));
+//     std::printf("%zu triangles for %llu points\n", made.simplified.mesh.triangle_count(),
+//                 static_cast<unsigned long long>(made.points));
 #pragma once
 
 #include <array>

@@ -1,4 +1,10 @@
-// A print of a terrain: simplified, placed, cut into print tiles, closed, and proven as it will be written.
+// Print a terrain: simplified, placed in millimetres, cut into print tiles, closed, and proven as it will be written.
+//
+// Example:
+//     SCARP_TRY(auto&& dem, scarp::read_height_field("dem.tif"));
+//     const scarp::PrintOptions print{.size = 150, .exaggerate = 2};
+//     SCARP_TRY(const auto& made, scarp::simplify_for_print(dem, print, {.goals = {.max_error = 20}}));
+//     SCARP_RETURN_IF_ERROR(scarp::write_mesh(made.print.tiles.front().mesh, "hills.stl"));
 #pragma once
 
 #include <cstdint>

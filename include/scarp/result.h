@@ -1,4 +1,13 @@
-// Errors as values.
+// Handle failures: a call that can fail returns a Result, which holds its value or an Error of one sentence. Examine it
+// by `if (!result)`, or forward the error by the macros below.
+//
+// Example:
+//     const auto half = [](int n) -> scarp::Result<int> {
+//       if (n % 2 != 0) return scarp::fail(scarp::ErrorKind::kInput, "3 is odd: give an even number");
+//       return n / 2;
+//     };
+//     SCARP_TRY(const int four, half(8));
+//     if (const auto failed = half(3); !failed) std::printf("%d; %s\n", four, failed.error().message.c_str());
 #pragma once
 
 #include <string>

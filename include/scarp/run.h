@@ -1,5 +1,14 @@
-// How a call runs: threads, memory, progress, and what may end it early. Nothing here is part of the result, but for
-// an early end.
+// Choose threads and memory for a call, follow its progress, cancel it or end it early. Nothing here is part of the
+// result, but for an early end.
+//
+// Example:
+//     scarp::Run run;  // SimplifyOptions::run, MeasureOptions::run, …
+//     run.threads = 2;
+//     run.memory.limit = std::uint64_t{4} << 30;
+//     run.progress = [](const scarp::Progress& now) {
+//       std::printf("%s: %.0f %%\n", std::string(now.pass).c_str(), 100 * now.fraction);
+//       return true;  // false cancels the call
+//     };
 #pragma once
 
 #include <cstdint>

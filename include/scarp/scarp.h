@@ -1,4 +1,12 @@
-// All public headers of the library.
+// Includes all public headers: for a program that reads, simplifies, measures and writes. docs/guide/library.md lists
+// what each is for, and what their stability promises.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     SCARP_TRY(const auto& made, scarp::simplify(dem, {.max_error = 20}));
+//     SCARP_TRY(const auto& measured, scarp::measure(dem, made.mesh));
+//     std::printf("max error %g, sound: %d\n", measured.max_error, measured.is_sound());
+//     SCARP_RETURN_IF_ERROR(scarp::write_mesh(made.mesh, "hills.obj"));
 #pragma once
 
 #include "scarp/alike.h"

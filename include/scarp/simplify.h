@@ -1,4 +1,11 @@
-// From a height field to the mesh: the main job.
+// Make the mesh of a height field, with the proof of its error: the main job. Also levels of detail, max errors for
+// given sizes, and a mesh that grows vertex by vertex.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     SCARP_TRY(const auto& made, scarp::simplify(dem, {.max_error = 20}));
+//     std::printf("%zu triangles, max error %g\n", made.mesh.triangle_count(), made.measurement.max_error);
+//     SCARP_RETURN_IF_ERROR(scarp::write_mesh(made.mesh, "simplified.glb"));
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Tile pyramids of terrain on the globe: which tiles there are, and how each is made.
+// Plan a pyramid of terrain tiles on the globe and make its tiles, as meshes and as bytes of quantized-mesh. For sets
+// of tiles, made of raster files, see tile_job.h.
 //
 // The grid (TileGrid) lists the tiles. A tile is a function of (its id, the plan, the heights of its nodes and a few
 // nodes around it). No neighbour enters it, so tiles may be made in any order, on any machine; two neighbours still
@@ -9,6 +10,15 @@
 //
 // A LOCAL GRID lies on a plane, its nodes are the samples of one raster, and tiles end where that does. All terms for
 // the earth's curve are 0 there.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif", {.crs = "source"}));  // in degrees
+//     SCARP_TRY(const auto& box, scarp::degrees_covered(dem, dem.frame.affine, nullptr));
+//     const scarp::SourceFacts facts{.covered = box, .cell = 80, .min = dem.info.min, .max = dem.info.max};
+//     SCARP_TRY(const auto& plan, scarp::plan_pyramid(facts, {.cells = 16}));
+//     SCARP_TRY(const auto& nodes, scarp::make_node_source(dem, {.affine = dem.frame.affine}));
+//     SCARP_TRY(const auto& tile, scarp::make_tile(plan, scarp::find_blocks(plan).front(), *nodes));
+//     SCARP_RETURN_IF_ERROR(scarp::write_file("block.terrain", scarp::encode_quantized_mesh(tile)));
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A pyramid of tiles that many processes make, on one machine or on many that share a folder.
+// Make sets of tiles of raster files, in one process, or in many, on one machine or on several that share a folder.
 //
 //   plan     write_tile_plan(): everything that a tile depends on, in a file
 //   run      each process makes blocks of the plan and keeps them in parts: make_parts()
@@ -9,6 +9,17 @@
 //
 // After a change of the sources a new plan with the settings of the one before reuses its parts: blocks whose nodes are
 // unchanged are kept.
+//
+// Example:
+//     SCARP_TRY(const auto& raster, scarp::GlobeRaster::open(scarp::find_mosaics({"dem.tif"}), {.with_range = true},
+//                                                            {.vertical = scarp::Vertical::kEgm96}));
+//     SCARP_TRY(const auto& plan, scarp::plan_pyramid(raster->facts(), {.grid = raster->grid(128)}));
+//     constexpr scarp::TileFormat kFormat = scarp::TileFormat::kQuantizedMesh;
+//     SCARP_TRY(const auto& set, scarp::create_tile_set("terrain.pmtiles", kFormat, true));
+//     const auto sink = scarp::make_tile_sink(kFormat, *set, plan);
+//     SCARP_TRY(auto&& report, scarp::make_pyramid(plan, raster->nodes(), *sink));
+//     SCARP_RETURN_IF_ERROR(sink->put_files(report, {}));
+//     SCARP_RETURN_IF_ERROR(set->finish());
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// A set of tiles, as one keeps it: a folder, or one file. All containers hold the same things: tiles, each a few bytes
-// under its TileId, and other files by name, such as "layer.json". A set that is written to one container and read
-// from it is the same set, byte for byte.
+// Write, read and check sets of tiles: folders and one-file containers. All containers hold the same things: tiles,
+// each a few bytes under its TileId, and other files by name, such as "layer.json". A set that is written to one
+// container and read from it is the same set, byte for byte.
 //
 // The container is chosen by the ending of the path:
 //   .pmtiles         PMTiles 3: one file, of which clients read ranges
@@ -8,6 +8,12 @@
 //   .3tz             3D Tiles Archive 1.3: ZIP, not compressed
 //   (none of these)  a folder: each tile and each file under its name; any web server can serve it
 // docs/tiles.md describes what each holds.
+//
+// Example:
+//     SCARP_TRY(const auto& set, scarp::open_tile_set("hills.pmtiles"));
+//     SCARP_TRY(const auto& check, scarp::check_tiles(*set));
+//     for (const scarp::TileFault& fault : check.described) std::printf("%s\n", fault.sentence.c_str());
+//     std::printf("%zu levels, sound: %d\n", set->tiles().size(), check.holds());
 #pragma once
 
 #include <array>

@@ -1,5 +1,16 @@
-// Per-sample tolerances from a raster of tolerances, regions of interest, or both: the smallest one counts. Weights
-// from a raster of weights.
+// Give samples bounds of their own: from a raster of tolerances, regions of interest, or both, where the smallest one
+// counts; or weights from a raster of weights.
+//
+// Example:
+//     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
+//     SCARP_TRY(auto&& site, scarp::read_lines("site.geojson", {.crs = dem.info.crs}));
+//     const std::vector<scarp::Region> regions{{.lines = std::move(site.lines), .tolerance = 2}};
+//     scarp::RegionGrid grid{.cols = dem.cols, .rows = dem.rows};
+//     grid.affine = scarp::map_affine(dem.info, dem.rows);
+//     grid.beyond = 20;  // elsewhere
+//     SCARP_TRY(const auto& bounds, scarp::make_tolerances(std::nullopt, regions, grid));
+//     scarp::Tolerances tolerances;  // SimplifyOptions::tolerances
+//     tolerances.values = bounds.values;
 #pragma once
 
 #include <cstdint>

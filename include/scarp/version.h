@@ -1,4 +1,7 @@
-// The version of the library.
+// Examine which version of the library a program is linked with.
+//
+// Example:
+//     std::printf("compiled for Scarp %s, linked with %s\n", SCARP_VERSION, scarp::version());
 #pragma once
 
 #define SCARP_VERSION "0.2.0"

@@ -19,19 +19,20 @@ for file in bin/scarp include/scarp/scarp.h share/man/man1/scarp.1 share/doc/sca
   share/bash-completion/completions/scarp share/zsh/site-functions/_scarp share/fish/vendor_completions.d/scarp.fish; do
   [ -s "$prefix/$file" ] || fail "not installed: $file"
 done
-for header in "$source_tree"/include/scarp/*.h; do
-  [ -s "$prefix/include/scarp/$(basename "$header")" ] || fail "not installed: $(basename "$header")"
-done
+diff <(cd "$source_tree/include/scarp" && ls) <(cd "$prefix/include/scarp" && ls) || fail "other headers are installed than are public"
 package=$(dirname "$(find "$prefix" -name scarpConfig.cmake)")
 pkgconfig=$(dirname "$(find "$prefix" -name scarp.pc)")
 [ -n "$package" ] && [ -n "$pkgconfig" ] || fail "no CMake package or no scarp.pc"
 grep -rlF -e "$source_tree" -e "$build" "$package" "$pkgconfig" "$prefix/include" && fail "installed files name the build"
 "$prefix/bin/scarp" --version | grep -q '[0-9]\.[0-9]' || fail "the installed program does not run"
 
-# 2. Each public header compiles alone.
-for header in "$prefix"/include/scarp/*.h; do
-  echo "#include <scarp/$(basename "$header")>" | c++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I"$prefix/include" -x c++ - ||
-    fail "$(basename "$header") does not compile alone"
+# 2. Each public header compiles alone, and so does the example that it begins with.
+examples=$scratch/examples
+python3 "$source_tree/tests/packaging/header_examples.py" "$prefix/include/scarp" "$source_tree/docs/guide/library.md" "$examples" ||
+  fail "the examples of the headers"
+for source in "$examples"/*.cpp; do
+  c++ -std=c++20 -Wall -Wextra -Werror -I"$prefix/include" -c "$source" -o "${source%.cpp}.o" ||
+    fail "the example of $(basename "${source%.cpp}").h"
 done
 
 # 3. find_package, after the prefix has been moved.
@@ -52,6 +53,16 @@ if command -v pkg-config >/dev/null; then
   # shellcheck disable=SC2046
   c++ -std=c++20 "$source_tree/docs/guide/library.cpp" -o "$scratch/guide" $(pkg-config --cflags --libs scarp)
   (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./guide) || fail "the program of docs/guide/library.md"
+  # The examples of the headers, in a folder with the files that they name.
+  # shellcheck disable=SC2046
+  c++ "$examples"/*.o -o "$examples/run" $(pkg-config --libs scarp)
+  cp -L "$source_tree"/data/examples/* "$examples/"
+  (
+    cd "$examples"
+    "$prefix/bin/scarp" simplify dem.tif hills.glb -e 20 -q &&
+      "$prefix/bin/scarp" tile dem.tif hills.pmtiles --cells 16 --zoom 11 --vertical egm96 -q &&
+      LD_LIBRARY_PATH="$prefix/lib" ./run >run.log
+  ) || { cat "$examples/run.log"; fail "an example of the headers"; }
   # The program of README.md; and that of library.md by the guide's lines of CMake.
   mkdir "$scratch/by_guide"
   blocks="$source_tree/tools/guide_blocks.py"
