@@ -49,9 +49,9 @@ ROOMS = {
               "finished sets of tiles, judged without knowing how they were made"),
     "tiles/mesh": (7, ["base", "globe"], ["grid", "mesh", "tiles/nodes", "simplify"],
                    "one tile: its nodes, lines, edges, mesh, and the judge of what clients decode"),
-    "tiles/pyramid": (8, ["base", "globe", "tiles/nodes", "tiles/mesh"], ["grid", "pieces", "simplify", "tiles/water"],
+    "tiles/pyramid": (8, ["base", "globe", "tiles/nodes", "tiles/mesh", "tiles/water"], ["grid", "pieces", "simplify"],
                       "levels, blocks, and what these hand to the levels above"),
-    "jobs": (9, ["base", "grid", "io"], ANY,
+    "jobs": (9, ["base", "grid", "io", "tiles/mesh", "tiles/water"], ANY,
              "what runs the engine of tiles: plans of jobs, blocks in parts, estimate, survey, sets made on demand"),
     "session/text": (7, [], [], "numbers and sentences for people: text, names of files, clocks, the type of reports"),
     "session/table": (8, ["session/text"], ["base", "io", "pieces"], "the tables of options and of formats, and what is made of them: help, proposals for unknown words"),
@@ -66,7 +66,18 @@ ROOMS = {
 
 # Headers of rooms that the session and the program may include, too, as if they were public: manuals like these, but they
 # are not installed and promise nothing.
-SHOWN = []
+SHOWN = [
+    "base/alike.h",
+    "check/level_meshes.h",
+    "grid/generate.h",
+    "io/commands.h",
+    "io/gzip.h",
+    "jobs/live_tiles.h",
+    "measure/judge.h",
+    "pieces/conflicts.h",
+    "simplify/zones.h",
+    "tiles/water/tile_waters.h",
+]
 
 # Headers that only some files may include: (pattern of the header, files that may, why).
 RESERVED = [

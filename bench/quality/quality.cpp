@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/generate.h"
 #include "suite.h"
 
 namespace bench {

@@ -5,7 +5,7 @@
 
 #include "raw.h"
 #include "scarp/height_field.h"
-#include "scarp/quality.h"
+#include "scarp/options.h"
 
 namespace bench {
 

@@ -20,6 +20,7 @@
 
 #include "../harness.h"
 #include "geom/arrangement.h"
+#include "grid/generate.h"
 #include "scarp/scarp.h"
 
 namespace {
@@ -91,7 +92,8 @@ void time_arrangement(const char* name, const scarp::Polylines& lines) {
     vertices = arranged.vertices.size();
     edges = arranged.edges.size();
   });
-  std::printf("| %s | %zu | %zu | %zu | %.2f |\n", name, lines.points.size() - lines.size(), vertices, edges, least.cpu());
+  std::printf("| %s | %zu | %zu | %zu | %.2f |\n", name, lines.points.size() - lines.size(), vertices, edges,
+              least.cpu());
   std::fflush(stdout);
 }
 

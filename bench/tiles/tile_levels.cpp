@@ -15,11 +15,9 @@
 #include <vector>
 
 #include "../speed/field.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_set.h"
-#include "scarp/tile_sink.h"
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"
 #include "tiles/mesh/tile_nodes.h"
@@ -81,10 +79,12 @@ int main(int argc, char** argv) {
       for (int round = 0; round < rounds; ++round) {
         const std::int32_t steps = scarp::steps_of(plan, z);
         const bench::Stopwatch watch;
-        const auto nodes = bench::check(scarp::TileNodes::read(plan, id, steps, scarp::normal_reach(steps), raster->nodes()));
+        const auto nodes =
+            bench::check(scarp::TileNodes::read(plan, id, steps, scarp::normal_reach(steps), raster->nodes()));
         const double is_read = watch.cpu();
         const auto tile =
-            bench::check(scarp::make_tile_of(plan, id, nodes, scarp::proof_at_nodes(plan, nodes, raster->nodes()), {})).tile;
+            bench::check(scarp::make_tile_of(plan, id, nodes, scarp::proof_at_nodes(plan, nodes, raster->nodes()), {}))
+                .tile;
         const double is_made = watch.cpu();
         const auto packed = bench::check(encode(tile));
         const double end = watch.cpu();

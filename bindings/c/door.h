@@ -8,8 +8,8 @@
 #include <new>
 #include <string>
 
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 #include "scarp_c.h"
 #include "session/text/tile_counts.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scarp/lent.h"
+#include "io/lend.h"
 #include "scarp_c.h"
 
 namespace scarp::door {

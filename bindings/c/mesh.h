@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/glb.h"
+#include "scarp/io.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
 #include "scarp/simplify.h"

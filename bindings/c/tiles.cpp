@@ -7,8 +7,8 @@
 
 #include "door.h"
 #include "inputs.h"
+#include "jobs/live_tiles.h"
 #include "mesh.h"
-#include "scarp/live_tiles.h"
 #include "session/options/tile_options.h"
 #include "session/options/values.h"
 #include "session/plan/tile_plan.h"

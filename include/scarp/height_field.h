@@ -17,15 +17,136 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "scarp/frame.h"
 #include "scarp/result.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
+
+// The map from the samples of a height field to the coordinates of its mesh.
+
+/// A map of points that is not affine, such as a map projection. Implementations are immutable and may be
+/// called from several threads at once.
+class PointTransform {
+ public:
+  virtual ~PointTransform() = default;
+  /// Maps the points (x[k], y[k]) in place; x and y have equal sizes. Returns false if any point has no image
+  /// (it is then NaN).
+  virtual bool apply(std::span<double> x, std::span<double> y) const = 0;
+};
+
+/// A map from the raster's x, y and heights into space, where the earth is round. Along a vertical, x and y fixed, it
+/// is linear in the height: verticals are straight lines. Implementations are immutable and may be called from several
+/// threads at once.
+class SpaceTransform {
+ public:
+  virtual ~SpaceTransform() = default;
+  /// Maps the points (x[k], y[k]) at the heights z[k] in place, in metres; the spans have equal sizes. Returns false if
+  /// any point has no image (it is then NaN).
+  virtual bool to_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
+  /// The inverse: back to x, y and heights.
+  virtual bool from_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
+  /// The point from which float32 positions are offsets.
+  virtual std::array<double, 3> origin() const = 0;
+  /// Away from the earth at the raster's centre, of unit length.
+  virtual std::array<double, 3> up() const = 0;
+  /// The earth-centred, earth-fixed position of (x, y, z) of the frame: row k is m[4k]·x + m[4k+1]·y + m[4k+2]·z +
+  /// m[4k+3], in metres. Its 3 × 3 part is a rotation.
+  virtual std::array<double, 12> to_earth() const = 0;
+};
+
+/// How sample (col, row) becomes a point (x, y) of the mesh:
+///   x = affine[0] + affine[1]·col + affine[2]·row
+///   y = affine[3] + affine[4]·col + affine[5]·row
+/// (GDAL's order of terms; integer col, row are sample *centres*), then `transform` where it is set. z is the
+/// sample's height. Only a frame in space, where `space` is set, maps x, y and the height together into x, y, z.
+///
+/// DEFAULT: the grid frame of a raster without georeference, see grid_frame().
+struct Frame {
+  enum class Kind {
+    kGrid,        ///< x = col, y = rows − 1 − row, cell size 1
+    kSource,      ///< the raster's own CRS
+    kLocal,       ///< metres east and north of the raster's centre, or cells; affine in the grid
+    kProjected,   ///< another CRS, reached through `transform`
+    kGeocentric,  ///< earth-centred, earth-fixed metres, reached through `space`
+    kTangent,     ///< metres east, north and up of the raster's centre on the ellipsoid, reached through `space`
+  };
+  Kind kind = Kind::kGrid;
+  std::array<double, 6> affine{0, 1, 0, 0, 0, -1};
+  std::shared_ptr<const PointTransform> transform;  ///< null where the frame is affine, and in space
+  std::shared_ptr<const SpaceTransform> space;      ///< null but in space
+  std::string crs;                                  ///< CRS of x and y: "EPSG:32611", WKT, or empty where there is none
+  std::string description;                          ///< one line for reports: what x and y are, and in which unit
+  double unit_in_metres = 0;                        ///< unit of x and y; 0 for degrees and cells, and where it is
+                                                    ///< unknown
+
+  bool is_affine() const { return transform == nullptr && space == nullptr; }
+  /// Affine part only: the position of the (fractional) sample (col, row).
+  std::array<double, 2> apply_affine(double col, double row) const {
+    return {affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row};
+  }
+  /// Orientation of the affine part: negative for the usual raster whose rows go south.
+  double determinant() const { return affine[1] * affine[5] - affine[2] * affine[4]; }
+};
+
+/// The frame of a raster with `rows` rows and no georeference: x = col, y = rows − 1 − row.
+Frame grid_frame(int rows);
+
+/// Origin that keeps offsets short: the position of the sample (cols / 2, rows / 2) in the frame, or before `space`.
+/// Returns {NaN, NaN} if that point has no image.
+std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows);
+
+/// True if every sample's offset from frame_origin() is exactly a float32, so that a mesh written with
+/// float32 offsets has its vertices exactly on the samples. `steps`: the same for the lattice of `steps` points a
+/// sample. False for frames that are not affine. Cost: O((cols + rows) · steps).
+bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps = 1);
+
+// From degrees to metres: the frame of a raster in longitude and latitude.
+
+/// The ellipsoid and the unit of longitude and latitude.
+struct Geodetic {
+  double semi_major = 6378137;                ///< semi-major axis of the ellipsoid, in metres, above 0. DEFAULT: WGS
+                                              ///< 84.
+  double inverse_flattening = 298.257223563;  ///< inverse flattening of the ellipsoid; 0: a sphere. DEFAULT: WGS 84.
+  /// An x or y of 1 in radians. DEFAULT: a degree.
+  double radians_per_unit = 0.017453292519943295;
+};
+
+/// Metres from the centre to a pole.
+inline double semi_minor(const Geodetic& geodetic) {
+  return geodetic.inverse_flattening == 0 ? geodetic.semi_major
+                                          : geodetic.semi_major * (1 - 1 / geodetic.inverse_flattening);
+}
+
+/// Metres along the ground for one unit of x and one of y at a latitude (in units of y); 0, 0 at or beyond a pole.
+std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic = {});
+
+/// The local frame of a raster in degrees: metres east and north of its centre sample (cols / 2, rows / 2), which is at
+/// 0, 0. `affine` maps samples to longitude and latitude, as Frame::affine does. Degrees become metres by two
+/// constants, the ellipsoid's radii of curvature at the centre. So the frame is affine, and a promise on the grid holds
+/// in the mesh. Lengths along the centre's parallel and meridian are true; elsewhere lengths from east to west are off
+/// by cos φ_centre / cos φ. The cell is rounded so that each sample's x and y is exactly a float32: by less than 0.03 %
+/// for 5,000 samples from the centre to the border. Needs no GDAL; read_height_field() makes the same frame from a
+/// file's CRS.
+///
+/// Frame::kind is kLocal, Frame::crs is empty, Frame::description states the centre and the cell.
+/// Fails with kUsage for fewer than 1 column or row, an affine map that is not finite, a centre at or beyond a pole,
+/// and cells too unequal for float32. Cost: O(1).
+Result<Frame> frame_of_degrees(const std::array<double, 6>& affine, int cols, int rows, const Geodetic& geodetic = {});
+
+/// The position of a raster on the globe, and the meaning of its samples.
+struct RasterPlace {
+  /// From samples to the CRS's x and y, as Frame::affine.
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
+  /// From longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
+  std::shared_ptr<const PointTransform> from_degrees = nullptr;
+  /// The inverse. Null where from_degrees is; without it no samples are shown.
+  std::shared_ptr<const PointTransform> to_degrees = nullptr;
+};
 
 /// The place of a sample in its raster: column from the left, row from the top.
 struct SampleAt {
@@ -222,6 +343,63 @@ std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance);
 
 /// Gives every nodata sample the height `value`. Returns the number of samples filled. REQUIRES: as fill_nodata().
 std::uint64_t fill_background(OwnedHeightField& field, float value);
+
+// Samples changed by lines.
+
+/// A sample that a breakline changed.
+struct SampleEdit {
+  std::int32_t col = 0, row = 0;
+  float before = 0, after = 0;
+};
+
+/// `source` with the changed samples of Simplified::edits. The promise of a mesh with hard lines refers to these
+/// samples. `edits`: in raster order, of valid samples. Cost: that of a window, and a search for its first edit in each
+/// row.
+std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
+                                                std::vector<SampleEdit> edits);
+
+/// Applies the edits to `field`, in memory or by edit_source(). Without edits nothing changes. `edits`: as above. Cost:
+/// O(edits).
+void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
+
+// Scattered samples as values.
+
+/// A line through points of a set: a contour, a ridge, the foot of a dam.
+struct PointLine {
+  std::vector<std::uint32_t> points;  ///< indices; at least two, successive ones differ; a ring ends with its first
+  std::string name;                   ///< for messages: "contours.gpkg feature 12"
+};
+
+/// Samples anywhere: z over (x, y), in one plane coordinate system. x east, y north.
+struct PointSet {
+  std::vector<double> x, y, z;   ///< coordinates, of equal size; all finite
+  std::vector<PointLine> lines;  ///< lines that no triangle crosses. EMPTY: the points are scattered
+  std::string path;              ///< their source, for messages
+  std::string format;            ///< "CSV", "GPKG", …
+  std::string crs;               ///< CRS of x and y: "EPSG:32611", WKT, or empty
+  std::string description;       ///< one line for reports: what x and y are, and in which unit
+  bool is_local = false;         ///< x and y are metres around the middle of the points
+  double unit_in_metres = 0;     ///< unit of x and y; 0 for degrees, and where it is unknown
+  /// Known facts about z, like those about a raster's heights: unit, unit_in_metres, unit_is_assumed, file_unit,
+  /// z_scale, z_offset; and crs_unit, crs_unit_in_metres of x and y in the file.
+  RasterInfo heights = {};
+  std::vector<std::string> warnings;
+  std::string columns;               ///< one line for reports: how each column was read, or where heights come from
+  std::uint64_t without_height = 0;  ///< number omitted, as ReadPointsOptions::nodata asks
+  bool is_geographic = false;        ///< for points that are lent: without a CRS that GDAL knows, x and y are degrees
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// Rule for several points at one place: with equal x and equal y as given.
+enum class DuplicatePolicy { kFirst, kLast, kHighest, kLowest, kMean };
+
+/// How the convex hull fits points.
+struct HullFit {
+  double bridged = 0;          ///< share of its area that lies across bays, where no points are
+  std::uint64_t slivers = 0;   ///< long steep triangles at it, where the points' rim is nearly straight
+  double boundary_length = 0;  ///< for a mesh that ends at the points instead; 0: the hull fits
+};
 
 }  // namespace scarp
 

@@ -14,18 +14,79 @@
 #include <string>
 #include <vector>
 
-#include "scarp/border.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
-#include "scarp/mesh_formats.h"
-#include "scarp/point_set.h"
-#include "scarp/progress.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
+
+// The formats of mesh files: one table, which options, help, completions, messages, writers and readers ask.
+
+/// The frame of a mesh if no CRS is chosen.
+enum class DefaultFrame {
+  kLocal,   ///< around the raster's centre: for viewers, whose numbers are short
+  kMetric,  ///< local for degrees, else the raster's own CRS: for files that hold doubles, and a shape in space
+  kSource,  ///< the raster's own CRS, degrees too: for files drawn on maps
+};
+
+/// In which unit the heights of a field are. Heights without a declared unit are in the unit of the CRS's x and y where
+/// that is a length, else in metres.
+enum class HeightsIn {
+  kFrame,   ///< metres in the local frame of a CRS and in space, else as in the file
+  kMetres,  ///< metres in every frame: for files that are in metres by their specification
+  kFile,    ///< in the unit of the file
+};
+
+/// In the order of the table.
+enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg, k3mf, kMsh };
+
+/// The facts about a format that do not depend on a mesh. A format with none of a field's features omits the field.
+struct MeshFormatTraits {
+  MeshFormat format;
+  const char* name;             ///< "landxml", for --of; one of the endings
+  const char* title;            ///< "LandXML": for sentences
+  const char* endings;          ///< "xml landxml": endings of file names, the usual one first
+  const char* shared = "";      ///< the ending that files of other kinds have, too: "xml"
+  const char* media_type = "";  ///< empty: none is registered
+  const char* contents;         ///< parts of a file, in a few words
+  const char* read_by;          ///< programs that read it
+
+  // The place of a mesh.
+  DefaultFrame frame = DefaultFrame::kMetric;  ///< frame of x and y unless a CRS is asked for
+  HeightsIn heights = HeightsIn::kFrame;
+  char up = 'z';                     ///< the axis that points up, 'y' or 'z'
+  bool has_choice_of_up = false;     ///< --up chooses the axis; `up` is what most readers expect
+  bool is_float32 = false;           ///< positions are offsets from the origin, rounded to float32; else doubles
+  bool has_lengths_only = false;     ///< refuses degrees
+  bool has_projection_file = false;  ///< has no place for a CRS that all its readers use: a .prj file holds it
+
+  // Contents of a file in addition to triangles.
+  bool holds_attributes = false;  ///< normals, uvs, colours
+  bool holds_zones = false;       ///< materials and node strings: MeshZones
+  bool holds_prints = false;      ///< millimetres, to those who print it
+  bool holds_solids_only = false;
+  bool holds_space = true;  ///< its z need not be the height
+
+  bool is_read = true;                   ///< decode_mesh() reads it; else it is only written
+  bool counts_in_int32 = false;          ///< its readers count vertices and triangles in signed 32-bit numbers
+  std::uint64_t bytes_per_vertex = 260;  ///< about what writing needs for a vertex and its two triangles, the file's
+                                         ///< bytes included
+};
+
+/// All formats, in the order of MeshFormat.
+std::span<const MeshFormatTraits* const> mesh_formats();
+/// REQUIRES: `format` is one of MeshFormat's names.
+const MeshFormatTraits& traits_of(MeshFormat format);
+
+/// From a name ("glb", "OBJ", "landxml", …) or from a path's extension (".xml" is LandXML); nothing if unknown.
+std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
+/// The format of a mesh file that decode_mesh() reads, by the ending of its name; where files of other kinds share that
+/// ending, by its first bytes as well. Nothing for other files.
+std::optional<MeshFormat> find_mesh_file(const std::string& path);
 
 struct MeshZones;
 
@@ -373,6 +434,56 @@ Result<std::vector<std::uint8_t>> encode_png(const Picture& picture);
 enum class ImageFormat { kPng, kJpeg, kWebp };
 /// The file's bytes, by GDAL's drivers; JPEG and WebP at a quality of 90 of 100. Fails with kOutput.
 Result<std::vector<std::uint8_t>> encode_image(const Picture& picture, ImageFormat format);
+
+// GLB files: compression and images.
+
+/// An encoded image: PNG, JPEG or WebP.
+struct GlbImage {
+  std::vector<std::uint8_t> bytes;  ///< EMPTY: no image
+  std::string mime_type = "image/png";
+};
+
+struct GlbOptions {
+  /// Quantised (KHR_mesh_quantization) and compressed (EXT_meshopt_compression, version 0 of the codec). Positions keep
+  /// their values: x and y are 16-bit multiples of 1/256 of `cell` or more, z of a power of two. A mesh or an axis that
+  /// does not fit stays float32, which is compressed, too. simplify() makes meshes that fit with Output::lattice.
+  /// Texture coordinates (16 bits), normals (12 significant bits a component) and colours (16 bits, linear) are
+  /// rounded. Triangles and vertices are put in the order that needs the fewest bytes.
+  bool compress = false;
+  /// Sides of a cell of the raster along x and y, of either sign: Frame::affine[1] and [5]. DEFAULT: none.
+  std::array<double, 2> cell{0, 0};
+  GlbImage base_color = {};  ///< draped over the mesh by its uvs; without it a mesh with uvs gets one white pixel
+  /// Tangent-space normals by the mesh's uvs. Every vertex then gets the normal (0, 0, 1) and the tangent (1, 0, 0), in
+  /// place of Mesh::normals: red is x, green y, blue z of the surface's normal, whatever the triangles.
+  GlbImage normal_map = {};
+  int threads = 1;  ///< 0: all cores. Never changes the bytes. DEFAULT: 1.
+};
+
+/// True if this build can `compress`: it has libmeshoptimizer.
+bool can_compress_glb();
+
+/// The bytes of a GLB file. encode_mesh() is this without options. Fails with kOutput as it does, for images without
+/// uvs, and for `compress` where positions are neither on the lattice nor float32, or without libmeshoptimizer; with
+/// kInput where memory runs out.
+Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options);
+
+// Images draped over a raster.
+
+/// An image on the place of a raster: its corners are those of the raster's image, as Mesh::uvs count.
+struct Drape {
+  Picture picture;
+  double covered = 1;                 ///< share of the pixels that the file has a colour for; the others are white
+  std::vector<std::string> warnings;  ///< sentences for the user
+};
+
+/// Reads an image of 8 bits (grey, a palette, or red green blue; alpha 0 and nodata are no colour) and resamples it,
+/// bilinearly, onto the raster's image, whatever its own CRS and grid; `size`: pixels on the longer side, 0: one for
+/// each pixel of the file that lies on the raster, at most 8192. An image without georeference is stretched over a
+/// raster that has none, and over any raster of as many samples as it has pixels, with a warning. By GDAL. Fails with
+/// kInput: no such file, not of 8 bits, one of the two without a place, not on the raster, a CRS that cannot be
+/// reached.
+Result<Drape> read_drape(const std::string& path, const RasterInfo& raster, int cols, int rows, int size = 0,
+                         const Run& run = {});
 
 }  // namespace scarp
 

@@ -19,7 +19,6 @@
 
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
-#include "scarp/point_set.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 

@@ -12,12 +12,11 @@
 
 #include <vector>
 
-#include "scarp/goals.h"
 #include "scarp/height_field.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/simplify.h"
-#include "scarp/strategy.h"
 #include "scarp/tolerances.h"
 
 #pragma GCC visibility push(default)

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/point_set.h"
+#include "scarp/height_field.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/simplify.h"

@@ -15,7 +15,6 @@
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
-#include "scarp/solid.h"
 
 #pragma GCC visibility push(default)
 

@@ -11,21 +11,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
-#include "scarp/edits.h"
 #include "scarp/features.h"
-#include "scarp/goals.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
 #include "scarp/options.h"
-#include "scarp/quality.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
-#include "scarp/shape.h"
 #include "scarp/tolerances.h"
 
 #pragma GCC visibility push(default)
@@ -190,6 +187,52 @@ class Refiner {
   explicit Refiner(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+// Levels of detail: meshes of one raster that replace each other.
+
+struct Levels {
+  int count = 1;     ///< 1 to 32
+  double ratio = 2;  ///< ratio of the max error of a level to that of the next finer one, above 1
+};
+
+/// The meshes for max errors E, ratio · E, ratio² · E …, the finest first; E is the max error of `options`. Each is
+/// simplified from the full raster, and proven for its own max error. All have one outline, a locked border (Border)
+/// for the max error E, or as `options` have it: where one level replaces another, no gap opens to whatever meets the
+/// raster's edge. Each level has the affine map and the origin of the others.
+///
+/// Cost: that of as many runs; coarse ones are faster. Fails as simplify() does; with kUsage for a count or a ratio out
+/// of range, without a max error, and for what does not go with levels (docs/conflicts.md).
+Result<std::vector<Simplified>> simplify_levels(const HeightField& field, const SimplifyOptions& options,
+                                                const Levels& levels);
+
+// The max error for a mesh of a given size.
+
+/// A max error for a share of the triangles.
+struct Suggestion {
+  double share = 0;             ///< share of the full grid's triangles, above 0, at most 1
+  std::optional<double> error;  ///< max error, in z units: a default run with it stays within the share, and may use
+                                ///< far less of it. Three significant digits. None: the outline alone needs more.
+};
+
+struct Suggestions {
+  std::vector<Suggestion> rows;    ///< one a share, in the order of the shares
+  bool is_estimate = false;        ///< made from windows of the raster, not from all of it
+  std::uint64_t samples_used = 0;  ///< samples of these windows, or of the raster
+};
+
+/// Suggests a max error for each share. The engine first runs greedily on the field until the last share is used up. It
+/// then runs in the default order with the errors found, on all threads, and again with larger errors where a run needs
+/// more triangles. For fields of more than 2 million samples it uses up to 16 evenly spaced windows of 256 × 256
+/// samples, refined as one: the window with the largest error gets the next vertex. Windows have more border for their
+/// area than the raster, so the estimate is a little too large. The result depends on the samples and the shares only.
+///
+/// The field is borrowed during the call. Its channels are omitted: errors are those of heights.
+/// `progress`: of the pass "estimate"; may be empty.
+/// Fails with kUsage for no shares, for shares not above 0, above 1 or not ascending, and for a field without samples
+/// in memory; with kInput if no cell is valid; with kCancelled. Memory: as a greedy run and a default run of simplify()
+/// on the samples used. Cost: some two default runs on the samples used, and one a share.
+Result<Suggestions> suggest_errors(const HeightField& field, std::span<const double> shares,
+                                   const ProgressCallback& progress = {});
 
 }  // namespace scarp
 

@@ -30,8 +30,8 @@
 #include <string>
 #include <vector>
 
+#include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/place.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/tile.h"
@@ -40,6 +40,88 @@
 #pragma GCC visibility push(default)
 
 namespace scarp {
+
+// The place of a raster on the globe, and the zero of its heights.
+
+/// The zero of heights.
+enum class Vertical {
+  kAuto,       ///< the zero that the raster's CRS names
+  kEllipsoid,  ///< the ellipsoid, as GPS gives them
+  kEgm96,      ///< the geoid EGM96: the sea, as egm96() has it
+  kEpsg,       ///< a vertical CRS of EPSG's, by PROJ and its grids
+  kGeoid,      ///< a surface that a raster holds
+  kNone,       ///< unknown: heights are used as they are, as if above the ellipsoid
+};
+
+/// The user's statement about a raster's heights and about its globe.
+struct Datum {
+  Vertical vertical = Vertical::kAuto;
+  int epsg = 0;            ///< code for kEpsg: 3855 is EGM2008
+  std::string geoid = {};  ///< file for kGeoid: a raster of the surface's heights above the ellipsoid, in metres (GTX,
+                           ///< GeoTIFF, …)
+  /// In place of the CRS's: longitude and latitude are the raster's own, on this one.
+  std::optional<Geodetic> ellipsoid = std::nullopt;
+};
+
+/// The position of a raster on the globe.
+struct RasterOnGlobe {
+  RasterPlace place;
+  std::shared_ptr<const PointTransform> to_degrees;  ///< null where place.from_degrees is
+  std::string degrees;                               ///< the CRS of longitude and latitude, as RasterInfo::crs
+  Geodetic ellipsoid;
+  std::string body;                        ///< whose ellipsoid, in the CRS's words; empty for WGS 84
+  std::shared_ptr<const HeightZero> zero;  ///< zero of the heights; null where they are above the ellipsoid
+  double zero_reach = 0;                   ///< metres that the zero is from the ellipsoid, at most
+  std::string vertical;                    ///< the zero of the heights, in words
+};
+
+/// A raster on a plane.
+struct RasterOnPlane {
+  double cell_x = 1, cell_y = 1;
+  std::string units;                  ///< unit of cell_x and cell_y: "metre", "cell", or "unit of the raster's x and y"
+  std::string vertical;               ///< the zero of the heights, in words
+  std::optional<PlaneOnGlobe> globe;  ///< nothing for a raster that has no place there
+  Geodetic ellipsoid;                 ///< ellipsoid that the plane touches, with `globe`
+  std::string body;                   ///< whose, as RasterOnGlobe::body
+  std::vector<std::string> warnings;  ///< warns if the plane lies far from its place on the globe
+  /// Likewise: where each sample lies.
+  std::optional<RasterOnGlobe> samples = std::nullopt;
+};
+
+// From the tiles of a pyramid to the files of a set: encoders, textures and sinks.
+
+/// The encoder of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
+/// Borrows the plan.
+TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
+
+/// Tiles of a format into a set.
+class TileSetSink : public TileSink {
+ public:
+  /// Borrows both. DEFAULT encoder: that of the format.
+  TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan, TileEncoder encoder = {});
+
+  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
+  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
+  /// A hash of all tiles put so far, whatever their order: 16 hexadecimal digits.
+  std::string version() const;
+  /// Writes the metadata file for clients: layer.json. Once, after all tiles. Fails with kOutput. Adds to the report's
+  /// bounds what the format adds to the tiles'.
+  virtual Result<void> put_files(PyramidReport& report, LayerFacts facts);
+
+ protected:
+  TileSetWriter& writer() { return *writer_; }
+  const PyramidPlan& plan() const { return *plan_; }
+
+ private:
+  TileSetWriter* writer_;
+  const PyramidPlan* plan_;
+  TileEncoder encoder_;
+  std::uint64_t hash_ = 0;
+};
+
+/// The sink of a format. Borrows both. DEFAULT encoder: that of the format.
+std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,
+                                            TileEncoder encoder = {});
 
 struct TileJob;
 

@@ -1,4 +1,4 @@
-#include "scarp/alike.h"
+#include "base/alike.h"
 
 #include <algorithm>
 #include <iterator>

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/clock.h"
-#include "scarp/progress.h"
+#include "scarp/run.h"
 
 namespace scarp {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "check/client_tile.h"
-#include "scarp/tile_check.h"
+#include "scarp/tile_set.h"
 
 namespace scarp {
 

@@ -16,8 +16,8 @@
 #include "check/nodes_check.h"
 #include "check/tile_faults.h"
 #include "check/tileset_check.h"
-#include "scarp/gzip.h"
-#include "scarp/tile_check.h"
+#include "io/gzip.h"
+#include "scarp/tile_set.h"
 
 namespace scarp {
 namespace {

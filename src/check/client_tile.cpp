@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scarp/gzip.h"
-#include "scarp/quantized_mesh.h"
+#include "io/gzip.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

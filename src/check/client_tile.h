@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "check/space.h"
-#include "scarp/tile_grid.h"
+#include "io/tiles3d.h"
+#include "scarp/tile.h"
 #include "scarp/tile_set.h"
-#include "scarp/tiles3d.h"
 
 namespace scarp {
 

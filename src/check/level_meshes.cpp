@@ -1,3 +1,5 @@
+#include "check/level_meshes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "check/availability.h"
 #include "check/client_tile.h"
 #include "io/tiles/set_claims.h"
-#include "scarp/tile_set_mesh.h"
 
 namespace scarp {
 namespace {

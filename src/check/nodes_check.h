@@ -6,7 +6,7 @@
 
 #include "check/space.h"
 #include "io/tiles/set_claims.h"
-#include "scarp/tile_check.h"
+#include "scarp/tile_set.h"
 
 namespace scarp {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "scarp/degrees.h"
-#include "scarp/tile_grid.h"
+#include "scarp/height_field.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

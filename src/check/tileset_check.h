@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/tiles/set_claims.h"
-#include "scarp/tile_check.h"
+#include "scarp/tile_set.h"
 
 namespace scarp {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/mesh.h"
 
 namespace scarp::draw {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "draw/canvas.h"
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 
 namespace scarp::draw {
 

@@ -1,5 +1,3 @@
-#include "scarp/cliffs.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "grid/bands.h"
 #include "grid/line_marks.h"
 #include "grid/samples.h"
+#include "scarp/features.h"
 
 namespace scarp {
 namespace {

@@ -14,7 +14,7 @@
 #include "grid/outline.h"
 #include "grid/sample_runs.h"
 #include "lines/field_lines.h"
-#include "scarp/water.h"
+#include "scarp/features.h"
 
 namespace scarp {
 namespace {

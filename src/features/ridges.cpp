@@ -1,5 +1,3 @@
-#include "scarp/ridges.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include "grid/samples.h"
 #include "grid/vertex_lattice.h"
 #include "lines/line_samples.h"
+#include "scarp/features.h"
 
 namespace scarp {
 namespace {

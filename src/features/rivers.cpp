@@ -1,5 +1,3 @@
-#include "scarp/rivers.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +16,7 @@
 #include "lines/breaklines.h"
 #include "lines/line_samples.h"
 #include "lines/profile.h"
+#include "scarp/features.h"
 
 namespace scarp {
 namespace {

@@ -1,5 +1,3 @@
-#include "scarp/water.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "lines/breaklines.h"
 #include "lines/field_lines.h"
 #include "lines/line_samples.h"
+#include "scarp/features.h"
 
 namespace scarp {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/point.h"
-#include "scarp/goals.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

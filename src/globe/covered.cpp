@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/nodes.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

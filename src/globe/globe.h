@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "scarp/degrees.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/geoid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "globe/globe.h"
-#include "scarp/degrees.h"
-#include "scarp/tile_grid.h"
+#include "scarp/height_field.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

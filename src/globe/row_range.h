@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -1,5 +1,3 @@
-#include "scarp/tile_grid.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "globe/sine.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

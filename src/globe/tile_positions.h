@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "globe/ground.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "scarp/border.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scarp/point_set.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 

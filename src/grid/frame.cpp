@@ -1,6 +1,4 @@
 // Frames: where samples lie.
-#include "scarp/frame.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

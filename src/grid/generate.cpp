@@ -1,7 +1,7 @@
 // Synthetic fields. The formulas, their integer divisions, float32 arguments and truncated heights are those of genstm,
 // so that its figures can be repeated; only the hyperbolic tangent is our own, since libm differs between machines,
 // and so is the cosine.
-#include "scarp/generate.h"
+#include "grid/generate.h"
 
 #include <fmt/format.h>
 

@@ -23,7 +23,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scarp/degrees.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 namespace {

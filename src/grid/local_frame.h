@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/result.h"
 
 namespace scarp {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/point.h"
-#include "scarp/point_set.h"
+#include "scarp/height_field.h"
 #include "scarp/result.h"
 
 namespace scarp {

@@ -1,4 +1,4 @@
-#include "scarp/commands.h"
+#include "io/commands.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +39,8 @@ std::string comment_out_command(const std::string& file, std::uint64_t lines) {
 }
 
 std::string uncomment_command(const std::string& file, const std::string& made) {
-  return fmt::format("sed '/^[[:blank:]]*[#%]/d; /^[[:blank:]]*\\/\\//d; /^[[:space:]]*$/d' {} > {}", file_word(file), file_word(made));
+  return fmt::format("sed '/^[[:blank:]]*[#%]/d; /^[[:blank:]]*\\/\\//d; /^[[:space:]]*$/d' {} > {}", file_word(file),
+                     file_word(made));
 }
 
 std::string utf8_command(const std::string& encoding, const std::string& file) {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/commands.h"
 #include "io/mesh/formats.h"
 #include "io/mesh/mesh_file_text.h"
-#include "scarp/commands.h"
 
 namespace scarp {
 namespace {

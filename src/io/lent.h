@@ -4,9 +4,9 @@
 #include <array>
 #include <string>
 
+#include "io/lend.h"
 #include "io/raster/height_unit.h"
 #include "scarp/io.h"
-#include "scarp/lent.h"
 
 namespace scarp {
 

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "scarp/lines.h"
-#include "scarp/read_lines.h"
 
 namespace scarp {
 

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "scarp/alike.h"
+#include "base/alike.h"
 
 namespace scarp {
 namespace {

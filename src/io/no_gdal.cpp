@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "grid/local_frame.h"
+#include "io/globe_image.h"
+#include "io/globe_place.h"
 #include "io/lent.h"
 #include "io/line_heights.h"
 #include "io/mesh/mesh_file.h"
@@ -18,13 +20,9 @@
 #include "io/raster/crs_description.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
-#include "scarp/degrees.h"
-#include "scarp/drape.h"
-#include "scarp/globe_image.h"
-#include "scarp/globe_place.h"
+#include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/lines.h"
-#include "scarp/read_lines.h"
 
 namespace scarp {
 namespace {

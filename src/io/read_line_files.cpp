@@ -5,10 +5,10 @@
 #include <iterator>
 #include <utility>
 
+#include "io/commands.h"
 #include "io/line_heights.h"
 #include "io/raster/height_unit.h"
-#include "scarp/commands.h"
-#include "scarp/read_lines.h"
+#include "scarp/lines.h"
 
 namespace scarp {
 namespace {

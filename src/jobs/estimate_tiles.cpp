@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "jobs/core_seconds.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 

@@ -6,16 +6,14 @@
 #include <utility>
 
 #include "grid/small_voids.h"
+#include "io/commands.h"
+#include "io/globe_place.h"
 #include "io/raster/raster_finish.h"
-#include "scarp/commands.h"
-#include "scarp/globe_place.h"
 #include "scarp/io.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/read_lines.h"
+#include "scarp/lines.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
-#include "scarp/tile_waters.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp {
 namespace {

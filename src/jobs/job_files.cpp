@@ -16,7 +16,7 @@
 #include "scarp/io.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
-#include "scarp/tile_lines.h"
+#include "tiles/mesh/tile_lines.h"
 
 namespace scarp {
 namespace {

@@ -1,4 +1,4 @@
-#include "scarp/live_tiles.h"
+#include "jobs/live_tiles.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tile_sink.h"
+#include "scarp/tile_job.h"
 
 namespace scarp {
 namespace {

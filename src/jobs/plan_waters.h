@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scarp/tile_waters.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp {
 

@@ -6,14 +6,11 @@
 #include <utility>
 
 #include "base/reporter.h"
+#include "io/commands.h"
 #include "jobs/core_seconds.h"
 #include "jobs/part_writer.h"
-#include "scarp/commands.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
-#include "scarp/tile_sink.h"
 
 namespace scarp {
 namespace {

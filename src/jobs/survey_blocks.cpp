@@ -5,8 +5,6 @@
 
 #include "base/parallel.h"
 #include "base/reporter.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 

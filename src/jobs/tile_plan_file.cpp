@@ -11,15 +11,14 @@
 #include <utility>
 
 #include "base/fnv.h"
+#include "io/commands.h"
 #include "io/tiles/byte_source.h"
 #include "io/tiles/grid_json.h"
 #include "jobs/plan_waters.h"
-#include "scarp/commands.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
-#include "scarp/tile_lines.h"
 #include "scarp/version.h"
+#include "tiles/mesh/tile_lines.h"
 
 namespace scarp {
 namespace {

@@ -1,18 +1,16 @@
-#include "scarp/tile_sink.h"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <utility>
 
 #include "base/fnv.h"
-#include "scarp/globe_image.h"
-#include "scarp/gzip.h"
-#include "scarp/quantized_mesh.h"
+#include "io/globe_image.h"
+#include "io/gzip.h"
+#include "io/tiles3d.h"
+#include "jobs/tile_texture.h"
+#include "scarp/tile.h"
 #include "scarp/tile_job.h"
-#include "scarp/tile_texture.h"
-#include "scarp/tile_waters.h"
-#include "scarp/tiles3d.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp {
 

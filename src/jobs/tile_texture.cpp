@@ -1,10 +1,9 @@
-#include "scarp/tile_texture.h"
+#include "jobs/tile_texture.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "io/mesh/srgb.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 
 namespace scarp {

@@ -15,7 +15,7 @@
 #include "grid/line_positions.h"
 #include "grid/mask_samples.h"
 #include "grid/sample_runs.h"
-#include "scarp/cutline.h"
+#include "scarp/lines.h"
 
 namespace scarp {
 

@@ -14,7 +14,7 @@
 #include "lines/breaklines.h"
 #include "lines/field_cut.h"
 #include "lines/profile.h"
-#include "scarp/edits.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 

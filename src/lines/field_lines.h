@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lines/constraints.h"
-#include "scarp/edits.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/result.h"

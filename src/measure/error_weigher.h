@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "scarp/judge.h"
+#include "measure/judge.h"
 
 namespace scarp::judge {
 

@@ -11,7 +11,7 @@
 
 #include "grid/point_rows.h"
 #include "measure/error_weigher.h"
-#include "scarp/judge.h"
+#include "measure/judge.h"
 
 namespace scarp {
 namespace {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "grid/snapped_points.h"
+#include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
-#include "scarp/point_set.h"
 #include "scarp/result.h"
 
 namespace scarp::judge {

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "scarp/progress.h"
+#include "scarp/run.h"
 
 namespace scarp::judge {
 

@@ -1,5 +1,3 @@
-#include "scarp/contours.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "mesh/half_edges.h"
+#include "scarp/mesh.h"
 
 namespace scarp {
 namespace {

@@ -8,7 +8,7 @@
 //
 // A gap is two polylines instead of one, each half of it away from the cut; no print tile covers the space between.
 
-#include "scarp/print_tiles.h"
+#include "mesh/print_tiles.h"
 
 #include <fmt/format.h>
 

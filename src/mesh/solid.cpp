@@ -4,8 +4,6 @@
 // has come to lie at one place, and then ask what makes a surface: every edge runs once in each direction, the
 // triangles at each vertex form one fan, none has lost its area, and each part encloses a volume.
 
-#include "scarp/solid.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include "mesh/close_solid.h"
 #include "mesh/exact_orient.h"
 #include "mesh/half_edges.h"
+#include "scarp/mesh.h"
 
 namespace scarp {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "grid/raster.h"
-#include "scarp/strategy.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

@@ -1,8 +1,6 @@
 // Distances are those of P. F. Felzenszwalb and D. P. Huttenlocher, "Distance Transforms of Sampled Functions", Theory
 // of Computing 8, 2012: the lower envelope of parabolas, along each row, above the distances along the columns. The
 // envelope is made in stretches of a row that do not depend on what is read, so that its rounding does not either.
-#include "scarp/regions.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +9,7 @@
 #include "base/parallel.h"
 #include "grid/column_runs.h"
 #include "grid/line_marks.h"
+#include "scarp/tolerances.h"
 
 namespace scarp {
 namespace {

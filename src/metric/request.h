@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "scarp/options.h"
-#include "scarp/strategy.h"
 
 namespace scarp {
 

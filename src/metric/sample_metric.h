@@ -10,8 +10,7 @@
 #include "geom/plane.h"
 #include "grid/raster.h"
 #include "metric/error_metric.h"
-#include "scarp/goals.h"
-#include "scarp/strategy.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "scarp/goals.h"
 #include "scarp/options.h"
 #include "scarp/result.h"
 

@@ -9,10 +9,9 @@
 
 #include "grid/samples.h"
 #include "metric/criterion.h"
+#include "pieces/conflicts.h"
 #include "pieces/effort.h"
-#include "scarp/cliffs.h"
-#include "scarp/conflicts.h"
-#include "scarp/ridges.h"
+#include "scarp/features.h"
 #include "shape/shape_refinement.h"
 
 namespace scarp {

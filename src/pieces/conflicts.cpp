@@ -1,11 +1,10 @@
-#include "scarp/conflicts.h"
+#include "pieces/conflicts.h"
 
 #include <algorithm>
 #include <array>
 
 #include "pieces/recipe.h"
 #include "scarp/options.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 
 namespace scarp {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "fit/fit.h"
-#include "scarp/quality.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

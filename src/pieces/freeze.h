@@ -13,7 +13,6 @@
 #include "grid/vertex_lattice.h"
 #include "mesh/order.h"
 #include "pieces/vertex_attributes.h"
-#include "scarp/frame.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "tin/triangulation.h"

@@ -1,6 +1,4 @@
 // Normals of all samples as an image.
-#include "scarp/normal_map.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "base/caught.h"
 #include "pieces/normals.h"
+#include "scarp/picture.h"
 
 namespace scarp {
 namespace {

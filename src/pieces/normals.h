@@ -6,8 +6,8 @@
 
 #include "grid/bands.h"
 #include "pieces/vertex_attributes.h"
-#include "scarp/border.h"
 #include "scarp/height_field.h"
+#include "scarp/options.h"
 
 namespace scarp {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/point.h"
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 

@@ -8,7 +8,7 @@
 #include "grid/vertex_lattice.h"
 #include "metric/criterion.h"
 #include "metric/source_bounds.h"
-#include "scarp/conflicts.h"
+#include "pieces/conflicts.h"
 #include "shape/shape_refinement.h"
 
 namespace scarp {

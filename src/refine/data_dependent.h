@@ -10,7 +10,7 @@
 
 #include "metric/error_metric.h"
 #include "refine/fit_cache.h"
-#include "scarp/strategy.h"
+#include "scarp/options.h"
 #include "tin/triangulation.h"
 
 namespace scarp {

@@ -5,7 +5,7 @@
 
 #include "grid/outline.h"
 #include "grid/raster.h"
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid/snapped_points.h"
-#include "scarp/point_set.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 

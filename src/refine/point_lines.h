@@ -14,7 +14,7 @@
 #include "geom/segments.h"
 #include "grid/snapped_points.h"
 #include "refine/scattered.h"
-#include "scarp/point_set.h"
+#include "scarp/height_field.h"
 #include "scarp/result.h"
 
 namespace scarp {

@@ -20,8 +20,8 @@
 #include "metric/error_metric.h"
 #include "refine/candidate_queue.h"
 #include "refine/data_dependent.h"
+#include "scarp/options.h"
 #include "scarp/run.h"
-#include "scarp/strategy.h"
 #include "tin/triangulation.h"
 
 namespace scarp {

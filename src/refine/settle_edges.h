@@ -2,8 +2,8 @@
 #pragma once
 
 #include "metric/error_metric.h"
+#include "scarp/options.h"
 #include "scarp/run.h"
-#include "scarp/strategy.h"
 #include "tin/triangulation.h"
 
 namespace scarp {

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "base/memory_budget.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
-#include "scarp/shape.h"
 #include "shape/plan_metric.h"
 #include "shape/size_field.h"
 #include "tin/triangulation.h"

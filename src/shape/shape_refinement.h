@@ -29,11 +29,10 @@
 #include "grid/raster.h"
 #include "grid/vertex_lattice.h"
 #include "metric/source_bounds.h"
-#include "scarp/frame.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
-#include "scarp/shape.h"
 #include "tin/triangulation.h"
 
 namespace scarp {

@@ -1,11 +1,10 @@
-#include "scarp/levels.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "scarp/conflicts.h"
+#include "pieces/conflicts.h"
+#include "scarp/simplify.h"
 
 namespace scarp {
 

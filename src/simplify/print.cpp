@@ -11,10 +11,10 @@
 #include <string>
 #include <utility>
 
-#include "scarp/edits.h"
-#include "scarp/judge.h"
+#include "measure/judge.h"
+#include "mesh/print_tiles.h"
+#include "scarp/height_field.h"
 #include "scarp/measure.h"
-#include "scarp/print_tiles.h"
 
 namespace scarp {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/reporter.h"
-#include "scarp/progress.h"
+#include "scarp/run.h"
 #include "scarp/simplify.h"
 
 namespace scarp {

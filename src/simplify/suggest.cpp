@@ -7,8 +7,6 @@
 // A large raster is sampled by windows. They are refined together, always the one with the largest error, so that rough
 // windows get the vertices that flat ones do not need, as in the whole raster. Windows have more border for their area
 // than the raster, which makes the estimate a little too large.
-#include "scarp/suggest.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // Materials and node strings of a finished mesh, found by place.
-#include "scarp/zones.h"
+#include "simplify/zones.h"
 
 #include <algorithm>
 #include <cmath>

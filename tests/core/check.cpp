@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "scarp/generate.h"
+#include "grid/generate.h"
 #include "scarp/simplify.h"
 
 namespace {

@@ -14,13 +14,10 @@
 #include <vector>
 
 #include "bytes.h"
-#include "scarp/cliffs.h"
+#include "scarp/features.h"
+#include "scarp/lines.h"
 #include "scarp/measure.h"
-#include "scarp/read_lines.h"
-#include "scarp/ridges.h"
-#include "scarp/rivers.h"
 #include "scarp/simplify.h"
-#include "scarp/water.h"
 
 namespace {
 

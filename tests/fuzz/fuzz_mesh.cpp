@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "scarp/glb.h"
 #include "scarp/io.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <string>
 
-#include "scarp/tile_check.h"
 #include "scarp/tile_set.h"
 
 namespace {

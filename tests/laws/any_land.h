@@ -13,9 +13,6 @@
 #include <vector>
 
 #include "globe/sine.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::testing {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 
 namespace scarp::testing {
 

@@ -10,7 +10,7 @@
 #include "features/wall_lines.h"
 #include "laws/array_source.h"
 #include "laws/fields.h"
-#include "scarp/cliffs.h"
+#include "scarp/features.h"
 #include "scarp/simplify.h"
 
 namespace scarp::cliffs_laws_test {

@@ -13,11 +13,9 @@
 #include "laws/ball.h"
 #include "laws/fields.h"
 #include "laws/sanitized.h"
-#include "scarp/cliffs.h"
-#include "scarp/conflicts.h"
-#include "scarp/levels.h"
+#include "pieces/conflicts.h"
+#include "scarp/features.h"
 #include "scarp/paper.h"
-#include "scarp/ridges.h"
 #include "scarp/simplify.h"
 
 namespace scarp::conflicts_laws_test {

@@ -10,8 +10,8 @@
 #include "geom/polygon_cover.h"
 #include "laws/any_cutlines.h"
 #include "laws/any_field.h"
-#include "scarp/cliffs.h"
-#include "scarp/cutline.h"
+#include "scarp/features.h"
+#include "scarp/lines.h"
 #include "scarp/simplify.h"
 
 namespace scarp::cutline_laws_test {

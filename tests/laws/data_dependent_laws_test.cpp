@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geom/plane.h"
+#include "grid/generate.h"
 #include "laws/strategies.h"
 #include "metric/height_metric.h"
 #include "refine/data_dependent.h"
@@ -12,7 +13,6 @@
 #include "refine/quadrilateral.h"
 #include "refine/refinement.h"
 #include "refine/settle_edges.h"
-#include "scarp/generate.h"
 
 namespace scarp::data_dependent_laws_test {
 namespace {

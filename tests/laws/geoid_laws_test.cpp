@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/geoid.h"
-#include "scarp/globe_place.h"
+#include "io/globe_place.h"
+#include "scarp/tile.h"
 
 namespace scarp::geoid_laws_test {
 namespace {

@@ -7,7 +7,6 @@
 #include "laws/any_field.h"
 #include "laws/fields.h"
 #include "laws/sanitized.h"
-#include "scarp/glb.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
 

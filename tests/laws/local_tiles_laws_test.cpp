@@ -10,11 +10,9 @@
 #include <tuple>
 #include <vector>
 
+#include "io/tiles3d.h"
 #include "laws/sanitized.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tiles3d.h"
 
 namespace scarp::local_tiles_laws_test {
 namespace {

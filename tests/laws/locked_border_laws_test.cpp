@@ -14,9 +14,8 @@
 #include "laws/any_field.h"
 #include "laws/fields.h"
 #include "laws/sanitized.h"
-#include "scarp/border.h"
-#include "scarp/levels.h"
 #include "scarp/measure.h"
+#include "scarp/options.h"
 #include "scarp/simplify.h"
 
 namespace scarp::locked_border_laws_test {

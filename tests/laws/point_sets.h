@@ -8,8 +8,8 @@
 #include <random>
 #include <utility>
 
+#include "scarp/height_field.h"
 #include "scarp/mesh.h"
-#include "scarp/point_set.h"
 
 namespace scarp::testing {
 

@@ -12,8 +12,6 @@
 
 #include "laws/any_land.h"
 #include "laws/sanitized.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::pyramid_laws_test {

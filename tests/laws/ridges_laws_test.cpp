@@ -10,7 +10,7 @@
 
 #include "laws/array_source.h"
 #include "laws/fields.h"
-#include "scarp/ridges.h"
+#include "scarp/features.h"
 #include "scarp/simplify.h"
 
 namespace scarp::ridges_laws_test {

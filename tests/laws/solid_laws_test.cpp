@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "any_field.h"
+#include "mesh/print_tiles.h"
 #include "scarp/io.h"
-#include "scarp/print_tiles.h"
+#include "scarp/mesh.h"
 #include "scarp/simplify.h"
-#include "scarp/solid.h"
 
 namespace scarp::solid_laws_test {
 namespace {

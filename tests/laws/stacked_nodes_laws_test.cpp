@@ -13,9 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::stacked_nodes_laws_test {

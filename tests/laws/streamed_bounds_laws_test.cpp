@@ -18,8 +18,8 @@
 #include "pieces/freeze.h"
 #include "pieces/strips.h"
 #include "refine/domain.h"
+#include "scarp/features.h"
 #include "scarp/measure.h"
-#include "scarp/ridges.h"
 #include "scarp/simplify.h"
 
 namespace scarp::streamed_bounds_laws_test {

@@ -10,8 +10,8 @@
 #include "laws/array_bounds.h"
 #include "laws/array_source.h"
 #include "laws/fields.h"
+#include "measure/judge.h"
 #include "pieces/normals.h"
-#include "scarp/judge.h"
 #include "scarp/simplify.h"
 
 namespace scarp::streamed_weights_laws_test {
@@ -154,7 +154,8 @@ RC_GTEST_PROP(streamed_normals, are_those_of_samples_in_memory, ()) {
         static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(sample.x);
     if (!std::isnan(field.samples[index])) at.points.push_back(p);
   }
-  const bool is_same = sample_normals(field.view(), at, {}) == sample_normals(with_source(field.view(), source), at, {});
+  const bool is_same =
+      sample_normals(field.view(), at, {}) == sample_normals(with_source(field.view(), source), at, {});
   RC_ASSERT(is_same);
 }
 

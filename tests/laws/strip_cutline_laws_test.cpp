@@ -22,8 +22,8 @@
 #include "lines/line_samples.h"
 #include "pieces/freeze.h"
 #include "pieces/strips.h"
-#include "scarp/cliffs.h"
-#include "scarp/cutline.h"
+#include "scarp/features.h"
+#include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 

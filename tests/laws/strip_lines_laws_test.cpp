@@ -19,10 +19,9 @@
 #include "pieces/freeze.h"
 #include "pieces/strips.h"
 #include "refine/domain.h"
-#include "scarp/cliffs.h"
-#include "scarp/edits.h"
+#include "scarp/features.h"
+#include "scarp/height_field.h"
 #include "scarp/measure.h"
-#include "scarp/ridges.h"
 #include "scarp/simplify.h"
 
 namespace scarp {

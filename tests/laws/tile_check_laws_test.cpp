@@ -15,16 +15,13 @@
 #include <tuple>
 #include <vector>
 
+#include "io/gzip.h"
+#include "io/tiles3d.h"
 #include "laws/sanitized.h"
-#include "scarp/gzip.h"
 #include "scarp/io.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
-#include "scarp/tile_check.h"
-#include "scarp/tile_sink.h"
-#include "scarp/tiles3d.h"
+#include "scarp/tile_job.h"
+#include "scarp/tile_set.h"
 
 namespace scarp::tile_check_laws_test {
 namespace {

@@ -12,11 +12,9 @@
 #include "globe/sine.h"
 #include "laws/any_land.h"
 #include "scarp/measure.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
-#include "scarp/tile_lines.h"
 #include "tiles/mesh/node_scan.h"
+#include "tiles/mesh/tile_lines.h"
 #include "tiles/mesh/tile_mesh_parts.h"
 #include "tiles/pyramid/coarse_nodes.h"
 

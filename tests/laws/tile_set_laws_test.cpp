@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "io/gzip.h"
 #include "io/tiles/md5.h"
 #include "io/tiles/pmtiles_parts.h"
 #include "io/zip.h"
 #include "laws/sanitized.h"
-#include "scarp/gzip.h"
 #include "scarp/tile_set.h"
 
 namespace scarp::tile_set_laws_test {

@@ -14,10 +14,6 @@
 #include <vector>
 
 #include "laws/sanitized.h"
-#include "scarp/geoid.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::tile_source_laws_test {

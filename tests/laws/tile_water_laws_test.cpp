@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "laws/sanitized.h"
-#include "scarp/tile_waters.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp::tile_water_laws_test {
 namespace {

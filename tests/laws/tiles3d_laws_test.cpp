@@ -15,13 +15,11 @@
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/glb_json.h"
 #include "io/mesh/meshopt_codec.h"
+#include "io/tiles3d.h"
+#include "jobs/tile_texture.h"
 #include "laws/sanitized.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tile_sink.h"
-#include "scarp/tile_texture.h"
-#include "scarp/tiles3d.h"
+#include "scarp/tile_job.h"
 
 namespace scarp::tiles3d_laws_test {
 namespace {

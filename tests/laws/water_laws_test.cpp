@@ -18,10 +18,9 @@
 #include "grid/window.h"
 #include "laws/any_field.h"
 #include "laws/array_source.h"
+#include "scarp/features.h"
 #include "scarp/measure.h"
-#include "scarp/rivers.h"
 #include "scarp/simplify.h"
-#include "scarp/water.h"
 
 namespace scarp {
 namespace {

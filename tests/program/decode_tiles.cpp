@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "scarp/gzip.h"
-#include "scarp/quantized_mesh.h"
+#include "io/gzip.h"
+#include "scarp/tile.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "docs_tables.h"
-#include "scarp/mesh_formats.h"
+#include "scarp/io.h"
 
 namespace scarp::formats_docs_test {
 namespace {

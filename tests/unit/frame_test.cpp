@@ -1,5 +1,3 @@
-#include "scarp/frame.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -7,7 +5,7 @@
 #include <numbers>
 
 #include "grid/local_frame.h"
-#include "scarp/degrees.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 namespace {

@@ -1,5 +1,5 @@
 // Synthetic fields: their shapes, their bounds, and the same bytes on every machine.
-#include "scarp/generate.h"
+#include "grid/generate.h"
 
 #include <gtest/gtest.h>
 

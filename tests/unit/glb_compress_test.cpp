@@ -11,7 +11,6 @@
 #include "glb_files.h"
 #include "io/mesh/meshopt_codec.h"
 #include "mesh_samples.h"
-#include "scarp/glb.h"
 #include "scarp/io.h"
 
 namespace scarp {

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "laws/fields.h"
-#include "scarp/glb.h"
 #include "scarp/io.h"
-#include "scarp/levels.h"
+#include "scarp/simplify.h"
 
 namespace scarp::glb_levels_test {
 namespace {

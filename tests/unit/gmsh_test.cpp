@@ -4,7 +4,7 @@
 
 #include "mesh_samples.h"
 #include "scarp/io.h"
-#include "scarp/zones.h"
+#include "simplify/zones.h"
 
 namespace scarp {
 namespace {

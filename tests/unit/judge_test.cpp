@@ -1,5 +1,5 @@
 // Judging with channels, masks, tolerances and ignored samples, against sums by hand.
-#include "scarp/judge.h"
+#include "measure/judge.h"
 
 #include <gtest/gtest.h>
 

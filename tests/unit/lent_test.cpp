@@ -1,6 +1,4 @@
 // A lent raster is read by its name as if it were a file.
-#include "scarp/lent.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "scarp/edits.h"
+#include "io/lend.h"
+#include "scarp/height_field.h"
 #include "scarp/io.h"
 
 namespace scarp::lent_test {

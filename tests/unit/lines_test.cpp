@@ -8,7 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "scarp/read_lines.h"
 #include "unit/raster_files.h"
 
 namespace scarp {

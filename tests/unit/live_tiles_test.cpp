@@ -1,5 +1,5 @@
 // Tiles made when they are read: those of the finished set, whatever is kept of them.
-#include "scarp/live_tiles.h"
+#include "jobs/live_tiles.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tile_sink.h"
+#include "scarp/tile_job.h"
 
 namespace scarp::live_tiles_test {
 namespace {

@@ -6,7 +6,6 @@
 #include <random>
 #include <vector>
 
-#include "scarp/frame.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "mesh_samples.h"
-#include "scarp/contours.h"
+#include "scarp/mesh.h"
 
 namespace scarp::mesh_contours_test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "mesh_samples.h"
 #include "scarp/io.h"
-#include "scarp/zones.h"
+#include "simplify/zones.h"
 
 namespace scarp {
 namespace {

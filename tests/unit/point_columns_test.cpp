@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/point_set.h"
 #include "unit/raster_files.h"
 
 namespace scarp::point_columns_test {

@@ -1,11 +1,11 @@
 // Tolerances around regions, against distances by brute force.
-#include "scarp/regions.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "scarp/tolerances.h"
 
 namespace scarp {
 namespace {

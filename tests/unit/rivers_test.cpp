@@ -1,6 +1,4 @@
 // Rivers that never rise, and the meshes that hold them.
-#include "scarp/rivers.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "scarp/features.h"
 #include "scarp/simplify.h"
 
 namespace scarp {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh_samples.h"
-#include "scarp/solid.h"
+#include "scarp/mesh.h"
 
 namespace scarp::solid_facts_test {
 namespace {

@@ -1,6 +1,4 @@
 // Max errors for meshes of given sizes.
-#include "scarp/suggest.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

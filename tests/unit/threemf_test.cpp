@@ -7,7 +7,7 @@
 #include "io/zip.h"
 #include "mesh_samples.h"
 #include "scarp/io.h"
-#include "scarp/solid.h"
+#include "scarp/mesh.h"
 
 namespace scarp::threemf_test {
 namespace {

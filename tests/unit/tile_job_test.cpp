@@ -7,9 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::tile_job_test {

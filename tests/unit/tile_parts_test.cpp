@@ -11,8 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 

@@ -9,10 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "scarp/gzip.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
+#include "io/gzip.h"
 
 namespace scarp::tile_test {
 namespace {

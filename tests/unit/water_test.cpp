@@ -1,6 +1,4 @@
 // Lakes that are made flat, and the meshes that hold them.
-#include "scarp/water.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scarp/features.h"
 #include "scarp/simplify.h"
 
 namespace scarp {

@@ -1,5 +1,5 @@
 // Materials and node strings of small meshes.
-#include "scarp/zones.h"
+#include "simplify/zones.h"
 
 #include <gtest/gtest.h>
 

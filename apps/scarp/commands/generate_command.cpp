@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "commands/commands.h"
-#include "scarp/generate.h"
+#include "grid/generate.h"
 #include "scarp/io.h"
 #include "session/plan/outputs.h"
 #include "session/table/option_table.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "commands/commands.h"
-#include "scarp/live_tiles.h"
+#include "jobs/live_tiles.h"
 #include "serve/http_server.h"
 #include "serve/preparation.h"
 #include "serve/tile_answers.h"

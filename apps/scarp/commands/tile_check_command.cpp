@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "commands/commands.h"
-#include "scarp/tile_check.h"
+#include "scarp/tile_set.h"
 #include "session/options/tile_options.h"
 #include "session/plan/tile_plan.h"
 #include "session/reports/tile_check_report.h"

@@ -10,7 +10,7 @@
 #include "commands/commands.h"
 #include "scarp/io.h"
 #include "scarp/measure.h"
-#include "scarp/solid.h"
+#include "scarp/mesh.h"
 #include "session/inputs/mesh_place.h"
 #include "session/options/output_kind.h"
 #include "session/options/raster_options.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scarp/mesh_formats.h"
+#include "scarp/io.h"
 #include "serve/http_message.h"
 
 namespace scarp::cli {
@@ -74,7 +74,7 @@ constexpr MediaType kMediaTypes[] = {
     {"3tz", "application/zip"},
     {"gz", "application/gzip"},
     {"tgz", "application/gzip"},
-    // Meshes: scarp/mesh_formats.h.
+    // Meshes: scarp/io.h.
     // "b3dm", "i3dm", "pnts", "cmpt" and "subtree" of 3D Tiles have no registered type.
 };
 

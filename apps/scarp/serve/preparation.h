@@ -5,7 +5,7 @@
 #include <future>
 #include <thread>
 
-#include "scarp/live_tiles.h"
+#include "jobs/live_tiles.h"
 
 namespace scarp::cli {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "scarp/gzip.h"
+#include "io/gzip.h"
 #include "serve/media_types.h"
 #include "serve/set_page.h"
 #include "session/text/text.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "scarp/live_tiles.h"
+#include "jobs/live_tiles.h"
 #include "scarp/tile_set.h"
 #include "serve/http_message.h"
 #include "serve/served_set.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "scarp/progress.h"
+#include "scarp/run.h"
 #include "session/text/tile_counts.h"
 
 namespace scarp::cli {

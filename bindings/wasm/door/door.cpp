@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-#include "scarp/degrees.h"
+#include "scarp/height_field.h"
 #include "scarp/version.h"
 
 extern "C" {

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "scarp/height_field.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 #define SCARP_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 

@@ -7,9 +7,6 @@
 #include <vector>
 
 #include "door.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
-#include "scarp/quantized_mesh.h"
 #include "scarp/tile.h"
 
 namespace scarp::wasm {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "scarp/edits.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 

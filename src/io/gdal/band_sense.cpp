@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "io/commands.h"
 #include "io/gdal/read_samples.h"
-#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {

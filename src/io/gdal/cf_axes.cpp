@@ -13,8 +13,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "io/commands.h"
 #include "io/gdal/open.h"
-#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {
@@ -97,10 +97,10 @@ std::string place_in_mercator(const Axes1D& axes, bool is_placed, const std::str
   if (!is_placed || y.front() < y.back()) std::reverse(y.begin(), y.end());
   const double dx = (x.back() - x.front()) / static_cast<double>(x.size() - 1) / 2;
   const double dy = (y.back() - y.front()) / static_cast<double>(y.size() - 1) / 2;
-  return translate_command(fmt::format("-a_srs EPSG:3857 -a_ullr {:.12g} {:.12g} {:.12g} {:.12g}",
-                                       kRadius * (x.front() - dx), kRadius * (y.front() - dy),
-                                       kRadius * (x.back() + dx), kRadius * (y.back() + dy)),
-                           path);
+  return translate_command(
+      fmt::format("-a_srs EPSG:3857 -a_ullr {:.12g} {:.12g} {:.12g} {:.12g}", kRadius * (x.front() - dx),
+                  kRadius * (y.front() - dy), kRadius * (x.back() + dx), kRadius * (y.back() + dy)),
+      path);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/result.h"
 
 namespace scarp::gdal {

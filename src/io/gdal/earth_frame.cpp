@@ -15,9 +15,9 @@
 #include <numbers>
 #include <vector>
 
+#include "io/commands.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/session.h"
-#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {

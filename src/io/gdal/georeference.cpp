@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "grid/local_frame.h"
+#include "io/commands.h"
 #include "io/raster/raster_finish.h"
-#include "scarp/commands.h"
-#include "scarp/degrees.h"
+#include "scarp/height_field.h"
 
 namespace scarp::gdal {
 namespace {

@@ -1,5 +1,5 @@
 // An image on the globe, read box by box.
-#include "scarp/globe_image.h"
+#include "io/globe_image.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "base/caught.h"
+#include "io/commands.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/warp_image.h"
-#include "scarp/commands.h"
 
 namespace scarp {
 namespace gdal {

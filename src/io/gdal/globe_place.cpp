@@ -1,5 +1,5 @@
 // The position of a raster on the globe: the ways to longitude, latitude and heights above the ellipsoid.
-#include "scarp/globe_place.h"
+#include "io/globe_place.h"
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
@@ -11,10 +11,10 @@
 #include <optional>
 #include <vector>
 
+#include "io/commands.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/session.h"
-#include "scarp/commands.h"
-#include "scarp/geoid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

@@ -12,7 +12,6 @@
 #include "base/caught.h"
 #include "io/gdal/session.h"
 #include "scarp/lines.h"
-#include "scarp/read_lines.h"
 
 namespace scarp::gdal {
 namespace {

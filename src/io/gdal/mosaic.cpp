@@ -14,10 +14,10 @@
 #include <tuple>
 #include <utility>
 
+#include "io/commands.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/earth_frame.h"
 #include "io/gdal/join.h"
-#include "scarp/commands.h"
 #include "scarp/io.h"
 
 namespace scarp::gdal {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/commands.h"
 #include "io/gdal/cf_axes.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/text_grid.h"
@@ -19,7 +20,6 @@
 #include "io/missing_file.h"
 #include "io/points/point_source.h"
 #include "io/spool.h"
-#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {

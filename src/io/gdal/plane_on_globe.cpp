@@ -6,8 +6,8 @@
 
 #include "io/gdal/crs.h"
 #include "io/gdal/session.h"
-#include "scarp/geoid.h"
-#include "scarp/globe_place.h"
+#include "io/globe_place.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

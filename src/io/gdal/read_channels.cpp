@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "io/commands.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
 #include "io/gdal/read_samples.h"
 #include "io/gdal/view.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
-#include "scarp/commands.h"
 
 namespace scarp {
 namespace gdal {

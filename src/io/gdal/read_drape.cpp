@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "base/caught.h"
+#include "io/commands.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/warp_image.h"
-#include "scarp/commands.h"
-#include "scarp/drape.h"
+#include "scarp/io.h"
 
 namespace scarp {
 namespace gdal {

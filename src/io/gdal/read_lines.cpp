@@ -1,6 +1,4 @@
 // Lines and polygons of a vector layer.
-#include "scarp/read_lines.h"
-
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>

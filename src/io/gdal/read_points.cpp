@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "grid/local_frame.h"
+#include "io/commands.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/earth_frame.h"
 #include "io/gdal/vector.h"
@@ -16,7 +17,6 @@
 #include "io/points/column_names.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
-#include "scarp/commands.h"
 
 namespace scarp::gdal {
 namespace {

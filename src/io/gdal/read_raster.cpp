@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "grid/height_range.h"
+#include "io/commands.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
 #include "io/gdal/read_samples.h"
@@ -21,7 +22,6 @@
 #include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
-#include "scarp/commands.h"
 
 namespace scarp {
 namespace gdal {

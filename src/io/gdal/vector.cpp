@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <string_view>
 
+#include "io/commands.h"
 #include "io/kinds.h"
 #include "io/missing_file.h"
 #include "io/spool.h"
-#include "scarp/commands.h"
 
 namespace scarp::gdal {
 

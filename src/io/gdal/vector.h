@@ -10,7 +10,7 @@
 
 #include "io/gdal/crs.h"
 #include "io/gdal/open.h"
-#include "scarp/progress.h"
+#include "scarp/run.h"
 
 namespace scarp::gdal {
 

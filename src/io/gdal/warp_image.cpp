@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "scarp/commands.h"
+#include "io/commands.h"
 
 namespace scarp::gdal {
 namespace {

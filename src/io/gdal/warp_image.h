@@ -9,8 +9,8 @@
 #include "io/gdal/crs.h"
 #include "io/gdal/open.h"
 #include "scarp/io.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 namespace scarp::gdal {
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "io/gdal/session.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 namespace scarp::gdal {
 

@@ -1,4 +1,4 @@
-// The table of mesh formats with their writers and readers. A new format is a name in scarp/mesh_formats.h, a row here,
+// The table of mesh formats with their writers and readers. A new format is a name in scarp/io.h, a row here,
 // and the file that holds its writer and its reader.
 #pragma once
 
@@ -11,7 +11,6 @@
 
 #include "scarp/io.h"
 #include "scarp/mesh.h"
-#include "scarp/mesh_formats.h"
 #include "scarp/result.h"
 
 namespace scarp {

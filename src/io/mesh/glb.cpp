@@ -3,8 +3,6 @@
 // glTF is y up and right-handed: (x, y, z) of ours becomes (x, z, −y). That is a rotation, so winding stays as it is.
 // Positions are float32 offsets, or numbers of a grid; the origin is the translation of the only node, where JSON keeps
 // every bit of its doubles. Each part of the mesh is a primitive with indices of 16 bits.
-#include "scarp/glb.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +21,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_parts.h"
 #include "io/mesh/meshopt_codec.h"
+#include "scarp/io.h"
 
 namespace scarp {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/glb.h"
+#include "scarp/io.h"
 #include "scarp/mesh.h"
 
 namespace scarp {

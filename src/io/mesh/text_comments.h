@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/mesh/mesh_file_text.h"
+#include "scarp/mesh.h"
 
 namespace scarp {
 

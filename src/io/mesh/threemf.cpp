@@ -22,7 +22,7 @@
 #include "io/mesh/xml_reader.h"
 #include "io/zip.h"
 #include "scarp/io.h"
-#include "scarp/solid.h"
+#include "scarp/mesh.h"
 #include "scarp/version.h"
 
 namespace scarp {

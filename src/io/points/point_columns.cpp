@@ -12,11 +12,11 @@
 #include <optional>
 #include <unordered_set>
 
+#include "io/commands.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/column_facts.h"
 #include "io/points/column_names.h"
 #include "io/points/text_lines.h"
-#include "scarp/commands.h"
 
 namespace scarp {
 namespace {

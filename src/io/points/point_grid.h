@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "scarp/point_set.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 

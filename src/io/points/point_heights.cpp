@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "io/commands.h"
 #include "io/points/point_source.h"
-#include "scarp/commands.h"
 
 namespace scarp {
 namespace {

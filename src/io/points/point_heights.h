@@ -5,8 +5,8 @@
 #include <string>
 
 #include "io/raster/height_unit.h"
+#include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/point_set.h"
 
 namespace scarp {
 

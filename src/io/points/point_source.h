@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/point_set.h"
 
 namespace scarp {
 

@@ -10,13 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "io/commands.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/column_names.h"
 #include "io/points/point_columns.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 #include "io/points/text_lines.h"
-#include "scarp/commands.h"
 #include "scarp/io.h"
 
 namespace scarp {

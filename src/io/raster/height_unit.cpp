@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "scarp/commands.h"
+#include "io/commands.h"
 
 namespace scarp {
 namespace {

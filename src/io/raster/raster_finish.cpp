@@ -9,7 +9,7 @@
 #include "base/large_vector.h"
 #include "grid/height_range.h"
 #include "grid/local_frame.h"
-#include "scarp/commands.h"
+#include "io/commands.h"
 
 namespace scarp {
 

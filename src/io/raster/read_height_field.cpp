@@ -11,13 +11,13 @@
 
 #include "base/caught.h"
 #include "grid/small_voids.h"
+#include "io/commands.h"
 #include "io/lent.h"
 #include "io/raster/pgm.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 #include "io/raster/stm.h"
 #include "io/spool.h"
-#include "scarp/commands.h"
 
 namespace scarp {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "globe/ground.h"
 #include "globe/powers.h"
-#include "scarp/tiles3d.h"
+#include "io/tiles3d.h"
 
 namespace scarp {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "scarp/geoid.h"
-#include "scarp/globe_place.h"
+#include "io/globe_place.h"
 #include "scarp/io.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

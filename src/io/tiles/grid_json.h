@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "io/tiles/json_members.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

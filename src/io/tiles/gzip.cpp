@@ -1,4 +1,4 @@
-#include "scarp/gzip.h"
+#include "io/gzip.h"
 
 #include <zlib.h>
 

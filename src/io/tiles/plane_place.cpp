@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scarp/commands.h"
-#include "scarp/globe_place.h"
+#include "io/commands.h"
+#include "io/globe_place.h"
 
 namespace scarp {
 namespace {

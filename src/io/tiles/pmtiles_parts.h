@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scarp/result.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

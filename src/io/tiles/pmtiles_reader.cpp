@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "io/base64.h"
+#include "io/gzip.h"
 #include "io/tiles/pmtiles_parts.h"
 #include "io/tiles/set_archive.h"
 #include "io/tiles/tile_levels.h"
 #include "io/tiles/tile_names.h"
-#include "scarp/gzip.h"
 
 namespace scarp {
 namespace {

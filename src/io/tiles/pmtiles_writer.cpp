@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "io/base64.h"
+#include "io/gzip.h"
 #include "io/tiles/pmtiles_parts.h"
 #include "io/tiles/set_archive.h"
-#include "scarp/gzip.h"
 #include "scarp/version.h"
 
 namespace scarp {

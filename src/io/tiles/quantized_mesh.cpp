@@ -1,6 +1,4 @@
 // quantized-mesh 1.0: https://github.com/CesiumGS/quantized-mesh
-#include "scarp/quantized_mesh.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +9,7 @@
 
 #include "globe/ground.h"
 #include "globe/tile_positions.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

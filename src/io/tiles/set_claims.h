@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "io/tiles3d.h"
 #include "scarp/tile_set.h"
-#include "scarp/tiles3d.h"
 
 namespace scarp {
 

@@ -13,7 +13,7 @@
 #include "io/mesh/glb_numbers.h"
 #include "io/mesh/meshopt_codec.h"
 #include "io/tiles/json_members.h"
-#include "scarp/tiles3d.h"
+#include "io/tiles3d.h"
 #include "scarp/version.h"
 
 namespace scarp {

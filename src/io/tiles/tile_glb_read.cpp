@@ -10,7 +10,7 @@
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/glb_arrays.h"
 #include "io/mesh/glb_numbers.h"
-#include "scarp/tiles3d.h"
+#include "io/tiles3d.h"
 
 namespace scarp {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

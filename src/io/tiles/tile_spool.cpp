@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "io/file_reason.h"
-#include "scarp/gzip.h"
+#include "io/gzip.h"
 
 namespace scarp {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scarp/result.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

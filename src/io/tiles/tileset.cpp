@@ -11,7 +11,7 @@
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/glb_json.h"
 #include "io/tiles/grid_json.h"
-#include "scarp/tiles3d.h"
+#include "io/tiles3d.h"
 #include "scarp/version.h"
 
 namespace scarp {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "scarp/commands.h"
+#include "io/commands.h"
 #include "session/inputs/companions.h"
 #include "session/text/text.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "scarp/goals.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
+#include "scarp/options.h"
 #include "session/options/channel_options.h"
 
 namespace scarp::cli {

@@ -5,8 +5,8 @@
 #include <array>
 #include <optional>
 
-#include "scarp/commands.h"
-#include "scarp/read_lines.h"
+#include "io/commands.h"
+#include "scarp/lines.h"
 #include "session/inputs/memory.h"
 #include "session/text/text.h"
 

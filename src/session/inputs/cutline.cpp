@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "scarp/read_lines.h"
+#include "scarp/lines.h"
 #include "session/inputs/lines.h"
 #include "session/options/values.h"
 #include "session/text/text.h"

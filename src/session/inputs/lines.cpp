@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "scarp/commands.h"
-#include "scarp/read_lines.h"
+#include "io/commands.h"
+#include "scarp/lines.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

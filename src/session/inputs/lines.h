@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/lines.h"
-#include "scarp/read_lines.h"
 #include "session/options/line_options.h"
 
 namespace scarp::cli {

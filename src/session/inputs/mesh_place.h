@@ -8,7 +8,6 @@
 
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
-#include "scarp/point_set.h"
 #include "session/options/given_options.h"
 
 namespace scarp::cli {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scarp/commands.h"
+#include "io/commands.h"
 #include "session/options/given_options.h"
 #include "session/text/text.h"
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "scarp/read_lines.h"
+#include "scarp/lines.h"
 #include "session/inputs/lines.h"
 
 namespace scarp::cli {

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "scarp/read_lines.h"
+#include "scarp/lines.h"
 #include "session/inputs/lines.h"
 #include "session/text/text.h"
 

@@ -8,8 +8,8 @@
 
 #include "scarp/features.h"
 #include "scarp/io.h"
-#include "scarp/zones.h"
 #include "session/options/given_options.h"
+#include "simplify/zones.h"
 
 namespace scarp::cli {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scarp/levels.h"
+#include "scarp/simplify.h"
 #include "session/options/given_options.h"
 #include "session/options/output_kind.h"
 

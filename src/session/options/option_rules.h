@@ -1,5 +1,5 @@
 // The one table of refusals between options: some need others, some exclude each other. Conflicts of the library's own
-// settings are in scarp/conflicts.h.
+// settings are in src/pieces/conflicts.h.
 #pragma once
 
 #include <array>

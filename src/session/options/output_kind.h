@@ -4,10 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "scarp/glb.h"
 #include "scarp/io.h"
 #include "scarp/mesh.h"
-#include "scarp/mesh_formats.h"
 #include "session/options/values.h"
 
 namespace scarp::cli {

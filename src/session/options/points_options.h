@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/point_set.h"
 #include "scarp/result.h"
 #include "session/options/given_options.h"
 

@@ -1,7 +1,7 @@
 // The options for the shape of triangles.
 #pragma once
 
-#include "scarp/shape.h"
+#include "scarp/options.h"
 #include "session/options/given_options.h"
 
 namespace scarp::cli {

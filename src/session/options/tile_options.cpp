@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "session/options/image_options.h"
 #include "session/options/memory_options.h"
 #include "session/text/text.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "session/options/raster_options.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scarp/conflicts.h"
+#include "pieces/conflicts.h"
 #include "session/options/tile_options.h"
 #include "session/plan/simplify_plan.h"
 

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "scarp/lines.h"
-#include "scarp/pyramid.h"
-#include "scarp/read_lines.h"
 #include "scarp/tile.h"
 #include "session/plan/conflicts.h"
 #include "session/text/text.h"

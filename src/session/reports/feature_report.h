@@ -9,10 +9,10 @@
 #include "scarp/features.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
-#include "scarp/zones.h"
 #include "session/inputs/cutline.h"
 #include "session/options/given_options.h"
 #include "session/text/json.h"
+#include "simplify/zones.h"
 
 namespace scarp::cli {
 

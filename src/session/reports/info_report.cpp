@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/solid.h"
+#include "scarp/mesh.h"
 #include "scarp/version.h"
 #include "session/reports/place.h"
 #include "session/reports/points_report.h"

@@ -7,8 +7,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/mesh.h"
-#include "scarp/point_set.h"
-#include "scarp/suggest.h"
+#include "scarp/simplify.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "scarp/glb.h"
+#include "scarp/io.h"
 
 namespace scarp::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/tile_set_mesh.h"
+#include "check/level_meshes.h"
 #include "session/reports/view_page.h"
 
 namespace scarp::cli {

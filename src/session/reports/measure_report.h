@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "measure/judge.h"
 #include "scarp/height_field.h"
-#include "scarp/judge.h"
 #include "scarp/mesh.h"
 #include "session/inputs/channels.h"
 #include "session/inputs/companions.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scarp/height_field.h"
-#include "scarp/point_set.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_run.h"
 #include "session/text/json.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "measure/judge.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
-#include "scarp/judge.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 #include "session/text/json.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/shape.h"
+#include "scarp/options.h"
 #include "scarp/simplify.h"
 #include "session/text/json.h"
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "measure/judge.h"
 #include "scarp/features.h"
-#include "scarp/glb.h"
 #include "scarp/height_field.h"
-#include "scarp/judge.h"
+#include "scarp/io.h"
 #include "session/inputs/channels.h"
 #include "session/inputs/companions.h"
 #include "session/inputs/cutline.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scarp/tile_check.h"
+#include "scarp/tile_set.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {

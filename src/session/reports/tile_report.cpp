@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "scarp/tile_waters.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/judge.h"
+#include "measure/judge.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/conflicts.h"
+#include "pieces/conflicts.h"
 #include "session/table/field_options.h"
 
 namespace scarp::cli {

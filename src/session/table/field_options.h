@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-#include "scarp/conflicts.h"
+#include "pieces/conflicts.h"
 #include "session/table/option_table.h"
 
 namespace scarp::cli {

@@ -1,12 +1,12 @@
 // The formats of OUTPUT in words, for the rows of options and for errors: all of it from the table of mesh formats
-// (scarp/mesh_formats.h), to which drawings and rasters are added.
+// (scarp/io.h), to which drawings and rasters are added.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "scarp/mesh_formats.h"
+#include "scarp/io.h"
 
 namespace scarp::cli {
 

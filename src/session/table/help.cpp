@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "scarp/mesh_formats.h"
+#include "scarp/io.h"
 #include "scarp/version.h"
 #include "session/table/conflict_words.h"
 #include "session/table/format_words.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scarp/alike.h"
+#include "base/alike.h"
 #include "session/table/help.h"
 #include "session/table/missing_value.h"
 #include "session/table/option_table.h"

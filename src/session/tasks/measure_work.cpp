@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/mesh.h"
 #include "scarp/picture.h"
-#include "scarp/solid.h"
 #include "session/inputs/cutline.h"
 #include "session/inputs/memory.h"
 #include "session/inputs/mesh_place.h"
@@ -50,8 +50,7 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 
 /// The likeliest mistake of all: the mesh before the raster.
 Result<void> check_order(const GivenOptions& given) {
-  if (given.inputs().size() != 1 || !find_mesh_file(given.input()) ||
-      find_mesh_format(lower_extension(*given[kMesh])))
+  if (given.inputs().size() != 1 || !find_mesh_file(given.input()) || find_mesh_format(lower_extension(*given[kMesh])))
     return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} is a mesh: the raster comes first, scarp measure {} {}", shell_word(given.input()),

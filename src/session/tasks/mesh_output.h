@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/glb.h"
+#include "scarp/io.h"
 #include "scarp/mesh.h"
 #include "session/options/output_kind.h"
 #include "session/plan/simplify_plan.h"

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "scarp/points.h"
 #include "session/inputs/mesh_place.h"
 #include "session/options/error_goal.h"
 #include "session/options/raster_options.h"

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "scarp/io.h"
-#include "scarp/progress.h"
+#include "scarp/run.h"
 
 namespace scarp::cli {
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include "scarp/normal_map.h"
 #include "scarp/picture.h"
 #include "session/inputs/memory.h"
 #include "session/inputs/zones.h"

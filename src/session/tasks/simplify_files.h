@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scarp/glb.h"
+#include "scarp/io.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_outcome.h"
 #include "session/reports/simplify_run.h"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "scarp/drape.h"
-#include "scarp/edits.h"
+#include "scarp/height_field.h"
+#include "scarp/io.h"
 #include "scarp/paper.h"
 #include "session/inputs/cutline.h"
 #include "session/inputs/heightmap.h"

@@ -4,9 +4,8 @@
 
 #include <utility>
 
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tile_sink.h"
+#include "scarp/tile_job.h"
 #include "session/reports/tile_report.h"
 #include "session/tasks/counted_set.h"
 #include "session/text/paths.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 
 namespace scarp {

@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 #include "tiles/mesh/tile_surface.h"
 

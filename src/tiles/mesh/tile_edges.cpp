@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scarp/border.h"
+#include "scarp/options.h"
 
 namespace scarp {
 namespace {

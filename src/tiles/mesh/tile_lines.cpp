@@ -1,4 +1,4 @@
-#include "scarp/tile_lines.h"
+#include "tiles/mesh/tile_lines.h"
 
 #include <algorithm>
 #include <cmath>

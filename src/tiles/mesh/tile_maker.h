@@ -4,8 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 
 namespace scarp {

@@ -7,7 +7,7 @@
 
 #include "globe/ground.h"
 #include "scarp/mesh.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 #include "tiles/mesh/tile_rows.h"
 

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scarp/nodes.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "grid/window.h"
-#include "scarp/nodes.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "globe/row_range.h"
-#include "scarp/geoid.h"
-#include "scarp/nodes.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grid/window.h"
-#include "scarp/nodes.h"
+#include "scarp/tile.h"
 #include "tiles/nodes/sample_rows.h"
 
 namespace scarp {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/height_field.h"
-#include "scarp/nodes.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

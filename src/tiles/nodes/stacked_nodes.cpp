@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/nodes.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 namespace {

@@ -17,8 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 
 namespace scarp {

@@ -7,8 +7,6 @@
 
 #include "base/parallel.h"
 #include "base/reporter.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/pyramid/pyramid_tiles.h"

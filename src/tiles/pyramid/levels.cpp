@@ -9,9 +9,8 @@
 
 #include "globe/globe.h"
 #include "globe/powers.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tile_lines.h"
+#include "tiles/mesh/tile_lines.h"
 #include "tiles/mesh/tile_rows.h"
 
 namespace scarp {

@@ -7,10 +7,7 @@
 
 #include "base/bits.h"
 #include "globe/row_range.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
-#include "scarp/tile_waters.h"
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"
 #include "tiles/mesh/tile_nodes.h"
@@ -18,6 +15,7 @@
 #include "tiles/pyramid/coarse_nodes.h"
 #include "tiles/pyramid/pyramid_tiles.h"
 #include "tiles/pyramid/tile_output.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp {
 namespace {

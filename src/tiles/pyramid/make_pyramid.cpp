@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "base/reporter.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"

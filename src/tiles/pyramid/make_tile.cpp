@@ -3,8 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scarp/pyramid.h"
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_maker.h"
 #include "tiles/mesh/tile_mesh_parts.h"

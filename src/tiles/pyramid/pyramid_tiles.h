@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

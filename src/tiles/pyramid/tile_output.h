@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/reporter.h"
-#include "scarp/pyramid.h"
+#include "scarp/tile.h"
 
 namespace scarp {
 

@@ -8,7 +8,7 @@
 
 #include "base/bits.h"
 #include "globe/node_places.h"
-#include "scarp/tile_waters.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp {
 namespace {

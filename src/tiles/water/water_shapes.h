@@ -9,7 +9,7 @@
 
 #include "grid/sample_runs.h"
 #include "scarp/lines.h"
-#include "scarp/tile_waters.h"
+#include "tiles/water/tile_waters.h"
 
 namespace scarp {
 

@@ -8,8 +8,8 @@
 #include "base/parallel.h"
 #include "globe/node_places.h"
 #include "globe/row_range.h"
-#include "scarp/tile_waters.h"
-#include "scarp/water.h"
+#include "scarp/features.h"
+#include "tiles/water/tile_waters.h"
 #include "tiles/water/water_shapes.h"
 
 namespace scarp {

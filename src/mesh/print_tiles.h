@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/mesh.h"
 #include "scarp/result.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/glb.h"
+#include "scarp/io.h"
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 #include "scarp/tile_set.h"

@@ -10,12 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "scarp/geoid.h"
 #include "scarp/lines.h"
-#include "scarp/nodes.h"
-#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 #pragma GCC visibility push(default)
 

@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-#include "scarp/goals.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
+#include "scarp/options.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/tolerances.h"

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/border.h"
-#include "scarp/degrees.h"
-#include "scarp/tile_grid.h"
+#include "scarp/height_field.h"
+#include "scarp/options.h"
+#include "scarp/tile.h"
 
 #pragma GCC visibility push(default)
 

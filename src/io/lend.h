@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "scarp/height_field.h"
 #include "scarp/mesh.h"
-#include "scarp/point_set.h"
 
 #pragma GCC visibility push(default)
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "scarp/degrees.h"
+#include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/result.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 #pragma GCC visibility push(default)
 

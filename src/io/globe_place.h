@@ -5,11 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "scarp/geoid.h"
 #include "scarp/height_field.h"
-#include "scarp/place.h"
 #include "scarp/result.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
+#include "scarp/tile_job.h"
 #include "scarp/tile_set.h"
 
 #pragma GCC visibility push(default)

@@ -3,11 +3,10 @@
 
 #include <optional>
 
-#include "scarp/globe_image.h"
+#include "io/globe_image.h"
 #include "scarp/io.h"
-#include "scarp/pyramid.h"
 #include "scarp/result.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 
 #pragma GCC visibility push(default)
 

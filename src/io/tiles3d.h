@@ -15,11 +15,10 @@
 #include <tuple>
 #include <vector>
 
-#include "scarp/glb.h"
-#include "scarp/globe_image.h"
-#include "scarp/pyramid.h"
+#include "io/globe_image.h"
+#include "scarp/io.h"
 #include "scarp/result.h"
-#include "scarp/tile_grid.h"
+#include "scarp/tile.h"
 #include "scarp/tile_set.h"
 
 #pragma GCC visibility push(default)
