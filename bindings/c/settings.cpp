@@ -27,6 +27,7 @@ bool is_of_program(const OptionRow& row) {
                                      OptionId::kJson,      OptionId::kPoints,    OptionId::kJsonProgress,
                                      OptionId::kLods,      OptionId::kLodsInOne, OptionId::kHelp,
                                      OptionId::kHelpAll,   OptionId::kVersion};
+  if (row.part_of != OptionId::kNone && is_of_program(*cli::find_option(kDoorCommands, row.part_of))) return true;
   return row.is_argument() || row.type == OptionType::kOutputFile || row.type == OptionType::kFolder ||
          std::find(std::begin(kOfProgram), std::end(kOfProgram), row.id) != std::end(kOfProgram);
 }

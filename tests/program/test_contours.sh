@@ -69,4 +69,17 @@ refuses 2 "not a point or a line: if their rings are contours, make lines of the
 refuses 1 "--max-triangles cannot be combined with lines, and contours.gpkg holds them" \
   "$scarp" simplify contours.gpkg x.glb -t 1000
 [ ! -e x.glb ] || fail "a refused run left a file"
-echo "contours are simplified, judged and refused"
+
+# Contours of a mesh: GDAL reads them, and their points lie on the mesh at their height.
+succeeds "$scarp" simplify dem.tif lines.obj -e 20 --crs source --contours-out lines.geojson,interval=50
+heights=$(ogr2ogr -f CSV /vsistdout/ lines.geojson -select elev | tail -n +2 | tr -d '"' | sort -nu | xargs)
+[[ "$heights" == *"400 450 500 550"* ]] || fail "the heights are $heights"
+ogrinfo -so lines.geojson lines | grep -q 'ID\["EPSG",32617\]' || fail "the contours have not the CRS of the raster"
+succeeds "$scarp" measure lines.geojson lines.obj --z-field elev --json
+holds "$(grep -oP '"max_error": \K[^,]*' "$logs/out" | head -n 1) < 1e-6"
+succeeds "$scarp" simplify dem.tif lines.obj -e 20 --contours-out some.geojson --overwrite
+count=$(ogr2ogr -f CSV /vsistdout/ some.geojson -select elev | tail -n +2 | sort -u | wc -l)
+holds "$count > 8 && $count <= 20"
+refuses 1 "--contours-out interval 0 is not above 0" "$scarp" simplify dem.tif x.obj -e 20 --contours-out x.geojson,interval=0
+refuses 1 "--contours-out is for rasters" "$scarp" simplify contours.gpkg x.obj -e 20 --contours-out x.geojson
+echo "contours are simplified, judged, drawn and refused"

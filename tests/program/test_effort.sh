@@ -141,8 +141,8 @@ done
 refuses 1 "--vertices free needs --effort high" "$scarp" simplify "$dem" never.glb -e 20 --vertices free
 refuses 1 "--vertices" "$scarp" simplify "$dem" never.glb -e 20 --effort high --vertices some
 refuses 1 "regular" "$scarp" simplify "$dem" never.glb -e 20 --effort high --vertices free --crs EPSG:32616
-refuses 1 "--min-shape 0.6 is above 0.5" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.6
-refuses 1 "--effort fast cannot be combined with --min-shape" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --min-shape 0.1
+refuses 1 "--effort min-shape 0.6 is above 0.5" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.6
+refuses 1 "--effort fast cannot be combined with --effort min-shape" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --min-shape 0.1
 refuses 1 "--effort fast cannot be combined with --time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --time-limit 3
 refuses 1 "--time-limit cannot be combined with --max-triangles beside --effort max" \
   "$scarp" simplify "$dem" never.glb -t 2000 --effort max --time-limit 3
@@ -155,7 +155,7 @@ for reason in "--mask weights.tif" "--script /dev/null" "--order greedy" "--memo
 done
 succeeds "$scarp" simplify "$dem" timed.glb -t 2000 --time-limit 100 --overwrite --report timed.json
 holds "$(json timed.json triangles) <= 2000"
-refuses 1 "--edges data cannot be combined with --min-shape" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.1 --edges data
+refuses 1 "--edges data cannot be combined with --effort min-shape" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.1 --edges data
 refuses 1 "--order dominant cannot be combined with --ridges" "$scarp" simplify "$dem" never.glb -e 20 --order dominant --ridges 20
 refuses 1 "--effort" "$scarp" simplify "$dem" never.glb -e 20 --effort much
 refuses 1 "no goal" "$scarp" simplify "$dem" never.glb --effort normal

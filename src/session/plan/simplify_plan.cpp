@@ -196,11 +196,12 @@ Result<void> plan_outputs(const GivenOptions& given, SimplifyPlan& plan) {
     const int columns = plan.solid->columns;
     outputs.push_back({name_of(kSplit), tile_path(plan.output, k / columns + 1, k % columns + 1)});
   }
-  for (const OptionId id : {kPreview, kRender, kErrorRaster, kHtml, kReport}) {
+  for (const OptionId id : {kPreview, kRender, kErrorRaster, kHtml, kContoursOut, kReport}) {
     if (!given.has(id)) continue;
     outputs.push_back({name_of(id), *given[id]});
     SCARP_RETURN_IF_ERROR(check_ending(*find_option(given.command(), id), outputs.back()));
   }
+  SCARP_RETURN_IF_ERROR(given.number(kContourInterval));
   plan.outputs = std::move(outputs);
   return {};
 }
@@ -218,6 +219,7 @@ Result<void> plan_space(const GivenOptions& given, SimplifyPlan& plan) {
                                                      {kSolid, "a print stands on a flat base"},
                                                      {kPreview, "pictures show maps"},
                                                      {kRender, "pictures show maps"},
+                                                     {kContoursOut, "contours have the height of a map"},
                                                      {kNormalMap, "its normals are those of a map"}};
   const std::string space = fmt::format("{} {}", kCrs, shell_word(plan.read.crs));
   if (!plan.format.holds_space())

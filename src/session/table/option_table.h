@@ -49,6 +49,8 @@ enum class OptionId {
   kRender,
   kErrorRaster,
   kHtml,
+  kContoursOut,
+  kContourInterval,
   kPage,
   kOpen,
   kMap,

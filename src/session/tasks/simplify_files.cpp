@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -218,6 +220,44 @@ Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vect
   return {};
 }
 
+/// 1, 2 or 5 times a power of ten, with at most 20 multiples on the relief.
+double round_interval(const Mesh& mesh) {
+  double low = 0, high = 0;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const double z = mesh.vertex(v)[2];
+    low = v == 0 ? z : std::min(low, z);
+    high = v == 0 ? z : std::max(high, z);
+  }
+  const double least = high > low ? (high - low) / 20 : 1;
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least) return factor * power;
+  }
+  return 10 * power;
+}
+
+/// A FeatureCollection as GDAL writes it: a CRS is named unless the mesh is in a frame of its own.
+Result<void> add_contours(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  SCARP_TRY(const auto interval, plan.given.number(kContourInterval));
+  SCARP_TRY(const std::vector<Contour>& contours, find_contours(mesh, interval.value_or(round_interval(mesh))));
+  Json features = Json::array();
+  for (const Contour& contour : contours) {
+    Json line = contour.points;
+    if (contour.is_closed) line.push_back(contour.points.front());
+    features.push_back({{"type", "Feature"},
+                        {"properties", {{"elev", contour.height}}},
+                        {"geometry", {{"type", "LineString"}, {"coordinates", std::move(line)}}}});
+  }
+  Json collection{{"type", "FeatureCollection"}};
+  if (const std::string& crs = outcome.field.frame.crs; crs.starts_with("EPSG:"))
+    collection["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + crs.substr(5)}}}};
+  collection["features"] = std::move(features);
+  const std::string text = collection.dump() + "\n";
+  files.push_back({*plan.given[kContoursOut], "geojson", {text.begin(), text.end()}});
+  return {};
+}
+
 /// Shows the GLB files of this run, or the mesh as one.
 Result<void> add_page(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
   std::vector<PageMesh> meshes;
@@ -269,6 +309,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (plan.preview) added = add_preview(plan, outcome, files);
   if (added && plan.render) added = add_render(plan, outcome, files);
   if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
+  if (added && plan.given.has(kContoursOut)) added = add_contours(plan, outcome, files);
   if (added) added = complete_mesh(plan, outcome);
   SCARP_RETURN_IF_ERROR(added);
   if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
