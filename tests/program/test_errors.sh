@@ -86,9 +86,10 @@ refuses 1 "--max-triangles 1.5 is not a whole number of at least 1, such as 5000
 refuses 1 "--max-triangles 1e30 is too large" "$scarp" simplify "$dem" out.glb -t 1e30
 refuses 1 "--num-threads 99999999999999999999 is too large" "$scarp" simplify "$dem" out.glb -e 1 -j 99999999999999999999
 refuses 1 "--num-threads 1025 is above 1024: ask for fewer" "$scarp" simplify "$dem" out.glb -e 1 -j 1025
-for option in --max-error --base --nodata --outline-tolerance; do
+for option in --max-error --base --nodata; do
   refuses 1 "$option 1e999 is too large" "$scarp" simplify "$dem" out.glb "$option=1e999" -t 10
 done
+refuses 1 "--nodata-policy outline 1e999 is too large" "$scarp" simplify "$dem" out.glb --nodata-policy outline=1e999 -t 10
 refuses 1 "--max-error 1e999% is too large" "$scarp" simplify "$dem" out.glb -e 1e999%
 refuses 1 "--band 0" "$scarp" simplify "$dem" out.glb -e 1 --band 0
 refuses 1 "--band two" "$scarp" simplify "$dem" out.glb -e 1 --band two
