@@ -16,10 +16,11 @@ namespace scarp::cli {
 namespace {
 
 using enum OptionId;
+using Rows = std::vector<const OptionRow*>;
 
 /// The parts that the option's value can have in the command.
-std::vector<const OptionRow*> parts_of(Commands command, OptionId id) {
-  std::vector<const OptionRow*> parts;
+Rows parts_of(Commands command, OptionId id) {
+  Rows parts;
   for (const OptionRow* row : accepted_rows(command)) {
     if (row->part_of == id) parts.push_back(row);
   }
@@ -27,7 +28,7 @@ std::vector<const OptionRow*> parts_of(Commands command, OptionId id) {
 }
 
 /// The part whose ",key=" or ",key" begins there; null if none does.
-const OptionRow* find_part(const std::vector<const OptionRow*>& parts, std::string_view text) {
+const OptionRow* find_part(const Rows& parts, std::string_view text) {
   for (const OptionRow* part : parts) {
     const std::string_view key = part->key;
     if (!text.starts_with(key)) continue;
@@ -38,7 +39,7 @@ const OptionRow* find_part(const std::vector<const OptionRow*>& parts, std::stri
 }
 
 /// The place where the next part begins, at `from` or behind a comma; the end of the text if there is none.
-std::size_t find_next_part(const std::vector<const OptionRow*>& parts, std::string_view text, std::size_t from) {
+std::size_t find_next_part(const Rows& parts, std::string_view text, std::size_t from) {
   for (std::size_t at = from; at < text.size(); ++at) {
     const bool may_begin = at == 0 || text[at - 1] == ',';
     if (may_begin && find_part(parts, text.substr(at)) != nullptr) return at;
@@ -47,7 +48,7 @@ std::size_t find_next_part(const std::vector<const OptionRow*>& parts, std::stri
 }
 
 /// Fails for ",inser=2" in what is left of a value without its parts.
-Result<void> check_keys(const OptionRow& row, const std::vector<const OptionRow*>& parts, const std::string& text) {
+Result<void> check_keys(const OptionRow& row, const Rows& parts, const std::string& text) {
   const std::size_t comma = text.rfind(','), equals = text.find('=', comma);
   if (comma == std::string::npos || equals == std::string::npos || row.id == kRoi) return {};
   const std::string key = text.substr(comma + 1, equals - comma - 1);
@@ -128,11 +129,11 @@ void GivenOptions::set(OptionId id, Texts texts) { entry(id) = Entry{!texts.empt
 
 Result<void> GivenOptions::separate_parts() {
   for (const OptionRow* row : accepted_rows(command_)) {
-    const std::vector<const OptionRow*> parts = parts_of(command_, row->id);
     Entry& whole = entry(row->id);
     std::vector<std::string*> texts;
     for (std::string& text : whole.texts) texts.push_back(&text);
     if (whole.text) texts.push_back(&*whole.text);
+    const Rows parts = texts.empty() ? Rows() : parts_of(command_, row->id);
     if (parts.empty()) continue;
     bool emptied = false;
     for (std::string* const text : texts) {
@@ -145,7 +146,7 @@ Result<void> GivenOptions::separate_parts() {
         if (end < text->size()) value.pop_back();
         const std::size_t equals = value.find('=');
         if (part.type == OptionType::kFlag && equals != std::string::npos)
-          return fail(ErrorKind::kUsage, fmt::format("{} has no value: leave {} out", part.id, value.substr(equals)));
+          return fail(ErrorKind::kUsage, fmt::format("{} has no value: omit {}", part.id, value.substr(equals)));
         if (has(part.id) || entry(part.id).text)
           return fail(ErrorKind::kUsage, fmt::format("{} is given more than once", part.id));
         entry(part.id) = Entry{true, {}, {}};
@@ -207,7 +208,7 @@ std::optional<OptionId> GivenOptions::first_of(std::initializer_list<OptionId> i
 }
 
 std::vector<const OptionRow*> GivenOptions::given() const {
-  std::vector<const OptionRow*> rows = accepted_rows(command_);
+  Rows rows = accepted_rows(command_);
   std::erase_if(rows, [&](const OptionRow* row) { return row->is_argument() || !has(row->id); });
   return rows;
 }
@@ -226,7 +227,7 @@ std::vector<std::string> GivenOptions::files_read() const {
   return files;
 }
 
-std::string GivenOptions::canonical(const OptionRow& row) const {
+std::string GivenOptions::canonical(const OptionRow& row, const std::vector<const OptionRow*>& rows) const {
   const auto bare = [&](const std::string& text) {
     return row.type == OptionType::kInputFile ? base_name(text) : text;
   };
@@ -234,8 +235,8 @@ std::string GivenOptions::canonical(const OptionRow& row) const {
   for (const std::string& text : all(row.id)) values.push_back(bare(text));
   if (const Given& text = (*this)[row.id]; text && *text != row.by_default) values.push_back(bare(*text));
   std::string parts;
-  for (const OptionRow* part : parts_of(command_, row.id)) {
-    if (!has(part->id) || !part->is_of_mesh) continue;
+  for (const OptionRow* part : rows) {
+    if (part->part_of != row.id || !has(part->id) || !part->is_of_mesh) continue;
     parts += std::string(",") + part->key + (part->type == OptionType::kFlag ? "" : "=" + *(*this)[part->id]);
   }
   if (!parts.empty() && values.empty()) values.push_back((*this)[row.id].value_or(""));
@@ -248,9 +249,10 @@ std::string GivenOptions::canonical(const OptionRow& row) const {
 
 std::string GivenOptions::canonical() const {
   std::string text;
-  for (const OptionRow* row : accepted_rows(command_)) {
+  const Rows rows = accepted_rows(command_);
+  for (const OptionRow* row : rows) {
     if (row->is_argument() || !row->is_of_mesh || row->part_of != kNone) continue;
-    text += canonical(*row);
+    text += canonical(*row, rows);
   }
   return text;
 }

@@ -82,7 +82,7 @@ class GivenOptions {
   /// Moves the parts of "FILE,inset=2" to their own entries.
   Result<void> separate_parts();
   Result<void> settle();
-  std::string canonical(const OptionRow& row) const;
+  std::string canonical(const OptionRow& row, const std::vector<const OptionRow*>& rows) const;
 
   Commands command_;
   std::array<Entry, static_cast<std::size_t>(OptionId::kNone)> entries_;

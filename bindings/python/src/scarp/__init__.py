@@ -22,7 +22,7 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any, Optional
 
-from . import _abi, _call, _inputs, _values
+from . import _abi, _call, _inputs, _raster, _values
 from ._call import Progress
 from .errors import (Cancelled, InputError, InternalError, OutputError, PromiseError, ScarpError, ScarpWarning,
                      UsageError)
@@ -197,7 +197,7 @@ def _points_of(points: Any, crs: Any) -> tuple[Any, Any]:
     struct.x, struct.y, struct.z = base, base + 8, base + 16
     struct.count, struct.stride = len(array), 3
     if crs is not None:
-        struct.crs = _values.text_of("crs", _inputs.crs_text(crs))
+        struct.crs = _values.text_of("crs", _raster.crs_text(crs))
         struct.frame = _inputs.frame_of_points(crs)
     return struct, array
 
