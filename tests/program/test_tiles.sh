@@ -108,7 +108,7 @@ refuses 2 "placed.tif: no part of the raster lies on the globe" "$scarp" tile pl
 
 # A user's mistakes.
 refuses 1 "--zoom" "$scarp" tile "$dem" no --vertical egm96 --zoom x
-refuses 1 "at most 23" "$scarp" tile "$dem" no --vertical egm96 --zoom 24
+refuses 1 "--zoom 24 is above 23" "$scarp" tile "$dem" no --vertical egm96 --zoom 24
 refuses 1 "above 0" "$scarp" tile "$dem" no --vertical egm96 -e 0
 refuses 1 "cells" "$scarp" tile "$dem" no --vertical egm96 --cells 100
 refuses 1 "quality" "$scarp" tile "$dem" no --vertical egm96 --quality 0.1
