@@ -80,7 +80,7 @@ Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const L
 struct FlatOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of shores: map_affine()
   std::uint64_t min_samples = 100;                 ///< at least 3
-  /// Like WaterOptions::run; the memory of the shores as breaklines counts. DEFAULT: no limit.
+  /// Like WaterOptions::run. The limit includes the memory of the shores as breaklines. DEFAULT: no limit.
   Run run = {};  ///< memory; progress: of the pass "flats"
 };
 
@@ -181,7 +181,7 @@ Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& optio
 
 struct RidgeOptions {
   /// The least height of a ridge above the land on both sides of it, at most 16 samples away. In z units, above 0 and
-  /// finite. It is of little use below the max error.
+  /// finite. A height below the max error is of little use.
   double height = 0;
   /// Max error of the mesh to come, at least 0 and finite. Lines follow the raster to within half of it, as soft lines
   /// do.

@@ -336,8 +336,8 @@ struct MeshFileAxes {
   char up = 0;               ///< 'y' or 'z'; 0 if neither the format nor the file declares it, and z is assumed
   bool has_offsets = false;  ///< positions in the file are offsets from Mesh::origin (GLB, STL, 3MF)
 };
-/// Reads any of these formats but GeoPackage; recognises the format by content. `axes`, if given, receives the file's
-/// own. Fails with kInput. Never trusts a length or an index in the file.
+/// Reads any of these formats but GeoPackage; recognises the format by content. `axes`, if given, receives the axes of
+/// the file. Fails with kInput. Never trusts a length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors,
                          MeshFileAxes* axes = nullptr);
 

@@ -97,9 +97,10 @@ std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 // The normals of a raster as an image.
 
 /// Unit normals of the field's surface, in its frame, as a tangent-space normal map (GlbOptions::normal_map): red x,
-/// green y, blue z, each (n + 1) / 2 of 255. Covers the raster's image, `side` pixels on its longer side, at most one a
-/// sample; a pixel is the mean of the normals of the samples below it. Nodata is (0, 0, 1). Streamed samples are read
-/// once, from the top. Fails as the field's source does, and with kUsage for a side below 1 and a frame in space.
+/// green y, blue z, each (n + 1) / 2 of 255. The picture covers the raster; its longer side has `side` pixels, but no
+/// more than samples. A pixel is the mean of the normals of the samples below it. Nodata is (0, 0, 1). Streamed samples
+/// are read once, from the top. Fails as the field's source does, and with kUsage for a side below 1 and a frame in
+/// space.
 Result<Picture> draw_normal_map(const HeightField& field, int side);
 
 }  // namespace scarp

@@ -57,20 +57,20 @@ struct PointOptions {
 };
 
 /// Greedy insertion on scattered samples (section 2 of the 1995 paper names it, without doing it). The domain is the
-/// convex hull, or with `boundary_length` the chi-shape of Duckham et al. (2008): of the Delaunay triangulation of all
-/// points, triangles whose edge on the boundary is longer go, the longest edge first, as long as the domain stays
-/// connected, its boundary a simple polygon, and every point in it. All corners of that polygon are vertices. Each
-/// triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up to 2^30 steps: the
-/// coarsest on which the given decimals lie exactly if there is one, else the finest power of two. Different points are
-/// never merged: where the lattice cannot keep two apart, they are refused. Among points of equal error the one in the
-/// northernmost, then westernmost place is inserted. Points on a grid give the vertices that simplify() gives for the
-/// raster, but for ties.
+/// convex hull, or with `boundary_length` the chi-shape of Duckham et al. (2008): it begins with the Delaunay
+/// triangulation of all points, and removes triangles whose edge on the boundary is longer, the longest edge first. A
+/// triangle stays if without it the domain would fall apart or lose a point, or its boundary would not be a simple
+/// polygon. All corners of that polygon are vertices. Each triangle keeps the list of the points in it. Coordinates are
+/// snapped to an integer lattice of up to 2^30 steps: the coarsest on which the given decimals lie exactly if there is
+/// one, else the finest power of two. Different points are never merged: where the lattice cannot keep two apart, they
+/// are refused. Among points of equal error the one in the northernmost, then westernmost place is inserted. Points on
+/// a grid give the vertices that simplify() gives for the raster, but for ties.
 ///
 /// A line becomes a chain of edges through some of its points, among them its ends, of a ring at least three. Chains do
-/// not cross, so no triangle crosses one; what the line has between two points of its chain is within max_error of the
-/// mesh. Triangles between points of equal height on lines, as in the bend of a contour, are given up by flips of edges
-/// where the other points allow it; the rest is counted (`flat`). Points of lines that the lattice cannot keep apart
-/// share a vertex, and count all the same.
+/// not cross, so no triangle crosses one. Each point of the line between two points of its chain is within max_error of
+/// the mesh. Triangles between points of equal height on lines, as in the bend of a contour, are given up by flips of
+/// edges where the other points allow it; the rest is counted (`flat`). Points of lines that the lattice cannot keep
+/// apart share a vertex, and count all the same.
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.

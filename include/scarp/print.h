@@ -39,7 +39,7 @@ struct PrintOptions {
   double gap = 0;             ///< between print tiles, in print units, at least 0
 
   bool is_split() const { return columns > 1 || rows > 1; }
-  /// Coordinates of the print are not those of the frame.
+  /// True if the coordinates of the print differ from those of the frame.
   bool is_placed() const { return size.has_value() || exaggerate != 1; }
 };
 

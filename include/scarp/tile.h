@@ -110,8 +110,8 @@ struct TileGrid {
   GridKind kind = GridKind::kGeographic;
   LocalRaster local = {};  ///< raster of a local grid
 
-  /// The smallest that holds the raster, with so many cells a side of a tile of its finest level. Rounds the cell's
-  /// sides to 29 bits.
+  /// The smallest grid that holds the raster. A tile of the finest level has `cells` cells a side. The sides of a cell
+  /// are rounded to 29 bits.
   static TileGrid of_raster(std::int32_t cols, std::int32_t rows, double cell_x, double cell_y, int cells);
 
   bool is_flat() const { return kind == GridKind::kLocal; }
@@ -270,8 +270,8 @@ struct StackedSource {
   const NodeSource* nodes = nullptr;  ///< borrowed
   DegreeBox covered = {};             ///< it has no heights elsewhere
 };
-/// Several sources as one: a node has the height of the first that has one there. The samples are shown of one source
-/// alone. Cost: each source reads what those before it left open, as a rectangle.
+/// Several sources as one: a node has the height of the first source with a height there. Only a single source shows
+/// its samples. Cost: each source reads what those before it left open, as a rectangle.
 std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
 
 /// Degrees that the raster covers, half a cell around the outer samples included. Fails with kInput where its outline

@@ -131,7 +131,7 @@ struct LayerFacts {
   std::string version = {};  ///< changes with any tile: clients ask for tiles with it, past old copies; sinks find it
 };
 
-/// Suffix for lengths of a set with these LayerFacts::units: " m", or nothing where they are no metres.
+/// The suffix of lengths in a set with these LayerFacts::units: " m" for metres and for unnamed units, else empty.
 inline const char* unit_behind(std::string_view units) { return units.empty() || units == "metre" ? " m" : ""; }
 
 /// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first. Without report.levels it

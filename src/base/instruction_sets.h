@@ -1,7 +1,7 @@
 // The choice between several compilations of the same vector code: of every table that is compiled once for each
 // instruction set, the best that the machine has, or the one that the environment variable SCARP_KERNEL names (any name
-// of the tables, in any case; others are ignored). WebAssembly is one instruction set without an environment: there the
-// twin in plain loops, which tests compare the others with, is omitted.
+// of the tables, in any case; others are ignored). WebAssembly is one instruction set, and has no environment: its
+// build omits the twin in plain loops, with which tests compare the others.
 #pragma once
 
 #include <algorithm>

@@ -51,7 +51,7 @@ class World {
   Place place(const Geographic& at) const;
   /// The reverse, to 10⁻⁸ m; longitudes of −180 … 180.
   Geographic find(const Place& at) const;
-  /// A vector of unit length, away from the earth.
+  /// The unit vector that points upwards.
   static Place up(double longitude, double latitude);
 
   /// In units of the axes: the ellipsoid becomes the sphere of radius 1.
@@ -66,7 +66,7 @@ class World {
   double a_, b_, e2_;
 };
 
-/// From a point to a triangle.
+/// The distance from a point to a triangle.
 double distance_to_triangle(const Place& point, const Place& a, const Place& b, const Place& c);
 
 }  // namespace scarp

@@ -19,7 +19,7 @@ struct PatchGrid {
   std::int32_t side = 0, shift = 0;
 };
 
-/// Sides of the rectangle on which vertices may go.
+/// The sides of the rectangle whose vertices may be removed.
 struct FreeSides {
   bool left = true, top = true, right = true, bottom = true;
 };

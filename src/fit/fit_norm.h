@@ -30,7 +30,7 @@ struct FitNorm {
   std::function<std::optional<Point>(const std::array<Point, 3>& corners)> find_breach = {};
 };
 
-/// The norm of errors one after the other: what it is with one more, which is not negative.
+/// The norm of several errors, which are added one by one: its value once `error` is added. REQUIRES: error >= 0.
 inline double add_to_norm_of(Norm norm, double so_far, double error) {
   if (norm == Norm::kSum) return so_far + error;
   return norm == Norm::kMax ? std::max(so_far, error) : std::sqrt(so_far * so_far + error * error);

@@ -33,7 +33,7 @@ class Flips {
   bool heal(const TriangleError& error, Patch::Id face, unsigned edge);
 
  private:
-  /// A flip and what must be gained, whichever of the two triangles it is seen from.
+  /// A flip, and the energy that it must stay below. Equal whichever of its two triangles it starts from.
   struct Trial {
     std::array<FitCorner, 4> corners;
     float limit = 0;

@@ -22,7 +22,7 @@ namespace scarp {
 
 class Insertion {
  public:
-  /// `error`: by squares. `repair`: mends all, by an error whose threshold is the same. All stay alive.
+  /// `error`: sums squares. `repair`: mends by an error with the same threshold. REQUIRES: all outlive this object.
   Insertion(Patch& patch, const TriangleError& error, const MoveRules& rules, Repair& repair)
       : patch_(patch), error_(error), rules_(rules), repair_(repair) {}
 

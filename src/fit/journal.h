@@ -3,7 +3,7 @@
 // Repair changes a few dozen triangles and often gives up, so a copy of the whole would cost more than the work. Each
 // element is copied once, when it is about to change for the first time; to undo is to put the copies back. Elements
 // are neither added nor deleted within a transaction: what is removed is marked, and its place is not used again before
-// the patch is packed. The price outside transactions is one comparison a change.
+// the patch is packed. Outside transactions the cost is one comparison a change.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ class Rounds {
   Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
 
   /// A round of removal; `relocates`: then each vertex makes a step, and removal continues. `end`: the share of the
-  /// whole that is then done. False if it was cancelled, as those below.
+  /// whole work that is done after the round. False if it was cancelled, as those below.
   bool run(const PatchGrid& grid, double end, bool relocates = false);
 
   /// A round of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.

@@ -68,7 +68,8 @@ struct ShapeRule {
   }
 };
 
-/// Vertices at edges that are too short go first: subtracted from the price of their removal, which is an energy.
+/// Removal begins with vertices at edges that are too short: this is subtracted from the energy that their removal
+/// costs.
 inline constexpr float kShortEdgeFirst = 1e30f;
 
 inline bool has_short_edge(const ShapeRule& rule, const FitCorner& hub, const std::vector<FitCorner>& ring) {

@@ -41,7 +41,7 @@ class BoxTree {
   bool gather(const Box& box, std::size_t first, std::size_t most, std::vector<std::size_t>& places) const;
 
   /// Calls visit(index) for each box for which `meets` returns true, among those from `first` on in the tree's order.
-  /// REQUIRES: meets(a box) where it holds of a box within it.
+  /// REQUIRES: if meets() is true for a box, it is true for each box around that one.
   template <class Meets, class Visit>
   void visit(Meets&& meets, Visit&& visit, std::size_t first = 0) const {
     visit_places(

@@ -20,7 +20,7 @@ class NodePlaces {
   /// Column of a longitude, which may lie beyond a turn.
   double col(double longitude) const { return (longitude + 180) / 360 * static_cast<double>(lattice_.per_turn); }
 
-  /// Between the rows whose latitudes are on both sides of it; 0 or the last row beyond.
+  /// The row of a latitude, with a fraction between two rows; row 0 north of all rows, the last one south of them.
   double row(double latitude) const {
     std::int64_t above = 0, below = lattice_.last_row();
     if (latitude >= lattice_.latitude(above)) return static_cast<double>(above);

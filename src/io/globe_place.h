@@ -1,4 +1,4 @@
-// From a raster's CRS to its place on the globe, and the zero of its heights.
+// Finds the place of a raster on the globe, and the zero of its heights, from its CRS.
 #pragma once
 
 #include <memory>

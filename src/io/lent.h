@@ -25,8 +25,7 @@ Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name,
 /// Completes the facts in `info` about the position of a raster with a geotransform, and finds the frame that the
 /// options ask for. A build without GDAL knows no CRS: it refuses those that the options name.
 Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info);
-/// The same for points in memory, whose x and y become what the options ask for. Returns the unit of their vertical
-/// CRS.
+/// The same for points in memory: converts their x and y as the options ask. Returns the unit of their vertical CRS.
 Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points);
 
 }  // namespace scarp

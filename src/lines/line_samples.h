@@ -19,7 +19,7 @@ class LineSamples {
   /// All, borrowed.
   explicit LineSamples(const Raster& raster) : raster_(raster) {}
 
-  /// Those of the cells that segments on the lattice pass, and of the cells around them, read from the top down.
+  /// Reads the samples of the cells that segments on the lattice pass, and of the cells around them, from the top down.
   /// Segments may end outside the raster, by some samples. Fails as the field does. Memory: 4 bytes a sample, 24 for
   /// each row that a line crosses, 8 for each row of the raster.
   static Result<LineSamples> read(const HeightField& field, std::span<const Segment> near);

@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// Heights of lattice points: given ones, else the sample's.
+/// Heights of lattice points: the height that set() gave to a point, else that of its sample.
 class LatticeHeights {
  public:
   explicit LatticeHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}

@@ -16,8 +16,9 @@
 
 namespace scarp {
 
-/// Seeds the mesh of a piece between neighbours: its domain, with the outline's vertices only. All is outside if no
-/// cell is surface. Edges along shared rows are free, since the neighbour also decides whether the domain ends there.
+/// Seeds the mesh of a piece between neighbours: its domain, with the outline's vertices only. If no cell is surface,
+/// all triangles are outside. Edges along shared rows are free, since the neighbour also decides whether the domain
+/// ends there.
 Result<void> seed(Piece& piece);
 
 /// How constraints are inserted.

@@ -13,7 +13,8 @@ namespace scarp {
 /// share depends on the other tiles at work. A tile alone gets all of the free memory.
 class TileRoom {
  public:
-  /// `base`: bytes used whatever the mesh. `vertices`: of the mesh so far. `tiles`: side by side, at most.
+  /// `base`: bytes that any mesh needs. `vertices`: those of the mesh so far. `tiles`: the most that are made at a
+  /// time.
   TileRoom(const MemoryBudget& memory, std::uint64_t base, std::uint64_t vertices, int tiles);
 
   /// The most vertices of a tile that begins now; no limit without a memory limit.

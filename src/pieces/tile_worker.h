@@ -34,8 +34,8 @@ void add(Work& sum, const Work& work);
 
 class TileWorker {
  public:
-  /// Refines one tile until every sample lies within `threshold`; what it did before changes nothing. `density`: of the
-  /// whole mesh, as expected; 0 if unknown. `most`: vertices it may have, but for those it begins with.
+  /// Refines one tile until every sample lies within `threshold`; what it did before changes nothing. `density`: the
+  /// expected density of the whole mesh; 0 if unknown. `most`: how many vertices may be added.
   TileOutcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold,
                      double density, std::size_t most);
 

@@ -2,8 +2,8 @@
 //
 // Each triangle of the domain knows its candidate, the most important of its samples that break their bound. The best
 // of all is inserted, the triangulation restores its edge rule, and exactly the triangles around the new vertex are
-// scanned again. When no candidate is left, every sample of every triangle keeps its bound - not by bookkeeping of
-// rounded numbers: near the bound the metric decides exactly.
+// scanned again. When no candidate is left, every sample of every triangle keeps its bound. Rounded numbers do not
+// weaken this: near the bound the metric decides exactly.
 //
 // How we differ from the paper's program: closed integer scans (no sample falls between two triangles), ties broken by
 // raster order instead of memory order, a proven stop at any threshold including 0, nodata (NaN samples, triangles

@@ -41,9 +41,9 @@ struct CompanionRun {
 
 /// Reads and checks the files, which must lie on the grid of `raster`.
 /// Mask: values below 0 are refused; if the largest is above 1, all are divided by it; no value means weight 0.
-/// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: the smaller one of their
-/// tolerance and the raster's counts; `bound` is what holds beyond them. `raster`: that of the field, as it was read.
-/// Fails with kUsage if the memory has no room for them in addition to heights that have a source.
+/// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: a sample in one has the smaller
+/// of its tolerance and the raster's; `bound` holds beyond them. `raster`: that of the field, as it was read. Fails
+/// with kUsage if the memory has no room for them in addition to heights that have a source.
 Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                                    std::optional<double> bound, const CompanionRun& run);
 

@@ -14,7 +14,7 @@ namespace scarp::cli {
 /// Limit of the process in bytes; nothing if not given.
 Result<std::optional<std::uint64_t>> parse_memory(const GivenOptions& given);
 
-/// The code, GDAL's included, and what it always needs.
+/// Bytes of the code, including that of GDAL, and of the memory that it always needs.
 inline constexpr std::uint64_t kProgramBytes = 72'000'000;
 
 /// "1G", "1.5 GiB", "800M" as bytes: k, M, G, T are powers of 1000, Ki, Mi, Gi, Ti of 1024; a B may follow.

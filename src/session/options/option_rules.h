@@ -22,7 +22,7 @@ struct OptionRule {
 
 std::span<const OptionRule> option_rules();
 
-/// kUsage, in one sentence, if the options break the rule.
+/// Fails with kUsage if the options break the rule; the message is one sentence.
 Result<void> check_rule(const OptionRule& rule, const GivenOptions& given);
 /// The same for the first rule of the command that they break.
 Result<void> check_rules(Commands command, const GivenOptions& given);

@@ -38,7 +38,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "FORMAT",
      .choices = "jpeg png webp",
      .by_default = "jpeg",
-     .help = "How the textures of tiles are stored. jpeg and webp at a quality of 90, png without loss. Clients must "
+     .help = "The format of the textures of tiles. jpeg and webp have a quality of 90, png is lossless. Clients must "
              "know EXT_texture_webp for webp.",
      .brief = "How textures are stored: jpeg, png or webp"},
     {.id = kMaxError,
@@ -190,7 +190,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kInputFile,
      .value = "FILE",
      .help = "Raster of the surface that the heights are above, such as a geoid: its heights in metres above the "
-             "ellipsoid. GTX, GeoTIFF or what else GDAL opens. In place of --vertical."},
+             "ellipsoid. GTX, GeoTIFF or another raster of GDAL. In place of --vertical."},
     {.id = kEllipsoid,
      .name = "--ellipsoid",
      .commands = kTile | kTilePlan | kTileCheck | kServe,

@@ -39,7 +39,7 @@ void print_error(const Error& error);
 void print_warnings(const std::vector<std::string>& warnings);
 /// Writes `text` to stdout. kOutput if it cannot be written; a reader that has closed its pipe is no error.
 Result<void> print_to_stdout(const std::string& text);
-/// The same for text that only reports files that are written: a caller that has closed stdout does not want it.
+/// The same for the summary of files that are written; prints nothing if the caller has closed stdout.
 Result<void> print_summary(const std::string& text);
 
 /// The exit code of an error: 1 usage, 2 input, 3 promise, 4 output, 5 cancelled, 70 internal.

@@ -18,8 +18,8 @@
 
 namespace scarp {
 
-/// Places count in nodes of the finest lattice from the grid's western and northern end, as NodeWindow's columns and
-/// rows do, with fractions. Columns may lie beyond a turn.
+/// Places are fractional columns and rows of nodes of the finest lattice, counted as in NodeWindow from the western and
+/// northern end of the grid. Columns may lie beyond a turn.
 struct TileLake {
   std::string name;
   double level = 0;  ///< metres above the zero of heights; NaN: its shore has no heights, and no node changes

@@ -43,7 +43,7 @@ inline std::array<double, 6> affine_of(const NodeBox& box) {
   return {static_cast<double>(box.col), 1, 0, static_cast<double>(box.row), 0, 1};
 }
 
-/// The nodes of a lake, counted from its box's first.
+/// The nodes of a lake. Columns and rows count from the first node of its box.
 std::vector<SampleRun> nodes_of(const TileLake& lake, const NodeBox& box);
 
 /// A node next to a river.
