@@ -143,7 +143,7 @@ for other in "--zoom 12" "--zoom 9 --grid mercator"; do
   rm -r others
 done
 refuses 2 "nothing.gpkg" "$scarp" tile land.tif no --water nothing.gpkg
-refuses 1 "--water-percentile" "$scarp" tile land.tif no --water lake.geojson --water-percentile 101
+refuses 1 "--water percentile 101 is above 100" "$scarp" tile land.tif no --water lake.geojson --water-percentile 101
 refuses 1 "needs --water" "$scarp" tile land.tif no --water-percentile 5
 refuses 1 "--watermask needs --water" "$scarp" tile land.tif no --watermask
 refuses 1 "--of 3dtiles cannot be combined with --watermask" "$scarp" tile land.tif no --of 3dtiles "${masked[@]}"

@@ -104,7 +104,7 @@ PYTHON
 done
 succeeds "$scarp" simplify "$dem" both.glb -e 20 --water lakes.geojson --rivers rivers.geojson
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --detect-flats 12
-refuses 1 "--detect-flats" "$scarp" simplify "$dem" x.glb -e 20 --detect-flats 2
+refuses 1 "--water flats 2 is not a whole number of at least 3" "$scarp" simplify "$dem" x.glb -e 20 --detect-flats 2
 
 # Two lakes of different levels that share a shore are a conflict, named, with a way out.
 python3 - <<'PYTHON'
@@ -119,7 +119,7 @@ succeeds "$scarp" simplify "$dem" side.glb -e 20 --water side.geojson --line-con
 succeeds "$scarp" simplify "$dem" twice.glb -e 20 --water twice.geojson
 
 refuses 1 "--vertices free" "$scarp" simplify "$dem" x.glb -e 20 --effort high --vertices free --water lakes.geojson
-refuses 1 "--water-percentile" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --water-percentile 101
+refuses 1 "--water percentile 101 is above 100" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --water-percentile 101
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water-percentile 10
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --water nothing.gpkg
 

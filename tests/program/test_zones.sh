@@ -73,7 +73,7 @@ succeeds "$scarp" simplify "$dem" plain.2dm -e 50 --report r.json --overwrite -q
 
 refuses 1 "--materials is for flow models, and GLB has no place for it: choose .2dm" "$scarp" simplify "$dem" x.glb -e 50 --materials zones.geojson
 refuses 1 "--node-strings is for flow models" "$scarp" simplify "$dem" x.obj -e 50 --node-strings strings.geojson
-refuses 1 "--material-field needs polygons" "$scarp" simplify "$dem" x.2dm -e 50 --material-field mat
+refuses 1 "--material-field needs --materials" "$scarp" simplify "$dem" x.2dm -e 50 --material-field mat
 refuses 1 "--materials cannot be combined with --base" "$scarp" simplify "$dem" x.2dm -e 50 --base 0 --materials zones.geojson
 refuses 1 "--edges data cannot be combined with --materials" \
   "$scarp" simplify "$dem" x.2dm -e 50 --edges data --materials zones.geojson

@@ -126,7 +126,7 @@ Result<void> check_rule(const OptionRule& rule, const GivenOptions& given) {
       return fail(ErrorKind::kUsage, fmt::format("{} cannot be combined with {}{}", describe(rule.one, given),
                                                  describe(other, given), why));
     if (rule.kind == kNeeds && is_given) return {};
-    needed += (needed.empty() ? "" : " or ") + describe(other, given);
+    needed += (needed.empty() ? "" : " or ") + name_of(other);
   }
   if (rule.kind == kExcludes) return {};
   return fail(ErrorKind::kUsage, fmt::format("{} needs {}{}", describe(rule.one, given), needed, why));
