@@ -100,7 +100,7 @@ refuses 1 "--nodata-policy ignore" "$scarp" simplify "$dem" out.glb -e 1 --nodat
 refuses 1 "--fill-distance" "$scarp" simplify "$dem" out.glb -e 1 --fill-distance 5
 refuses 1 "--nodata-policy distance 0" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy fill --fill-distance 0
 refuses 1 "--background" "$scarp" simplify "$dem" out.glb -e 1 --background 0
-refuses 1 "--nodata-policy background needs --nodata-policy height" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background
+refuses 1 "--nodata-policy background needs --background: the height to use, such as height=0" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background
 refuses 1 "--nodata-policy height nan" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background --background nan
 refuses 1 "--nodata-policy outline -1" "$scarp" simplify "$dem" out.glb -e 1 --outline-tolerance -1
 refuses 1 "--num-threads -1" "$scarp" simplify "$dem" out.glb -e 1 -j -1
