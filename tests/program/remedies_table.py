@@ -255,10 +255,10 @@ for name, options, says, then, text in (
 ):
     O(name, P + options, says, P + then, f"printf '{text}' > p.csv")
 O("a column of heights", "scarp simplify c.csv o.glb -e 1", "--z-field names another", "scarp simplify c.csv o.glb -e 1 --z-field up", "sed 1s/z/up/ plain.csv > c.csv")
-O("an option of points", "scarp simplify dem.tif o.glb -e 20 --layer a", "--points says otherwise", "scarp simplify p.gpkg o.glb -e 20 --points --layer a", "ogr2ogr -nln a -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z p.gpkg plain.csv")
-O("an option of points, info", "scarp info dem.tif --layer a", "leave it out, or say --points", "scarp info dem.tif")
+O("an option of points", "scarp simplify dem.tif o.glb -e 20 --layer a", "--points reads it as points", "scarp simplify p.gpkg o.glb -e 20 --points --layer a", "ogr2ogr -nln a -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z p.gpkg plain.csv")
+O("an option of points, info", "scarp info dem.tif --layer a", "omit it, or give --points", "scarp info dem.tif")
 O("a raster by pipe", "scarp simplify - o.glb -e 1 < plain.csv", "with --points as points", "scarp simplify - o.glb -e 1 --points < plain.csv")
-O("vector data", "scarp info l.json", "--points takes it", "scarp info l.json --points", """printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[0,0]}},{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[0,9]}},{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[9,9]}}]}' > l.json""")
+O("vector data", "scarp info l.json", "--points reads it", "scarp info l.json --points", """printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[0,0]}},{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[0,9]}},{"type":"Feature","properties":{"h":5},"geometry":{"type":"Point","coordinates":[9,9]}}]}' > l.json""")
 
 # Units.
 FEET_ACROSS = "gdal_translate -q -a_srs EPSG:2264 -a_ullr 2000000 700000 2012000 690000 dem.tif ft.tif"
@@ -280,14 +280,14 @@ for name, given, says, then in (
     ("normal map", "o.glb -e 20 --drape-size 64", "needs --drape", "o.glb -e 20 --drape-size 64 --drape rgb.tif"),
     ("fill distance", "o.glb -e 20 --fill-distance 5", "needs --nodata-policy fill", "o.glb -e 20 --fill-distance 5 --nodata-policy fill"),
     ("background", "o.glb -e 20 --background 5", "needs --nodata-policy background", "o.glb -e 20 --background 5 --nodata-policy background"),
-    ("background value", "o.glb -e 20 --nodata-policy background", "--background V", "o.glb -e 20 --nodata-policy background --background 5"),
+    ("background value", "o.glb -e 20 --nodata-policy background", "needs --background", "o.glb -e 20 --nodata-policy background --background 5"),
     ("kept ridges", "o.glb -e 20 --keep-ridges", "needs --ridges", "o.glb -e 20 --keep-ridges --ridges 20"),
-    ("material field", "o.2dm -e 20 --material-field elev", "--materials FILE", "o.2dm -e 20 --material-field elev --materials lake.geojson"),
+    ("material field", "o.2dm -e 20 --material-field elev", "needs --materials", "o.2dm -e 20 --material-field elev --materials lake.geojson"),
     ("falloff", "o.glb -e 20 --falloff 5", "needs --roi", "o.glb -e 20 --falloff 500 --roi lake.geojson=5"),
     ("texture weight", "o.glb -e 20 --texture-weight 0.5", "needs --texture", "o.glb -t 500 --texture-weight 0.5 --texture byte.tif"),
     ("channel weights", "o.glb -t 500 --channel-weights 1", "needs --texture or --image", "o.glb -t 500 --channel-weights 1 --texture byte.tif"),
     ("edge score", "o.glb -e 20 --shape-threshold 0.5", "needs --edges data", "o.glb -e 20 --shape-threshold 0.5 --edges data --edge-score abn"),
-    ("free vertices", "o.glb -e 20 --vertices free", "needs --effort high or max", "o.glb -e 20 --vertices free --effort high"),
+    ("free vertices", "o.glb -e 20 --vertices free", "needs --effort high or --effort max", "o.glb -e 20 --vertices free --effort high"),
     ("walls of a budget", "o.glb --tolerance byte.tif --cliff 50", "needs --max-error", "o.glb -e 20 --cliff 50"),
     ("a split", "o.stl -e 20 --split 2x2", "--solid size=120mm", "o.stl -e 20 --split 2x2 --solid size=120mm"),
     ("an error on a print", "o.stl -e 0.1mm", "--solid size=120mm", "o.stl -e 0.1mm --solid size=120mm"),
@@ -304,15 +304,15 @@ for name, given, says, then in (
     ("an output by -o", "-e 20 -o o.glb", "scarp simplify INPUT OUTPUT", "o.glb -e 20"),
     ("a CRS of the input", "o.glb -e 20 -a_srs EPSG:4326", "gdal_translate -a_srs EPSG:CODE FILE NEW.tif gives it another", "o.glb -e 20"),
     ("verbose", "o.glb -e 20 -v", "--timing tells", "o.glb -e 20 --timing"),
-    ("a frame of a raster", "o.tif -e 20 --crs EPSG:32616", "lies on the raster's own grid, whatever --crs says", "o.tif -e 20"),
-    ("a stream across hills", "o.glb -e 20 --rivers stream.geojson", "to --breaklines, with --soft-breaklines, which cuts nothing", "o.glb -e 20 --breaklines stream.geojson --soft-breaklines"),
-    ("lines in the air", "o.glb -e 20 --breaklines stream.geojson --breakline-z elev", "--soft-breaklines takes the heights of lines", "o.glb -e 20 --breaklines stream.geojson --soft-breaklines"),
+    ("a frame of a raster", "o.tif -e 20 --crs EPSG:32616", "lies on the raster's own grid, whatever --crs is", "o.tif -e 20"),
+    ("a stream across hills", "o.glb -e 20 --rivers stream.geojson", "to --breaklines, with --breaklines soft, which cuts nothing", "o.glb -e 20 --breaklines stream.geojson,soft"),
+    ("lines in the air", "o.glb -e 20 --breaklines stream.geojson --breakline-z elev", "--breaklines soft gives lines the heights", "o.glb -e 20 --breaklines stream.geojson,soft"),
     ("short edges", "o.glb -e 2 --min-edge 400", "a larger max error leave fewer", "o.glb -e 1000 --min-edge 1"),
     ("small angles", "o.glb -e 2 --min-angle 30 --breaklines closed.geojson", "a larger max error leave fewer", "o.glb -e 1000 --min-angle 1"),
     ("contours wanted", "o.glb -e 20 --contours 5", "contour lines are an input", "o.glb -e 20"),
 ):
     O(name, SIMPLIFY + given, says, SIMPLIFY + then)
-O("lines at 0", SIMPLIFY + "o.glb -e 20 --breaklines flat.geojson", "--breakline-z names an attribute", SIMPLIFY + "o.glb -e 300 --breaklines flat.geojson --breakline-z elev", "sed 's/\\(36[.][0-9]*\\)]/\\1,0]/g' stream.geojson > flat.geojson")
+O("lines at 0", SIMPLIFY + "o.glb -e 20 --breaklines flat.geojson", "--breaklines z names an attribute", SIMPLIFY + "o.glb -e 300 --breaklines flat.geojson,z=elev", "sed 's/\\(36[.][0-9]*\\)]/\\1,0]/g' stream.geojson > flat.geojson")
 O("a file made meanwhile", SIMPLIFY.replace("dem.tif", "pipe") + "o.glb -e 1 & { echo mine > o.glb; cat land.pgm; } > pipe; wait $!", "o.glb exists; use --overwrite", "echo mine > o.glb; scarp simplify land.pgm o.glb -e 1 --overwrite",
   "mkfifo pipe; scarp generate fractal 40 36 land.pgm -q")
 C("a file without a command", "scarp dem.tif", "", {"OUTPUT": "o.glb"})
@@ -328,7 +328,7 @@ WET = "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --watermask --water 
 O("a mask of water", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --watermask", "needs --water", WET)
 O("a percentile of tiles", "scarp tile dem.tif g -e 20 --zoom 9 --vertical egm96 --water-percentile 5", "needs --water", WET)
 FLAT = "scarp tile utm.tif g --grid local -e 20 --vertical ellipsoid"
-O("a format of images", "scarp tile dem.tif g --of 3dtiles -e 20 --zoom 9 --vertical egm96 --drape-format png", "--drape FILE", "scarp tile dem.tif g --of 3dtiles -e 20 --zoom 9 --vertical egm96 --drape-format png --drape rgb.tif")
+O("a format of images", "scarp tile dem.tif g --of 3dtiles -e 20 --zoom 9 --vertical egm96 --drape-format png", "needs --drape", "scarp tile dem.tif g --of 3dtiles -e 20 --zoom 9 --vertical egm96 --drape-format png --drape rgb.tif")
 O("a set that is there", FLAT, "or --overwrite", FLAT + " --overwrite", FLAT + " -q")
 O("planets", "scarp tile dem.tif mars.tif g -e 20 --zoom 9 --vertical ellipsoid", "or --ellipsoid", "scarp tile dem.tif g -e 20 --zoom 9 --vertical ellipsoid", "gdal_translate -q -a_srs '+proj=longlat +a=3396190 +b=3376200' east.tif mars.tif")
 
@@ -355,14 +355,14 @@ O("a pole in space", "scarp simplify pole.tif o.glb -e 20 --crs enu", "with --te
 O("half the earth in space", "scarp simplify wide.tif o.glb -e 20 --crs EPSG:4978", "cut that off with --te", "scarp simplify wide.tif o.glb -e 20 --crs EPSG:4978 --te 0 65 40 80", "gdal_translate -q -a_srs EPSG:4326 -a_ullr -170 89 170 62 dem.tif wide.tif")
 O("far from the middle in space", "scarp simplify wide.tif o.glb -e 20 --crs enu", "take it in parts with --te", "scarp simplify wide.tif o.glb -e 20 --crs enu --te 0 -10 40 10", "gdal_translate -q -a_srs EPSG:4326 -a_ullr -80 30 80 -30 dem.tif wide.tif")
 O("a flat print", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm", "--solid exaggerate=", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm,exaggerate=$(scarp simplify dem.tif p.stl -e 20 --solid size=120mm | grep -o 'exaggerate=[0-9.]*' | cut -d= -f2)", "gdal_translate -q -scale 0 1000 0 100 dem.tif a.tif; mv a.tif dem.tif")
-O("a split print in a bent grid", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm --split 2x2 --crs EPSG:32616", "leave it out, or choose local", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm --split 2x2 --crs local")
+O("a split print in a bent grid", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm --split 2x2 --crs EPSG:32616", "omit it, or choose local", "scarp simplify dem.tif o.stl -e 20 --solid size=120mm --split 2x2 --crs local")
 O("a base of what is no mesh", "scarp simplify dem.tif o.svg -e 20 --base 0", "choose a mesh format", "scarp simplify dem.tif o.ply -e 20 --base 0")
 O("a mesh in another frame", "scarp measure dem.tif mesh.obj --crs EPSG:32616", "--crs overrides it|give the CRS it was made in \\(--crs\\)", "scarp measure dem.tif mesh.obj --crs source")
 O("a mesh that names its CRS", "scarp measure d.asc far.obj", "--crs overrides it", "scarp measure d.asc far.obj --crs source || [ $? = 3 ]", ASC + "; scarp simplify dem.tif far.obj -e 20 -q --crs EPSG:32616")
-O("a mesh of another CRS over points", "scarp measure plain.csv far.obj --points", "--crs overrides it|say with --crs source", "scarp measure plain.csv far.obj --points --crs source || [ $? = 3 ]", "scarp simplify dem.tif far.obj -e 20 -q --crs EPSG:32616")
-O("a mesh of a grid over points", "scarp measure plain.csv grid.obj --points", "say with --crs source", "scarp measure plain.csv grid.obj --points --crs source || [ $? = 3 ]", "scarp simplify none.tif grid.obj -e 1 -q --crs grid")
-O("a cutline by cells", "scarp simplify dem.tif o.glb -e 20 --cutline small.geojson --mask-outside", "leave --mask-outside out", "scarp simplify dem.tif o.glb -e 20 --cutline small.geojson", "sed 's/-84.318/-84.3178/g; s/-84.310/-84.3172/g' lake.geojson > small.geojson")
-O("a cutline with streaming", "scarp simplify dem.tif o.glb -e 20 --cutline lake.geojson --crs EPSG:32616", "--mask-outside cuts at cells", "scarp simplify dem.tif o.glb -e 20 --cutline lake.geojson --mask-outside --crs EPSG:32616")
+O("a mesh of another CRS over points", "scarp measure plain.csv far.obj --points", "--crs overrides it|or give --crs source", "scarp measure plain.csv far.obj --points --crs source || [ $? = 3 ]", "scarp simplify dem.tif far.obj -e 20 -q --crs EPSG:32616")
+O("a mesh of a grid over points", "scarp measure plain.csv grid.obj --points", "or give --crs source", "scarp measure plain.csv grid.obj --points --crs source || [ $? = 3 ]", "scarp simplify none.tif grid.obj -e 1 -q --crs grid")
+O("a cutline by cells", "scarp simplify dem.tif o.glb -e 20 --cutline small.geojson --mask-outside", "omit --cutline whole-cells", "scarp simplify dem.tif o.glb -e 20 --cutline small.geojson", "sed 's/-84.318/-84.3178/g; s/-84.310/-84.3172/g' lake.geojson > small.geojson")
+O("a cutline with streaming", "scarp simplify dem.tif o.glb -e 20 --cutline lake.geojson --crs EPSG:32616", "--cutline whole-cells cuts at cells", "scarp simplify dem.tif o.glb -e 20 --cutline lake.geojson,whole-cells --crs EPSG:32616")
 O("ridges without a bound", "scarp simplify dem.tif o.glb --tolerance m.tif --ridges 30", "needs --max-error", "scarp simplify dem.tif o.glb -e 20 --ridges 30", "gdal_translate -q -ot Float32 dem.tif m.tif")
 O("too little memory", "scarp simplify big.vrt o.glb -e 300 --nodata-policy fill --memory 100M", "leave --nodata-policy out|leave --memory out", "scarp simplify big.vrt o.glb -e 300 --memory 100M", "gdal_translate -q -of VRT -outsize 4000 3000 dem.tif big.vrt")
 HUGE = "scarp simplify huge.asc o.glb -e 1e37"
