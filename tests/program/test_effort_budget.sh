@@ -65,7 +65,7 @@ assert len(search) > 2 and search == sorted(search), search
 assert not any(line["pass"] in ("refine", "fit") for line in lines), lines
 PYTHON
 
-refuses 1 "needs a budget" "$scarp" simplify "$dem" never.glb -e 20 --effort high --objective rms
+refuses 1 "--objective rms needs --max-triangles or --max-points" "$scarp" simplify "$dem" never.glb -e 20 --effort high --objective rms
 refuses 1 "--effort fast cannot be combined with --objective rms" "$scarp" simplify "$dem" never.glb -t 3000 --effort fast --objective rms
 refuses 1 "--objective" "$scarp" simplify "$dem" never.glb -t 3000 --effort high --objective least
 refuses 1 "1 triangle is too few" "$scarp" simplify "$dem" never.glb -t 1 --effort high
