@@ -211,17 +211,17 @@ def includes_of(path):
 @functools.cache
 def reached_headers(path, tree):
     """The names of public headers, and the other headers, that a file reaches by its includes."""
-    public, others, todo = set(), set(), [path]
-    while todo:
-        for header in includes_of(todo.pop()):
+    public, others, pending = set(), set(), [path]
+    while pending:
+        for header in includes_of(pending.pop()):
             if header.startswith("scarp/"):
                 file = tree / "include" / header
                 if file.is_file() and file.stem not in public:
                     public.add(file.stem)
-                    todo.append(file)
+                    pending.append(file)
             elif (file := tree / "src" / header).is_file() and file not in others:
                 others.add(file)
-                todo.append(file)
+                pending.append(file)
     return public, others
 
 

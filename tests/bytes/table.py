@@ -47,17 +47,17 @@ class Program:
     """Runs the program with words; a worker has its own."""
 
     def __init__(self, path):
-        self.path, self.library, self.own = path, os.environ.get("SCARP_START_ONCE"), threading.local()
+        self.path, self.preloaded, self.own = path, os.environ.get("SCARP_START_ONCE"), threading.local()
         self.started = []
 
     def run(self, words, messages):
         """The exit code; what the program prints on standard error is in the file `messages`."""
-        if not self.library:
+        if not self.preloaded:
             with open(messages, "wb") as file:
                 return subprocess.run([self.path, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file).returncode
         if not hasattr(self.own, "started"):
             self.own.started = subprocess.Popen([self.path], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                                env={**os.environ, "LD_PRELOAD": self.library})
+                                                env={**os.environ, "LD_PRELOAD": self.preloaded})
             self.started.append(self.own.started)
         text = b"".join(os.fsencode(word) + b"\0" for word in [messages, self.path, *words])
         self.own.started.stdin.write(struct.pack("=I", len(text)) + text)

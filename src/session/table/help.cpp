@@ -203,7 +203,7 @@ std::string command_help(const CommandRow& command, bool all) {
       return row->group != OptionGroup::kStrategies && row->group != OptionGroup::kArguments;
     });
   const std::string page = head + list_options(rows) + list_old_spellings(command) + "\n" + command.notes;
-  if (all || command.command == kClassic || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
+  if (all || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
   return head + list_briefly(rows) + "\n" + command.notes;
 }
 

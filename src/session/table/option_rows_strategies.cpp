@@ -17,7 +17,8 @@ constexpr OptionRow kStrategyRows[] = {
      .by_default = "dominant with -e alone, else greedy",
      .is_of_mesh = false,
      .help = "Sample that is inserted next. dominant: the worst of its neighbourhood, on all threads. greedy: the "
-             "worst of the whole raster, as in the paper, on one thread."},
+             "worst of the whole raster, as in the paper, on one thread.",
+     .brief = "Sample that is inserted next: dominant or greedy"},
     {.id = kImportance,
      .name = "--importance",
      .commands = kStrategies,
@@ -29,14 +30,16 @@ constexpr OptionRow kStrategyRows[] = {
      .help = "Measure of the worst sample: the largest global (error of the mesh), local or local8 "
              "(difference from the mean of its 4 or 8 neighbours) or curvature. Or a product: global*local, "
              "'global*(local+1)', 'global*sqrt(curvature+1)'. Distance, from the nearest corner of its triangle, "
-             "attenuates errors near vertices: 'global*sqrt(distance+1)'."},
+             "attenuates errors near vertices: 'global*sqrt(distance+1)'.",
+     .brief = "Measure of the worst sample, such as global*local"},
     {.id = kOnePass,
      .name = "--one-pass",
      .commands = kStrategies,
      .group = OptionGroup::kStrategies,
      .type = kFlag,
      .help = "Rank all samples once, by --importance local, local8 or curvature, and insert the best. For -t and -p: "
-             "with -e it inserts nearly everything."},
+             "with -e it inserts nearly everything.",
+     .brief = "Rank all samples once and insert the best"},
     {.id = kAlgorithm,
      .name = "--algorithm",
      .commands = kStrategies,
@@ -46,7 +49,8 @@ constexpr OptionRow kStrategyRows[] = {
      .by_default = "heap",
      .is_of_mesh = false,
      .help = "How the greedy order finds the next sample: the paper's algorithms I, II and III. The mesh is the "
-             "same."},
+             "same.",
+     .brief = "The paper's algorithms I, II and III of the greedy order"},
     {.id = kBatch,
      .name = "--batch",
      .commands = kStrategies,
@@ -56,7 +60,8 @@ constexpr OptionRow kStrategyRows[] = {
      .choices = "const frac: independent",
      .by_default = "one sample at a time",
      .help = "Insert several samples per pass. const: all that break the bound. frac:A: all of at least A times the "
-             "worst. independent: those in triangles that have not changed."},
+             "worst. independent: those in triangles that have not changed.",
+     .brief = "Insert several samples per pass"},
     {.id = kEdges,
      .name = "--edges",
      .commands = kStrategies,
@@ -64,7 +69,8 @@ constexpr OptionRow kStrategyRows[] = {
      .type = kChoice,
      .choices = "delaunay data",
      .by_default = "delaunay",
-     .help = "Diagonals to keep: those of well-shaped triangles, or those that fit the heights."},
+     .help = "Diagonals to keep: those of well-shaped triangles, or those that fit the heights.",
+     .brief = "Diagonals by shape (delaunay) or by the heights (data)"},
     {.id = kEdgeScore,
      .name = "--edge-score",
      .commands = kStrategies,
@@ -74,7 +80,8 @@ constexpr OptionRow kStrategyRows[] = {
      .choices = "sum max sqerr abn tight",
      .by_default = "sum",
      .help = "With --edges data: what a diagonal is judged by. sum or max of its triangles' largest errors, sqerr "
-             "(squared errors), abn (angle between normals), tight (fewest triangles at equal error)."},
+             "(squared errors), abn (angle between normals), tight (fewest triangles at equal error).",
+     .brief = "With --edges data: the measure of a diagonal"},
     {.id = kShapeThreshold,
      .name = "--shape-threshold",
      .commands = kStrategies,
@@ -85,7 +92,8 @@ constexpr OptionRow kStrategyRows[] = {
      .least = 0,
      .most = 1,
      .limit_why = "0 counts the data alone, 1 the shape alone",
-     .help = "With --edges data: 0 counts the data alone, 1 the shape alone."},
+     .help = "With --edges data: 0 counts the data alone, 1 the shape alone.",
+     .brief = "With --edges data: 0 counts the data alone, 1 the shape"},
     {.id = kSupersample,
      .name = "--supersample",
      .commands = kStrategies,
@@ -94,7 +102,8 @@ constexpr OptionRow kStrategyRows[] = {
      .value = "F",
      .by_default = "0, off",
      .least = 0,
-     .help = "With --edges data: judge thin triangles on a finer lattice of bilinear heights. 0.8 is moderate."},
+     .help = "With --edges data: judge thin triangles on a finer lattice of bilinear heights. 0.8 is moderate.",
+     .brief = "With --edges data: judge thin triangles on a finer lattice"},
 };
 
 }  // namespace
