@@ -53,7 +53,11 @@ struct PointOptions {
   /// Above 0, in units of x and y: the mesh ends at a concave hull, whose edges are up to this long where the points
   /// hang together without longer ones. DEFAULT: at the convex hull.
   std::optional<double> boundary_length = std::nullopt;
-  Run run = {};  ///< threads, of the proof, and progress
+  /// The work that follows refinement: effort, vertices and min_shape, as for a raster; the rest does not apply. Free
+  /// vertices lie on a lattice of 2^22 steps or more over the extent. A max error of 0, or one that the rounding of
+  /// heights to float32 uses up, allows fast effort only. DEFAULT: normal effort.
+  Quality quality = {};
+  Run run = {};  ///< threads, progress, and a limit of the time
 };
 
 /// Greedy insertion on scattered samples (section 2 of the 1995 paper names it, without doing it). The domain is the

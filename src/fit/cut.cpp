@@ -52,8 +52,11 @@ struct PatchCutter::Parts {
 };
 
 PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice,
-                         const PatchGrid& grid, const FreeSides& free_sides, int threads)
+                         const PatchGrid& grid, const FreeSides& free_sides, int threads, const PointSamples* points)
     : raster_(raster), tin_(tin), lattice_(lattice), grid_(grid), free_sides_(free_sides), threads_(threads) {
+  constexpr std::int64_t kSteps = kLatticeSteps;
+  last_ = points != nullptr ? LatticePoint{points->last.x, points->last.y}
+                            : LatticePoint{(raster.cols - 1) * kSteps, (raster.rows - 1) * kSteps};
   const auto squares = [&](std::int32_t samples) {
     return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);
   };
@@ -183,8 +186,6 @@ void PatchCutter::add_faces(std::size_t i, const Scratch& scratch, Patch& patch)
 
 void PatchCutter::lock(Patch& patch) const {
   constexpr std::int64_t kSteps = kLatticeSteps;
-  const std::int64_t right = (std::int64_t{raster_.cols} - 1) * kSteps,
-                     bottom = (std::int64_t{raster_.rows} - 1) * kSteps;
   const auto point_of = [&](Patch::Id v) {
     const FitCorner& at = patch.nodes_[v].at;
     return LatticePoint{at.x + patch.window_.first.x * kSteps, at.y + patch.window_.first.y * kSteps};
@@ -196,7 +197,7 @@ void PatchCutter::lock(Patch& patch) const {
       const Patch::Link link = face.links[k];
       const bool is_fixed = Patch::is_border(link) && !(Patch::is_side(link) && is_on_free_side(at[0], at[1]));
       for (std::size_t i = 0; i < 2; ++i) {
-        const bool is_corner = (at[i].x == 0 || at[i].x == right) && (at[i].y == 0 || at[i].y == bottom);
+        const bool is_corner = (at[i].x == 0 || at[i].x == last_.x) && (at[i].y == 0 || at[i].y == last_.y);
         if (is_fixed || is_corner) patch.locked_[ends[i]] = 1;
       }
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fit/patch.h"
+#include "fit/point_samples.h"
 #include "grid/raster.h"
 #include "grid/vertex_lattice.h"
 #include "tin/triangulation.h"
@@ -27,9 +28,9 @@ struct FreeSides {
 /// Assigns triangles to patches.
 class PatchCutter {
  public:
-  /// Raster, triangulation and lattice stay alive.
+  /// Raster, triangulation and lattice stay alive. `points`: as in FitOptions.
   PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice, const PatchGrid& grid,
-              const FreeSides& free_sides, int threads);
+              const FreeSides& free_sides, int threads, const PointSamples* points = nullptr);
 
   std::size_t count() const { return begins_.size() - 1; }
 
@@ -73,6 +74,7 @@ class PatchCutter {
   HalfEdge name_now(HalfEdge before, const Parts& parts) const;
 
   const Raster& raster_;
+  LatticePoint last_;  // last column and row
   const Triangulation& tin_;
   const VertexLattice& lattice_;
   PatchGrid grid_;

@@ -60,6 +60,9 @@ struct FitOptions {
   /// Bounds of samples with bounds of their own, row-major like the raster: at least 0, +infinity for none, no NaN.
   /// They stand in for the threshold; energies count errors in them. EMPTY: the threshold holds for all.
   std::span<const float> bounds = {};
+  /// Scattered samples in place of the raster's, which then has none: a sample of its is a cell of kLatticeSteps. Then
+  /// vertices have heights of their own, and lie on the lattice. They stay alive. DEFAULT: null, the raster's.
+  const PointSamples* points = nullptr;
   /// Errors are norms over several fields. Then vertices stay on samples, and heights alone are not bounded. Stays
   /// alive. DEFAULT: null, of heights alone.
   const FitNorm* norm = nullptr;

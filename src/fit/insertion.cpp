@@ -79,7 +79,11 @@ void Insertion::try_place(double x, double y, Offer& best, const Offer& kind) {
   const std::int32_t unit = is_free ? kFreeStep : kLatticeSteps;
   FitCorner place{static_cast<std::int32_t>(std::lround(x / unit)) * unit,
                   static_cast<std::int32_t>(std::lround(y / unit)) * unit, rim_.front().z};
-  if (!is_free) place.z = error_.height_at({place.x / kLatticeSteps, place.y / kLatticeSteps});
+  if (!is_free && error_.has_points()) {
+    place = error_.place_of(error_.sample_near(place));
+  } else if (!is_free) {
+    place.z = error_.height_at({place.x / kLatticeSteps, place.y / kLatticeSteps});
+  }
   if (!(std::abs(place.z) <= kMaxScanHeight)) return;
   const auto corner = [this](std::size_t i) -> const FitCorner& { return rim_[i % rim_.size()]; };
   const Fan fan(rim_.size(), corner);

@@ -21,8 +21,7 @@ class RemovalQueue {
   /// All stay alive. Nodes are neither added nor deleted meanwhile.
   RemovalQueue(const Patch& patch, const TriangleError& error, const ShapeRule& shape)
       : patch_(patch), shape_(shape), search_(error, shape), notes_(patch.node_count()), queue_(patch.node_count()) {
-    for (Patch::Id v = 0; v < patch.node_count(); ++v)
-      notes_[v].witness = {patch.at(v).x / kLatticeSteps, patch.at(v).y / kLatticeSteps};
+    for (Patch::Id v = 0; v < patch.node_count(); ++v) notes_[v].witness = error.sample_near(patch.at(v));
   }
 
   /// Calls pass.remove(v, star, triangles), which returns the nodes around which something has changed, for the

@@ -36,7 +36,7 @@ void each_triangle(std::size_t corners, const Middle& middle, const Visit& visit
 bool RingSearch::find(std::span<const FitCorner> ring, const FitCorner& hub, Point& witness) {
   ring_ = ring;
   size_ = ring.size();
-  const Point centre{(hub.x + kLatticeSteps / 2) / kLatticeSteps, (hub.y + kLatticeSteps / 2) / kLatticeSteps};
+  const Point centre = error_.sample_near(hub);
   look_from(centre);
   keep_positive();
   if (shape_.is_on()) keep_shapely(hub);
@@ -86,9 +86,10 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
 void RingSearch::look_from(Point sample) {
   const double height = error_.value_at(0, sample);
   limit_ = error_.limit_at(sample);
+  const FitCorner origin = error_.place_of(sample);
   for (std::size_t i = 0; i < size_; ++i) {
-    x_[i] = ring_[i].x - sample.x * kLatticeSteps;
-    y_[i] = ring_[i].y - sample.y * kLatticeSteps;
+    x_[i] = ring_[i].x - origin.x;
+    y_[i] = ring_[i].y - origin.y;
     z_[i] = error_.value_at(0, ring_[i]) - height;
   }
   for (std::size_t k = 0; k < more_z_.size(); ++k) {

@@ -25,12 +25,20 @@ void spread(const Patch& patch, std::vector<std::uint8_t>& marks) {
 }
 
 Freedom freedom_of(const Raster& raster, const FitOptions& options) {
-  const bool has_room = std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
+  const bool has_room =
+      options.points != nullptr || std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
   return options.vertices_are_free && options.norm == nullptr && has_room ? Freedom::kLattice : Freedom::kSamples;
 }
 
 /// Limits vertices to the range of the samples.
-void set_range(const Raster& raster, const ReadWindow& read, MoveRules& rules) {
+void set_range(const Raster& raster, const FitOptions& options, MoveRules& rules) {
+  const ReadWindow& read = options.read;
+  if (options.points != nullptr) {
+    const auto [least, most] = std::minmax_element(options.points->z.begin(), options.points->z.end());
+    rules.lowest = static_cast<float>(*least);
+    rules.highest = static_cast<float>(*most);
+    return;
+  }
   rules.lowest = std::numeric_limits<float>::max();
   rules.highest = std::numeric_limits<float>::lowest();
   std::vector<float> buffer(read ? static_cast<std::size_t>(raster.cols) : 0);
@@ -68,7 +76,7 @@ Rounds::Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, c
       held_(fitted_.tin.vertex_count(), 0),
       scratch_(static_cast<std::size_t>(thread_count(options.threads))),
       windows_(scratch_.size()) {
-  if (rules_.freedom == Freedom::kLattice) set_range(raster, options.read, rules_);
+  if (rules_.freedom == Freedom::kLattice) set_range(raster, options, rules_);
 }
 
 bool Rounds::run(const PatchGrid& grid, double end, bool relocates) {
@@ -93,7 +101,7 @@ bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& opti
 }
 
 bool Rounds::work_twice(const PatchGrid& grid, double end, Prepare prepare, Between between, Job job) {
-  const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
+  const PatchCutter cutter = this->cutter(grid);
   std::vector<Patch> patches(cutter.count());
   std::vector<std::vector<Vertex>> vertices(cutter.count());
   const double begin = done_;
@@ -127,7 +135,7 @@ Fitted Rounds::finish() {
 /// Cuts, calls work(patch, vertices, error), which counts its changes, for each patch, and joins, to a lattice of so
 /// many steps.
 bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work) {
-  const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
+  const PatchCutter cutter = this->cutter(grid);
   std::vector<Patch> patches(cutter.count());
   std::vector<std::vector<Vertex>> vertices(cutter.count());
   counts_.assign(cutter.count(), {});
@@ -175,7 +183,12 @@ bool Rounds::is_worked_on(const Patch& patch) const {
   return options_.most_window == 0 || std::int64_t{window.cols} * window.rows <= options_.most_window;
 }
 
+PatchCutter Rounds::cutter(const PatchGrid& grid) const {
+  return {raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads, options_.points};
+}
+
 TriangleError Rounds::errors_of(const Patch& patch, SampleWindow& window) const {
+  if (options_.points != nullptr) return window.errors(*options_.points, patch, options_.threshold);
   if (options_.read) return window.errors(options_.read, options_.read_bounds, patch, options_.threshold);
   return window.errors(raster_, options_.bounds, options_.norm, patch, options_.threshold);
 }

@@ -52,6 +52,7 @@ class Rounds {
   bool work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work);
   bool is_worked_on(const Patch& patch) const;
   TriangleError errors_of(const Patch& patch, SampleWindow& window) const;
+  PatchCutter cutter(const PatchGrid& grid) const;
   std::int32_t steps_of_moves() const;
   bool each_patch(std::size_t count, double begin, double end,
                   FunctionRef<void(std::size_t i, std::size_t worker)> one);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fit/norm_error.h"
+#include "fit/point_error.h"
 #include "fit/triangle_kernels.h"
 #include "fit/triangle_scan.h"
 #include "fit/triangle_sums.h"
@@ -38,7 +39,13 @@ TriangleError::TriangleError(const NormError& norm, const ErrorRule& rule)
   norm_ = &norm;
 }
 
+TriangleError::TriangleError(const PointError& points, const ErrorRule& rule)
+    : TriangleError(Raster{}, {}, points.threshold(), rule) {
+  points_ = &points;
+}
+
 TriangleError TriangleError::with(const ErrorRule& rule) const {
+  if (points_ != nullptr) return TriangleError(*points_, rule);
   if (norm_ != nullptr) return TriangleError(*norm_, rule);
   if (has_bounds()) return {raster_, first_, SampleBounds{bounds_.samples, unit_}, rule};
   return {raster_, first_, threshold_, rule};
@@ -134,6 +141,7 @@ bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner&
 TriangleError::Verdict TriangleError::assess(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                              float energy_limit) const {
   if (norm_ != nullptr) return norm_->assess({a, b, c}, energy_limit, {limit_, power_});
+  if (points_ != nullptr) return points_->assess({a, b, c}, energy_limit, limit_, power_);
   if (holds_corners_only(a, b, c)) return assess_corners({a, b, c}, energy_limit);
   if (!has_bounds()) return assess_by_threshold(a, b, c, energy_limit);
   return power_ == ErrorRule::Power::kTwo ? assess_by_bounds<ByBounds<Squares>>(a, b, c, energy_limit)
@@ -147,6 +155,15 @@ Norm TriangleError::norm() const { return norm_ != nullptr ? norm_->norm() : Nor
 double TriangleError::norm_value_at(std::size_t field, Point sample) const { return norm_->value_at(field, sample); }
 
 double TriangleError::norm_bound_at(Point sample) const { return norm_->bound_at(sample); }
+
+FitCorner TriangleError::point_at(Point sample) const { return points_->at(sample); }
+
+Point TriangleError::point_near(const FitCorner& place) const { return points_->nearest(place); }
+
+std::array<double, 2> TriangleError::point_slope(const FitCorner& place) const {
+  const auto [x, y] = points_->slope_at(place);
+  return {x / unit_, y / unit_};
+}
 
 TriangleError::Verdict TriangleError::assess_by_threshold(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                                           float energy_limit) const {
@@ -196,20 +213,18 @@ TriangleError::Verdict TriangleError::assess_by_bounds(const FitCorner& a, const
 template <class Tally>
 bool TriangleError::decide(const Tally& tally, Verdict& verdict) const {
   const bool keeps = !tally.breaks(verdict.worst) && (!tally.is_in_doubt(verdict.worst) || settle(tally, verdict));
-  take_side(keeps, verdict);
+  verdict.worst = on_side_of(threshold_, keeps, verdict.worst);
   return keeps;
 }
 
-/// Moves `worst` to the side of the threshold where it belongs.
-void TriangleError::take_side(bool keeps, Verdict& verdict) const {
-  auto nearest = static_cast<float>(threshold_);
+float on_side_of(double threshold, bool keeps, float error) {
+  auto nearest = static_cast<float>(threshold);
   if (keeps) {
-    if (double{nearest} > threshold_) nearest = std::nextafter(nearest, 0.0f);
-    verdict.worst = std::min(verdict.worst, nearest);
-  } else {
-    if (double{nearest} <= threshold_) nearest = std::nextafter(nearest, std::numeric_limits<float>::infinity());
-    verdict.worst = std::max(verdict.worst, nearest);
+    if (double{nearest} > threshold) nearest = std::nextafter(nearest, 0.0f);
+    return std::min(error, nearest);
   }
+  if (double{nearest} <= threshold) nearest = std::nextafter(nearest, std::numeric_limits<float>::infinity());
+  return std::max(error, nearest);
 }
 
 /// With bounds the error in them, else itself.
@@ -248,7 +263,7 @@ TriangleError::Verdict TriangleError::assess_corners(const std::array<FitCorner,
     verdict.worst = std::max(verdict.worst, share);
     verdict.energy += energy_of(share);
   }
-  take_side(keeps, verdict);
+  verdict.worst = on_side_of(threshold_, keeps, verdict.worst);
   if (verdict.energy >= energy_limit) verdict.kind = Verdict::Kind::kCostly;
   return verdict;
 }

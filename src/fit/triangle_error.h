@@ -31,6 +31,9 @@ struct FitCorner {
   float z = 0;                ///< at most kMaxScanHeight in magnitude
 };
 
+/// An error as computed, moved to the side of the threshold where it belongs.
+float on_side_of(double threshold, bool keeps, float error);
+
 /// Twice the area, positive counter-clockwise.
 inline std::int64_t area2(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
@@ -52,6 +55,7 @@ struct SampleRows;
 struct TriangleKernels;
 struct TriangleTask;
 class NormError;
+class PointError;
 
 /// Bounds of samples, row-major like them: at least 0, +infinity for none, no NaN.
 struct SampleBounds {
@@ -67,6 +71,8 @@ class TriangleError {
   TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule = {});
   /// Norms over several fields, which stay alive. Then corners are samples.
   explicit TriangleError(const NormError& norm, const ErrorRule& rule = {});
+  /// Errors at scattered samples, which stay alive. A sample is what they call one.
+  explicit TriangleError(const PointError& points, const ErrorRule& rule = {});
   /// The same samples by another rule.
   TriangleError with(const ErrorRule& rule) const;
 
@@ -127,7 +133,23 @@ class TriangleError {
     return has_bounds() ? limit_ * double{bound_at(sample)} : limit_;
   }
   /// Height of a sample counted from the first of the window.
-  float height_at(Point sample) const { return raster_.at({first_.x + sample.x, first_.y + sample.y}); }
+  float height_at(Point sample) const {
+    return points_ != nullptr ? place_of(sample).z : raster_.at({first_.x + sample.x, first_.y + sample.y});
+  }
+
+  bool has_points() const { return points_ != nullptr; }
+  /// The sample next to a place of the window.
+  Point sample_near(const FitCorner& place) const {
+    constexpr std::int32_t kHalf = kLatticeSteps / 2;
+    if (points_ != nullptr) return point_near(place);
+    return {(place.x + kHalf) / kLatticeSteps, (place.y + kHalf) / kLatticeSteps};
+  }
+  /// The place of a sample, and its height; of a raster's sample without it.
+  FitCorner place_of(Point sample) const {
+    return points_ != nullptr ? point_at(sample) : FitCorner{sample.x * kLatticeSteps, sample.y * kLatticeSteps, 0};
+  }
+  /// The slopes of scattered samples around a place, in units() a kLatticeSteps.
+  std::array<double, 2> point_slope(const FitCorner& place) const;
 
   /// Fields whose errors count; of heights alone one.
   std::size_t field_count() const;
@@ -158,11 +180,12 @@ class TriangleError {
   float energy_of(float error) const;
   template <class Tally>
   bool decide(const Tally& tally, Verdict& verdict) const;
-  void take_side(bool keeps, Verdict& verdict) const;
   template <class Tally>
   bool settle(const Tally& tally, Verdict& verdict) const;
   template <class Tally>
   Point find_worst(const Tally& tally, std::int32_t y, std::int32_t first, std::int32_t last) const;
+  FitCorner point_at(Point sample) const;
+  Point point_near(const FitCorner& place) const;
   double norm_bound_at(Point sample) const;
   double norm_value_at(std::size_t field, Point sample) const;
   float bound_at(Point sample) const { return bounds_.at({first_.x + sample.x, first_.y + sample.y}); }
@@ -178,6 +201,7 @@ class TriangleError {
   const float* end_;                  // end of the samples
   const TriangleKernels* kernels_;    // kernels of one threshold
   const NormError* norm_ = nullptr;
+  const PointError* points_ = nullptr;
 };
 
 }  // namespace scarp

@@ -1,5 +1,6 @@
 // The pull of a triangle's samples on one of its corners.
 #include "fit/norm_error.h"
+#include "fit/point_error.h"
 #include "fit/triangle_kernels.h"
 #include "fit/triangle_scan.h"
 #include "fit/triangle_sums.h"
@@ -46,6 +47,7 @@ Sums TriangleError::ask_by_bounds(const TriangleTask& task, const CornerWeight& 
 }
 
 TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+  if (points_ != nullptr) return points_->pull({a, b, c}, power_);
   const TriangleTask task = task_of(a, b, c);
   const CornerWeight weight = weight_of(a, b, c);
   const double slope_x = double{task.plane.slope_x} / unit_, slope_y = double{task.plane.slope_y} / unit_;
@@ -69,6 +71,7 @@ void TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner
 }
 
 void TriangleError::add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const {
+  if (points_ != nullptr) return points_->add_moments({a, b, c}, power_, moments);
   const TriangleTask task = task_of(a, b, c);
   const CornerWeight weight = weight_of(a, b, c);
   if (!has_bounds()) {
@@ -81,6 +84,7 @@ void TriangleError::add_moments(const FitCorner& a, const FitCorner& b, const Fi
 }
 
 void TriangleError::narrow(const FitCorner& a, const FitCorner& b, const FitCorner& c, Room& room) const {
+  if (points_ != nullptr) return points_->narrow({a, b, c}, room);
   const TriangleTask task = task_of(a, b, c);
   const CornerWeight weight = weight_of(a, b, c);
   if (has_bounds()) {

@@ -57,6 +57,10 @@ Point unit_step(double x, double y) {
 
 /// Central differences, in units of the errors a sample; 0 where samples are nodata or beyond the window.
 VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, std::size_t field, const FitCorner& at) const {
+  if (error.has_points()) {
+    const auto [x, y] = error.point_slope(at);
+    return {x, y};
+  }
   const auto& window = patch_.window();
   const Point p = sample_at(at);
   const auto slope = [&](Point before, Point after) {
@@ -130,7 +134,7 @@ bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
     if (by == Point{0, 0}) by = unit_step(step.x, step.y);
     if (by == last) continue;
     last = by;
-    const FitCorner place = beside(from, by);
+    const FitCorner place = shifted(error, from, by);
     if (fits(place, floor) && take(error, v, offer_at(error, from, place, limit), limit)) return true;
   }
   if (!is_free()) return false;
@@ -147,7 +151,7 @@ bool VertexStep::probe(const TriangleError& error, Patch::Id v, double reach) {
   Offer best{from, limit};
   for (const Point& way : kStepWays) {
     if (!star_.closed && (ring(0).y == from.y ? way.y : way.x) != 0) continue;
-    const FitCorner place = beside(from, {way.x * steps, way.y * steps});
+    const FitCorner place = shifted(error, from, {way.x * steps, way.y * steps});
     if (!fits(place, floor)) continue;
     const Offer there = offer_at(error, from, place, limit);
     if (!is_free() && take(error, v, there, limit)) return true;
@@ -166,13 +170,18 @@ bool VertexStep::shake(const TriangleError& error, Patch::Id v, std::uint32_t di
   };
   Point by{part(dice), part(dice >> 16)};
   if (!star_.closed) (ring(0).y == from.y ? by.y : by.x) = 0;
-  const FitCorner place = beside(from, by);
+  const FitCorner place = shifted(error, from, by);
   if (by == Point{0, 0} || !fits(place, shape_floor(from))) return false;
   return take(error, v, offer_at(error, from, place, limit), limit);
 }
 
-FitCorner VertexStep::beside(const FitCorner& from, Point by) const {
-  return {from.x + by.x * unit(), from.y + by.y * unit(), 0};
+/// The place that a step leads to, or the scattered sample next to it, if a side allows that.
+FitCorner VertexStep::shifted(const TriangleError& error, const FitCorner& from, Point by) const {
+  const FitCorner to{from.x + by.x * unit(), from.y + by.y * unit(), 0};
+  if (is_free() || !error.has_points()) return to;
+  const FitCorner sample = error.place_of(error.sample_near(to));
+  const bool is_on_side = star_.closed || (ring(0).y == from.y ? sample.y == from.y : sample.x == from.x);
+  return is_on_side ? sample : from;
 }
 
 /// For a step of the vertex.
@@ -187,16 +196,31 @@ bool VertexStep::fits(const FitCorner& place, const TriangleShape& floor) const 
   return fan().fits(place, rules_.shape, floor);
 }
 
+/// A height to begin with: the terrain's rise from the vertex on, or with scattered samples that of its triangle.
+float VertexStep::guess_height(const TriangleError& error, const FitCorner& from, const FitCorner& place) const {
+  if (!error.has_points()) {
+    const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);
+    return std::isnan(rise) ? from.z : from.z + rise;
+  }
+  for (std::size_t i = 0; i < star_.faces.size(); ++i) {
+    const FitCorner &b = ring(i), &c = ring(i + 1);
+    const double of_b = static_cast<double>(area2(from, place, c)), of_c = static_cast<double>(area2(from, b, place));
+    if (of_b < 0 || of_c < 0) continue;
+    const double rise = (of_b * (double{b.z} - double{from.z}) + of_c * (double{c.z} - double{from.z}));
+    return static_cast<float>(double{from.z} + rise / static_cast<double>(area2(from, b, c)));
+  }
+  return from.z;
+}
+
 /// Gives the place its height. Where that mends the star its energy counts as below the limit.
 VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorner& from, FitCorner place,
                                        float limit) const {
   constexpr float kNever = std::numeric_limits<float>::infinity();
   if (!is_free()) {
-    place.z = error.height_at(sample_at(place));
+    if (!error.has_points()) place.z = error.height_at(sample_at(place));
     return {place, std::abs(place.z) <= kMaxScanHeight ? 0 : kNever};
   }
-  const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);
-  place.z = std::isnan(rise) ? from.z : from.z + rise;
+  place.z = guess_height(error, from, place);
   const auto raised =
       fan().raise(error, rules_, place, [&](double energy) { return seeks_room_ && (is_over_ || energy < limit); });
   const auto energy = static_cast<float>(raised.energy);

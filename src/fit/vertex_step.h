@@ -66,7 +66,8 @@ class VertexStep {
   double mean_edge(const FitCorner& at) const;
   bool take_up(const TriangleError& error, Patch::Id v);
   float energy() const;
-  FitCorner beside(const FitCorner& from, Point by) const;
+  FitCorner shifted(const TriangleError& error, const FitCorner& from, Point by) const;
+  float guess_height(const TriangleError& error, const FitCorner& from, const FitCorner& place) const;
   std::int32_t unit() const { return is_free() ? kFreeStep : kLatticeSteps; }
   bool is_free() const { return rules_.freedom == Freedom::kLattice; }
   TriangleShape shape_floor(const FitCorner& from) const;

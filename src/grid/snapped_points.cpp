@@ -85,9 +85,22 @@ std::optional<Snapped> snap_to_decimals(const PointSet& points, const AxisExtent
   return snapped;
 }
 
+/// Divides the steps of a coarse lattice by a power of two.
+void make_room(Snapped& snapped) {
+  constexpr std::int32_t kEnough = 1 << 23;
+  PointLattice& lattice = snapped.lattice;
+  std::int32_t factor = 1;
+  while (std::int64_t{2} * factor * std::max(lattice.cols, lattice.rows) <= kEnough) factor *= 2;
+  for (Point& p : snapped.at) p = {p.x * factor, p.y * factor};
+  lattice.step /= factor;
+  lattice.cols = (lattice.cols - 1) * factor + 1;
+  lattice.rows = (lattice.rows - 1) * factor + 1;
+}
+
 Snapped snap_to_power_of_two(const PointSet& points, const AxisExtent& x, const AxisExtent& y, PointSteps steps) {
   const double size = std::max(x.size(), y.size());
-  int exponent = size > 0 ? std::ilogb(size) - (steps == PointSteps::kFloat32 ? 23 : 30) : 0;
+  const int bits = steps == PointSteps::kFloat32 ? 23 : steps == PointSteps::kFit ? 24 : 30;
+  int exponent = size > 0 ? std::ilogb(size) - bits : 0;
   while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
   const auto whole = [exponent](double length) {
     return static_cast<std::int32_t>(std::nearbyint(std::ldexp(length, -exponent)));
@@ -137,6 +150,11 @@ bool are_at_one_place(const PointSet& points, std::uint32_t a, std::uint32_t b) 
   return points.x[a] == points.x[b] && points.y[a] == points.y[b];
 }
 
+/// True for points at one place of the finest lattice.
+bool are_inseparable(const PointSet& points, std::uint32_t a, std::uint32_t b, double extent) {
+  return std::max(std::abs(points.x[a] - points.x[b]), std::abs(points.y[a] - points.y[b])) < extent * 0x1p-30;
+}
+
 /// The first of [first, last) that lies elsewhere than *first does in the coordinates as given; `last` if none does.
 const Keyed* find_stranger(const PointSet& points, const Keyed* first, const Keyed* last) {
   return std::find_if(first, last, [&](const Keyed& k) { return !are_at_one_place(points, k.point, first->point); });
@@ -173,6 +191,16 @@ Result<void> check(const PointSet& points) {
 
 }  // namespace
 
+std::uint32_t find_point(const SnappedPoints& points, Point at) {
+  const auto place = [](Point p) {
+    return curve_place(static_cast<std::uint64_t>(p.x), static_cast<std::uint64_t>(p.y));
+  };
+  const auto found =
+      std::partition_point(points.at.begin(), points.at.end(), [&](Point p) { return place(p) < place(at); });
+  return found != points.at.end() && *found == at ? static_cast<std::uint32_t>(found - points.at.begin())
+                                                  : static_cast<std::uint32_t>(points.size());
+}
+
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy, PointSteps steps) {
   SCARP_RETURN_IF_ERROR(check(points));
   AxisExtent x, y, z;
@@ -193,7 +221,8 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   SnappedPoints result;
   Snapped snapped;
   std::optional<Snapped> decimal;
-  if (steps == PointSteps::kFinest) decimal = snap_to_decimals(points, x, y);
+  if (steps != PointSteps::kFloat32) decimal = snap_to_decimals(points, x, y);
+  if (decimal && steps == PointSteps::kFit) make_room(*decimal);
   result.is_exact = decimal.has_value();
   snapped = decimal ? std::move(*decimal) : snap_to_power_of_two(points, x, y, steps);
 
@@ -207,15 +236,17 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   result.lattice = snapped.lattice;
   result.lattice.west = x.least;
   result.lattice.north = y.most;
-  const bool has_lines = !points.lines.empty();
-  if (has_lines) result.place.resize(points.size());
+  const bool has_lines = !points.lines.empty(), has_echoes = has_lines || steps != PointSteps::kFinest;
+  if (has_echoes) result.place.resize(points.size());
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;
     const Keyed *first = &keys[i], *last = first + (end - i);
-    if (const Keyed* stranger = find_stranger(points, first, last); stranger != last && !has_lines)
+    if (const Keyed* stranger = find_stranger(points, first, last);
+        stranger != last && !has_lines &&
+        (!has_echoes || are_inseparable(points, first->point, stranger->point, extent)))
       return refuse_to_merge(points, first->point, stranger->point, extent);
     const auto [point, height] = choose(points, policy, first, last);
-    for (const Keyed* k = first; k != last && has_lines; ++k) {
+    for (const Keyed* k = first; k != last && has_echoes; ++k) {
       result.place[k->point] = static_cast<std::uint32_t>(result.size());
       if (!are_at_one_place(points, k->point, point)) result.echoes.push_back(k->point);
     }

@@ -17,10 +17,11 @@ struct PointLattice {
   double west = 0, north = 0;  ///< position of column 0 and row 0
 };
 
-/// How fine a lattice for points with lines may be.
+/// How fine the lattice is.
 enum class PointSteps {
   kFinest,
   kFloat32,  ///< so coarse that float32 holds its points as offsets from the middle; all vertices then lie on it
+  kFit,      ///< with room between points for vertices of fitting
 };
 
 /// The points, each at a lattice point of its own. Arrays of equal size, in Morton order of the lattice points: what is
@@ -32,21 +33,24 @@ struct SnappedPoints {
   std::vector<std::uint32_t> source;  ///< the point of the set that stands for the lattice point
   std::vector<double> z;              ///< its height, or the mean
   std::uint64_t duplicates = 0;       ///< points that no lattice point stands for
-  /// In a set with lines, points that share the lattice point of another, without being at its place: they have no
-  /// lattice point of their own, but errors.
+  /// Points that share the lattice point of another, without being at its place: they have no lattice point of their
+  /// own, but errors. EMPTY: kFinest without lines, which refuses them.
   std::vector<std::uint32_t> echoes;
-  std::vector<std::uint32_t> place;  ///< by point of the set: whose lattice point it shares; EMPTY: no lines
+  std::vector<std::uint32_t> place;  ///< by point of the set: whose lattice point it shares; EMPTY: as `echoes`
 
   std::size_t size() const { return at.size(); }
 };
 
+/// The point at a place, or points.size(). Cost: O(log points).
+std::uint32_t find_point(const SnappedPoints& points, Point at);
+
 /// Snaps the points to a lattice and gives up duplicates. The lattice: the coarsest on which all coordinates lie
 /// exactly as decimals, if they have few enough of them; else the finest with a power of two as its step, where points
-/// move by up to half a step, at most extent / 2^30 (2^23 with kFloat32). Duplicates are points with equal coordinates;
-/// points that only the lattice cannot distinguish are refused, but become echoes in a set with lines, whose vertices
-/// are often crowded. With kMean the first point stands for the lattice point. Fails with kInput: a coordinate or
-/// height that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent, no points, more
-/// than 2^31 − 1.
+/// move by up to half a step, at most extent / 2^30 (2^23 with kFloat32, 2^24 with kFit). Duplicates are points with
+/// equal coordinates; points that only the lattice cannot distinguish are refused with kFinest, but become echoes with
+/// other steps, and in a set with lines, whose vertices are often crowded. With kMean the first point stands for the
+/// lattice point. Fails with kInput: a coordinate or height that is not finite or beyond 1e100, an extent below 1e-100,
+/// points too near for their extent, no points, more than 2^31 − 1.
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,
                                   PointSteps steps = PointSteps::kFinest);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "geom/convex_hull.h"
 #include "geom/exact_error.h"
@@ -57,7 +58,8 @@ Vertex ScatteredDomain::insert(std::uint32_t point, Point at, const Triangulatio
   const Vertex v = tin.insert(at, location);
   if (v == point_of.size()) {
     point_of.push_back(point);
-  } else if (point_of[v] == kNone) {
+    if (!heights.empty()) heights.push_back(std::numeric_limits<double>::quiet_NaN());
+  } else if (is_unused(v)) {
     point_of[v] = point;
     --unused;
   }
@@ -140,7 +142,7 @@ ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, const std::
   wedge.triangle = t;
   for (std::size_t k = 0; k < 3; ++k) {
     wedge.corners[k] = domain_.tin.point(corners[k]);
-    wedge.heights[k] = heights_[domain_.point_of[corners[k]]];
+    wedge.heights[k] = domain_.height(corners[k], heights_);
   }
   wedge.plane = Plane::through_double(wedge.corners, wedge.heights);
   return wedge;

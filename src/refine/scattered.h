@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -29,12 +30,20 @@ namespace scarp {
 /// The workbench: a triangulation whose vertices are lattice points.
 struct ScatteredDomain {
   Triangulation tin;
-  std::vector<std::uint32_t> point_of;  ///< by vertex; kNone for corners of the rectangle that are no point
+  std::vector<std::uint32_t> point_of;  ///< by vertex; kNone for corners of the rectangle, and free vertices
   std::vector<std::uint32_t> outline;   ///< the points at the corners of its boundary, positively oriented
   std::uint32_t unused = 0;             ///< vertices without a point
+  /// By vertex, of free vertices, which are no points; others: NaN. EMPTY: all are points, as refinement makes them.
+  std::vector<double> heights = {};
   double width = 0;  ///< how far the hull reaches across a line between two of its farthest corners, as x and y
 
   std::uint64_t vertex_count() const { return point_of.size() - unused; }
+  bool is_free(Vertex v) const { return !heights.empty() && !std::isnan(heights[v]); }
+  bool is_unused(Vertex v) const { return point_of[v] == kNone && !is_free(v); }
+  /// `of_points`: heights by point. REQUIRES: not unused.
+  double height(Vertex v, std::span<const double> of_points) const {
+    return is_free(v) ? heights[v] : of_points[point_of[v]];
+  }
   Vertex insert(std::uint32_t point, Point at, const Triangulation::Location& location);
 };
 

@@ -30,9 +30,10 @@ class ScatteredRefinement::FlatRule final : public FlipRule {
       : own_(refinement), is_marked_(is_marked) {}
 
   bool is_flat(const std::array<Vertex, 3>& corners) const {
-    const auto point = [&](std::size_t k) { return own_.domain_.point_of[corners[k]]; };
+    const auto height = [&](std::size_t k) { return own_.domain_.height(corners[k], own_.heights_); };
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!is_marked_[point(k)] || own_.heights_[point(k)] != own_.heights_[point(0)]) return false;
+      const std::uint32_t point = own_.domain_.point_of[corners[k]];
+      if (point == kNone || !is_marked_[point] || height(k) != height(0)) return false;
     }
     return true;
   }

@@ -258,8 +258,11 @@ RC_GTEST_PROP(concave, meshes_keep_the_promise_at_every_point_and_end_at_the_out
   auto hull = hull_of(snapped);
   RC_PRE(hull.has_value() && snapped.duplicates == 0);
   const double goal = *rc::gen::element(0.0, 0.5, 3.0, 20.0), length = any_length(points);
-  const auto result =
-      simplify_points(points, {.max_error = goal, .float32_positions = false, .boundary_length = length});
+  const auto result = simplify_points(
+      points, {.max_error = goal,
+               .float32_positions = false,
+               .boundary_length = length,
+               .quality = {.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh)}});
   if (!result) RC_FAIL(result.error().message);
   const Mesh& mesh = result->simplified.mesh;
   const Measurement& m = result->simplified.measurement;

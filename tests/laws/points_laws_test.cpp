@@ -35,6 +35,10 @@ bool has_area(const PointSet& points) {
   return snapped && build_domain(*snapped).has_value();
 }
 
+Quality any_quality() {
+  return {.effort = *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax)};
+}
+
 RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
   const Scatter scatter = any_scatter();
   const PointSet points = any_points(120, scatter, *rc::gen::element(Heights::kReal, Heights::kSteps));
@@ -42,7 +46,8 @@ RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
   const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
   const auto policy = *rc::gen::element(DuplicatePolicy::kFirst, DuplicatePolicy::kLast, DuplicatePolicy::kHighest,
                                         DuplicatePolicy::kLowest, DuplicatePolicy::kMean);
-  const auto result = simplify_points(points, {.max_error = goal, .float32_positions = false, .duplicates = policy});
+  const auto result = simplify_points(
+      points, {.max_error = goal, .float32_positions = false, .duplicates = policy, .quality = any_quality()});
   if (!result) RC_FAIL(result.error().message);
   const Measurement& m = result->simplified.measurement;
   const auto snapped = *snap_points(points, policy);
@@ -83,7 +88,7 @@ RC_GTEST_PROP(points, keep_the_promise_in_float32_or_say_that_they_cannot, ()) {
   const PointSet points = any_points(120, any_scatter(), *rc::gen::element(Heights::kReal, Heights::kSteps));
   RC_PRE(has_area(points));
   const double goal = *rc::gen::element(0.0, 0.5, 3.0, 20.0);
-  const auto result = simplify_points(points, {.max_error = goal});
+  const auto result = simplify_points(points, {.max_error = goal, .quality = any_quality()});
   if (!result) {
     RC_ASSERT(result.error().kind == ErrorKind::kPromise);
     return;
@@ -151,10 +156,13 @@ RC_GTEST_PROP(points, keep_their_budgets, ()) {
   const PointSet points = any_points(200, any_scatter(), Heights::kReal);
   RC_PRE(has_area(points));
   const std::uint64_t budget = *rc::gen::inRange<std::uint64_t>(3, 120);
-  const auto by_vertices = simplify_points(points, {.max_vertices = budget, .float32_positions = false});
+  const Quality quality = any_quality();
+  const auto by_vertices =
+      simplify_points(points, {.max_vertices = budget, .float32_positions = false, .quality = quality});
   if (by_vertices) RC_ASSERT(by_vertices->simplified.mesh.vertex_count() <= budget);
   if (!by_vertices) RC_ASSERT(by_vertices.error().kind == ErrorKind::kUsage);
-  const auto by_triangles = simplify_points(points, {.max_triangles = budget, .float32_positions = false});
+  const auto by_triangles =
+      simplify_points(points, {.max_triangles = budget, .float32_positions = false, .quality = quality});
   if (by_triangles) RC_ASSERT(by_triangles->simplified.mesh.triangle_count() <= budget);
   if (!by_triangles) RC_ASSERT(by_triangles.error().kind == ErrorKind::kUsage);
 }
@@ -172,12 +180,19 @@ RC_GTEST_PROP(points, give_the_same_mesh_in_any_order_and_on_any_number_of_threa
     shuffled.y.push_back(points.y[i]);
     shuffled.z.push_back(points.z[i]);
   }
-  PointOptions options{.max_error = 1.0, .float32_positions = false, .duplicates = DuplicatePolicy::kHighest};
+  PointOptions options{.max_error = 1.0,
+                       .float32_positions = *rc::gen::arbitrary<bool>(),
+                       .duplicates = DuplicatePolicy::kHighest,
+                       .quality = any_quality()};
   options.run.threads = 1;
   const auto a = simplify_points(points, options);
   options.run.threads = 4;
   const auto b = simplify_points(shuffled, options);
-  if (!a || !b) RC_FAIL("not simplified");
+  RC_ASSERT(a.has_value() == b.has_value());
+  if (!a) {
+    RC_ASSERT(options.float32_positions && a.error().kind == ErrorKind::kPromise);
+    return;
+  }
   RC_ASSERT(a->simplified.mesh.positions == b->simplified.mesh.positions);
   RC_ASSERT(a->simplified.mesh.triangles == b->simplified.mesh.triangles);
   RC_ASSERT(a->duplicates == b->duplicates);
@@ -219,8 +234,9 @@ RC_GTEST_PROP(points, of_a_raster_give_the_mesh_of_the_raster, ()) {
   }
   const SimplifyOptions options{.goals = {.max_error = *rc::gen::element(0.5, 5.0, 20.0)},
                                 .output = {.float32_positions = false}};
-  const auto scattered = simplify_points(
-      points, {.max_error = options.goals.max_error, .float32_positions = options.output.float32_positions});
+  const auto scattered = simplify_points(points, {.max_error = options.goals.max_error,
+                                                  .float32_positions = options.output.float32_positions,
+                                                  .quality = {.effort = Effort::kFast}});
   SimplifyOptions greedy = options;
   greedy.quality.order = Order::kGreedy;
   const auto raster = simplify(field.view(), greedy);

@@ -315,10 +315,12 @@ TEST(point_sets, whose_hull_bends_by_less_than_float32_tells_apart_keep_their_bo
       points.z.push_back(40 * std::sin(0.2 * col) * std::cos(0.3 * row) + (col * 7 + row * 13) % 11);
     }
   }
-  for (const bool float32 : {true, false}) {
-    const auto result = simplify_points(points, {.max_error = 2.0, .float32_positions = float32});
+  for (const auto& [float32, effort] : {std::pair{true, Effort::kFast}, std::pair{false, Effort::kFast},
+                                        std::pair{true, Effort::kHigh}, std::pair{false, Effort::kHigh}}) {
+    const auto result =
+        simplify_points(points, {.max_error = 2.0, .float32_positions = float32, .quality = {.effort = effort}});
     ASSERT_TRUE(result) << result.error().message;
-    EXPECT_GT(result->on_hull, 100u);
+    EXPECT_GT(result->on_hull, effort == Effort::kFast ? 100u : 50u);
     const auto judged = *measure_points(points, result->simplified.mesh, DuplicatePolicy::kFirst);
     EXPECT_LE(judged.max_error, 2.0 + 1e-10);
     EXPECT_TRUE(judged.is_sound());

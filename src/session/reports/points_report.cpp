@@ -6,6 +6,7 @@
 
 #include "scarp/version.h"
 #include "session/options/points_options.h"
+#include "session/options/strategy_options.h"
 #include "session/reports/report.h"
 #include "session/reports/verdict.h"
 #include "session/text/json_text.h"
@@ -87,7 +88,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
                            {"origin_crs", or_null(outcome.points.crs.empty() ? Given() : Given(outcome.points.crs))}};
   }
   report["goal"] = describe_goal(plan, outcome);
-  report["strategy"] = Json{{"effort", "fast"}, {"why_fast", "points"}};
+  report["strategy"] = Json{{"effort", effort_name(outcome.simplified.effort)}};
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -128,7 +129,7 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
                   format_share(static_cast<double>(outcome.flat), static_cast<double>(outcome.triangles)));
   text += summary_line("triangles", format_count(outcome.triangles) + (outcome.points.lines.empty() ? "" : flats));
   text += solid_line(plan, outcome);
-  text += summary_line("effort", "fast (scattered points are only refined)");
+  text += summary_line("effort", effort_name(outcome.simplified.effort));
   text += summary_line("frame", outcome.frame());
   text += summary_line("max error", fmt::format("{} at {}{}", format_number(measured.max_error),
                                                 describe_place(outcome.points, measured), describe_asked(outcome)));

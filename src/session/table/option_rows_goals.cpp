@@ -78,6 +78,7 @@ constexpr OptionRow kGoalRows[] = {
      .value = "LEVEL",
      .choices = "fast normal high max",
      .by_default = "normal; fast with the 1995 paper's strategies, or too little --memory",
+     .is_for_points = true,
      .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the "
              "triangles of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, "
              "9.6 and 50 times that of the 1995 paper's algorithm. With -t or -p: a smaller error instead.",
@@ -95,6 +96,7 @@ constexpr OptionRow kGoalRows[] = {
      .least = 0,
      .most = 0.5,
      .limit_why = "0.5 is the shape of half a sample's square",
+     .is_for_points = true,
      .help = "Do not create triangles thinner than this (height over longest edge)."},
     {.id = kVertices,
      .name = "--vertices",
@@ -103,6 +105,7 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "free samples",
      .by_default = "free where possible",
+     .is_for_points = true,
      .help = "Positions of vertices for high and max. free: between samples too. samples: only on them; with high "
              "0.41 of the triangles of fast."},
     {.id = kTimeLimit,
@@ -113,6 +116,7 @@ constexpr OptionRow kGoalRows[] = {
      .value = "SECONDS",
      .unit = "seconds",
      .least = 0,
+     .is_for_points = true,
      .help = "Stop improving after SECONDS and write the best mesh so far. It still meets the bound, but depends on "
              "timing; max uses all of the time."},
 

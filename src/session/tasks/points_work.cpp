@@ -207,6 +207,8 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   options.float32_positions = plan.format.is_float32();  // points do not lie where float32 is exact
   options.duplicates = outcome.policy;
   options.boundary_length = boundary_length;
+  options.quality = plan.simplify.quality;
+  options.run.is_time_up = plan.simplify.run.is_time_up;
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = runner.progress;
   Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);

@@ -1,0 +1,75 @@
+// Scattered samples in place of a raster's: where fitting reads them.
+//
+// Samples lie on the lattice of fitting itself, not on every 256th of its steps. They are held in Morton order, so the
+// samples in a window are few runs of it. A patch copies these into rows of buckets, each a run of samples from west to
+// east; a triangle reads, from each row that it meets, the run of buckets under it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/point.h"
+#include "fit/patch.h"
+#include "fit/triangle_error.h"
+
+namespace scarp {
+
+/// Spans of equal size, in Morton order of `at`, in lattice steps. They stay alive.
+struct PointSamples {
+  std::span<const Point> at;
+  std::span<const double> z;  ///< finite, at most kMaxScanHeight in magnitude; read as float32
+  Point last;                 ///< the last column and row of the lattice
+  double rounding = 0;        ///< how far samples may lie from their lattice points, in steps
+};
+
+/// The samples under a patch. Keeps its memory between patches.
+class PointWindow {
+ public:
+  /// Reads the samples of a window of cells of kLatticeSteps, its last column and row included.
+  void read(const PointSamples& samples, const Patch::Window& window);
+
+  std::size_t size() const { return z_.size() - 1; }
+  /// A sample, counted in the order of the window; for index size() all coordinates are 0, and the height NaN.
+  FitCorner at(std::size_t i) const {
+    return {static_cast<std::int32_t>(x_[i]), static_cast<std::int32_t>(y_[i]), z_[i]};
+  }
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
+
+  /// The sample next to a place; ties: the first. size() if there are no samples.
+  std::size_t nearest(const FitCorner& place) const;
+
+  /// Samples [begin, end) of a row of buckets.
+  struct Run {
+    std::uint32_t begin, end;
+  };
+  std::int32_t rows() const { return rows_; }
+  std::int32_t row_of(std::int32_t y) const { return y >> shift_; }
+  /// The northern end of a row, in steps.
+  double top_of(std::int32_t row) const { return static_cast<double>(std::int64_t{row} << shift_); }
+  double height_of_row() const { return static_cast<double>(std::int64_t{1} << shift_); }
+  /// The run of buckets over [west, east], which is clamped to the window.
+  Run run(std::int32_t row, double west, double east) const {
+    const std::int32_t first = column_of(west), last = column_of(east);
+    const std::uint32_t* const begins = begins_.data() + std::ptrdiff_t{row} * cols_;
+    return {begins[first], begins[last + 1]};
+  }
+
+ private:
+  std::int32_t column_of(double x) const {
+    const std::int32_t col = x > 0 ? static_cast<std::int32_t>(x) >> shift_ : 0;
+    return col < cols_ ? col : cols_ - 1;
+  }
+  void sort_into_buckets(std::int64_t width, std::int64_t height);
+
+  std::vector<float> x_, y_, z_;  // steps from the window's first, which float32 holds; a last one more
+  std::vector<float> unsorted_x_, unsorted_y_, unsorted_z_;
+  std::vector<std::uint32_t> begins_;  // by bucket
+  std::int32_t cols_ = 1, rows_ = 1;   // of buckets
+  int shift_ = 0;                      // logarithm of the side of a bucket, in steps
+};
+
+}  // namespace scarp

@@ -1,0 +1,134 @@
+#include "simplify/point_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "base/reporter.h"
+#include "fit/fit.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr double kPositionShare = 0x1p-9;  ///< share of the bound for the rounding of positions
+constexpr double kUsualShape = 0.1;
+constexpr std::int32_t kMostSide = kMaxFitSteps / kLatticeSteps / 2;
+
+/// The points, with those that share the lattice point of another.
+class AllSamples {
+ public:
+  AllSamples(const SnappedPoints& points, const PointSet& given) {
+    const Point last{points.lattice.cols - 1, points.lattice.rows - 1};
+    const double rounding = points.is_exact ? 0 : std::numbers::sqrt2 / 2;
+    if (points.echoes.empty()) {
+      samples_ = {points.at, points.z, last, rounding};
+      return;
+    }
+    std::vector<std::uint32_t> echoes = points.echoes;
+    std::stable_sort(echoes.begin(), echoes.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return points.place[a] < points.place[b]; });
+    auto echo = echoes.begin();
+    for (std::uint32_t point = 0; point < points.size(); ++point) {
+      at_.push_back(points.at[point]);
+      z_.push_back(points.z[point]);
+      for (; echo != echoes.end() && points.place[*echo] == point; ++echo) {
+        at_.push_back(points.at[point]);
+        z_.push_back(given.z[*echo]);
+      }
+    }
+    samples_ = {at_, z_, last, rounding};
+  }
+
+  const PointSamples& samples() const { return samples_; }
+
+ private:
+  std::vector<Point> at_;
+  std::vector<double> z_;
+  PointSamples samples_;
+};
+
+VertexLattice make_lattice(const ScatteredDomain& domain, std::span<const double> heights,
+                           std::span<const std::uint32_t> fixed) {
+  VertexLattice lattice{kLatticeSteps, {}, {}};
+  lattice.heights.reserve(domain.point_of.size());
+  lattice.fixed.reserve(domain.point_of.size());
+  for (Vertex v = 0; v < domain.point_of.size(); ++v) {
+    const std::uint32_t point = domain.point_of[v];
+    lattice.heights.push_back(static_cast<float>(domain.is_unused(v) ? 0 : domain.height(v, heights)));
+    lattice.fixed.push_back(point != kNone && std::binary_search(fixed.begin(), fixed.end(), point));
+  }
+  return lattice;
+}
+
+/// The domain of a fitted mesh: vertices at the place and height of a point are that point.
+void rebuild(const SnappedPoints& points, std::span<const double> heights, Fitted fitted, ScatteredDomain& domain) {
+  const Triangulation& tin = domain.tin = std::move(fitted.tin);
+  std::vector<std::uint8_t> is_used(tin.vertex_count(), 0);
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (!tin.is_outside(h / 3)) is_used[tin.origin(h)] = 1;
+  }
+  domain.point_of.assign(tin.vertex_count(), kNone);
+  domain.heights.assign(tin.vertex_count(), std::numeric_limits<double>::quiet_NaN());
+  domain.unused = 0;
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    if (is_used[v] == 0) {
+      ++domain.unused;
+      continue;
+    }
+    const std::uint32_t point = find_point(points, tin.point(v));
+    if (point != points.size() && static_cast<float>(heights[point]) == fitted.lattice.heights[v]) {
+      domain.point_of[v] = point;
+    } else {
+      domain.heights[v] = double{fitted.lattice.heights[v]};
+    }
+  }
+}
+
+}  // namespace
+
+PointAims::PointAims(double max_error, std::span<const double> heights) {
+  double largest = 0;
+  for (const double z : heights) largest = std::max(largest, std::abs(z));
+  // A point and the surface are each rounded by half a unit in the last place.
+  const double rounding = largest * 0x1p-24 * (1 + 0x1p-10);
+  fit = max_error * (1 - kPositionShare) - rounding;
+  refinement = largest < double{kMaxScanHeight} ? fit - 2 * rounding : 0;
+}
+
+Result<PointFit> fit_points(const SnappedPoints& points, const PointSet& given, std::span<const double> heights,
+                            const PointAims& aims, std::span<const std::uint32_t> fixed, const PointOptions& options,
+                            ScatteredDomain& domain) {
+  const Quality& quality = options.quality;
+  const EffortTraits& traits = traits_of(quality.effort);
+  const AllSamples all(points, given);
+  const PointSamples& samples = all.samples();
+  FitOptions fit_options;
+  fit_options.points = &samples;
+  fit_options.threshold = aims.fit;
+  fit_options.threads = options.run.threads;
+  fit_options.depth = traits.depth;
+  fit_options.vertices_are_free = traits.moves_vertices && quality.vertices != Vertices::kSamples;
+  fit_options.min_shape = quality.min_shape.value_or(fit_options.vertices_are_free ? kUsualShape : 0);
+  fit_options.floor_yields = !quality.min_shape;
+  fit_options.most_side = kMostSide;
+  fit_options.is_time_up = options.run.is_time_up;
+  fit_options.goes_on = traits.goes_on && options.run.is_time_up;
+  Reporter reporter(options.run.progress);
+  if (options.run.progress) {
+    fit_options.progress = [&](double share, std::uint64_t vertices) {
+      return !reporter.due() || reporter.report("fit", share, vertices, 0);
+    };
+  }
+  const Raster cells{nullptr, samples.last.x / kLatticeSteps + 2, samples.last.y / kLatticeSteps + 2};
+  VertexLattice lattice = make_lattice(domain, heights, fixed);
+  SCARP_TRY(auto&& fitted, fit(cells, std::move(domain.tin), std::move(lattice), fit_options));
+  const PointFit result{fitted.counts.removed, fitted.is_cut_short};
+  rebuild(points, heights, std::move(fitted), domain);
+  return result;
+}
+
+}  // namespace scarp

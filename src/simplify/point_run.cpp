@@ -1,0 +1,361 @@
+#include "simplify/point_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/reporter.h"
+#include "grid/far_points.h"
+#include "measure/point_judge.h"
+#include "mesh/thin_triangles.h"
+#include "pieces/budget.h"
+#include "simplify/point_fit.h"
+
+namespace scarp {
+
+namespace {
+
+/// One run of the engine towards the goals.
+class PointRun {
+ public:
+  PointRun(const PointTask& task, const PointOptions& options, ScatteredDomain domain)
+      : points_(task.points),
+        snapped_(task.snapped),
+        heights_(task.heights),
+        options_(options),
+        lines_(task.lines),
+        budget_(options.max_triangles, options.max_vertices),
+        bound_(options.max_error.value_or(0)),
+        aims_(bound_, heights_),
+        width_(task.width),
+        fits_(traits_of(options.quality.effort).fits && bound_ > 0 && aims_.is_open()),
+        is_on_lattice_(task.steps == PointSteps::kFloat32),
+        domain_(std::move(domain)),
+        seeds_(domain_.point_of.size()),
+        refinement_(std::in_place, snapped_, heights_, domain_, fits_ ? aims_.refinement : bound_),
+        reporter_(options.run.progress) {
+    for (double z : snapped_.z) largest_height_ = std::max(largest_height_, std::abs(z));
+  }
+
+  Result<Simplified> execute(Clock::time_point start) {
+    SCARP_RETURN_IF_ERROR(budget_.check(size(), "the hull of the points alone needs", ""));
+    Simplified result;
+    SCARP_RETURN_IF_ERROR(refine(result.stop));
+    SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
+    take_best_prefix();
+    SCARP_RETURN_IF_ERROR(fit(result));
+    freeze_into(result);
+    result.seconds_refine = seconds_since(start);
+    SCARP_RETURN_IF_ERROR(prove(result));
+    return result;
+  }
+
+  std::uint64_t flat() const { return flat_; }
+  std::uint64_t loose() const { return loose_; }
+
+ private:
+  MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
+  std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
+
+  /// Makes the mesh smaller. Then the workbench of refinement is built anew, for the bound itself.
+  Result<void> fit(Simplified& result) {
+    result.effort = Effort::kFast;
+    if (!fits_ || result.stop != StopReason::kMaxError) return {};
+    forget_refinement();
+    std::sort(mended_.begin(), mended_.end());
+    SCARP_TRY(const auto& fitted, fit_points(snapped_, points_, heights_, aims_, mended_, options_, domain_));
+    result.effort = options_.quality.effort;
+    if (!lines_.empty()) {
+      refinement_.emplace(snapped_, heights_, domain_, bound_);
+      if (refinement_->done()) flat_ = refinement_->flip_flats(lines_.on_lines());
+    }
+    result.is_cut_short = fitted.is_cut_short;
+    if (std::any_of(domain_.heights.begin(), domain_.heights.end(), [](double z) { return !std::isnan(z); }))
+      result.vertices = Vertices::kFree;
+    return {};
+  }
+
+  void forget_refinement() {
+    if (!refinement_) return;
+    scanned_ += refinement_->points_scanned();
+    dealt_ += refinement_->lists_dealt();
+    refinement_.reset();
+  }
+
+  Result<void> refine(StopReason& stop) {
+    const double first_error = refinement_->worst_error();
+    best_ = {domain_.point_of.size(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
+    for (std::uint64_t step = 0;; ++step) {
+      if (refinement_->done()) {
+        stop = options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+        return {};
+      }
+      if (const auto budget = exceeded(refinement_->next_gain())) {
+        stop = *budget;
+        return {};
+      }
+      if (refinement_->is_full())
+        return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
+      if ((step < 1024 || step % 256 == 0) && reporter_.due() &&
+          !reporter_.report("refine", fraction(first_error), domain_.vertex_count(), refinement_->worst_error()))
+        return fail(ErrorKind::kCancelled, "cancelled while refining");
+      refinement_->insert_worst();
+      ++insertions_;
+      if (in_last_stretch() && refinement_->worst_error() <= best_.error)
+        best_ = {domain_.point_of.size(), refinement_->worst_error()};
+    }
+  }
+
+  double fraction(double first_error) const {
+    const double goal = options_.max_error ? bound_ : 0;
+    return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
+  }
+
+  /// Makes chains of edges of the lines, and gives up flat triangles. Each step may cost the other its end: chains
+  /// change triangles, and vertices change chains; but vertices only become more.
+  Result<void> settle_lines(StopReason& stop) {
+    if (lines_.empty()) return {};
+    for (;;) {
+      const auto splits = lines_.find_splits(find_vertices(domain_, snapped_.size()));
+      if (splits.empty()) {
+        loose_ = lines_.hold(domain_);
+        forget_refinement();
+        refinement_.emplace(snapped_, heights_, domain_, fits_ ? aims_.refinement : bound_);
+        if (refinement_->done()) break;
+      }
+      for (const std::uint32_t point : splits) insert(point);
+      SCARP_RETURN_IF_ERROR(refine(stop));
+    }
+    flat_ = refinement_->flip_flats(lines_.on_lines());
+    return {};
+  }
+
+  void insert(std::uint32_t point) {
+    if (refinement_->gain_at(point) == 0) return;
+    refinement_->insert(point);
+    ++insertions_;
+  }
+
+  /// True where the best prefix is searched for.
+  bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
+
+  /// Max error is not monotone: a budget may stop on a spike. An earlier mesh is had by inserting the same points
+  /// again.
+  void take_best_prefix() {
+    if (fits_ || refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_.point_of.size()) return;
+    const std::vector<std::uint32_t> inserted(domain_.point_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
+                                              domain_.point_of.begin() + static_cast<std::ptrdiff_t>(best_.vertices));
+    refinement_.reset();
+    domain_ = *build_domain(snapped_, domain_.outline);
+    for (const std::uint32_t point : inserted) {
+      const Point p = snapped_.at[point];
+      domain_.insert(point, p, domain_.tin.locate(p, domain_.tin.last_touched()));
+    }
+  }
+
+  void freeze_into(Simplified& result) const {
+    const Triangulation& tin = domain_.tin;
+    Mesh& mesh = result.mesh;
+    mesh = {};
+    const PointLattice& lattice = snapped_.lattice;
+    const Point centre{lattice.cols / 2, lattice.rows / 2};
+    if (is_on_lattice_) {
+      mesh.origin = {lattice.west + lattice.step * centre.x, lattice.north - lattice.step * centre.y, 0};
+    } else {
+      const auto [x, y] = local_origin(points_);
+      mesh.origin = {x, y, 0};
+    }
+    std::vector<std::uint32_t> ids(tin.vertex_count(), kNone);
+    for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+      if (domain_.is_unused(v)) continue;
+      ids[v] = static_cast<std::uint32_t>(mesh.vertex_count());
+      const Point p = tin.point(v);
+      std::array<double, 2> offsets{lattice.step * (p.x - centre.x), lattice.step * (centre.y - p.y)};
+      if (!is_on_lattice_) {
+        const bool is_free = domain_.is_free(v);
+        const std::uint32_t source = is_free ? 0 : snapped_.source[domain_.point_of[v]];
+        const double x = is_free ? lattice.west + lattice.step * p.x : points_.x[source];
+        const double y = is_free ? lattice.north - lattice.step * p.y : points_.y[source];
+        offsets = {x - mesh.origin[0], y - mesh.origin[1]};
+      }
+      for (const double offset : offsets)
+        mesh.positions.push_back(options_.float32_positions ? double{static_cast<float>(offset)} : offset);
+      mesh.positions.push_back(domain_.height(v, heights_));
+    }
+    // The lattice's rows count southwards: what is positive there is clockwise seen from above.
+    for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+      if (tin.is_outside(t)) continue;
+      for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
+    }
+    remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
+    optimize_order(mesh, options_.run.threads);
+    result.work.samples_scanned = scanned_ + (refinement_ ? refinement_->points_scanned() : 0);
+    result.work.triangles_scanned = dealt_ + (refinement_ ? refinement_->lists_dealt() : 0);
+    result.work.passes = insertions_;
+  }
+
+  /// How far vertices may lie from their lattice points, along x or y.
+  double position_rounding(const Mesh& mesh) const {
+    if (is_on_lattice_) return 0;
+    double reach = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      if (i % 3 != 2) reach = std::max(reach, std::abs(mesh.positions[i]));
+    }
+    const double snapping = snapped_.is_exact ? 0 : snapped_.lattice.step / 2;
+    return std::max(snapping, reach * (options_.float32_positions ? 0x1p-24 : 0x1p-53));
+  }
+
+  std::uint32_t point_of_source(std::int32_t source) {
+    if (!snapped_.place.empty()) return snapped_.place[static_cast<std::size_t>(source)];
+    if (points_by_source_.empty()) {
+      points_by_source_.resize(points_.size(), kNone);
+      for (std::uint32_t point = 0; point < snapped_.size(); ++point) points_by_source_[snapped_.source[point]] = point;
+    }
+    return points_by_source_[static_cast<std::size_t>(source)];
+  }
+
+  /// Inserts the points that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
+  /// false if that cannot help.
+  Result<bool> mend(Simplified& result) {
+    if (!refinement_) refinement_.emplace(snapped_, heights_, domain_, bound_);
+    std::vector<std::uint32_t> offenders;
+    for (const Offender& o : result.measurement.offenders) offenders.push_back(point_of_source(o.col));
+    // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
+    const auto is_vertex = [this](std::uint32_t point) { return refinement_->gain_at(point) == 0; };
+    if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
+    for (const std::uint32_t point : offenders) {
+      if (const auto budget = exceeded(refinement_->gain_at(point))) {
+        result.stop = *budget;
+        return true;
+      }
+      insert(point);
+      mended_.push_back(point);
+    }
+    SCARP_RETURN_IF_ERROR(refine(result.stop));
+    const bool is_in_chain =
+        !lines_.empty() &&
+        std::any_of(offenders.begin(), offenders.end(), [&](std::uint32_t point) { return lines_.on_lines()[point]; });
+    if (fits_ && !is_in_chain) return true;
+    // Chains are made anew, and with them the mesh around.
+    SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
+    take_best_prefix();
+    SCARP_RETURN_IF_ERROR(fit(result));
+    return true;
+  }
+
+  /// Gives up thicker slivers along the hull than before: over one that is a millimetre high the surface may rise by
+  /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as the judge's
+  /// tolerance for covered points.
+  bool trim_border(const Mesh& mesh) {
+    const double thinnest = std::max({8 * thinnest_border_, 32 * position_rounding(mesh), snapped_.lattice.step});
+    const double area = snapped_.lattice.step * snapped_.lattice.step * static_cast<double>(snapped_.lattice.cols) *
+                        static_cast<double>(snapped_.lattice.rows);
+    if (thinnest > std::sqrt(area / static_cast<double>(snapped_.size())) / 64) return false;
+    thinnest_border_ = thinnest;
+    return true;
+  }
+
+  /// Judges the mesh as it will be written, at the points as they were given. If snapping or float32 positions cost the
+  /// bound, the points that break it are inserted and refinement continues.
+  Result<void> prove(Simplified& result) {
+    MeasureOptions judge;
+    judge.run.threads = options_.run.threads;
+    judge.run.progress = options_.run.progress;
+    judge.inlets = options_.boundary_length.has_value();
+    if (options_.max_error) judge.collect_above = bound_ + allowance();
+    for (;;) {
+      const auto start = Clock::now();
+      SCARP_TRY(result.measurement, judge::judge_points(points_, snapped_, result.mesh, judge));
+      result.judged_max_error = result.measurement.max_error;
+      result.judged_rmse = result.measurement.rmse;
+      result.seconds_measure += seconds_since(start);
+      const Measurement& m = result.measurement;
+      const bool is_kept =
+          result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
+      if (m.is_sound() && is_kept) return {};
+      const auto again = Clock::now();
+      SCARP_TRY(const auto& mended, m.is_sound() ? mend(result) : false);
+      if (!mended && !trim_border(result.mesh))
+        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : describe_fold()) + advice(m));
+      freeze_into(result);
+      result.seconds_refine += seconds_since(again);
+    }
+  }
+
+  /// The judge's own double arithmetic rounds.
+  double allowance() const { return 1e-12 * (bound_ + largest_height_); }
+
+  std::string describe_broken(const Measurement& m) const {
+    if (m.uncovered > 0) return fmt::format("{} points are not covered by the mesh", m.uncovered);
+    const auto i = static_cast<std::size_t>(m.max_error_at[0]);
+    return fmt::format("a max error of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}", bound_,
+                       points_.x[i], points_.y[i], m.max_error);
+  }
+  std::string describe_fold() const {
+    const PointLattice& lattice = snapped_.lattice;
+    const bool is_thin = width_ <= 1e-5 * lattice.step * std::max(lattice.cols, lattice.rows);
+    return is_thin ? fmt::format("all points lie on one line, to {:.2g}, and the mesh folds over itself", width_)
+                   : "the mesh folds over itself";
+  }
+  std::string advice(const Measurement& m) const {
+    const std::string far = describe_far_points(points_);
+    const std::string larger = m.is_sound() && m.uncovered == 0
+                                   ? fmt::format("ask for at least {:.2g}", round_up(m.max_error))
+                                   : std::string("ask for a larger error");
+    return (options_.float32_positions
+                ? fmt::format(
+                      ": positions in the mesh are rounded to float32, which alone costs that much; {}, or write "
+                      "OBJ or PLY, whose positions are double",
+                      larger)
+                : fmt::format(": points are snapped to a lattice of step {:.3g}, which alone costs that much; {}, or "
+                              "split the points into smaller areas",
+                              snapped_.lattice.step, larger)) +
+           (far.empty() ? "" : "; " + far);
+  }
+  /// To two digits.
+  static double round_up(double error) {
+    const double unit = std::pow(10.0, std::floor(std::log10(error)) - 1);
+    return std::ceil(error / unit) * unit;
+  }
+
+  const PointSet& points_;
+  const SnappedPoints& snapped_;
+  std::span<const double> heights_;
+  const PointOptions& options_;
+  const PointLines& lines_;
+  Budget budget_;
+  double bound_;
+  PointAims aims_;
+  double width_;
+  bool fits_;           ///< vertices are removed
+  bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds
+  double largest_height_ = 0, thinnest_border_ = 0;
+  ScatteredDomain domain_;
+  std::size_t seeds_;
+  std::optional<ScatteredRefinement> refinement_;
+  std::vector<std::uint32_t> points_by_source_, mended_;
+  std::uint64_t insertions_ = 0, scanned_ = 0, dealt_ = 0, flat_ = 0, loose_ = 0;
+  Reporter reporter_;
+  Prefix best_{0, std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+Result<PointMesh> run_points(const PointTask& task, const PointOptions& options, ScatteredDomain domain) {
+  const auto start = Clock::now();
+  PointRun run(task, options, std::move(domain));
+  PointMesh made;
+  SCARP_TRY(made.simplified, run.execute(start));
+  made.flat = run.flat();
+  made.loose = run.loose();
+  return made;
+}
+
+}  // namespace scarp

@@ -1,0 +1,35 @@
+// One run of the engine on scattered points, as a list of passes: refine, chains of lines, fit, freeze, prove.
+// Milestones: after `refine` and `take_best_prefix` no vertex is added; what `prove` has seen is what is returned.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "grid/snapped_points.h"
+#include "refine/point_lines.h"
+#include "refine/scattered.h"
+#include "scarp/points.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// Points ready for runs. All stay alive.
+struct PointTask {
+  const PointSet& points;
+  const SnappedPoints& snapped;
+  std::span<const double> heights;  ///< of points as vertices: z, or that rounded to float32
+  const PointLines& lines;
+  PointSteps steps;
+  double width;  ///< of the hull, as ScatteredDomain::width
+};
+
+struct PointMesh {
+  Simplified simplified;
+  std::uint64_t flat = 0, loose = 0;  ///< as in SimplifiedPoints
+};
+
+/// One mesh: towards the max error, or until insertion reaches a budget. Fails as simplify_points() does. REQUIRES:
+/// checked options with a chosen effort; the domain has the ends of lines as vertices.
+Result<PointMesh> run_points(const PointTask& task, const PointOptions& options, ScatteredDomain domain);
+
+}  // namespace scarp
