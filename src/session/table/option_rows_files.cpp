@@ -321,7 +321,7 @@ const OptionRow kFileRows[] = {
      .type = kText,
      .value = "CRS",
      .choices = "source local enu grid EPSG:",
-     .by_default = keep(fmt::format("local for {}; source for {}; source or, for degrees, local for the others; "
+     .by_default = keep(fmt::format("local for {}; source for {}; source (local if in degrees) for the others; "
                                     "grid without georeference",
                                     list_frame<DefaultFrame::kLocal>(), list_frame<DefaultFrame::kSource>())),
      .is_for_points = true,
@@ -487,7 +487,7 @@ const OptionRow kFileRows[] = {
      .value = "FILE.png",
      .choices = ".png",
      .is_of_mesh = false,
-     .help = "Also draw the approximation in its colours or as a hillshade, one pixel a sample."},
+     .help = "Also draw the approximation, one pixel per sample, in colours or as a hillshade."},
     {.id = kMap,
      .name = "--map",
      .commands = kMeasure,

@@ -123,8 +123,8 @@ constexpr OptionRow kGoalRows[] = {
      .type = kText,
      .value = "N[:RATIO]",
      .unit = "levels",
-     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error begins with that "
-             "of -e and grows by RATIO (default 2) from level to level. All levels have the outline of --lock-border."},
+     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error starts at -e and "
+             "is RATIO (default 2) times larger at each next level. All levels have the outline of --lock-border."},
     {.id = kLodsInOne,
      .name = "--lods-in-one",
      .part_of = kLods,
