@@ -25,7 +25,7 @@ const OptionRow kFileRows[] = {
      .is_repeatable = true,
      .is_required = true,
      .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
-             "folder, form one mosaic. With --image any image. Scattered points by file name or with --points.",
+             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points.",
      .brief = "Raster of heights, several for a mosaic, or scattered points"},
     {.id = kPlan,
      .name = "PLAN",
@@ -54,7 +54,7 @@ const OptionRow kFileRows[] = {
      .is_repeatable = true,
      .is_required = true,
      .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
-             "folder, form one mosaic. With --image any image. Scattered points by file name or with --points.",
+             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points.",
      .brief = "Raster of heights, or points, that the mesh was made from"},
     {.id = kRaster,
      .name = "FILE",
@@ -192,7 +192,7 @@ const OptionRow kFileRows[] = {
      .value = "R",
      .unit = "units of the raster's CRS",
      .above = 0,
-     .help = "Read means of k x k cells, with the largest k that makes them at most R wide. Errors refer to these."},
+     .help = "Read means of k x k cells, for the largest k with cells at most R wide. Errors refer to these means."},
     {.id = kDecode,
      .name = "--decode",
      .commands = kSimplify | kMeasure | kView | kInfo | kTile | kTilePlan | kTileCheck | kServe,

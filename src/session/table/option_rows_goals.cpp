@@ -53,7 +53,7 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "max rms",
      .by_default = "max",
-     .help = "Quantity to minimise under -t or -p: the max error or the RMSE. With rms errors stay within -e, or "
+     .help = "Quantity to minimise under -t or -p: the max error or the RMSE. With rms, errors stay within -e, or "
              "within what --effort fast reaches. Needs --effort normal or more."},
 
     {.id = kFailAbove,
