@@ -19,14 +19,14 @@ constexpr CommandRow kCommandRows[] = {
      "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kClassic, "classic", "Simplify by the strategies of the 1995 paper", "INPUT OUTPUT [OPTIONS]",
-     "All options of simplify hold, too; the error bound is proven alike.\n"
+     "All options of simplify apply. The error bound is proven as there.\n"
      "Examples:\n"
      "  scarp classic dem.tif hills.glb -e 1 --order greedy           the paper's algorithm III\n"
      "  scarp classic dem.tif hills.glb -t 5k --edges data            data-dependent triangulation\n"
      "  scarp classic dem.tif hills.glb -t 5k --importance curvature --one-pass\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kMeasure, "measure", "Judge a mesh file against its raster, sample by sample", "RASTER MESH [OPTIONS]",
-     "Give --mask, --script, --cutline, --texture and --image as they were given to simplify.\n"
+     "Repeat --mask, --script, --cutline, --texture and --image as given to simplify.\n"
      "Errors are vertical, mesh minus sample, in the units of the heights.\n"
      "Examples:\n"
      "  scarp measure dem.tif hills.glb                      a table of errors and faults\n"
@@ -37,7 +37,7 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kView, "view", "Write a page that shows a mesh and its errors in a browser", "MESH [RASTER] [OPTIONS]",
-     "One HTML file, which opens from disk and asks no network: hillshade, wireframe, error map, profile.\n"
+     "One HTML file that opens from disk and needs no network: hillshade, wireframe, error map, profile.\n"
      "Examples:\n"
      "  scarp view hills.glb dem.tif                         hills.html\n"
      "  scarp view hills.glb dem.tif -o page.html --open     and opens it\n"
@@ -46,7 +46,7 @@ constexpr CommandRow kCommandRows[] = {
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 70 internal error.\n"},
     {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh or 3D Tiles, for CesiumJS and others",
      "INPUT OUTPUT [OPTIONS]",
-     "Tiles of neighbours have the same edges, and each has its error bound, the earth's curve included.\n"
+     "Neighbouring tiles have identical edges. The error bound of each includes the earth's curve.\n"
      "OUTPUT is a folder, or one file: .pmtiles, .mbtiles or .3tz.\n"
      "Serve the folder with the header 'Content-Encoding: gzip' for its .terrain files.\n"
      "Examples:\n"
@@ -58,15 +58,15 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile dem.tif globe --of 3dtiles                3D Tiles: tileset.json, subtrees, GLB files\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTilePlan, "tile-plan", "Plan tiles that many processes make, on one machine or a cluster", "INPUT PLAN [OPTIONS]",
-     "Also: scarp tile plan. Makes a few tiles, and estimates the cost of all of them.\n"
+     "Also: scarp tile plan. Makes a few tiles to estimate the cost of all.\n"
      "Examples:\n"
      "  scarp tile plan dem.tif world.json --vertical egm96\n"
      "  scarp tile plan dem.tif world.json --slurm run.sh    then: bash run.sh world\n"
-     "  scarp tile plan dem.tif new.json --changed-since world.json    its blocks that changed\n"
+     "  scarp tile plan dem.tif new.json --changed-since world.json    only changed blocks\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileRun, "tile-run", "Make a share of the tiles of a plan", "PLAN [OPTIONS]",
-     "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block is\n"
-     "on the disk at once: a run that was killed resumes where it was.\n"
+     "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block\n"
+     "is saved at once, so a killed run resumes where it stopped.\n"
      "Examples:\n"
      "  scarp tile run world.json                     all blocks that are missing\n"
      "  scarp tile run world.json --shard 3/200 -j 1\n"
@@ -77,29 +77,29 @@ constexpr CommandRow kCommandRows[] = {
      "Examples:\n"
      "  scarp tile finish world.json world\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kTileCheck, "tile-check", "Prove a finished set of tiles: borders, bounds, coverage, headers, availability",
+    {kTileCheck, "tile-check", "Check a finished set of tiles: borders, bounds, coverage, headers, availability",
      "SET [OPTIONS]",
      "Also: scarp tile check. SET is a folder, .pmtiles, .mbtiles or .3tz, of Scarp or another program.\n"
-     "With --source each tile is compared with all nodes below it; give the options of the raster as they\n"
-     "were given to scarp tile.\n"
+     "With --source each tile is compared with all nodes below it; repeat the raster's options as given\n"
+     "to scarp tile.\n"
      "Examples:\n"
      "  scarp tile check globe                                     exit code 3 on any fault\n"
      "  scarp tile check globe --source dem.tif --vertical egm96   bounds, too\n"
      "  scarp tile check world.pmtiles --source world.json --json\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kServe, "serve", "Serve tiles over HTTP, of a set or made of a raster, on this machine alone by default",
+    {kServe, "serve", "Serve tiles over HTTP, from a set or a raster, by default to this machine alone",
      "INPUT [OPTIONS]",
-     "Tiles have the headers that clients need; a set in one file is also sent by ranges of bytes.\n"
-     "Tiles of a raster, or of a plan, are made when they are asked for. Ctrl-C ends it.\n"
+     "Tiles have the headers that clients need; a set in one file also supports range requests.\n"
+     "Tiles of a raster or a plan are made on request. Ctrl-C ends the server.\n"
      "Examples:\n"
      "  scarp serve globe                                    at http://127.0.0.1:8080/\n"
-     "  scarp serve dem.tif --vertical egm96                 tiles made when asked for\n"
-     "  scarp serve world.pmtiles --port 0                   at a free port, which is printed\n"
+     "  scarp serve dem.tif --vertical egm96                 tiles made on request\n"
+     "  scarp serve world.pmtiles --port 0                   on a free port, which is printed\n"
      "  scarp serve world.mbtiles --host 0.0.0.0             to other machines\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kInfo, "info", "Describe a raster, points or a mesh, and suggest errors for a raster", "FILE [OPTIONS]",
-     "The facts come at once, the suggestions when they are found, by running the engine: on the whole\n"
-     "raster up to 2 million samples, on windows of it beyond that (an estimate).\n"
+     "Facts are printed at once. Suggested errors follow; the engine finds them on the whole raster up to\n"
+     "2 million samples, on windows of it beyond that (an estimate).\n"
      "Examples:\n"
      "  scarp info dem.tif\n"
      "  scarp info huge.tif --no-suggest\n"

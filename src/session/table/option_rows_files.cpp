@@ -24,9 +24,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help =
-         "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a folder, "
-         "make one mosaic. With --image any image; scattered points by their name or with --points.",
+     .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
+             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points.",
      .brief = "Raster of heights, several for a mosaic, or scattered points"},
     {.id = kPlan,
      .name = "PLAN",
@@ -43,7 +42,7 @@ const OptionRow kFileRows[] = {
      .type = kOutputFile,
      .choices = output_endings(),
      .is_required = true,
-     .help = keep(fmt::format("Mesh to write: {}. Its edges as .svg or .eps, or the approximation as .tif or .pgm. - "
+     .help = keep(fmt::format("Mesh to write: {}. .svg and .eps hold its edges, .tif and .pgm the approximation. - "
                               "with --of: standard output.",
                               list_mesh_endings([](const MeshFormatTraits&) { return true; }))),
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .gpkg .3mf .svg .tif ..."},
@@ -54,10 +53,9 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help =
-         "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a folder, "
-         "make one mosaic. With --image any image; scattered points by their name or with --points.",
-     .brief = "Raster of heights, or scattered points, that the mesh was made of"},
+     .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
+             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points.",
+     .brief = "Raster of heights, or points, that the mesh was made from"},
     {.id = kRaster,
      .name = "FILE",
      .commands = kInfo,
@@ -84,8 +82,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .choices = mesh_endings(),
      .is_required = true,
-     .help = "Mesh to show, in any format that measure reads, or a set of tiles. Of OUT_lod0.glb the other levels of "
-             "--lods are shown, too.",
+     .help = "Mesh to show, in any format that measure reads, or a set of tiles. OUT_lod0.glb also shows the other "
+             "levels of --lods.",
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .3mf ..."},
     {.id = kRaster,
      .name = "RASTER",
@@ -93,9 +91,8 @@ const OptionRow kFileRows[] = {
      .group = OptionGroup::kArguments,
      .type = kInputFile,
      .is_repeatable = true,
-     .help = "Raster of heights that the mesh was made of, as for measure. With it the page shows the errors and "
-             "refines, too.",
-     .brief = "Raster of heights that the mesh was made of"},
+     .help = "Raster of the mesh's heights, as for measure. With it the page also shows the errors and can refine.",
+     .brief = "Raster of the mesh's heights"},
     {.id = kStyle,
      .name = "STYLE",
      .commands = kGenerate,
@@ -140,17 +137,16 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights in metres, with a CRS: a file or URL that GDAL opens. Of several, in any CRS and "
-             "resolution, "
-             "the first that has a height at a place wins."},
+     .help = "Raster of heights in metres, with a CRS: a file or URL that GDAL opens. Several may differ in CRS and "
+             "resolution; at each place the first height counts."},
     {.id = kOutput,
      .name = "OUTPUT",
      .commands = kTile | kTileFinish,
      .group = OptionGroup::kArguments,
      .type = kFolder,
      .is_required = true,
-     .help =
-         "Folder to make: tiles as z/x/y.terrain, and layer.json. Ending with .pmtiles, .mbtiles or .3tz: one file."},
+     .help = "Folder for z/x/y.terrain files and layer.json, or one file with the extension .pmtiles, .mbtiles or "
+             ".3tz."},
     {.id = kInput,
      .name = "INPUT",
      .commands = kServe,
@@ -158,8 +154,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Set of tiles: a folder, .pmtiles, .mbtiles or .3tz. Or what they are to be made of: a raster, several "
-             "of which the first that has a height wins, or a plan of scarp tile plan (.json)."},
+     .help = "Set of tiles: a folder, .pmtiles, .mbtiles or .3tz. Or their source: a raster, several (at each place "
+             "the first height counts), or a plan of scarp tile plan (.json)."},
     {.id = kCommand,
      .name = "COMMAND",
      .commands = kHelpCommand,
@@ -196,8 +192,7 @@ const OptionRow kFileRows[] = {
      .value = "R",
      .unit = "units of the raster's CRS",
      .above = 0,
-     .help =
-         "Read means of k x k cells, the largest k whose cells are at most R wide. Errors are against these means."},
+     .help = "Read means of k x k cells, for the largest k with cells at most R wide. Errors refer to these means."},
     {.id = kDecode,
      .name = "--decode",
      .commands = kSimplify | kMeasure | kView | kInfo | kTile | kTilePlan | kTileCheck | kServe,
@@ -216,9 +211,8 @@ const OptionRow kFileRows[] = {
      .by_default = "1",
      .range = "not 0",
      .is_for_points = true,
-     .help =
-         "Multiply the heights, such as 0.1 for decimetres or -1 for depths. Errors and all heights that options name "
-         "are of the scaled heights; --nodata is the file's value."},
+     .help = "Factor for the heights, such as 0.1 for decimetres or -1 for depths. Errors and heights in options "
+             "refer to scaled heights; --nodata is the file's value."},
     {.id = kZScale,
      .name = "--z-scale",
      .commands = kMeasure | kView,
@@ -259,9 +253,8 @@ const OptionRow kFileRows[] = {
      .value = "UNIT",
      .by_default = "the raster's, else that of x and y, else m",
      .is_for_points = true,
-     .help = "Unit of the heights, after --z-scale: m, ft, us-ft, cm, mm, dm, km, in, yd, fathom, mi. Outputs in "
-             "metres get "
-             "metres."},
+     .help = "Unit of the heights, after --z-scale: m, ft, us-ft, cm, mm, dm, km, in, yd, fathom, mi. Metric outputs "
+             "are converted."},
     {.id = kZUnit,
      .name = "--z-unit",
      .commands = kMeasure | kView,
@@ -279,8 +272,8 @@ const OptionRow kFileRows[] = {
      .value = "S",
      .by_default = "1",
      .above = 0,
-     .help = "Width of a cell of a raster without georeference, such as a heightmap for a game. With a georeference "
-             "only together with --crs grid."},
+     .help = "Cell width of a raster without georeference, such as a heightmap for a game. With a georeference only "
+             "together with --crs grid."},
     {.id = kCellSize,
      .name = "--cell-size",
      .commands = kTile | kTilePlan | kTileCheck,
@@ -288,9 +281,9 @@ const OptionRow kFileRows[] = {
      .type = kNumber,
      .value = "S",
      .unit = "metres",
-     .by_default = "1, of no unit",
+     .by_default = "1, no unit",
      .above = 0,
-     .help = "Width of a cell of a raster without georeference, whose tiles lie on a local grid."},
+     .help = "Cell width of a raster without georeference, which gets a local grid."},
     {.id = kCellSize,
      .name = "--cell-size",
      .commands = kMeasure | kView,
@@ -299,7 +292,7 @@ const OptionRow kFileRows[] = {
      .value = "S",
      .by_default = "from the mesh file, else 1",
      .above = 0,
-     .help = "Width of a cell of a raster without georeference."},
+     .help = "Cell width of a raster without georeference."},
     {.id = kCrs,
      .name = "--crs",
      .commands = kMeasure | kView,
@@ -318,7 +311,7 @@ const OptionRow kFileRows[] = {
      .type = kText,
      .value = "CRS",
      .choices = "source local enu grid EPSG:",
-     .by_default = "what simplify does by default",
+     .by_default = "as for simplify",
      .help = "Coordinates that a mesh would have: source, local, enu, grid or a CRS such as EPSG:32611."},
 
     {.id = kCrs,
@@ -328,14 +321,13 @@ const OptionRow kFileRows[] = {
      .type = kText,
      .value = "CRS",
      .choices = "source local enu grid EPSG:",
-     .by_default = keep(fmt::format("local for {}; source for {}, and for the others unless the raster is in degrees; "
+     .by_default = keep(fmt::format("local for {}; source for {}; source (local if in degrees) for the others; "
                                     "grid without georeference",
                                     list_frame<DefaultFrame::kLocal>(), list_frame<DefaultFrame::kSource>())),
      .is_for_points = true,
-     .help =
-         "Coordinates of the mesh. local: metres around the raster's centre. source: the raster's own CRS. grid: "
-         "columns and rows. Or any CRS, such as EPSG:32611, at the price of judging in it. EPSG:4978: earth-centred. "
-         "enu: metres east, north and up of the centre, with the earth's curve.",
+     .help = "Coordinates of the mesh. local: metres around the raster's centre. source: the raster's own CRS. grid: "
+             "columns and rows. Or any CRS, such as EPSG:32611, which is slower to judge. EPSG:4978: earth-centred. "
+             "enu: metres east, north and up of the centre, on the curved earth.",
      .brief = "Coordinates: source, local, grid or a CRS such as EPSG:32611"},
     {.id = kUp,
      .name = "--up",
@@ -372,7 +364,7 @@ const OptionRow kFileRows[] = {
      .by_default = "by OUTPUT's extension",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = keep(fmt::format("Format of OUTPUT: {}. svg and eps have the edges, dem the approximation as a raster.",
+     .help = keep(fmt::format("Format of OUTPUT: {}. svg and eps hold the edges, dem the approximation as raster.",
                               list_output_formats()))},
     {.id = kOf,
      .name = "--of",
@@ -400,8 +392,8 @@ const OptionRow kFileRows[] = {
      .commands = kInfo,
      .group = OptionGroup::kOutput,
      .type = kFlag,
-     .help = "Print the facts alone, without running the engine to suggest errors.",
-     .brief = "Print the facts alone, without running the engine"},
+     .help = "Print only the facts; do not run the engine to suggest errors.",
+     .brief = "Print only the facts; do not run the engine"},
     {.id = kCompress,
      .name = "--compress",
      .commands = kSimplify,
@@ -409,8 +401,7 @@ const OptionRow kFileRows[] = {
      .type = kFlag,
      .is_for_points = true,
      .help = "Compress the GLB to between a fifth and a third of its size. The error is proven on the decoded "
-             "positions. Needs a reader "
-             "that knows EXT_meshopt_compression and KHR_mesh_quantization, such as three.js."},
+             "positions. Readers must know EXT_meshopt_compression and KHR_mesh_quantization, as three.js does."},
     {.id = kDrape,
      .name = "--drape",
      .commands = kSimplify,
@@ -428,7 +419,7 @@ const OptionRow kFileRows[] = {
      .type = kCount,
      .value = "N",
      .unit = "pixels",
-     .by_default = "as many as the image has there, at most 8192",
+     .by_default = "the image's own pixels, at most 8192",
      .least = 1,
      .most = 16384,
      .limit_why = "graphics cards show no more pixels",
@@ -443,7 +434,7 @@ const OptionRow kFileRows[] = {
      .value = "FORMAT",
      .choices = "jpeg png webp",
      .by_default = "jpeg",
-     .help = "How the draped image is stored. jpeg and webp at a quality of 90, png without loss. Readers of webp must "
+     .help = "Format of the draped image. jpeg and webp have a quality of 90, png is lossless. Readers of webp must "
              "know EXT_texture_webp."},
     {.id = kNormalMap,
      .name = "--normal-map",
@@ -456,7 +447,7 @@ const OptionRow kFileRows[] = {
      .most = 16384,
      .limit_why = "graphics cards show no more pixels",
      .range = "1 to 16384, at most one a sample",
-     .help = "Put the normals of the full-resolution raster into the GLB as an image, N pixels on its longer side: "
+     .help = "Store the normals of the full-resolution raster in the GLB as an image, N pixels on its longer side: "
              "coarse meshes are shaded like fine ones."},
     {.id = kJson,
      .name = "--json",
@@ -486,8 +477,8 @@ const OptionRow kFileRows[] = {
      .value = "FILE.png",
      .choices = ".png",
      .is_of_mesh = false,
-     .help = "Also draw a hillshade with the mesh, and the lakes and lines of this run, over it.",
-     .brief = "Draw a hillshade with the mesh over it"},
+     .help = "Also draw the mesh, and the lakes and lines of this run, over a hillshade.",
+     .brief = "Draw the mesh over a hillshade"},
     {.id = kRender,
      .name = "--render",
      .commands = kSimplify,
@@ -496,7 +487,7 @@ const OptionRow kFileRows[] = {
      .value = "FILE.png",
      .choices = ".png",
      .is_of_mesh = false,
-     .help = "Also draw the approximation, one pixel a sample, in its colours or as a hillshade."},
+     .help = "Also draw the approximation, one pixel per sample, in colours or as a hillshade."},
     {.id = kMap,
      .name = "--map",
      .commands = kMeasure,
@@ -534,9 +525,8 @@ const OptionRow kFileRows[] = {
      .value = "FILE.geojson",
      .choices = ".geojson .json",
      .is_of_mesh = false,
-     .help =
-         "Also write the contour lines of the mesh as GeoJSON, in its coordinates. Within the max error its heights "
-         "are the raster's."},
+     .help = "Also write the contour lines of the mesh as GeoJSON, in its coordinates. They match the raster to "
+             "within the max error."},
     {.id = kContourInterval,
      .name = "--contour-interval",
      .part_of = kContoursOut,
@@ -546,10 +536,10 @@ const OptionRow kFileRows[] = {
      .type = kNumber,
      .value = "M",
      .unit = "units of the heights",
-     .by_default = "1, 2 or 5 times a power of ten that gives at most 20 heights",
+     .by_default = "1, 2 or 5 times a power of ten, for at most 20 heights",
      .above = 0,
      .is_of_mesh = false,
-     .help = "Difference of the heights of neighbouring contours."},
+     .help = "Height difference of neighbouring contours."},
     {.id = kPage,
      .name = "--output",
      .short_name = "-o",
@@ -558,8 +548,8 @@ const OptionRow kFileRows[] = {
      .type = kOutputFile,
      .value = "FILE.html",
      .choices = ".html",
-     .by_default = "MESH with .html in place of its ending",
-     .help = "Page to write: one file, which needs no network.",
+     .by_default = "MESH with the extension .html",
+     .help = "Page to write: one file that needs no network.",
      .brief = "Page to write"},
     {.id = OptionId::kOpen,
      .name = "--open",
@@ -586,8 +576,8 @@ const OptionRow kFileRows[] = {
      .type = kFlag,
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = "Replace files that exist. Without it they are refused.",
-     .brief = "Replace files that exist"},
+     .help = "Replace existing files, which are otherwise refused.",
+     .brief = "Replace existing files"},
 };
 
 }  // namespace

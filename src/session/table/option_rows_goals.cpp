@@ -18,8 +18,8 @@ constexpr OptionRow kGoalRows[] = {
      .unit = "units of the heights, % of the relief, or m, cm, ft, mm",
      .least = 0,
      .is_for_points = true,
-     .help = "No sample is farther than this from the mesh, measured vertically. M is in the units of the heights, "
-             "P% (0.5%) is a share of the relief. 1m, 50cm and 3ft name the unit; 0.1mm is an error on the print of "
+     .help = "No sample is farther than this from the mesh, measured vertically. M is in the units of the heights, P% "
+             "(0.5%) is a share of the relief. 1m, 50cm and 3ft name the unit; 0.1mm is measured on the print of "
              "--solid size=. 0 reproduces every sample.",
      .brief = "No sample is farther than this from the mesh; 0.5%: of the relief"},
     {.id = kMaxTriangles,
@@ -32,7 +32,7 @@ constexpr OptionRow kGoalRows[] = {
      .unit = "triangles",
      .least = 1,
      .is_for_points = true,
-     .help = "At most this many triangles. 50k, 2M and 1e5 will do.",
+     .help = "At most this many triangles. 50k, 2M and 1e5 work.",
      .brief = "At most this many triangles, such as 50k"},
     {.id = kMaxPoints,
      .name = "--max-points",
@@ -53,8 +53,8 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "max rms",
      .by_default = "max",
-     .help = "Quantity to minimise under -t or -p: the max error or the RMSE. With rms no sample is off by more than "
-             "-e, or than what --effort fast reaches. Needs --effort normal or more."},
+     .help = "Quantity to minimise under -t or -p: the max error or the RMSE. With rms, errors stay within -e, or "
+             "within what --effort fast reaches. Needs --effort normal or more."},
 
     {.id = kFailAbove,
      .name = "--fail-above",
@@ -66,8 +66,8 @@ constexpr OptionRow kGoalRows[] = {
      .least = 0,
      .is_for_points = true,
      .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. E and "
-             "P% are as for --max-error of simplify. Errors are in the units of the heights: weighted with --mask, "
-             "combined with --texture and --image.",
+             "P% are as for --max-error of simplify. Errors are in height units, weighted by --mask, combined with "
+             "--texture and --image.",
      .brief = "Exit code 3 if an error is above this, or the mesh is not sound"},
 
     {.id = kEffort,
@@ -79,7 +79,7 @@ constexpr OptionRow kGoalRows[] = {
      .choices = "fast normal high max",
      .by_default = "normal; fast with the 1995 paper's strategies, or too little --memory",
      .is_for_points = true,
-     .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the "
+     .help = "Work to spend on fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the "
              "triangles of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, "
              "9.6 and 50 times that of the 1995 paper's algorithm. With -t or -p: a smaller error instead.",
      .brief = "fast, normal, high or max: fewer triangles for more time"},
@@ -117,8 +117,8 @@ constexpr OptionRow kGoalRows[] = {
      .unit = "seconds",
      .least = 0,
      .is_for_points = true,
-     .help = "Stop improving after SECONDS and write the best mesh so far. It still meets the bound, but depends on "
-             "timing; max uses all of the time."},
+     .help = "Stop improving after SECONDS and write the best mesh so far. The bound holds, but the mesh depends on "
+             "timing. max uses all the time."},
 
     {.id = kLods,
      .name = "--lods",
@@ -127,9 +127,8 @@ constexpr OptionRow kGoalRows[] = {
      .type = kText,
      .value = "N[:RATIO]",
      .unit = "levels",
-     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error of the first is "
-             "that of -e, of each further one RATIO (2 unless given) times the previous one's. All have one outline, "
-             "that of --lock-border."},
+     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error starts at -e and "
+             "is RATIO (default 2) times larger at each next level. All levels have the outline of --lock-border."},
     {.id = kLodsInOne,
      .name = "--lods-in-one",
      .part_of = kLods,
@@ -144,8 +143,8 @@ constexpr OptionRow kGoalRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kLevels,
      .type = kFlag,
-     .help = "Make the mesh at the raster's edge from the samples of the edge alone. Rasters that share a row or "
-             "column of samples then meet exactly, simplified apart with the same -e."},
+     .help = "Choose vertices on the raster's edge by the edge's samples alone. Separately simplified rasters that "
+             "share a row or column of samples then meet exactly, at the same -e."},
 };
 
 }  // namespace

@@ -22,8 +22,8 @@ const OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Lines of a vector file become edges of the mesh, rings of polygons too. Lines with heights keep them, "
-             "lines without follow the raster.",
+     .help = "Lines and polygon rings of a vector file become edges of the mesh. Lines with heights keep them, lines "
+             "without follow the raster.",
      .brief = "Lines of a vector file become edges"},
     {.id = kBreaklineZ,
      .name = "--breakline-z",
@@ -42,7 +42,7 @@ const OptionRow kLineRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kLines,
      .type = kFlag,
-     .help = "Lines follow the raster, whatever heights they have."},
+     .help = "Lines follow the raster; their heights are ignored."},
     {.id = kLineConflict,
      .name = "--line-conflict",
      .part_of = kBreaklines,
@@ -62,8 +62,8 @@ const OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Clip the surface to the polygons of a vector file. Their rings become edges of the mesh; the union of "
-             "all files counts.",
+     .help = "Clip the surface to the polygons of a vector file. Their rings become edges of the mesh. Several files "
+             "are united.",
      .brief = "Clip the surface to polygons"},
     {.id = kCutline,
      .name = "--cutline",
@@ -72,8 +72,8 @@ const OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Judge the samples in the polygons of a vector file, for a mesh that was clipped to them.",
-     .brief = "Polygons that the mesh was clipped to"},
+     .help = "Judge only samples in the polygons of a vector file, for a mesh clipped to these.",
+     .brief = "Polygons that clipped the mesh"},
     {.id = kInset,
      .name = "--inset",
      .part_of = kCutline,
@@ -84,8 +84,8 @@ const OptionRow kLineRows[] = {
      .value = "D",
      .unit = "metres, or units of the CRS",
      .by_default = "0",
-     .help = "Move the outline of the polygons inwards by D, outwards if D is below 0. In metres where they are known, "
-             "else in units of the CRS."},
+     .help = "Move the outline of the polygons inwards by D, outwards if D is negative. In metres if known, else in "
+             "units of the CRS."},
     {.id = kMaskOutside,
      .name = "--mask-outside",
      .part_of = kCutline,
@@ -114,8 +114,8 @@ const OptionRow kLineRows[] = {
      .unit = "units of the heights",
      .above = 0,
      .limit_why = "0 would make a ridge of all noise",
-     .help = "Prefer edges along ridges and valleys at least H high or deep, in the raster's units. Best at once to "
-             "twice the max error."},
+     .help = "Prefer edges along ridges and valleys at least H high or deep, in the raster's units. Best: 1 to 2 "
+             "times the max error."},
     {.id = kKeepRidges,
      .name = "--keep-ridges",
      .part_of = kRidges,
@@ -132,8 +132,8 @@ const OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .help =
-         keep(fmt::format("Polygons of materials, for {}: their borders become edges of the mesh, and each triangle "
-                          "has the number of its polygon, 1 outside them.",
+         keep(fmt::format("Polygons of materials, for {}: their borders become edges of the mesh. Each triangle gets "
+                          "the number of its polygon, or 1 outside.",
                           endings_with_zones()))},
     {.id = kMaterialField,
      .name = "--material-field",
@@ -143,7 +143,7 @@ const OptionRow kLineRows[] = {
      .group = OptionGroup::kLines,
      .type = kText,
      .value = "FIELD",
-     .by_default = "features count from 2",
+     .by_default = "numbered from 2",
      .help = "Attribute that holds the number of a polygon's material."},
     {.id = kNodeStrings,
      .name = "--node-strings",
@@ -163,8 +163,8 @@ const OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Lakes: each polygon of a vector file becomes flat, at a low height of its shore. The shore becomes edges "
-             "of the mesh.",
+     .help = "Lakes: flatten each polygon of a vector file to a low percentile of its shore. Shores become edges of "
+             "the mesh.",
      .brief = "Lakes become flat"},
     {.id = kWater,
      .name = "--water",
@@ -181,7 +181,7 @@ const OptionRow kLineRows[] = {
      .commands = kTile | kTilePlan | kServe,
      .group = OptionGroup::kWater,
      .type = kFlag,
-     .help = "Put a mask of the lakes of --water into each tile of quantized-mesh, by which clients draw water."},
+     .help = "Store a mask of the --water lakes in each quantized-mesh tile. Clients use it to draw water."},
     {.id = kWaterPercentile,
      .name = "--water-percentile",
      .part_of = kWater,
@@ -205,7 +205,7 @@ const OptionRow kLineRows[] = {
      .value = "N",
      .unit = "samples",
      .least = 3,
-     .help = "Keep areas of at least N connected samples of one height flat. Their shores become edges of the mesh."},
+     .help = "Keep level areas (at least N connected samples) flat. Their shores become edges of the mesh."},
     {.id = kRivers,
      .name = "--rivers",
      .commands = kSimplify,
@@ -235,9 +235,8 @@ const OptionRow kLineRows[] = {
      .most = 33,
      .limit_why = "beyond that refinement hardly ever comes to an end; up to 20 degrees are proven to be possible, 30 "
                   "mostly are",
-     .help =
-         "Smallest angle of a triangle, seen from above, in degrees. The error bound, lines and outline come first: "
-         "smaller angles that they leave no room to mend are counted, with a warning."},
+     .help = "Smallest angle of a triangle, seen from above, in degrees. The error bound, lines and outline have "
+             "priority: smaller angles that they force are counted, with a warning."},
     {.id = kMaxEdge,
      .name = "--max-edge",
      .commands = kSimplify,
@@ -246,7 +245,7 @@ const OptionRow kLineRows[] = {
      .value = "LENGTH",
      .unit = "units of x and y",
      .above = 0,
-     .help = "Longest edge, seen from above, in the units of x and y of the mesh. Always kept."},
+     .help = "Longest edge, from above, in the mesh's units of x and y. Always kept."},
     {.id = kMinEdge,
      .name = "--min-edge",
      .commands = kSimplify,
@@ -256,8 +255,8 @@ const OptionRow kLineRows[] = {
      .unit = "units of x and y",
      .above = 0,
      .range = "above 0, at most half of --max-edge",
-     .help = "Shortest edge, seen from above, in the units of x and y of the mesh. All other goals come first: shorter "
-             "edges that they need are left and counted, with a warning."},
+     .help = "Shortest edge, seen from above, in the mesh's units of x and y. All other goals have priority: shorter "
+             "edges that they need are counted, with a warning."},
     {.id = kGrade,
      .name = "--grade",
      .commands = kSimplify,
@@ -265,8 +264,8 @@ const OptionRow kLineRows[] = {
      .type = kNumber,
      .value = "G",
      .above = 0,
-     .help = "How fast edges may grow: none is longer than 2 (s + G d), d from its far end to an edge of length s. "
-             "0.2 is moderate. Always kept."},
+     .help = "Growth of edge lengths: no edge whose far end is d from one of length s is longer than 2 (s + G d). 0.2 "
+             "is moderate. Always kept."},
 
     {.id = kBase,
      .name = "--base",
@@ -289,8 +288,8 @@ const OptionRow kLineRows[] = {
      .value = "KEY=VALUE,...",
      .choices = "size= base= thickness= exaggerate=",
      .help = "Close the mesh into a solid for printing, as .stl, .3mf, .obj or .ply. size=120mm: longest side. "
-             "base=H: height in the raster's units. thickness=3mm: below the lowest vertex. exaggerate=F: multiplies "
-             "heights.",
+             "base=H: base height in the raster's units. thickness=3mm: below the lowest vertex. exaggerate=F: height "
+             "factor.",
      .brief = "A closed solid for printing: size=120mm, exaggerate=2"},
     {.id = kSplit,
      .name = "--split",
@@ -298,8 +297,8 @@ const OptionRow kLineRows[] = {
      .group = OptionGroup::kSolids,
      .type = kText,
      .value = "CxR[,KEY=VALUE]",
-     .help = "Cut the solid into C columns and R rows of print tiles: files OUT-r1-c1.stl ..., or objects of one .3mf. "
-             "joint=dovetail: tabs that hook into each other. gap=0.2mm: room between neighbours."},
+     .help = "Cut the solid into C columns and R rows of print tiles: files OUT-r1-c1.stl ..., or objects of one "
+             ".3mf. joint=dovetail: interlocking tabs. gap=0.2mm: distance between neighbours."},
 };
 
 }  // namespace

@@ -14,10 +14,10 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kNodata,
      .type = kNumber,
      .value = "V",
-     .by_default = "what the file declares",
+     .by_default = "declared by the file",
      .range = "a number or nan",
      .is_for_points = true,
-     .help = "Value that marks missing samples, or points without a height, which are omitted.",
+     .help = "Value that marks missing samples. Points with this value are omitted.",
      .brief = "Value that marks missing samples"},
     {.id = kNodataPolicy,
      .name = "--nodata-policy",
@@ -27,8 +27,8 @@ constexpr OptionRow kSampleRows[] = {
      .value = "POLICY",
      .choices = "hole fill background",
      .by_default = "hole",
-     .help = "Treatment of missing samples. hole: the mesh has none there. fill: they are interpolated. background: "
-             "they get a given height."},
+     .help = "Treatment of missing samples. hole: the mesh has a hole there. fill: interpolate. background: use a "
+             "given height."},
     {.id = kNodataPolicy,
      .name = "--nodata-policy",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
@@ -37,10 +37,9 @@ constexpr OptionRow kSampleRows[] = {
      .value = "POLICY",
      .choices = "voids fill background",
      .by_default = "voids",
-     .help =
-         "Treatment of missing samples. voids: those of enclosed voids of at most 100 samples a side are interpolated, "
-         "others get the height of --background. fill: all within a distance of a height are interpolated. "
-         "background: none is.",
+     .help = "Treatment of missing samples. voids: interpolate enclosed voids of at most 100 samples a side; the rest "
+             "gets the height of --background. fill: interpolate all within a distance of a height. background: "
+             "interpolate none.",
      .brief = "Treatment of missing samples: voids, fill or background"},
     {.id = kFillDistance,
      .name = "--fill-distance",
@@ -53,8 +52,7 @@ constexpr OptionRow kSampleRows[] = {
      .unit = "samples",
      .by_default = "100",
      .above = 0,
-     .help = "With fill: the farthest valid sample to interpolate from, in samples. What is farther away stays "
-             "missing."},
+     .help = "With fill: the largest distance to a valid sample, in samples. Samples farther away stay missing."},
     {.id = kBackground,
      .name = "--background",
      .part_of = kNodataPolicy,
@@ -76,7 +74,7 @@ constexpr OptionRow kSampleRows[] = {
      .unit = "samples",
      .by_default = "0",
      .least = 0,
-     .help = "How far the outline of the valid data may move outwards to become simpler, in samples."},
+     .help = "How far the outline of the valid data may move outwards to save triangles, in samples."},
 
     {.id = kMask,
      .name = "--mask",
@@ -120,9 +118,8 @@ constexpr OptionRow kSampleRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
-     .help =
-         "Region of interest: errors are at most M in the polygons, and on the lines, of a vector file. End with exit "
-         "code 3 if one is not; where regions overlap, the smallest M counts."},
+     .help = "Region of interest: exit code 3 if an error is above M in the polygons, or on the lines, of a vector "
+             "file. Where regions overlap, the smallest M counts."},
     {.id = kFalloff,
      .name = "--falloff",
      .part_of = kRoi,
@@ -134,8 +131,8 @@ constexpr OptionRow kSampleRows[] = {
      .unit = "metres, or units of the CRS",
      .by_default = "0",
      .least = 0,
-     .help = "Blend from the region's error to that of all samples over this distance. In metres where they are known, "
-             "else in units of the CRS."},
+     .help = "Distance over which the bound blends from the region's to that of all samples. In metres if known, else "
+             "in units of the CRS."},
     {.id = kScript,
      .name = "--script",
      .commands = kSimplify,
@@ -159,7 +156,7 @@ constexpr OptionRow kSampleRows[] = {
      .type = kInputFile,
      .value = "FILE",
      .is_repeatable = true,
-     .help = "Image on the grid of the heights, whose bands count as errors too."},
+     .help = "Image on the grid of the heights. Errors of its bands count too."},
     {.id = kTextureWeight,
      .name = "--texture-weight",
      .part_of = kTexture,
@@ -172,15 +169,15 @@ constexpr OptionRow kSampleRows[] = {
      .least = 0,
      .most = 1,
      .limit_why = "1 means textures only",
-     .help = "How much textures count: 0 means heights only, 1 textures only. At 0.5 the range of a band counts as "
-             "much as the relief."},
+     .help = "Weight of textures: 0 means heights only, 1 textures only. At 0.5 the range of a band counts as much as "
+             "the relief."},
     {.id = kImage,
      .name = "--image",
      .commands = kSimplify | kMeasure,
      .group = OptionGroup::kTextures,
      .type = kFlag,
-     .help = "The raster is a flat image, and its bands are what is approximated (all, or --band N). Errors are in "
-             "grey levels."},
+     .help = "Treat the raster as a flat image and approximate its bands (all, or --band N). Errors are in grey "
+             "levels."},
     {.id = kNorm,
      .name = "--norm",
      .commands = kSimplify | kMeasure,
@@ -188,8 +185,8 @@ constexpr OptionRow kSampleRows[] = {
      .type = kChoice,
      .choices = "l1 l2 linf",
      .by_default = "l1, with --image linf",
-     .help = "How the errors of heights and bands become one. l1: their sum. l2: the root of the sum of their "
-             "squares. linf: the largest."},
+     .help = "Norm of the errors of heights and bands. l1: their sum. l2: the root of the sum of their squares. linf: "
+             "the largest."},
     {.id = kChannelWeights,
      .name = "--channel-weights",
      .part_of = kNorm,
@@ -198,7 +195,7 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kTextures,
      .type = kText,
      .value = "W1,W2,...",
-     .by_default = "all alike",
+     .by_default = "all equal",
      .range = "each at least 0",
      .help = "Weights of the bands, one for each."},
 
@@ -208,7 +205,7 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kPoints,
      .type = kFlag,
      .is_for_points = true,
-     .help = "The input is points or lines, whatever its name ends in."},
+     .help = "The input is points or lines, whatever its extension."},
     {.id = kDuplicates,
      .name = "--duplicates",
      .commands = kSimplify,
@@ -218,7 +215,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "first last highest lowest mean",
      .by_default = "first",
      .is_for_points = true,
-     .help = "Point that counts among several at one place: the first, last, highest or lowest, or their mean."},
+     .help = "Point to use of several at one place: the first, last, highest or lowest, or their mean."},
     {.id = kDuplicates,
      .name = "--duplicates",
      .commands = kMeasure,
@@ -228,7 +225,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "first last highest lowest mean",
      .by_default = "from the mesh file, else first",
      .is_for_points = true,
-     .help = "Point that counts among several at one place: the first, last, highest or lowest, or their mean."},
+     .help = "Point to use of several at one place: the first, last, highest or lowest, or their mean."},
     {.id = kLayer,
      .name = "--layer",
      .commands = kSimplify | kMeasure | kInfo,
@@ -255,8 +252,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "NAMES",
      .by_default = "from the header, else guessed from the values",
      .is_for_points = true,
-     .help = "Contents of a text's columns, such as number,northing,easting,height,code, or pnezd. - is for one that "
-             "is not read."},
+     .help = "Columns of a text file, such as number,northing,easting,height,code, or pnezd. - omits a column."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kSimplify,
@@ -265,8 +261,8 @@ constexpr OptionRow kSampleRows[] = {
      .value = "hull|concave:LENGTH",
      .by_default = "hull",
      .is_for_points = true,
-     .help = "Boundary of the mesh: the convex hull of the points, or a concave one. Triangles whose edge on the "
-             "boundary is longer than LENGTH, in the unit of x and y, are removed while the mesh stays in one piece."},
+     .help = "Boundary of the mesh: the convex hull of the points, or a concave one. Triangles with a boundary edge "
+             "longer than LENGTH, in the unit of x and y, are removed while the mesh stays in one piece."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kMeasure,
@@ -275,7 +271,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "hull|concave:LENGTH",
      .by_default = "from the mesh file, else hull",
      .is_for_points = true,
-     .help = "Allowed boundary of the mesh: the convex hull of the points, or, in one loop, within it."},
+     .help = "Allowed boundary: the points' convex hull, or, with concave, one loop within the hull."},
 };
 
 }  // namespace

@@ -16,9 +16,9 @@ constexpr OptionRow kStrategyRows[] = {
      .choices = "dominant greedy",
      .by_default = "dominant with -e alone, else greedy",
      .is_of_mesh = false,
-     .help = "Sample that is inserted next. dominant: the worst of its neighbourhood, on all threads. greedy: the "
-             "worst of the whole raster, as in the paper, on one thread.",
-     .brief = "Sample that is inserted next: dominant or greedy"},
+     .help = "Next sample to insert. dominant: the worst of its neighbourhood, on all threads. greedy: the worst of "
+             "the whole raster, as in the paper, on one thread.",
+     .brief = "Next sample to insert: dominant or greedy"},
     {.id = kImportance,
      .name = "--importance",
      .commands = kStrategies,
@@ -27,11 +27,11 @@ constexpr OptionRow kStrategyRows[] = {
      .value = "FORMULA",
      .choices = "global local local8 curvature distance global*local global*local8 global*curvature global*distance",
      .by_default = "global",
-     .help = "Measure of the worst sample: the largest global (error of the mesh), local or local8 "
-             "(difference from the mean of its 4 or 8 neighbours) or curvature. Or a product: global*local, "
-             "'global*(local+1)', 'global*sqrt(curvature+1)'. Distance, from the nearest corner of its triangle, "
-             "attenuates errors near vertices: 'global*sqrt(distance+1)'.",
-     .brief = "Measure of the worst sample, such as global*local"},
+     .help = "Measure that ranks samples: global (error of the mesh), local or local8 (difference from the mean of "
+             "its 4 or 8 neighbours) or curvature. Or a product: global*local, 'global*(local+1)', "
+             "'global*sqrt(curvature+1)'. Distance, to the nearest corner of its triangle, attenuates errors near "
+             "vertices: 'global*sqrt(distance+1)'.",
+     .brief = "Measure that ranks samples, such as global*local"},
     {.id = kOnePass,
      .name = "--one-pass",
      .commands = kStrategies,
@@ -60,7 +60,7 @@ constexpr OptionRow kStrategyRows[] = {
      .choices = "const frac: independent",
      .by_default = "one sample at a time",
      .help = "Insert several samples per pass. const: all that break the bound. frac:A: all of at least A times the "
-             "worst. independent: those in triangles that have not changed.",
+             "worst. independent: those in unchanged triangles.",
      .brief = "Insert several samples per pass"},
     {.id = kEdges,
      .name = "--edges",
@@ -69,7 +69,7 @@ constexpr OptionRow kStrategyRows[] = {
      .type = kChoice,
      .choices = "delaunay data",
      .by_default = "delaunay",
-     .help = "Diagonals to keep: those of well-shaped triangles, or those that fit the heights.",
+     .help = "Diagonals to use: those of well-shaped triangles, or those that fit the heights.",
      .brief = "Diagonals by shape (delaunay) or by the heights (data)"},
     {.id = kEdgeScore,
      .name = "--edge-score",
@@ -79,8 +79,8 @@ constexpr OptionRow kStrategyRows[] = {
      .value = "SCORE",
      .choices = "sum max sqerr abn tight",
      .by_default = "sum",
-     .help = "With --edges data: what a diagonal is judged by. sum or max of its triangles' largest errors, sqerr "
-             "(squared errors), abn (angle between normals), tight (fewest triangles at equal error).",
+     .help = "With --edges data: measure of a diagonal. sum or max of its triangles' largest errors, sqerr (squared "
+             "errors), abn (angle between normals), tight (fewest triangles at equal error).",
      .brief = "With --edges data: the measure of a diagonal"},
     {.id = kShapeThreshold,
      .name = "--shape-threshold",
@@ -92,8 +92,8 @@ constexpr OptionRow kStrategyRows[] = {
      .least = 0,
      .most = 1,
      .limit_why = "0 counts the data alone, 1 the shape alone",
-     .help = "With --edges data: 0 counts the data alone, 1 the shape alone.",
-     .brief = "With --edges data: 0 counts the data alone, 1 the shape"},
+     .help = "With --edges data: 0 uses the data alone, 1 the shape alone.",
+     .brief = "With --edges data: 0 uses data alone, 1 shape alone"},
     {.id = kSupersample,
      .name = "--supersample",
      .commands = kStrategies,

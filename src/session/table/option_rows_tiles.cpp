@@ -16,8 +16,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "FORMAT",
      .choices = "qm 3dtiles",
      .by_default = "qm; 3dtiles with a local grid",
-     .help = "Output format. qm: quantized-mesh. 3dtiles: 3D Tiles 1.1, terrain as compressed GLB files that other "
-             "clients of 3D Tiles read as well.",
+     .help = "Output format. qm: quantized-mesh. 3dtiles: 3D Tiles 1.1 with compressed GLB files, for CesiumJS and "
+             "other clients of 3D Tiles.",
      .brief = "Output format: qm (quantized-mesh) or 3dtiles"},
     {.id = kDrape,
      .name = "--drape",
@@ -25,8 +25,8 @@ constexpr OptionRow kTileRows[] = {
      .group = OptionGroup::kOutput,
      .type = kInputFile,
      .value = "IMAGE",
-     .help = "Drape an image over the terrain, a texture in each GLB of --of 3dtiles: any 8-bit raster, warped from "
-             "its own CRS. Where it has no colour the ground has one.",
+     .help = "Drape an image over the terrain, as a texture in each GLB of --of 3dtiles: any 8-bit raster, warped "
+             "from its own CRS. Areas without colour are grey-brown.",
      .brief = "Image to drape over 3D Tiles"},
     {.id = kDrapeFormat,
      .name = "--drape-format",
@@ -38,9 +38,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "FORMAT",
      .choices = "jpeg png webp",
      .by_default = "jpeg",
-     .help = "The format of the textures of tiles. jpeg and webp have a quality of 90, png is lossless. Clients must "
-             "know EXT_texture_webp for webp.",
-     .brief = "How textures are stored: jpeg, png or webp"},
+     .help = "Format of the tiles' textures. jpeg and webp have a quality of 90, png is lossless. Clients must know "
+             "EXT_texture_webp for webp.",
+     .brief = "Format of textures: jpeg, png or webp"},
     {.id = kMaxError,
      .name = "--max-error",
      .short_name = "-e",
@@ -61,7 +61,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "Q",
      .by_default = "2",
      .least = 0.5,
-     .help = "Max error of the coarser levels: the geometric error that clients assume, over Q."},
+     .help = "Max error of coarser levels: 1/Q of the geometric error that clients assume."},
     {.id = kZoom,
      .name = "--zoom",
      .commands = kTile | kTilePlan | kServe,
@@ -72,7 +72,7 @@ constexpr OptionRow kTileRows[] = {
      .by_default = "the first level whose nodes are at most 1.1 cells of the raster apart",
      .least = 0,
      .most = 23,
-     .help = "The finest level. All from 0 to Z are made.",
+     .help = "The finest level; levels 0 to Z are made.",
      .brief = "The finest level"},
     {.id = kGrid,
      .name = "--grid",
@@ -82,10 +82,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "GRID",
      .choices = "geographic mercator local",
      .by_default = "geographic; local for a raster without a place on the globe",
-     .help =
-         "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at level "
-         "0, which ends at 85.0511 degrees; quantized-mesh only. local: a plane over one raster, with its samples as "
-         "nodes; 3D Tiles only.",
+     .help = "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at "
+             "level 0, up to 85.0511 degrees; quantized-mesh only. local: a plane for one raster, with its samples as "
+             "nodes; 3D Tiles only.",
      .brief = "Grid of the tiles: geographic, mercator, or local (a plane)"},
     {.id = kGrid,
      .name = "--grid",
@@ -95,9 +94,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "GRID",
      .choices = "geographic mercator",
      .by_default = "geographic",
-     .help =
-         "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at level "
-         "0, which ends at 85.0511 degrees.",
+     .help = "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at "
+             "level 0, up to 85.0511 degrees.",
      .brief = "Grid of the tiles: geographic or mercator"},
     {.id = kGrid,
      .name = "--grid",
@@ -107,7 +105,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "GRID",
      .choices = "geographic mercator",
      .by_default = "from the set",
-     .help = "Grid of the tiles, of a set whose layer.json does not name its projection."},
+     .help = "Grid of a set whose layer.json does not name its projection."},
     {.id = kBound,
      .name = "--bound",
      .commands = kTile | kTilePlan,
@@ -116,8 +114,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "WHERE",
      .choices = "nodes samples",
      .by_default = "nodes",
-     .help = "Scope of the max error. nodes: at the tiles' nodes. samples: at the samples of the raster, too, each at "
-             "its own place; nodes are then twice as dense, --cells 256 unless given.",
+     .help = "Scope of the max error. nodes: at the tiles' nodes. samples: also at the raster's samples, at their "
+             "exact places; nodes are then twice as dense (--cells 256 unless given).",
      .brief = "Scope of the max error: at nodes, or at the raster's samples, too"},
     {.id = kMaxTileBytes,
      .name = "--max-tile-bytes",
@@ -128,8 +126,8 @@ constexpr OptionRow kTileRows[] = {
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "any",
      .least = 1,
-     .help = "Size of a tile as it is kept. Where a tile is larger, the max error of its interior is doubled until it "
-             "fits; its borders stay, so that neighbours meet.",
+     .help = "Largest stored size of a tile. The max error of a larger tile's interior is doubled until the tile "
+             "fits; borders stay, so that neighbours meet.",
      .brief = "Largest size of a tile, at the cost of its interior's error"},
     {.id = kBreaklines,
      .name = "--breaklines",
@@ -138,9 +136,8 @@ constexpr OptionRow kTileRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help =
-         "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. Each "
-         "level has them to within its own nodes.",
+     .help = "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. "
+             "Each level moves them to its own nodes.",
      .brief = "Lines that become edges of the tiles' meshes"},
     {.id = kCells,
      .name = "--cells",
@@ -150,7 +147,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "N",
      .choices = "16 32 64 128 256",
      .by_default = "128",
-     .help = "Cells between the nodes of a tile of the finest level, each way."},
+     .help = "Cells between nodes along a side of a tile of the finest level."},
     {.id = kEffort,
      .name = "--effort",
      .commands = kTile | kTilePlan,
@@ -159,7 +156,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "LEVEL",
      .choices = "fast normal high",
      .by_default = "normal",
-     .help = "How much work to do for fewer triangles. The max errors are the same.",
+     .help = "Work to spend on fewer triangles. The max errors are the same.",
      .brief = "fast, normal or high: fewer triangles for more time"},
     {.id = kEffort,
      .name = "--effort",
@@ -169,7 +166,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "LEVEL",
      .choices = "fast normal high",
      .by_default = "fast",
-     .help = "How much work to do for fewer triangles of the tiles that are made."},
+     .help = "Work to spend on fewer triangles in the tiles made."},
     {.id = kVertical,
      .name = "--vertical",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
@@ -178,19 +175,18 @@ constexpr OptionRow kTileRows[] = {
      .value = "DATUM",
      .choices = "auto egm96 egm2008 ellipsoid none",
      .by_default = "auto",
-     .help = "Zero of the heights. auto: from the raster's CRS, which must name a vertical datum. egm96: the sea, by a "
-             "grid that is built in. egm2008, or EPSG:N of a vertical CRS: by PROJ, where its grid is installed. "
-             "ellipsoid: the ellipsoid, as GPS gives heights. none: unknown; heights are used as they are, and may be "
-             "100 m off.",
-     .brief = "Zero of the heights: egm96 (the sea) or ellipsoid"},
+     .help = "Vertical datum of the heights. auto: from the raster's CRS, which must name one. egm96: mean sea level, "
+             "by a built-in grid. egm2008, or EPSG:N of a vertical CRS: by PROJ, if its grid is installed. ellipsoid: "
+             "as GPS gives heights. none: unknown; heights are used unchanged and may be 100 m off.",
+     .brief = "Vertical datum: egm96 (sea level) or ellipsoid"},
     {.id = kGeoid,
      .name = "--geoid",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
      .group = OptionGroup::kInput,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Raster of the surface that the heights are above, such as a geoid: its heights in metres above the "
-             "ellipsoid. GTX, GeoTIFF or another raster of GDAL. In place of --vertical."},
+     .help = "Raster of the heights' reference surface, such as a geoid, in metres above the ellipsoid: GTX, GeoTIFF "
+             "or another raster of GDAL. Replaces --vertical."},
     {.id = kEllipsoid,
      .name = "--ellipsoid",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
@@ -198,9 +194,9 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "A,B",
      .unit = "metres",
-     .by_default = "that of WGS 84; on other planets the one of the raster's CRS",
-     .help = "Ellipsoid of the globe: radius at the equator and radius to the poles. The raster's longitudes and "
-             "latitudes are then used as they are."},
+     .by_default = "that of WGS 84; on other planets that of the raster's CRS",
+     .help = "Ellipsoid of the globe: equatorial and polar radius. The raster's longitudes and latitudes are then "
+             "used unchanged."},
     {.id = kBackground,
      .name = "--background",
      .commands = kTile | kTilePlan | kTileCheck | kServe,
@@ -209,8 +205,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "V",
      .unit = "metres above the ellipsoid",
      .by_default = "0",
-     .help = "Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical is. With "
-             "a local grid that of nodata alone, by default the raster's lowest.",
+     .help = "Height above the ellipsoid of nodata and of the globe around the raster, whatever --vertical is. With a "
+             "local grid: of nodata alone; by default the raster's lowest.",
      .brief = "Height of nodata and of the globe around, above the ellipsoid"},
     {.id = kPlan,
      .name = "PLAN",
@@ -219,7 +215,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kOutputFile,
      .choices = ".json",
      .is_required = true,
-     .help = "Plan to write: all that the tiles depend on."},
+     .help = "Plan to write, with all tile settings."},
     {.id = kInput,
      .name = "SET",
      .commands = kTileCheck,
@@ -234,7 +230,7 @@ constexpr OptionRow kTileRows[] = {
      .group = OptionGroup::kVerdict,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Compare each tile with all nodes below it, of this raster, or of the rasters of a plan (.json).",
+     .help = "Compare each tile with all nodes below it, from this raster or a plan's rasters (.json).",
      .brief = "Raster or plan to measure bounds against"},
     {.id = kShard,
      .name = "--shard",
@@ -243,8 +239,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "I/N",
      .by_default = "1/1, all blocks",
-     .help = "Share I of N of the blocks to make. Blocks that the parts hold already, made in whatever shares, are not "
-             "made again."},
+     .help = "Make share I of N of the blocks. Blocks that --parts already holds, from any share, are not made again."},
     {.id = kOnly,
      .name = "--only",
      .commands = kTile | kTilePlan,
@@ -252,7 +247,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "W,S,E,N",
      .unit = "degrees",
-     .help = "Make only blocks that touch the box: blocks outside are treated as nodata. Tiles of the blocks are those "
+     .help = "Make only blocks that touch the box; blocks outside are treated as nodata. The tiles made equal those "
              "of the whole set."},
     {.id = kOnly,
      .name = "--only",
@@ -261,7 +256,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "W,S,E,N",
      .unit = "degrees",
-     .help = "Make only blocks of the share that touch the box now. The others may be made later."},
+     .help = "Make only the share's blocks that touch the box. The others may be made later."},
     {.id = kChangedSince,
      .name = "--changed-since",
      .commands = kTilePlan,
@@ -278,25 +273,24 @@ constexpr OptionRow kTileRows[] = {
      .value = "WHAT",
      .choices = "stamp content",
      .by_default = "stamp",
-     .help = "How to detect a changed raster. stamp: by its size and modification time. content: by a hash of all its "
-             "bytes, so that an edit that keeps both is found, and a copy with another time is the same."},
+     .help = "How to detect a changed raster. stamp: by size and modification time. content: by a hash of all bytes, "
+             "which finds edits that keep both, and accepts copies with another time."},
     {.id = kSurvey,
      .name = "--survey",
      .commands = kTilePlan,
      .group = OptionGroup::kRun,
      .type = kFlag,
-     .help =
-         "Read all nodes once to find out which blocks have heights, so that shares are of equal cost where much of "
-         "the raster is nodata."},
+     .help = "Read all nodes once to find the blocks with heights. Shares then have equal cost even if much of the "
+             "raster is nodata."},
     {.id = kShards,
      .name = "--shards",
      .commands = kTilePlan,
      .group = OptionGroup::kOutput,
      .type = kCount,
      .value = "N",
-     .by_default = "as many as blocks, at most 1000",
+     .by_default = "one per block, at most 1000",
      .least = 1,
-     .help = "Shares that the script of --slurm makes of the blocks."},
+     .help = "Number of shares in the script of --slurm."},
     {.id = kParts,
      .name = "--parts",
      .commands = kTileRun | kTileFinish,
@@ -320,8 +314,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "SIZE",
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "256M",
-     .help = "Memory of the raster: one whose samples need more stays in its file, and the blocks' parts of it are "
-             "read. A block needs another 300 MB."},
+     .help = "Memory for the raster. A larger raster stays in its file and is read block by block. A block needs "
+             "another 300 MB."},
     {.id = OptionId::kMemory,
      .name = "--memory",
      .commands = kServe,
@@ -330,9 +324,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "SIZE",
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "1G",
-     .help = "Memory of the caches, where tiles are made. One half is for the raster, which stays in its file if it is "
-             "larger, with its blocks read last; the other for the tiles asked for last. Making a tile needs up to "
-             "another 300 MB a thread."},
+     .help = "Memory of the caches, if tiles are made. One half holds the raster, or, if it is larger, its most "
+             "recent blocks; the other the most recent tiles. Making tiles needs up to another 300 MB per thread."},
     {.id = kPort,
      .name = "--port",
      .commands = kServe,
@@ -343,7 +336,7 @@ constexpr OptionRow kTileRows[] = {
      .least = 0,
      .most = 65535,
      .limit_why = "ports go from 0, any that is free, to 65535",
-     .help = "Port to serve at. 0: any that is free."},
+     .help = "Port to listen on. 0: any free one."},
     {.id = kHost,
      .name = "--host",
      .commands = kServe,
@@ -352,8 +345,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "ADDRESS",
      .choices = "127.0.0.1 0.0.0.0 ::1 ::",
      .by_default = "127.0.0.1",
-     .help =
-         "Address of this machine to serve at. The default answers this machine alone; 0.0.0.0 answers others too."},
+     .help = "Address to listen on. The default answers this machine alone; 0.0.0.0 answers others too."},
 };
 
 }  // namespace
