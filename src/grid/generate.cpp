@@ -86,7 +86,7 @@ double fractal_height(std::uint64_t seed, int first_cell, int col, int row) {
   return sum;
 }
 
-/// To 0 … 1000. REQUIRES: two heights differ.
+/// Stretches heights to 0 … 1000. REQUIRES: two heights differ.
 void stretch(OwnedHeightField& field) {
   const auto [low, high] = std::minmax_element(field.samples.begin(), field.samples.end());
   const double least = static_cast<double>(*low), relief = static_cast<double>(*high) - least;
@@ -103,7 +103,7 @@ void fill_fractal(OwnedHeightField& field, std::uint64_t seed) {
   stretch(field);
 }
 
-/// A plane wave as products: cos(a + b) = cos a cos b − sin a sin b, of each column and each row {cosine, sine}.
+/// A plane wave as products of {cosine, sine} per column and per row: cos(a + b) = cos a cos b − sin a sin b.
 struct PlaneWave {
   std::vector<std::array<double, 2>> cols, rows;
 };
@@ -118,7 +118,7 @@ std::vector<std::array<double, 2>> sample_wave(double step, double phase, int co
   return wave;
 }
 
-/// Wave vectors are even in the disc of kMostPeriods over the longer side.
+/// Wave vectors are uniform in the disc of kMostPeriods over the longer side.
 std::vector<PlaneWave> draw_waves(std::uint64_t seed, int cols, int rows) {
   constexpr int kWaves = 64;
   constexpr double kMostPeriods = 8;
