@@ -146,10 +146,9 @@ bool is_on_side(Point p, Point q, std::int32_t cols, std::int32_t rows) {
 /// The edges that become part of the mesh, and the cut of the surface.
 struct KeptEdges {
   std::vector<GraphEdge> edges;
-  std::vector<std::uint8_t> is_start;  ///< see the graph
-  std::vector<GraphEdge> walls;        ///< edges at which the surface ends, on their positive side
-  std::vector<std::array<Point, 2>>
-      outline;  ///< outline of the rest: the walls, and parts of the raster's sides
+  std::vector<std::uint8_t> is_start;         ///< see the graph
+  std::vector<GraphEdge> walls;               ///< edges at which the surface ends, on their positive side
+  std::vector<std::array<Point, 2>> outline;  ///< outline of the rest: the walls, and parts of the raster's sides
 };
 
 /// Edges of breaklines in and around polygons, and the outline of the polygons' union.

@@ -146,8 +146,7 @@ Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions
   // Applied to the band's scale, so that all ways of reading include it.
   unread.band.scale *= options.z_scale;
   unread.band.offset = options.z_scale * unread.band.offset + options.z_offset;
-  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, unread.info);  // otherwise x and y are the
-                                                                                    // caller's
+  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, unread.info);  // else x and y are the caller's
   OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
