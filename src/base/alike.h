@@ -13,7 +13,7 @@ namespace scarp {
 /// Edit distance: letters to change, add, omit or swap with a neighbour.
 std::size_t count_typos(std::string_view a, std::string_view b);
 
-/// The names that begin with the word; else those with the fewest typos (at most 2, and one for three letters of the
+/// The names that begin with the word; else those with the fewest typos (at most 2, and one per three letters of the
 /// word); else the name that contains the word, if it is the only one. Empty if none is similar.
 std::vector<std::string> find_alike(const std::string& word, const std::vector<std::string>& names);
 

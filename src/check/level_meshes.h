@@ -27,8 +27,8 @@ struct LevelTile {
 struct LevelMesh {
   int z = 0;
   std::vector<LevelTile> tiles;  ///< those without an image first
-  /// Metres of which x and y are multiples, each a power of two; heights have a third. The smallest steps that give
-  /// differences within a tile 16 bits: GlbOptions::cell for a small file.
+  /// Metres of which x and y are multiples, each a power of two; heights have a third. The smallest steps for which
+  /// differences in a tile fit 16 bits: GlbOptions::cell for a small file.
   std::array<double, 2> cell{};
   std::uint64_t tile_bytes = 0;  ///< stored size
 };

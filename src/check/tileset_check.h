@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// `levels`: their number in the set; `low`, `high`: of all its vertices.
+/// `levels`: of the set; `low`, `high`: heights of all its vertices.
 void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
                    const CheckedNodes& nodes, std::vector<TileFault>& faults);
 

@@ -22,8 +22,8 @@ class HollowSamples {
     std::function<Result<void>(std::uint64_t samples, double share)> check;
     int threads = 0;
   };
-  /// The samples within two of a low one. Reads the field's source once from the top down. Fails as the source does,
-  /// and as `check` does. Memory: 9 bytes per sample found, twice that while gathering, and bytes().
+  /// Low samples, and those within two samples of them. Reads the field's source once from the top down. Fails as the
+  /// source does, and as `check` does. Memory: 9 bytes per sample found, twice that while gathering, and bytes().
   static Result<HollowSamples> find(const HeightField& field, const Question& question);
   /// Memory of find() in addition to the samples.
   static std::uint64_t bytes(const HeightField& field);

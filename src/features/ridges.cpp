@@ -48,7 +48,7 @@ Line to_map(const std::vector<Point>& vertices, const RidgeOptions& options, std
   return line;
 }
 
-/// Segments for reading samples within two of paths.
+/// Segments near all samples within two of paths.
 std::vector<Segment> courses_of(const std::vector<ValleyPath>& paths) {
   std::vector<Segment> courses;
   for (const ValleyPath& path : paths) {

@@ -1,6 +1,6 @@
 // Branch and bound over the 8 × 8 blocks. Compiled once for every instruction set (scan_kernels_vector.cpp).
 //
-// The computed distance of a block's samples from the plane. With f the computed plane at the block's centre, M =
+// The computed distance of a block's samples from the plane. With f the computed plane at the block's centre and M =
 // |slope_x|·(width + 8) + |slope_y|·(height + 8) of the box, a sample's exact distance (of the float32 slopes) is at
 // most B = max(high − za − f, f − (low − za)) + 3.5(|slope_x| + |slope_y|). Its computed error is at most B(1 + 2u) +
 // 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So a margin of 2⁻²⁰M on the bound

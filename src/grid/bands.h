@@ -1,5 +1,4 @@
-// All reading of raster rows, wherever the samples are: in bands of some rows held in memory. Samples in memory are a
-// single band.
+// Reading raster rows, in memory or streamed: in bands of some rows at a time. Samples in memory are a single band.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The range of many samples, and what lies at its ends.
+// The range of samples, and the values at its ends.
 #pragma once
 
 #include <cstdint>

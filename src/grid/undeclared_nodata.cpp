@@ -57,7 +57,7 @@ std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std
                     ends.back().samples > 0);
     };
     const bool may_tell =
-        range > 0 || !is_usual_sign(scale.value_of(ends[next].height));  // all others may be one height
+        range > 0 || !is_usual_sign(scale.value_of(ends[next].height));  // all other heights may be equal
     if (may_tell && std::all_of(ends.begin() + static_cast<std::ptrdiff_t>(first),
                                 ends.begin() + static_cast<std::ptrdiff_t>(next), far))
       return next;

@@ -60,7 +60,7 @@ class Histogram {
   std::uint64_t count_in(std::size_t first, std::size_t end) const;
   void find(std::span<const unsigned> permilles, std::span<double> found) const;
 
-  std::vector<std::uint32_t> few_;  ///< buckets, until there are pages
+  std::vector<std::uint32_t> few_;  ///< buckets, before pages exist
 
   /// Pages of counts, one per exponent of the float, created on first use. The first ones are adjacent, so that most
   /// errors need no access to pages_: those of `dense_size_` buckets from `dense_from_` on. Their counts are first

@@ -17,7 +17,7 @@ class ErrorWeigher {
 
   struct Row {
     std::span<const float> errors;          ///< signed, NaN where nodata or uncovered
-    std::span<const double> norms = {};     ///< used instead, unless empty
+    std::span<const double> norms = {};     ///< replace `errors` unless empty
     std::span<const float> mask = {};       ///< empty: none
     std::span<const float> tolerance = {};  ///< empty: none
     std::span<const float> limits = {};     ///< above 0: no bound; empty: none

@@ -83,12 +83,12 @@ struct Judgement {
 ///
 /// `mesh` has as many channels as `field`, values in Mesh::channels. Borrows its arguments for the call. Reads a field
 /// with a source, and sources of weights and tolerances, in bands of rows; twice if errors are above their bound. Fails
-/// with kUsage for weights or tolerances of another size than the field, both at once, a max_error below 0, another
-/// number of channels than the mesh has, channels or an array of weights or tolerances with a field with a source,
-/// channels with a frame in space, and an ignored sample outside the raster. Fails also as measure() and the sources
-/// do. Memory: as measure(); with weights, an array of tolerances, channels or keep_errors 4 bytes per sample, 8 more
-/// with channels, 4 more where samples in memory are ignored. Cost: as measure(), once for the heights and once per
-/// channel.
+/// with kUsage if weights or tolerances do not have the field's size, or both are given; if max_error is below 0; if
+/// numbers of channels differ; if a field with a source has channels, or an array of weights or tolerances; for
+/// channels with a frame in space; and for an ignored sample outside the raster. Fails also as measure() and the
+/// sources do. Memory: as measure(); with weights, an array of tolerances, channels or keep_errors 4 bytes per sample,
+/// 8 more with channels, 4 more where samples in memory are ignored. Cost: as measure(), once for the heights and once
+/// per channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});
 
 /// The errors that take_error_raster() returns.

@@ -46,8 +46,8 @@ class Scanner {
 class SpaceJudge;
 
 /// For affine frames: `places` holds the vertices' positions in the grid; triangles are scanned row by row. `ids`:
-/// triangles to judge, ascending; nothing: all; used during construction only. `space`: the judge of errors of a mesh
-/// in space, which `field` and `mesh` then are on the map; null: none. Everything else borrowed must outlive the
+/// triangles to judge, ascending; nothing: all; used during construction only. `space`: for a mesh in space, the judge
+/// of its errors (`field` and `mesh` are then on the map); null: none. Everything else borrowed must outlive the
 /// scanner.
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
                                            std::optional<std::span<const std::uint32_t>> ids, double tolerance,

@@ -1,4 +1,4 @@
-// The sample that a triangle would insert next.
+// Candidates for insertion.
 #pragma once
 
 #include "base/point.h"

@@ -49,8 +49,8 @@ class ErrorMetric {
   virtual std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const = 0;
   /// The importance of a sample exactly at its bound, if importance is an error; else 0.
   virtual double goal() const = 0;
-  /// Sum of the squared errors (as in Fit) of the samples strictly between two samples on their straight edge, which
-  /// both triangles of the edge count.
+  /// Sum of the squared errors (as in Fit) of the samples strictly between two samples on their straight edge. Both
+  /// triangles of the edge count them.
   virtual double squares_between(Point a, Point b) const = 0;
   /// The bend of the surface between triangles a and b: |n_a − n_b|² of their unit normals, which grows with the angle.
   /// With channels: the scaled sum over all fields.

@@ -33,7 +33,7 @@ struct GlbGrid {
   std::array<double, 3> number(const double* offsets) const;
 };
 
-/// The coarsest grid for the cell that represents every position exactly; a plain one if none does.
+/// The coarsest grid, for cells of this size, that represents every position exactly; else a plain one.
 GlbGrid find_grid(const Mesh& mesh, const std::array<double, 2>& cell);
 /// True if the grid represents x and y exactly.
 bool holds_positions(const GlbGrid& grid, const Mesh& mesh);

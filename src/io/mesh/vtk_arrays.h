@@ -22,7 +22,7 @@ std::optional<VtkType> find_vtk_type(std::string_view name);
 /// The attributes of the root element for all arrays, and the bytes behind the XML.
 struct VtkFile {
   std::endian order = std::endian::little;
-  bool wide_lengths = false;               ///< 64 bits instead of 32 before each array
+  bool wide_lengths = false;               ///< lengths of arrays have 64 bits, not 32
   std::span<const std::uint8_t> appended;  ///< starts behind the mark '_'; in base64 if `is_base64`
   bool is_base64 = false;
 };
@@ -32,8 +32,8 @@ struct VtkArray {
   enum class Format { kText, kBase64, kAppended };
   VtkType type = VtkType::kFloat64;
   Format format = Format::kText;
-  std::uint64_t offset = 0;  ///< from the mark, of a kAppended
-  std::string content;       ///< content of the others
+  std::uint64_t offset = 0;  ///< from the mark; only for kAppended
+  std::string content;       ///< content of other arrays
 };
 
 /// The numbers of an array in any encoding.
