@@ -77,7 +77,7 @@ HWY_INLINE V smaller_of(V a, V b) {
 #endif
 }
 
-/// Truncated doubles. REQUIRES: not below 0, or whole; below 2³¹ in magnitude. Other lanes become any number.
+/// Truncated doubles. REQUIRES: not below 0, or whole; below 2³¹ in magnitude. Other lanes are unspecified.
 template <class DI, class V>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<DI> whole_parts([[maybe_unused]] DI di, V v) {
 #if HWY_TARGET == HWY_WASM

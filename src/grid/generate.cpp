@@ -77,7 +77,7 @@ double cosine_of(double turns) {
   return sum;
 }
 
-/// Each octave has half the scale and 0.55 of the height of the one before.
+/// Each octave has half the scale and 0.55 times the height of the previous one.
 double fractal_height(std::uint64_t seed, int first_cell, int col, int row) {
   double sum = 0, amplitude = 1;
   int octave = 0;

@@ -160,7 +160,7 @@ struct TileParts::Impl {
   std::uint64_t settings = 0, sources = 0;
   std::map<std::string, std::size_t> names;
   std::vector<File> files;
-  std::map<Block, std::map<std::uint64_t, Place>> blocks;  ///< by nodes
+  std::map<Block, std::map<std::uint64_t, Place>> blocks;  ///< by the hash of nodes
   std::map<Block, std::uint64_t> current;                  ///< nodes of blocks in the job's sources
 
   static Block name_of(TileId id) { return {id.z, id.x, id.y}; }

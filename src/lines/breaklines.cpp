@@ -134,7 +134,7 @@ std::vector<Segment> segments_of(const Outline& outline) {
 
 /// The heights of hard lines at one point, line by line.
 struct Claims {
-  std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; opponent: with another height
+  std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; `opponent` differs in height
   std::uint32_t count = 0;                          ///< distinct heights per line, summed up
   bool are_opposed = false;
   bool yield = false;  ///< they belong to lines that yield

@@ -29,7 +29,7 @@ struct Breaklines {
   /// cell of four heights and a plane in one of three. In other cells it is the mean of the valid corners with bilinear
   /// weights, NaN if they have no weight. On a sample it is the sample.
   std::vector<float> heights;
-  std::vector<bool> is_hard;  ///< for each point: its height is that of lines
+  std::vector<bool> is_hard;  ///< for each point: lines determine its height
   std::vector<Arrangement::Edge> edges;
   std::vector<bool> is_held;  ///< for each edge: true if it does not consist of starts only; EMPTY: no starts
 

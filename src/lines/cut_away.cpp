@@ -95,7 +95,7 @@ class CutAway {
     }
   }
 
-  /// True if the part remains: decided by its walls; else by a sample in it off all walls; else by one triangle.
+  /// True if the part remains: decided by its walls; else by a sample in it that is on no wall; else by one triangle.
   bool stays() const {
     if (verdict_ != Wall::kNo) return verdict_ == Wall::kWithin;
     for (const Triangle t : part_) {

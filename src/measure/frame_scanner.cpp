@@ -1,8 +1,8 @@
 // Judging in any frame.
 //
 // A frame with a transform (a map projection) cannot be inverted here, so samples are converted to the mesh's frame.
-// Each row's positions are transformed. A bucket grid over the field's image yields candidate triangles at a position,
-// with one bucket per triangle. Tolerances are in samples: near a sample the frame is treated as affine, and its
+// Each row's positions are transformed. A bucket grid over the field's image, with as many buckets as triangles, yields
+// the candidates at a position. Tolerances are in samples: near a sample the frame is treated as affine, and its
 // inverse converts triangles to grid coordinates around the sample.
 #include <cmath>
 #include <limits>

@@ -47,7 +47,7 @@ struct FacetTask {
   /// Weights are computed without rounding: corners are multiples of 1/256, close to each other and to the origin.
   bool is_exact;
   /// Each row's columns end at the triangle's sides, `margin` farther out. For an exact facet these are exactly its
-  /// samples: no side passes that close to a sample outside.
+  /// samples, since no outside sample is that close to a side.
   bool has_spans;
   double margin;
   std::array<double, 3> per_dy;  ///< 1 / dy, with spans

@@ -271,7 +271,7 @@ class Judged {
     return judge::make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
   }
 
-  /// Prepares folds.
+  /// Prepares the counting of folds.
   void look_in_space(Surface& surface) {
     if (!flat_mesh_ || space_) return;
     space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, surface.list(mesh_.triangle_count()));

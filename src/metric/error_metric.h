@@ -21,7 +21,7 @@ struct Fit {
   double max_error = 0;       ///< largest error, for edge scores
   double sum_squares = 0;     ///< sum of squared errors, for edge scores; if requested
   std::uint64_t scanned = 0;  ///< number of samples scanned
-  bool unsettled = false;     ///< true if exact arithmetic must decide that `worst` is the candidate
+  bool unsettled = false;     ///< true if exact arithmetic must decide whether `worst` is the candidate
   bool complete = true;       ///< false: stopped early, since max_error or sum_squares is above its limit
 };
 

@@ -55,7 +55,7 @@ struct Axes {
 
 class EarthTransform final : public SpaceTransform {
  public:
-  /// `turn`: x of a whole turn, if x is a longitude; else 0. `up`: metres per unit of heights in `from`.
+  /// `turn`: a whole turn in units of x, if x is a longitude; else 0. `up`: metres per unit of heights in `from`.
   EarthTransform(const Crs& from, const Crs& earth, bool is_strict, double centre_x, double turn, double up)
       : forth_(from, earth, is_strict), back_(earth, from, is_strict), centre_x_(centre_x), turn_(turn), up_(up) {}
 

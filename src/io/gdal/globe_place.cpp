@@ -33,7 +33,7 @@ Crs find_space_crs(const std::string& definition) {
   return crs;
 }
 
-/// Uses PROJ; goes through the raster's own x and y if the zero belongs to their CRS.
+/// Uses PROJ, via the raster's own x and y if the zero belongs to their CRS.
 class ProjZero final : public HeightZero {
  public:
   /// `from_degrees`: null if x and y are degrees.

@@ -15,8 +15,8 @@ bool is_there(const std::string& vsi) {
   return VSIStatL(vsi.c_str(), &status) == 0;
 }
 
-/// The file on disk in a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif. For any
-/// file system and syntax, that file's name ends at the end of a part of the name.
+/// The file on disk in a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif. In any
+/// file system's syntax, that file's name ends where a part of the name ends.
 void add_container(const std::string& name, std::set<std::string>& seen) {
   if (name.rfind("/vsi", 0) != 0 || is_remote(name)) return;
   constexpr const char* kBeginnings = "/{,=";

@@ -127,7 +127,7 @@ std::string describe_datum_difference(const Tile& first, const Tile& tile) {
   return fmt::format("has {}, and {} {}: {}", say(b), first.path, say(a), way);
 }
 
-/// x of a whole turn around the earth; 0 if x is not periodic.
+/// A whole turn around the earth in units of x; 0 if x is not periodic.
 double turn_of(const Crs& crs) {
   if (!crs) return 0;
   constexpr double kTurn = 2 * std::numbers::pi;

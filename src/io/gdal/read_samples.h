@@ -55,7 +55,8 @@ struct Findings {
   std::optional<Beyond> beyond;  ///< the first finite value beyond float32
   /// Statistics of colours that are read as heights.
   struct Colours {
-    std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< without black; the last: by the other encoding
+    std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< black excluded; on_earth_otherwise: by the
+                                                                    ///< other encoding
     /// Samples that differ from both neighbours: where the colour with the value 2^8 or 2^16 changes, and elsewhere.
     std::array<std::uint64_t, 2> torn{}, whole{};
     std::array<std::uint32_t, 2> most{};  ///< largest difference of torn samples
