@@ -28,7 +28,7 @@ std::vector<std::string> find_alike(const std::string& word, const std::vector<s
     std::copy_if(names.begin(), names.end(), std::back_inserter(alike), is_chosen);
   };
   if (word.size() >= 2) choose([&](const std::string& name) { return name.starts_with(word); });
-  constexpr std::size_t kLongest = 64;  // length of any name; comparing needs the square of it
+  constexpr std::size_t kLongest = 64;  // longer words are not compared: the cost is quadratic
   if (!alike.empty() || word.size() > kLongest) return alike;
   const std::size_t most = std::min<std::size_t>(2, word.size() / 3);
   for (std::size_t steps = 1; alike.empty() && steps <= most; ++steps)

@@ -12,10 +12,9 @@
 
 namespace scarp {
 
-/// Like std::vector for trivially copyable T, with two differences that a mesh of millions of triangles feels: new
-/// elements are not cleared, and growth goes through realloc, which moves pages instead of copying them, so that
-/// the memory in use stays at what was written and never doubles while growing. Free blocks of others (blocks.h) are
-/// reused before new ones, and are reused by others in turn.
+/// Like std::vector for trivially copyable T, with two differences that matter for millions of triangles. New elements
+/// are not cleared. Growth uses realloc, which moves pages instead of copying them, so memory in use never doubles
+/// while growing. Free blocks of other arrays (blocks.h) are reused before new ones.
 template <class T>
 class Array {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -34,7 +33,7 @@ class Array {
     return *this;
   }
   ~Array() { leave_block({data_, capacity_bytes()}); }
-  /// Gives the memory back to the system, and the elements up.
+  /// Clears the array and returns its memory to the system.
   void release() {
     std::free(std::exchange(data_, nullptr));
     size_ = capacity_ = 0;

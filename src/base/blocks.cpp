@@ -12,7 +12,7 @@ namespace scarp {
 
 namespace {
 
-/// From the oldest to the youngest.
+/// The kept blocks, oldest first.
 class Shelf {
  public:
   Block take(std::size_t bytes) {
@@ -43,7 +43,7 @@ class Shelf {
   std::size_t count_ = 0, bytes_ = 0;
 };
 
-/// Never destroyed: arrays may be, after all that is static. In memory of its own, so that it cannot fail.
+/// Never destroyed, since static arrays may be destroyed later. Allocated in static memory, so it cannot fail.
 Shared<Shelf>& shared_shelf() {
   alignas(Shared<Shelf>) static std::byte place[sizeof(Shared<Shelf>)];
   static auto& shelf = *new (place) Shared<Shelf>;

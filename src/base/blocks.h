@@ -1,9 +1,9 @@
-// Blocks of memory that wait to be used again.
+// A cache of freed memory blocks.
 //
-// A system gives large blocks page by page, each with a fault and a page of zeros, and reclaims them when they are
-// freed. A program that simplifies many small rasters would spend a good part of its time on that, always for blocks of
-// the same sizes. So blocks of a middle size are kept for the next array that wants one: at most kMostKept bytes, the
-// oldest go first, until the process ends.
+// A system maps a large block page by page, each with a fault and zeroing, and unmaps it when it is freed. A program
+// that simplifies many small rasters would spend much of its time on that, always for blocks of the same sizes. So
+// freed blocks of a middle size are kept for the next array: at most kMostKept bytes in all. The oldest blocks are
+// freed first.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 namespace scarp {
 
 struct Block {
-  void* data = nullptr;  ///< block of malloc()
+  void* data = nullptr;  ///< allocated by malloc()
   std::size_t bytes = 0;
 };
 
-inline constexpr std::size_t kLeastKept = std::size_t{16} << 10;    ///< a smaller block is malloc()'s own business
-inline constexpr std::size_t kLargestKept = std::size_t{16} << 20;  ///< a larger one is worth its faults
+inline constexpr std::size_t kLeastKept = std::size_t{16} << 10;    ///< malloc() handles smaller blocks
+inline constexpr std::size_t kLargestKept = std::size_t{16} << 20;  ///< larger blocks are worth their page faults
 inline constexpr std::size_t kMostKept = std::size_t{32} << 20;
 
-/// A kept block of `bytes` to four times as many, the smallest of them; null if there is none. It belongs to the
-/// caller. Several threads may call these at once.
+/// The smallest kept block of `bytes` to four times as many; null if none. The caller owns it. Both functions are
+/// thread-safe.
 Block take_block(std::size_t bytes) noexcept;
 /// Keeps the block, or frees it.
 void leave_block(Block block) noexcept;

@@ -1,7 +1,7 @@
 // The smaller and the larger of two numbers, and the whole part of one, without unpredictable branches.
 //
-// lesser() and greater() are std::min and std::max: of equals, and with a NaN, the first. Machines have an instruction
-// for each; engines of WebAssembly have one for vectors only, and make branches of the rest.
+// lesser() and greater() equal std::min and std::max: of equals, and with a NaN, the first. Most machines have
+// instructions for them; WebAssembly only for vectors, and its engines compile scalars to branches.
 #pragma once
 
 #include <cstdint>

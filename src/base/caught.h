@@ -1,4 +1,4 @@
-// Exceptions end at the public doors.
+// Conversion of exceptions to errors at the public functions.
 #pragma once
 
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// The Error of the exception that is being handled; to be called in a `catch (...)` block. `doing` names what failed,
-/// as in "read dem.tif". Memory that ran out: `kind`, "not enough memory to read dem.tif"; all else: kInternal.
+/// The Error of the current exception; call it in a `catch (...)` block. `doing` names the failed action, as in "read
+/// dem.tif". Out of memory: `kind`, "not enough memory to read dem.tif"; all else: kInternal.
 tl::unexpected<Error> caught(ErrorKind kind, std::string_view doing);
 
 }  // namespace scarp

@@ -1,11 +1,11 @@
-// Morton's curve through the plane: places near each other on it are near each other in the plane.
+// Morton's curve through the plane: neighbours on it are neighbours in the plane.
 #pragma once
 
 #include <cstdint>
 
 namespace scarp {
 
-/// A zero before each of the 32 bits.
+/// Inserts a zero before each of the 32 bits.
 inline std::uint64_t spread_bits(std::uint64_t bits) {
   bits = (bits | bits << 16) & 0x0000ffff0000ffff;
   bits = (bits | bits << 8) & 0x00ff00ff00ff00ff;
@@ -14,7 +14,7 @@ inline std::uint64_t spread_bits(std::uint64_t bits) {
   return (bits | bits << 1) & 0x5555555555555555;
 }
 
-/// How far along the curve (x, y) lies, both below 2^32.
+/// The position of (x, y) along the curve, both below 2^32.
 inline std::uint64_t curve_place(std::uint64_t x, std::uint64_t y) { return spread_bits(x) | spread_bits(y) << 1; }
 
 }  // namespace scarp

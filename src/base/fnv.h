@@ -1,4 +1,4 @@
-// FNV-1a in 64 bits: a name for bytes, the same on every machine. It does not prevent two files of one name.
+// FNV-1a in 64 bits: a hash of bytes, the same on every machine. Collisions are possible.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A callee for the time of a call: no copy, no memory.
+// A callable passed by reference, without copy or allocation.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@ namespace scarp {
 template <class Signature>
 class FunctionRef;
 
-/// Calls the callable it was made of, which must outlive it. As a parameter it accepts any callable, as std::function
-/// does, for one pointer more than the callable's address.
+/// Borrows the callable that it was constructed from. As a parameter it accepts any callable, as std::function does;
+/// its size is two pointers.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

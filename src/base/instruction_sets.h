@@ -1,7 +1,7 @@
-// The choice between several compilations of the same vector code: of every table that is compiled once for each
-// instruction set, the best that the machine has, or the one that the environment variable SCARP_KERNEL names (any name
-// of the tables, in any case; others are ignored). WebAssembly is one instruction set, and has no environment: its
-// build omits the twin in plain loops, with which tests compare the others.
+// The choice between several compilations of the same vector code. Among tables compiled once for each instruction set,
+// the best that the machine supports is chosen, or the one named by the environment variable SCARP_KERNEL (any table's
+// name, in any case; others are ignored). WebAssembly has one instruction set and no environment. Its build omits the
+// scalar twin, with which tests compare the vectors.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ inline bool is_same_kernel_name(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// REQUIRES: `available` is not empty; the best is first. A table has a `name`.
+/// REQUIRES: `available` is not empty; the best is first. Each table has a `name`.
 template <class Kernels>
 const Kernels& choose_kernels(std::span<const Kernels> available) {
 #ifdef __EMSCRIPTEN__
@@ -32,7 +32,7 @@ const Kernels& choose_kernels(std::span<const Kernels> available) {
   return available.front();
 }
 
-/// `vectors`, the best first, then the twin.
+/// `vectors`, best first, then the scalar twin.
 template <auto twin, class Kernels>
 std::vector<Kernels> list_kernels(std::span<const Kernels> vectors) {
   std::vector<Kernels> kernels(vectors.begin(), vectors.end());

@@ -6,11 +6,11 @@
 
 namespace scarp {
 
-/// Has the system map the memory now, by several threads at once, where it can; else it comes page by page, when it is
-/// written.
+/// Maps the memory now, with several threads at once, where the system supports it. Otherwise pages are mapped when
+/// they are first written.
 void map_pages(void* data, std::size_t bytes, int threads);
 
-/// REQUIRES: empty. New elements are 0. A system spends most of the time of this on finding pages of memory.
+/// REQUIRES: empty. New elements are 0. Most of the time is the system's, for mapping pages.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t size, int threads) {
   values.reserve(size);

@@ -14,12 +14,12 @@
 namespace scarp {
 namespace {
 
-/// The exception of the lowest index among those that tasks threw.
+/// The exception of the lowest index among those thrown by tasks.
 class FirstFailure {
  public:
   explicit FirstFailure(std::size_t count) : index_(count) {}
 
-  /// Every task below the failed ones still runs, so that the one that is kept does not depend on timing.
+  /// All tasks below the failed ones still run, so the reported failure does not depend on timing.
   bool is_needless(std::size_t i) const { return i > index_.load(); }
   void keep(std::size_t i, std::exception_ptr exception) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -37,7 +37,7 @@ class FirstFailure {
   std::exception_ptr exception_;
 };
 
-/// Joins what it started, whatever happens in between.
+/// Joins its threads in any case.
 class Pool {
  public:
   explicit Pool(std::size_t most) { threads_.reserve(most); }
@@ -47,7 +47,7 @@ class Pool {
     for (std::thread& thread : threads_) thread.join();
   }
 
-  /// False if the machine has no room for another thread.
+  /// False if no further thread can be created.
   template <class Work>
   bool start(const Work& work) {
     try {
@@ -124,12 +124,12 @@ void run_beside(int threads, FunctionRef<void()> beside, FunctionRef<void()> res
 
 namespace {
 
-/// The tasks that have started, ended and been committed.
+/// The started, ended and committed tasks.
 class TaskOrder {
  public:
   TaskOrder(std::size_t count, std::size_t ahead) : ended_(count, false), ahead_(ahead) {}
 
-  /// The next task; nothing if none is left to start. With `may_wait` waits for commits where too much is uncommitted.
+  /// The next task; nothing if none is left. With `may_wait` waits for commits while too many tasks are uncommitted.
   std::optional<std::size_t> start(bool may_wait) {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto is_free = [this] { return is_over() || next_ < committed_ + ahead_; };
@@ -151,7 +151,7 @@ class TaskOrder {
       failure_ = std::move(exception);
     });
   }
-  /// The task to commit next, if it has ended; with `may_wait` once it has. Nothing if there is none, or all is
+  /// The task to commit next, if it has ended; `may_wait`: waits until then. Nothing if none is left, or all is
   /// stopped.
   std::optional<std::size_t> ready(bool may_wait) {
     std::unique_lock<std::mutex> lock(mutex_);

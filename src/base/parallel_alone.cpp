@@ -1,4 +1,4 @@
-// parallel.cpp for a machine without threads: everything runs on the caller's.
+// parallel.cpp for a machine without threads: runs on the calling thread.
 #include <algorithm>
 
 #include "base/parallel.h"

@@ -1,7 +1,7 @@
-// Points of the sample lattice, their order and their orientation: what every room above means by a position.
+// Points of the sample lattice, their order and their orientation.
 //
-// Handedness: positive means counter-clockwise where x goes right and y goes up. Rasters count rows downwards, so on
-// the screen a positive triangle runs clockwise; what matters is that everybody uses one sign.
+// Handedness: positive means counter-clockwise where x points right and y up. Rasters count rows downwards, so on the
+// screen a positive triangle is clockwise. The same sign is used everywhere.
 //
 // Sizes: coordinates lie in [0, kMaxCoordinate], so a difference fits 30 bits and orient() needs 2·30 + 1 bits.
 #pragma once
@@ -18,7 +18,7 @@ struct Point {
   friend bool operator==(Point, Point) = default;
 };
 
-/// Raster order: lowest row first, then lowest column. Every tie in Scarp is broken by it.
+/// Raster order: lowest row first, then lowest column. It breaks every tie in Scarp.
 inline bool before(Point a, Point b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
 /// Twice the signed area of (a, b, c). (1) orient(a,b,c) = orient(b,c,a); (2) orient(a,b,c) = −orient(b,a,c).

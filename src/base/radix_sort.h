@@ -1,4 +1,4 @@
-// Sorting by whole numbers without comparing them.
+// Radix sort by integer keys.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// Sorts by key(item), a number of 64 bits; items of equal keys stay in their order. Bytes in which no two keys differ
-/// cost nothing. Needs as much memory again. Cost: O(n) a byte; some 5 ns an item for keys of 32 bits.
+/// Stable sort by key(item), a number of 64 bits. Bytes that are equal in all keys cost nothing. Needs a second array
+/// of the same size. Cost: O(n) per byte; some 5 ns per item for keys of 32 bits.
 template <class T, class Key>
 void radix_sort(std::vector<T>& items, const Key& key) {
   constexpr std::size_t kFew = 128;
@@ -41,7 +41,7 @@ void radix_sort(std::vector<T>& items, const Key& key) {
   }
 }
 
-/// Puts points into raster order, each once. REQUIRES: coordinates of at least 0.
+/// Sorts points into raster order and removes duplicates. REQUIRES: coordinates of at least 0.
 inline void sort_uniquely(std::vector<Point>& points) {
   radix_sort(points, [](Point p) {
     return std::uint64_t{static_cast<std::uint32_t>(p.y)} << 32 | static_cast<std::uint32_t>(p.x);

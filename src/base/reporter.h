@@ -9,11 +9,11 @@
 
 namespace scarp {
 
-/// How much of the work is done when the error has come from `first` to `now`. The error falls about as the square root
-/// of the vertices grows, so work done is a ratio of squares. 0 for a goal of 0.
+/// The finished share of the work when the error has fallen from `first` to `now`. The error falls about as the square
+/// root of the vertices grows, so the share is a ratio of squares. 0 for a goal of 0.
 double error_progress(double first, double now, double goal);
 
-/// Reports progress at most ten times a second; false once the callback has asked to stop.
+/// Reports progress at most ten times a second. report() returns false once the callback has asked to stop.
 class Reporter {
  public:
   explicit Reporter(const ProgressCallback& callback) : callback_(callback) {}
@@ -26,7 +26,7 @@ class Reporter {
   double fraction_ = 0;
 };
 
-/// Reports progress of a part of the whole, `share` of it from `begin` on. Borrows the callback; empty if that is.
+/// A callback for a part of the whole: `share` of it, starting at `begin`. Borrows `whole`; empty if `whole` is.
 ProgressCallback part_of(const ProgressCallback& whole, double begin, double share);
 
 }  // namespace scarp

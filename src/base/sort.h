@@ -1,4 +1,4 @@
-// Sorting in few bytes.
+// Sorting with little code.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ void sort_bytes(std::byte* items, std::size_t count, std::size_t size,
 
 }  // namespace detail
 
-/// Sorts by before(a, b); items of which neither is before the other stay in their order. All types share one loop, so
-/// a call costs few bytes of code, and more time than std::sort(): for sorts that are short compared with the work
-/// around them. Needs as much memory again, and 8 bytes an item. REQUIRES: fewer than 2^32 items.
+/// Stable sort by before(a, b). All types share one loop, so a call costs few bytes of code but more time than
+/// std::sort(). Meant for sorts that are short compared with the work around them. Needs a second array of the same
+/// size, and 8 bytes per item. REQUIRES: fewer than 2^32 items.
 template <class Items, class Before = std::less<>>
 void sort_rarely(Items& items, const Before& before = {}) {
   using Item = std::remove_reference_t<decltype(items[0])>;

@@ -1,10 +1,10 @@
-// Parts that Highway 1.0 lacks under WebAssembly: vectors of doubles, and operations that compilers there make of many
-// instructions where the machine has one.
+// Parts that Highway 1.0 lacks under WebAssembly: vectors of doubles, and operations for which the machine has one
+// instruction but compilers there emit many.
 //
-// SCARP_HAVE_FLOAT64 is defined where there are vectors of doubles. Functions in hwy mean what Highway's functions of
-// the same names mean elsewhere; those in scarp are the same for all instruction sets, bit for bit.
+// SCARP_HAVE_FLOAT64 is defined where vectors of doubles exist. Functions in hwy have the meaning of Highway's
+// functions of the same names. Those in scarp give the same bits on all instruction sets.
 
-// Highway's kind of guard: seen once for every instruction set.
+// An include guard like Highway's: included once for every instruction set.
 #if defined(SCARP_WASM_VECTORS) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_WASM_VECTORS
 #undef SCARP_WASM_VECTORS
@@ -77,12 +77,11 @@ HWY_INLINE V smaller_of(V a, V b) {
 #endif
 }
 
-/// Doubles without their fractions. REQUIRES: not below 0, or whole; below 2³¹ in magnitude. Other lanes become any
-/// number.
+/// Truncated doubles. REQUIRES: not below 0, or whole; below 2³¹ in magnitude. Other lanes are unspecified.
 template <class DI, class V>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<DI> whole_parts([[maybe_unused]] DI di, V v) {
 #if HWY_TARGET == HWY_WASM
-  // In the low bits of the sum is the nearest whole number; where that is above, one less.
+  // The low bits of the sum hold the nearest integer; where that exceeds v, subtract one.
   const auto whole = wasm_f64x2_splat(0x1.8p52);
   const auto sum = wasm_f64x2_add(v.raw, whole);
   const auto is_above = wasm_f64x2_gt(wasm_f64x2_sub(sum, whole), v.raw);
@@ -103,7 +102,7 @@ HWY_INLINE bool none_of([[maybe_unused]] D d, M mask) {
 #endif
 }
 
-/// |values|, float32, where they are meant and no NaN; else 0.
+/// |values|, float32, where `meant` is true and the value is not NaN; else 0.
 template <class V, class M>
 HWY_INLINE V magnitudes(V values, M meant) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -115,8 +114,8 @@ HWY_INLINE V magnitudes(V values, M meant) {
 #endif
 }
 
-/// For float32: where `value` is larger than `most`, `most` becomes the value and `at` its place. REQUIRES: no `most`
-/// is NaN.
+/// For float32: where `value` is larger than `most`, sets `most` to it and `at` to its place. REQUIRES: no `most` is
+/// NaN.
 template <class V>
 HWY_INLINE void take_larger(V value, V place, V& most, V& at) {
   namespace hn = hwy::HWY_NAMESPACE;

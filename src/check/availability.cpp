@@ -7,7 +7,7 @@
 namespace scarp {
 namespace {
 
-/// A set that announces the whole globe and holds little is described by so many tiles.
+/// Limit of reported tiles, for a set that announces the whole globe but contains little.
 constexpr std::uint64_t kMostMissing = 100'000;
 
 std::uint64_t key_of(std::uint32_t x, std::uint32_t y) { return std::uint64_t{y} << 32 | x; }

@@ -1,4 +1,4 @@
-// The tiles that are announced, and those that are there.
+// Announced tiles compared with the tiles present.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace scarp {
 
-/// Adds a sentence for each tile that is announced and not there, or there and not announced, or has no parent; for
-/// roots that are missing; and the claims' own faults.
+/// Adds a sentence for each tile that is announced but absent, present but not announced, or without a parent. Also
+/// reports missing roots and faults of the claims themselves.
 void check_availability(const TileSetReader& set, const SetClaims& claims, const TileGrid& grid,
                         std::vector<TileFault>& faults);
 

@@ -39,7 +39,7 @@ TileEdges take_edges(const ClientTile& tile) {
       if (tile.format == TileFormat::kGlb) {
         vertex.key = tile.places[v];
       } else {
-        // Heights in single precision; 0 is the one number that clients may decode to dust of 10⁻¹¹ m.
+        // Heights in single precision; clients may decode 0 to noise of 10⁻¹¹ m.
         const auto height = double{static_cast<float>(vertex.height)};
         vertex.key = {vertex.along, std::abs(height) < 1e-10 ? 0 : height, 0};
       }
@@ -88,8 +88,8 @@ void BorderWatch::add(TileEdges tile) {
     if (south_east != nullptr && !mine.empty() && !south_east->sides[kNorth].empty())
       compare_corner(*south_east, south_east->sides[kNorth].front(), tile, mine.back());
   }
-  // Sides that are no longer needed: the row above uses the southern one, and its neighbour to the east; the first
-  // column is also the last one's neighbour.
+  // Drop sides that are no longer needed. The row above needs northern ones; the eastern neighbour and, for the first
+  // column, the last one need the others.
   tile.sides[kSouth] = {};
   if (x > 0) tile.sides[kWest] = {};
   if (west != row_.tiles.end() && x > 0) west->second.sides[kEast] = {};
@@ -124,7 +124,7 @@ void BorderWatch::compare(const TileEdges& here, TileSide side, const TileEdges&
 void BorderWatch::compare_corner(const TileEdges& here, const EdgeVertex& mine, const TileEdges& there,
                                  const EdgeVertex& theirs) {
   ++level_.corners;
-  // Their places along the edges are the two ends of it.
+  // Here positions along the edges are both ends.
   const bool are_equal = mine.normal == theirs.normal &&
                          (format_ == TileFormat::kGlb ? mine.key == theirs.key : mine.key[1] == theirs.key[1]);
   if (are_equal) return;

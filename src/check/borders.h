@@ -1,4 +1,4 @@
-// Edges of tiles, compared as tiles come by rows.
+// Comparison of neighbouring tiles' edges.
 #pragma once
 
 #include <array>
@@ -15,22 +15,22 @@ namespace scarp {
 /// A vertex on an edge. Two are the same if `key` and `normal` are.
 struct EdgeVertex {
   double along = 0, height = 0;  ///< 0 … 32767; metres
-  Place key{};                   ///< position that neighbours must decode alike
+  Place key{};                   ///< position that neighbours must decode identically
   std::array<float, 3> normal{};
 };
 using TileEdge = std::vector<EdgeVertex>;
 
-/// The four edges, each in its order from south or west, by TileSide.
+/// The four edges, by TileSide, each ordered from south or west.
 struct TileEdges {
   TileId id;
   std::array<TileEdge, 4> sides;
 };
 TileEdges take_edges(const ClientTile& tile);
 
-/// The largest height between two edges, metres.
+/// The largest height difference between two edges, metres.
 double largest_gap(const TileEdge& one, const TileEdge& other);
 
-/// Compares the tiles of one level, which come by rows from the south and in each from the west. Holds a row of edges.
+/// Compares the tiles of one level, added in rows from the south, each from the west. Holds a row of edges.
 class BorderWatch {
  public:
   /// Borrows both; adds counts and faults to them.
@@ -38,7 +38,7 @@ class BorderWatch {
       : format_(format), grid_(grid), z_(z), level_(level), faults_(faults) {}
 
   void add(TileEdges tile);
-  /// After the last tile.
+  /// Call it after the last tile.
   void finish() { end_row(); }
 
  private:
@@ -58,7 +58,7 @@ class BorderWatch {
   CheckedLevel& level_;
   std::vector<TileFault>& faults_;
   Row row_, below_;
-  std::map<TileSide, EdgeVertex> poles_;  ///< the first vertex at each
+  std::map<TileSide, EdgeVertex> poles_;  ///< first vertex at each pole
 };
 
 }  // namespace scarp

@@ -22,10 +22,10 @@
 namespace scarp {
 namespace {
 
-/// Tiles whose findings have their places at once.
+/// Tiles whose findings are in memory at once.
 constexpr std::size_t kTilesTogether = 65536;
 
-/// The facts about a tile before its neighbours are checked.
+/// The facts about a tile before comparison with its neighbours.
 struct TileFindings {
   std::vector<TileFault> faults;
   std::optional<TileEdges> edges;
@@ -141,7 +141,7 @@ class TilesCheck {
     return result;
   }
 
-  /// A server declares for all tiles at once whether they are in gzip.
+  /// A server declares gzip for all tiles at once.
   void compare_gzip(std::uint64_t key, std::size_t z, TileFindings& tile) {
     if (!tile.is_gzip) return;
     const std::optional<bool> said = set_.says_gzip();
@@ -171,7 +171,7 @@ class TilesCheck {
     findings.triangles = tile->triangles.size() / 3;
     check_water_mask(*tile, claims_.has_water_mask, findings.faults);
     check_header(*tile, findings.faults);
-    // Then all heights are numbers.
+    // Otherwise all heights are numbers.
     if (!std::isfinite(tile->low) || !std::isfinite(tile->high)) return findings;
     const auto [lowest, highest] = std::minmax_element(tile->heights.begin(), tile->heights.end());
     findings.low = *lowest;

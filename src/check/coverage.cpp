@@ -1,6 +1,6 @@
 // Triangles cover a tile once if each faces up, each edge has its reverse in another triangle or lies on the tile's own
-// edge, and, where places are whole numbers, all areas add up to the square. For then the number of triangles above a
-// place changes nowhere but on the outline, and it is 1 on average.
+// edge, and (for integer positions) all areas add up to the square. Then the number of triangles above a position
+// changes only at the outline, and is 1 on average.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned side_bit(std::size_t side) { return 1u << side; }
 
-/// On which sides of the tile each vertex lies: by its place, where that is exact, else by the lists.
+/// The sides of the tile on which each vertex lies: by its position if exact, otherwise by the lists.
 std::vector<unsigned> find_sides(const ClientTile& tile) {
   std::vector<unsigned> sides(tile.u.size());
   if (tile.format == TileFormat::kGlb) {
@@ -33,7 +33,7 @@ std::vector<unsigned> find_sides(const ClientTile& tile) {
   return sides;
 }
 
-/// Vertices at one place get one number, where places are exact.
+/// Numbers vertices; those at one position share a number, if positions are exact.
 std::vector<std::uint32_t> number_places(const ClientTile& tile) {
   std::vector<std::uint32_t> numbers;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
@@ -50,7 +50,7 @@ double latitude(const ClientTile& tile, std::uint32_t vertex) {
   return geographic_at(tile.box, tile.u[vertex], tile.v[vertex], 0).latitude;
 }
 
-/// True if a triangle is turned over, as far as positions show.
+/// True if a triangle certainly faces down, given the precision of positions.
 bool faces_down(const ClientTile& tile, std::size_t k) {
   const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
   if (tile.format != TileFormat::kGlb)
@@ -70,16 +70,17 @@ bool faces_down(const ClientTile& tile, std::size_t k) {
   const double area =
       ((tile.u[b] - tile.u[a]) * (tile.v[c] - tile.v[a]) - (tile.u[c] - tile.u[a]) * (tile.v[b] - tile.v[a])) * east *
       north;
-  // Rounding moves each of the three corners by up to √3/2 steps: needles may turn by it.
+  // Rounding moves each of the three corners by up to √3/2 steps, which may turn a needle over.
   return is_turned(area);
 }
 
-/// True if the list of an edge goes clockwise around the tile, as clients expect it; places are as exact as positions.
+/// True if the list of an edge is clockwise around the tile, as clients expect; positions are precise to their format's
+/// step.
 bool is_clockwise(const ClientTile& tile, std::size_t side) {
   const std::vector<std::uint32_t>& listed = tile.edges[side];
   const std::vector<double>& along = side == kWest || side == kEast ? tile.v : tile.u;
   const double sign = side == kWest || side == kNorth ? 1 : -1;
-  // An edge at a pole has no length, and no order.
+  // An edge at a pole has neither length nor order.
   const double metres = length(tile.places[listed.back()] - tile.places[listed.front()]);
   const double slack = 3 * tile.resolution / metres * kWholeTile;
   for (std::size_t k = 1; k < listed.size(); ++k) {
@@ -110,7 +111,8 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults) {
 
   const std::vector<std::uint32_t> numbers = number_places(tile);
   const std::vector<unsigned> sides = find_sides(tile);
-  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>> edges;  // places, then vertices
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>> edges;  // positions, then
+                                                                                              // vertices
   std::vector<bool> is_used(tile.u.size());
   for (std::size_t k = 0; k < tile.triangles.size(); ++k) {
     const std::uint32_t from = tile.triangles[k], to = tile.triangles[k % 3 == 2 ? k - 2 : k + 1];
@@ -155,7 +157,7 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults) {
   });
   if (wall != heights.end())
     add(fmt::format("has two heights at one place, u {}, v {}", wall->first >> 16, wall->first & 0xffff));
-  // Whole numbers below 2^53: exact.
+  // Integers below 2^53: exact.
   double area = 0;
   for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
     const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
@@ -166,7 +168,7 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults) {
 }
 
 void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFault>& faults) {
-  // Above the blocks tiles end at one of 256 nodes, the next beyond the raster where it does not end at one.
+  // Above the blocks tiles end at one of 256 nodes: the raster's end, or the next one beyond it.
   constexpr double kCoarseSteps = 256;
   const LocalRaster& raster = grid.local;
   const double beyond = std::max(0.0, (tile.box.east - tile.box.west) / kCoarseSteps - 1);

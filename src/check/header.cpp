@@ -1,4 +1,4 @@
-// The data by which clients cull tiles: heights, sphere, centre, and the point below the horizon.
+// The data by which clients cull tiles: heights, sphere, centre, and horizon point.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 namespace scarp {
 namespace {
 
-/// Effect of rounding to doubles, as a share of a length.
+/// Relative effect of rounding to doubles.
 constexpr double kSlack = 1e-6;
-/// Directions from the tile in which cameras stand at its horizon point's horizon, and how far beyond it.
+/// Cameras around the tile at the horizon of its horizon point: number of directions, and distances beyond it.
 constexpr int kDirections = 64;
 constexpr double kBeyond[] = {0.001, 0.05, 2};
 /// Cameras above the tile, in units of the axes.
@@ -27,7 +27,7 @@ bool hides(const Place& point, const Place& camera) {
   return beyond < 0 ? along > 0 : along > beyond && along * along > beyond * inner(way, way);
 }
 
-/// True if the way from the camera to a vertex stays outside of the sphere.
+/// True if the line from the camera to a vertex stays outside the sphere.
 bool sees(const Place& camera, const Place& vertex) {
   const Place way = vertex - camera;
   const double square = inner(way, way);
@@ -36,7 +36,7 @@ bool sees(const Place& camera, const Place& vertex) {
   return inner(nearest, nearest) > 1 + 1e-9;
 }
 
-/// A camera that sees one of the vertices while the point hides the tile from it.
+/// True if the camera sees one of the vertices while the point hides the tile from it.
 bool is_hidden_wrongly(const Place& point, const std::vector<Place>& vertices, const Place& camera) {
   if (!hides(point, camera)) return false;
   return std::any_of(vertices.begin(), vertices.end(), [&](const Place& vertex) { return sees(camera, vertex); });
@@ -63,7 +63,7 @@ void check_header(const ClientTile& tile, std::vector<TileFault>& faults) {
   if (farthest > tile.radius + slack)
     add(fmt::format("has a vertex {:.3f} m outside of its bounding sphere, whose radius is {:.3f} m",
                     farthest - tile.radius, tile.radius));
-  // Far larger spheres are no fault of what is drawn; that they are of another place is.
+  // Much larger spheres draw correctly; a sphere at another place does not.
   if (tile.radius > 4 * farthest + 1000)
     add(fmt::format("has a bounding sphere of {:.3f} m around vertices at most {:.3f} m from its centre", tile.radius,
                     farthest));
@@ -81,7 +81,7 @@ void check_horizon(const ClientTile& tile, const World& world, std::vector<TileF
   };
   const double far = length(point);
   if (!std::isfinite(far) || !(far > 0)) return add();
-  // Those below the world count as on it, a little above so that rays along it reach them.
+  // Points below the surface count as on it.
   std::vector<Place> vertices;
   for (const Place& at : tile.places) {
     const Place place = world.scaled(at);
@@ -93,14 +93,14 @@ void check_horizon(const ClientTile& tile, const World& world, std::vector<TileF
     if (is_hidden_wrongly(point, vertices, out * up)) return add();
   }
   if (far <= 1) return;
-  // Around the tile, each camera behind the place where the ray through the point touches the sphere.
+  // Around the tile: cameras behind the point where the ray through the horizon point touches the sphere.
   const Place side = std::abs(up[2]) < 0.9 ? cross(up, {0, 0, 1}) : cross(up, {1, 0, 0});
   const Place across = (1 / length(side)) * side, along = cross(up, across);
   const double cosine = 1 / far, sine = std::sqrt(1 - cosine * cosine);
   for (int k = 0; k < kDirections; ++k) {
     const double angle = 2 * 3.141592653589793 * k / kDirections;
     const Place touched = cosine * up + sine * (std::cos(angle) * across + std::sin(angle) * along);
-    // Only vertices above the plane that touches the sphere there can be seen from behind it.
+    // From behind, only vertices above the sphere's tangent plane there are visible.
     const auto highest = std::max_element(vertices.begin(), vertices.end(), [&](const Place& a, const Place& b) {
       return inner(a, touched) < inner(b, touched);
     });
@@ -120,7 +120,7 @@ double measure_sag(const ClientTile& tile, const World& world) {
                 &c = tile.places[tile.triangles[k + 2]];
     std::array<double, 3> sides{length(a - b), length(b - c), length(c - a)};
     std::sort(sides.begin(), sides.end());
-    // The radius of the smallest circle around it.
+    // The radius of its smallest enclosing circle.
     const double area = length(cross(b - a, c - a)) / 2;
     const bool is_blunt = sides[2] * sides[2] >= sides[0] * sides[0] + sides[1] * sides[1];
     const double radius = is_blunt || area == 0 ? sides[2] / 2 : sides[0] * sides[1] * sides[2] / (4 * area);

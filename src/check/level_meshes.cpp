@@ -27,7 +27,7 @@ struct LevelTiles {
   double height() const { return box.north - box.south; }
 };
 
-/// Those with some of `place`; all without it.
+/// Tiles that overlap `place`; all if null.
 LevelTiles find_tiles(const TileSetReader& set, const TileGrid& grid, std::size_t z, const DegreeBox* place) {
   LevelTiles level;
   for (const std::uint64_t key : set.tiles()[z]) {
@@ -43,7 +43,7 @@ LevelTiles find_tiles(const TileSetReader& set, const TileGrid& grid, std::size_
   return level;
 }
 
-/// From degrees to metres around a place.
+/// Conversion from degrees to metres around a place.
 struct FlatMap {
   FlatMap(const World& world, const DegreeBox& box)
       : longitude((box.west + box.east) / 2), latitude((box.south + box.north) / 2) {
@@ -60,7 +60,8 @@ struct FlatMap {
   double longitude, latitude, metres_east = 0, metres_north = 0;
 };
 
-/// The least power of two that `extent` is at most 65,534 of: rounding to it keeps differences within 16 bits.
+/// The smallest power of two of which `extent` is at most 65,534 steps: rounding to it keeps differences within 16
+/// bits.
 double find_step(double extent) {
   constexpr double kMostSteps = 65534;
   if (extent == 0) return 1;
@@ -77,12 +78,11 @@ class Laying {
   void add(ClientTile tile) {
     std::vector<Place> places;
     for (std::size_t v = 0; v < tile.u.size(); ++v) places.push_back(place_of(tile, v));
-    // A step of a tile, which is more than what rounding moves a vertex by, and less than from one side of the map to
-    // the other.
+    // A step of a tile: more than the rounding of a vertex, and less than the width of the map.
     const double near = (tile.box.east - tile.box.west) * map_.metres_east / kWholeTile;
     for (const auto& edge : tile.edges) {
       for (const std::uint32_t v : edge) {
-        // The key that neighbours decode alike: places in space, or degrees.
+        // The key that neighbours decode identically: positions in space, or degrees.
         const Place key = tile.format == TileFormat::kGlb ? tile.places[v] : Place{places[v][0], places[v][1], 0};
         const Place& known = shared_.try_emplace(key, places[v]).first->second;
         if (length(known - places[v]) < near) places[v] = known;
@@ -96,7 +96,7 @@ class Laying {
     tiles_.push_back(std::move(laid));
   }
 
-  /// Rounds alike in all tiles, so that neighbours still meet.
+  /// Rounds equally in all tiles, so that neighbours still meet.
   LevelMesh take() {
     Place extents{};
     for (const LevelTile& tile : tiles_) {
@@ -131,10 +131,10 @@ class Laying {
   const FlatMap& map_;
   int z_;
   std::vector<LevelTile> tiles_;
-  std::map<Place, Place> shared_;  ///< places of vertices on edges
+  std::map<Place, Place> shared_;  ///< positions of vertices on edges
 };
 
-/// The tiles as they are kept; nothing if they have more than `most_bytes`.
+/// The tiles as stored; nothing if they have more than `most_bytes`.
 Result<std::optional<std::vector<std::vector<std::uint8_t>>>> read_tiles(const TileSetReader& set,
                                                                          const std::vector<TileId>& ids,
                                                                          std::uint64_t most_bytes) {

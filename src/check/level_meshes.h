@@ -1,4 +1,4 @@
-// Sets of tiles as plain meshes, to view.
+// Tile sets as plain meshes, for viewing.
 #pragma once
 
 #include <array>
@@ -17,29 +17,29 @@ namespace scarp {
 
 /// A tile.
 struct LevelTile {
-  /// On a flat map: metres east and north of the middle, true to scale there, and heights of the tiles. Where tiles
-  /// meet each has its own vertex, at the very same place. Its metadata hold `tile_level`.
+  /// On a flat map: metres east and north of the middle, true to scale there, and the tiles' heights. Tiles that meet
+  /// have separate vertices at identical positions. Metadata hold `tile_level`.
   Mesh mesh;
-  GlbImage image;  ///< draped over the mesh by its uvs; empty without one
+  GlbImage image;  ///< draped over the mesh by its uvs; empty if absent
 };
 
-/// The tiles of a level side by side, as clients decode them.
+/// The tiles of a level next to each other, as clients decode them.
 struct LevelMesh {
   int z = 0;
-  std::vector<LevelTile> tiles;  ///< first those without an image
-  /// Metres that x and y are multiples of, a power of two each; heights are of a third. They are the least that give a
-  /// difference within a tile 16 bits: GlbOptions::cell for a small file.
+  std::vector<LevelTile> tiles;  ///< those without an image first
+  /// Metres of which x and y are multiples, each a power of two; heights have a third. The smallest steps for which
+  /// differences in a tile fit 16 bits: GlbOptions::cell for a small file.
   std::array<double, 2> cell{};
-  std::uint64_t tile_bytes = 0;  ///< size as they are kept
+  std::uint64_t tile_bytes = 0;  ///< stored size
 };
 
-/// The finest level whose tiles have at most `most_bytes` together, then coarser ones of the same place as long as all
-/// together do, until their tiles are more than four times as wide or as high as all of the set's finest level. Fails
-/// with kInput for tiles that are damaged, and with kUsage where no level is so small. Cost: O(tiles that are read).
+/// The finest level whose tiles have at most `most_bytes` together, then coarser levels of the same area while the
+/// total fits. Stops when tiles are more than four times as wide or as high as the whole finest level. Fails with
+/// kInput for damaged tiles, and with kUsage where no level is small enough. Cost: O(tiles read).
 Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::uint64_t most_bytes);
 
-/// Sentences about contents of the set that differ from its metadata: tiles that are missing or not announced, a
-/// layer.json or tileset.json that makes no sense. Empty of a whole set. Cost: O(tiles), none of which is read.
+/// Sentences about differences between the set and its metadata: tiles missing or not announced, an invalid layer.json
+/// or tileset.json. Empty for an intact set. Reads no tile. Cost: O(tiles).
 std::vector<std::string> find_set_faults(const TileSetReader& set);
 
 }  // namespace scarp

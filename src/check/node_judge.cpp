@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Nodes of one tile in one block for which all triangles are searched: a tile with more is far off anyway.
+/// Limit of exhaustive searches per tile and block: a tile with more such nodes is faulty anyway.
 constexpr int kMostSecondLooks = 100'000;
 
 }  // namespace
@@ -183,7 +183,7 @@ NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const World& w
                                   std::abs(tile_.heights[c] - background_)});
     double error = 0;
     if (most <= verdict.node_error || (std::isfinite(bound_) && most <= bound_ / 100)) {
-      // It is no more at nodes than at corners, which is little.
+      // The corners bound the error at nodes, and it is small.
       error = most;
     } else {
       const auto top = static_cast<std::int64_t>(first_row_), bottom = top + static_cast<std::int64_t>(steps_);
@@ -206,7 +206,7 @@ NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const World& w
               ((triangle.cols[1] - triangle.cols[0]) * y - x * (triangle.rows[1] - triangle.rows[0])) / triangle.area;
           error = std::max(error, std::abs(height + share_b * to_b + share_c * to_c - background_));
         };
-        // The largest differences are at the ends of what lies outside.
+        // Differences are largest at the ends of the intervals outside.
         double next = from;
         if (node_row >= inside.from_row && node_row <= inside.to_row) {
           for (const double shift : {-turn, 0.0, turn}) {

@@ -1,4 +1,4 @@
-// Nodes are read once, in blocks; in each block all tiles that reach into it are judged, from the roots to the finest.
+// Nodes are read once, in blocks. For each block all overlapping tiles are judged, from the roots to the finest.
 #include "check/nodes_check.h"
 
 #include <fmt/format.h>
@@ -18,10 +18,10 @@
 namespace scarp {
 namespace {
 
-/// Nodes' steps of a side of a block: 67 MB.
+/// Node intervals along a side of a block: 67 MB.
 constexpr std::int64_t kMostSteps = 4096;
 constexpr int kRowsTogether = 256;
-/// Rounding may put a measured error above the promised one, as a share and in metres.
+/// Rounding may put a measured error above its bound: relative, and in metres.
 constexpr double kRounding = 1e-9, kDust = 1e-6;
 
 std::uint64_t key_of_tile(TileId id) { return std::uint64_t{id.y} << 32 | id.x; }
@@ -70,14 +70,14 @@ class NodesCheck {
  private:
   std::int64_t steps_of(int z) const { return std::int64_t{cells_} << (finest_ - z); }
 
-  /// The blocks that the source may cover, as columns and rows.
+  /// Finds the blocks that the source may cover, as columns and rows.
   void place_blocks() {
     const int z = finest_ - depth_;
     const DegreeBox& covered = options_.nodes.covered;
     const DegreeBox box = grid_.bounds_of({z, 0, 0});
     const double width = box.east - box.west;
     const double margin = 2 * grid_.largest_step(grid_.per_turn(finest_, cells_));
-    // The last row whose southern edge is not above a latitude.
+    // The last row whose southern edge is not north of a latitude.
     const auto row_of = [&](double latitude) {
       std::uint32_t row = 0, end = grid_.rows(z);
       while (end - row > 1) {
@@ -101,7 +101,7 @@ class NodesCheck {
     if (columns_ == all) first_col_ = 0;
   }
 
-  /// The k-th column of blocks, around the antimeridian.
+  /// The k-th column of blocks, across the antimeridian.
   std::uint32_t column(std::int64_t k) const {
     return static_cast<std::uint32_t>((first_col_ + k) % grid_.columns(finest_ - depth_));
   }
@@ -110,7 +110,7 @@ class NodesCheck {
     return (std::int64_t{x} - first_col_ + all) % all < columns_ && y >= first_row_ && y <= last_row_;
   }
 
-  /// Tiles that reach into a block: those above it, itself, and those below.
+  /// Tiles that overlap a block: its ancestors, itself, and its descendants.
   std::vector<TileId> tiles_of(TileId block) const {
     std::vector<TileId> tiles;
     for (int z = 0; z <= finest_; ++z) {
@@ -174,7 +174,7 @@ class NodesCheck {
     return {};
   }
 
-  /// Samples under a tile that lie in the block.
+  /// Judges the samples under a tile in the block.
   Result<void> judge_samples(const ClientTile& tile, TileId block, const NodeBlock& nodes, NodeVerdict& verdict) const {
     if (!options_.nodes.source->has_samples()) return {};
     const DegreeBox box = grid_.bounds_of(tile.id);
@@ -205,7 +205,7 @@ class NodesCheck {
     });
   }
 
-  /// The row of nodes at or above a latitude, of those that have one below.
+  /// The row of nodes at or above a latitude that has a row below.
   static std::int64_t row_above(const NodeWindow& window, double latitude) {
     std::int64_t row = 0, end = window.rows - 1;
     while (end - row > 1) {
@@ -246,7 +246,7 @@ class NodesCheck {
     const auto breaks = [](double found, const std::optional<double>& promised) {
       return promised && found > *promised * (1 + kRounding) + kDust;
     };
-    // Places in GLB files are rounded in space, but for those on a plane: what is promised of them is the distance.
+    // Positions in GLB files are rounded in space, except on a plane. Their bound is on the distance.
     const bool is_error = (set_.format() == TileFormat::kQuantizedMesh || grid_.is_flat()) &&
                           (breaks(verdict.node_error, level.promised_node_error) ||
                            breaks(verdict.source_error, level.promised_source_error));
@@ -287,8 +287,7 @@ class NodesCheck {
   Reporter reporter_;
   int finest_ = 0, depth_ = 0, cells_ = 128;  ///< blocks are tiles of level finest_ − depth_
   double background_ = 0;
-  std::int64_t first_col_ = 0, columns_ = 1;  ///< first column and number of blocks; perhaps beyond the last column,
-                                              ///< from the first on
+  std::int64_t first_col_ = 0, columns_ = 1;  ///< first column and number of blocks; they may wrap past the last column
   std::uint32_t first_row_ = 0, last_row_ = 0;
   std::uint64_t blocks_ = 0;
   std::map<std::tuple<int, std::uint32_t, std::uint32_t>, NodeVerdict> broken_;

@@ -1,4 +1,4 @@
-// Tiles against the nodes that they were made of.
+// Comparison of tiles with their source nodes.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Compares each node under each tile of the set with the tile's triangles. Adds to the check's levels, its nodes and
-/// the faults. Tiles that cannot be decoded are omitted. Fails as the source does, and with kCancelled.
+/// Compares each node under each tile of the set with the tile's triangles. Adds results to the check's levels, nodes
+/// and faults. Tiles that cannot be decoded are omitted. Fails as the source does, and with kCancelled.
 Result<void> check_nodes(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options,
                          const TileGrid& grid, const World& world, TileCheck& check, std::vector<TileFault>& faults);
 

@@ -1,4 +1,4 @@
-// How far a tile is from the source's own samples, each at its own place.
+// Distance between a tile and the source's own samples, each at its own position.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class SampleJudge {
   /// Borrows the tile.
   explicit SampleJudge(const ClientTile& tile);
 
-  /// |mesh − height| at a place of 0 … 32767 each way; 0 where no triangle is.
+  /// |mesh − height| at a position of 0 … 32767 each way; 0 where no triangle is.
   double error_at(double u, double v, double height) const;
 
  private:
@@ -21,7 +21,7 @@ class SampleJudge {
   static std::size_t bucket_of(double place);
 
   const ClientTile& tile_;
-  std::vector<std::vector<std::uint32_t>> buckets_;  ///< first corners of the triangles that may be there
+  std::vector<std::vector<std::uint32_t>> buckets_;  ///< first corners of the triangles that may overlap the bucket
 };
 
 }  // namespace scarp

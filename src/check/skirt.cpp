@@ -1,5 +1,5 @@
-// A tile's skirt hangs down from its edges, so that no gap shows next to a tile of another level. It hangs well if its
-// upper sides are the steps of whole edges, each once and clockwise, and each lower vertex lies below its upper one.
+// A tile's skirt hangs from its edges to hide gaps next to tiles of other levels. It is correct if its upper sides are
+// the steps of whole edges, each once and clockwise, and each lower vertex lies below its upper one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace scarp {
 namespace {
 
-/// From one vertex of an edge to the next, clockwise around the tile.
+/// Two successive vertices of an edge, clockwise around the tile.
 using SkirtStep = std::pair<Place, Place>;
 
-/// Upper vertices are the even ones.
+/// Even vertices are the upper ones.
 std::vector<SkirtStep> find_upper_sides(const ClientTile& tile) {
   std::vector<SkirtStep> steps;
   for (std::size_t k = 0; k < tile.skirt_triangles.size(); ++k) {

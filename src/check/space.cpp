@@ -41,7 +41,7 @@ World::Parallel World::parallel(double latitude) const {
     return parallel;
   }
   parallel.sine = std::sin(latitude * kRadiansOfDegree);
-  // At the poles exactly none, so that all longitudes are one place.
+  // Exactly 0 at the poles, so that all longitudes are one position.
   parallel.cosine = std::abs(latitude) == 90 ? 0 : std::cos(latitude * kRadiansOfDegree);
   parallel.normal = a_ / std::sqrt(1 - e2_ * parallel.sine * parallel.sine);
   return parallel;

@@ -1,4 +1,4 @@
-// The ground of tiles for the judge: not the arithmetic that they were made with.
+// The ground of tiles for the judge, independent of the arithmetic that built them.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// Earth-centred metres, or those from the centre of a plane; or a way.
+/// Earth-centred metres, or metres from the centre of a plane; also a vector.
 using Place = std::array<double, 3>;
 
 Place operator+(const Place& a, const Place& b);
@@ -18,7 +18,7 @@ double inner(const Place& a, const Place& b);
 Place cross(const Place& a, const Place& b);
 double length(const Place& a);
 
-/// Degrees, and metres above the ellipsoid; cells of a local grid, and metres above its plane.
+/// Degrees, and metres above the ellipsoid. On a local grid: cells, and metres above its plane.
 struct Geographic {
   double longitude = 0, latitude = 0, height = 0;
 };
@@ -30,14 +30,14 @@ class World {
 
   bool is_flat() const { return is_flat_; }
 
-  /// Common values of a row of places with one latitude.
+  /// Values shared by positions of one latitude.
   struct Parallel {
     double sine = 0, cosine = 0;
-    double normal = 0;  ///< metres from the surface to the axis, along the vertical
+    double normal = 0;  ///< metres from the surface to the axis, along the normal
     double north = 0;   ///< metres, on the plane
   };
   Parallel parallel(double latitude) const;
-  /// Common values of a column of places with one longitude.
+  /// Values shared by positions of one longitude.
   struct Meridian {
     double sine = 0, cosine = 0;
     double east = 0;  ///< metres, on the plane
@@ -49,7 +49,7 @@ class World {
     return {out * meridian.cosine, out * meridian.sine, (parallel.normal * (1 - e2_) + height) * parallel.sine};
   }
   Place place(const Geographic& at) const;
-  /// The reverse, to 10⁻⁸ m; longitudes of −180 … 180.
+  /// The inverse, to 10⁻⁸ m; longitudes of −180 … 180.
   Geographic find(const Place& at) const;
   /// The unit vector that points upwards.
   static Place up(double longitude, double latitude);
@@ -57,7 +57,7 @@ class World {
   /// In units of the axes: the ellipsoid becomes the sphere of radius 1.
   Place scaled(const Place& at) const { return {at[0] / a_, at[1] / a_, at[2] / b_}; }
   double semi_major() const { return a_; }
-  /// The least radius of curvature anywhere; infinite on the plane.
+  /// The smallest radius of curvature anywhere; infinite on the plane.
   double least_radius() const;
 
  private:

@@ -1,4 +1,4 @@
-// The laws that a tile keeps or breaks by itself.
+// Laws that apply to a single tile.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace scarp {
 
-/// Adds what is wrong to `faults`, one sentence for each law.
+/// Adds one sentence per violated law to `faults`.
 void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults);
-/// On a plane: that the triangles cover the raster's part of the tile, and no more.
+/// On a plane: checks that the triangles cover exactly the raster's part of the tile.
 void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFault>& faults);
 void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults);
-/// Checks that it hangs down from whole edges, and faces away from the tile.
+/// Checks that the skirt hangs from whole edges and faces away from the tile.
 void check_skirt(const ClientTile& tile, const World& world, std::vector<TileFault>& faults);
 void check_header(const ClientTile& tile, std::vector<TileFault>& faults);
 void check_horizon(const ClientTile& tile, const World& world, std::vector<TileFault>& faults);
 
-/// `is_announced`: the set declares that its tiles have one.
+/// `is_announced`: the set declares water masks.
 void check_water_mask(const ClientTile& tile, bool is_announced, std::vector<TileFault>& faults);
 
-/// The largest depth of the flat triangles below the curve between their corners, in metres.
+/// The largest depth of the flat triangles below the curved surface between their corners, in metres.
 double measure_sag(const ClientTile& tile, const World& world);
 
 }  // namespace scarp

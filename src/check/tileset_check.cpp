@@ -14,11 +14,12 @@ namespace scarp {
 namespace {
 
 constexpr double kRadians = 0.017453292519943295;
-/// Slack for the rounding to decimals, of a root's sides. For heights: in metres.
+/// Slack for rounding to decimals: of a root's sides, and of heights in metres.
 constexpr double kSideSlack = 1e-9, kHeightSlack = 1e-6;
 /// Metres at the centre of a plane, where its transform is exact.
 constexpr double kCentreSlack = 0.01;
-/// Places of a raster that are checked, each way: among those whose distance from the globe the set declares.
+/// Grid of checked raster positions, each way. It is a subset of the positions for which the set declares the distance
+/// from the globe.
 constexpr int kLooks = 5;
 
 class TilesetCheck {
@@ -64,7 +65,7 @@ class TilesetCheck {
  private:
   void add(const std::string& what) { faults_.push_back({TileFaultKind::kTileset, "tileset.json: " + what}); }
 
-  /// Checks the volumes that have heights.
+  /// Checks the volumes that include heights.
   void check_heights(const ClaimedRoot& root) {
     const std::vector<double>& of = root.numbers;
     if (root.volume.empty()) return add("a root has no boundingVolume that is a region or a box");
@@ -75,7 +76,7 @@ class TilesetCheck {
                       high, low_, high_));
   }
 
-  /// Clients halve the root's sides to find where tiles are.
+  /// Clients halve the root's sides to locate tiles.
   void check_sides(const ClaimedRoot& root, std::uint32_t x) {
     const std::vector<double>& of = root.numbers;
     if (root.volume != (grid_.is_flat() ? "box" : "region"))
@@ -104,7 +105,7 @@ class TilesetCheck {
     }
   }
 
-  /// Each level has half of the error of the one above.
+  /// Each level has half the error of the one above.
   void check_error(const ClaimedRoot& root, std::uint32_t x) {
     double error = root.geometric_error.value_or(0);
     for (std::size_t z = 0; z < claims_.bounds.size(); ++z, error /= 2) {
@@ -114,7 +115,7 @@ class TilesetCheck {
     }
   }
 
-  /// A place of the plane on the globe.
+  /// A position of the plane on the globe.
   static Place put(const std::vector<double>& by, double east, double north, double height) {
     Place at{};
     for (std::size_t k = 0; k < 3; ++k) at[k] = by[k] * east + by[4 + k] * north + by[8 + k] * height + by[12 + k];
@@ -142,7 +143,7 @@ class TilesetCheck {
     const World globe(TileGrid{}, nodes_.place->ellipsoid);
     const double col = static_cast<double>(raster.centre_col()), row = static_cast<double>(raster.centre_row());
     const double height = (low_ + high_) / 2;
-    // Metres along the ground, and in height.
+    // Ground metres, and height.
     const auto off = [&](double east, double north, double above) -> std::array<double, 2> {
       const std::array<double, 3> at = nodes_.place->find(east, north);
       const Place way = put(by, (east - col) * raster.cell_x, (north - row) * raster.cell_y, above) -
@@ -184,7 +185,7 @@ class TilesetCheck {
 
 void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
                    const CheckedNodes& nodes, std::vector<TileFault>& faults) {
-  // Without it there is a sentence already.
+  // Otherwise a sentence was added already.
   if (claims.roots.empty()) return;
   TilesetCheck(claims, grid, low, high, nodes, faults).run(levels);
 }

@@ -1,4 +1,4 @@
-// The root entries of tileset.json, from which clients find where implicit tiles are and when to load them.
+// The root entries of tileset.json, from which clients find implicit tiles and decide when to load them.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// `levels`: that the set has; `low`, `high`: of all its vertices.
+/// `levels`: of the set; `low`, `high`: heights of all its vertices.
 void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
                    const CheckedNodes& nodes, std::vector<TileFault>& faults);
 

@@ -31,7 +31,7 @@ void LineLayer::add_line(double x0, double y0, double x1, double y1, double line
   }
   const double length = x1 - x0;
   const double slope = length > 0 ? (y1 - y0) / length : 0;
-  const double across = 1 / std::sqrt(1 + slope * slope);  // distance to the line for one pixel next to it
+  const double across = 1 / std::sqrt(1 + slope * slope);  // perpendicular distance per pixel
   const double reach = (line_width / 2 + 0.5) / across;
   const int end_x = (is_steep ? height_ : width_) - 1, end_y = (is_steep ? width_ : height_) - 1;
   const int first = static_cast<int>(std::clamp(std::floor(x0 + 0.5), 0.0, end_x + 1.0));

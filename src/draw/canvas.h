@@ -28,14 +28,14 @@ Colour ramp(const std::array<Colour, N>& stops, double t) {
 Picture blank(int width, int height);
 void set_pixel(Picture& picture, int x, int y, const Colour& colour);
 
-/// How much of each pixel lines cover, 0 … 1. A pixel gets the darkest of its lines, so drawing one twice changes
+/// How much of each pixel lines cover, 0 … 1. Each pixel keeps its darkest line, so drawing a line twice changes
 /// nothing.
 class LineLayer {
  public:
   LineLayer(int width, int height)
       : width_(width), height_(height), cover_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
-  /// An anti-aliased line of the given width and darkness (0 … 1); coordinates in pixels, (0, 0) is the first pixel's
-  /// centre.
+  /// Adds an anti-aliased line of the given width and darkness (0 … 1). Coordinates in pixels; (0, 0) is the first
+  /// pixel's centre.
   void add_line(double x0, double y0, double x1, double y1, double line_width, double darkness);
   /// Draws the lines over the picture.
   void blend_into(Picture& picture, const Colour& ink) const;

@@ -1,4 +1,4 @@
-// Channels as colours, and pictures compared.
+// Channels as colours, and comparing pictures.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// How an image's values become red, green and blue.
+/// Maps an image's values to red, green and blue.
 class Paint {
  public:
   explicit Paint(const OwnedChannels& channels) : is_color_(channels.bands.size() == 3) {
@@ -27,7 +27,7 @@ class Paint {
     scale_ = least < most ? 255 / (most - least) : 0;
   }
 
-  /// Colour of one sample or vertex; `value(k)` is channel k. Without a value: white.
+  /// Colour of one sample or vertex; `value(k)` is channel k. White without values.
   template <class Value>
   std::array<std::uint8_t, 3> operator()(Value value) const {
     std::array<std::uint8_t, 3> rgb{255, 255, 255};

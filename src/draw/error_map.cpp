@@ -16,7 +16,7 @@ namespace {
 
 using draw::Colour;
 
-// Blue, white, red: distinguishable with every common colour blindness, and in grey by darkness.
+// Blue, white, red: distinguishable with every common colour blindness, and in grey by brightness.
 constexpr std::array<Colour, 7> kDiverging{Colour{5, 48, 97},     Colour{67, 147, 195},  Colour{171, 210, 229},
                                            Colour{250, 250, 250}, Colour{248, 186, 155}, Colour{214, 96, 77},
                                            Colour{120, 0, 32}};
@@ -27,17 +27,17 @@ Colour colour_of(double error, double limit) {
   return draw::ramp(kDiverging, limit > 0 ? 0.5 + error / limit / 2 : 0.5);
 }
 
-/// Pixels that the picture's scale and the numbers under it need, and its title; none where the picture is too small.
+/// Pixels for the picture's scale, its numbers and its title; none if the picture is too small.
 struct Layout {
   Layout(int max_side, bool has_title)
       : size(max_side >= 1000 ? 2 : 1),
         below(max_side > 48 * size ? draw::text_height(size) + 15 * size : 0),
         above(has_title && max_side >= 200 ? draw::text_height(size) + 4 * size : 0),
         room(std::max(1, max_side - below - above)) {}
-  int size, below, above, room;  ///< the last one is for the map's height
+  int size, below, above, room;  ///< room: for the map's height
 };
 
-/// A bar from −limit to +limit with numbers below; `top` is its first row.
+/// Draws a bar from −limit to +limit with numbers below; `top` is its first row.
 void draw_scale(Picture& picture, int top, int size, double limit, const std::string& unit) {
   const int left = std::max(2, picture.width / 10), right = picture.width - 1 - left;
   const int bar = 7 * size;
@@ -48,7 +48,7 @@ void draw_scale(Picture& picture, int top, int size, double limit, const std::st
       draw::set_pixel(picture, x, top + y, is_frame ? draw::kInk : draw::ramp(kDiverging, t));
     }
   }
-  // Two more numbers between where there is room for them.
+  // Two more numbers between if there is room.
   const bool is_wide = right - left > 240 * size;
   for (int k = 0; k <= 4; ++k) {
     if ((k % 2 == 1 && !is_wide) || (limit <= 0 && k != 2)) continue;
@@ -70,7 +70,7 @@ double aspect_of(const std::array<double, 2>& cell) {
 
 }  // namespace
 
-/// Means would hide what the map is asked for.
+/// Means would hide the errors that the map shows.
 ErrorMap::ErrorMap(int cols, int rows, ErrorMapOptions options)
     : cols_(cols), rows_(rows), options_(std::move(options)) {
   options_.max_side = std::max(options_.max_side, 1);

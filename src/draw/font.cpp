@@ -6,7 +6,7 @@ namespace scarp::draw {
 namespace {
 
 constexpr int kRows = 13, kColumns = 8;
-/// A byte a row, top first; the highest bit is the leftmost pixel.
+/// A byte per row, top first; the highest bit is the leftmost pixel.
 using Glyph = std::array<std::uint8_t, kRows>;
 
 /// From ' ' to '~'.

@@ -1,7 +1,7 @@
-// The approximation as an image: each triangle interpolates what its corners carry, one pixel a sample.
+// The approximation as an image: each triangle interpolates its corners' values, one pixel per sample.
 //
-// Vertices on samples are put exactly there (their way through the frame may have rounded), so that edge functions are
-// exact, and a sample on an edge or a corner belongs to the triangle: no sample of the mesh is left white.
+// Vertices near samples are snapped to them (the frame may have rounded them), so that edge functions are exact. A
+// sample on an edge or a corner belongs to the triangle, so no sample of the mesh stays white.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,12 +16,12 @@
 namespace scarp {
 namespace {
 
-constexpr double kSnap = 1.0 / 64;  // samples; the inverse of a frame with a transform is known to about that
-constexpr double kSlack = 1e-9;     // share of a triangle's area, for vertices that are on no sample
+constexpr double kSnap = 1.0 / 64;  // samples; about the precision of a transform's inverse
+constexpr double kSlack = 1e-9;     // share of a triangle's area, for vertices between samples
 
 double snap(double at) { return std::abs(at - std::round(at)) < kSnap ? std::round(at) : at; }
 
-/// Whole numbers from lo to hi that are in 0 … size − 1, as [first, last].
+/// Integers from lo to hi that are in 0 … size − 1, as [first, last].
 std::pair<int, int> whole_between(double lo, double hi, int size) {
   return {static_cast<int>(std::clamp(std::ceil(lo), 0.0, double(size))),
           static_cast<int>(std::clamp(std::floor(hi), -1.0, size - 1.0))};
@@ -32,13 +32,13 @@ struct Facet {
   std::array<double, 3> x{}, y{};
   double area = 0, slack = 0;
 
-  /// Twice the area of side k and the point, positive inside.
+  /// Twice the area of the triangle of side k and the point, positive inside.
   double part(std::size_t k, double col, double row) const {
     const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
     const double part = (x[b] - x[a]) * (row - y[a]) - (y[b] - y[a]) * (col - x[a]);
     return area > 0 ? part : -part;
   }
-  /// Columns of the row outside which nothing is inside.
+  /// Columns of the row that contain all points inside.
   std::pair<int, int> columns(int row, int cols) const {
     double lo = std::min({x[0], x[1], x[2]}), hi = std::max({x[0], x[1], x[2]});
     for (std::size_t k = 0; k < 3; ++k) {

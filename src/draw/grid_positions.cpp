@@ -26,7 +26,7 @@ Points images(const Frame& frame, const GridPositions& at, double col_shift, dou
 GridPositions find_grid_positions(const Frame& frame, int cols, int rows, const Mesh& mesh) {
   const std::size_t count = mesh.vertex_count();
   GridPositions at{std::vector<double>(count, cols / 2.0), std::vector<double>(count, rows / 2.0)};
-  // An affine frame is found in one step of Newton's method; others start from the middle of the grid.
+  // One step of Newton's method solves an affine frame; other frames start from the middle of the grid.
   const int rounds = frame.is_affine() ? 1 : 6;
   for (int round = 0; round < rounds; ++round) {
     const double step = 0.5;

@@ -1,4 +1,4 @@
-// Back from the mesh to the grid.
+// Conversion of mesh positions to grid positions.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,15 @@
 namespace scarp::draw {
 
 struct GridPositions {
-  std::vector<double> cols, rows;  ///< by vertex; NaN where the way back was not found
+  std::vector<double> cols, rows;  ///< by vertex; NaN where the inversion failed
 };
 
 /// Fractional grid positions of the mesh's vertices. Frames with a transform are inverted by Newton's method, to about
-/// a hundredth of a sample. Cost: O(vertices), with a transform some 15 images of each vertex.
+/// a hundredth of a sample. Cost: O(vertices); with a transform, some 15 evaluations of it per vertex.
 GridPositions find_grid_positions(const Frame& frame, int cols, int rows, const Mesh& mesh);
 
-/// Ground lengths of one step along a row and along a column, in the frame's units, at the middle of the grid. NaN
-/// where the frame has no image there.
+/// Ground lengths of one column step and one row step at the middle of the grid, in the frame's units. NaN where the
+/// frame has no image there.
 std::array<double, 2> step_lengths(const Frame& frame, int cols, int rows);
 
 }  // namespace scarp::draw

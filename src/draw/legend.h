@@ -12,8 +12,8 @@ namespace scarp::draw {
 
 inline constexpr Colour kInk{30, 30, 30};
 
-/// Width and height of a map of cols × rows samples on paper: the longer side is at most `room` pixels, and small
-/// rasters are enlarged by a whole factor to some `wanted` pixels. Cells are `aspect` times as wide as they are high.
+/// Size in pixels of a map of cols × rows samples on paper. The longer side is at most `room` pixels. Small rasters are
+/// enlarged by an integer factor to some `wanted` pixels. Cells are `aspect` times as wide as high.
 std::array<int, 2> map_size(int cols, int rows, double aspect, std::array<int, 2> room, int wanted);
 
 struct Name {
@@ -28,9 +28,9 @@ struct Legend {
   std::vector<Name> names;  ///< names of lines
 };
 
-/// Pixels of the legend's height; 0 where the picture is too small for one.
+/// Height of the legend in pixels; 0 where the picture is too small for one.
 int legend_height(int width);
-/// Draws into the rows from `top` on. Items that do not fit are omitted, from the right.
+/// Draws into the rows from `top` on. Omits items at the right that do not fit.
 void draw_legend(Picture& picture, int top, const Legend& legend);
 
 }  // namespace scarp::draw

@@ -1,7 +1,6 @@
 // The mesh as lines on paper: SVG and EPS.
 //
-// Edges are gathered from the triangles that face up, sorted and made unique: nothing is visited recursively, and the
-// sides of two triangles are one line.
+// Edges are collected from the triangles that face up, then sorted and deduplicated, so a shared side is one line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +27,7 @@ double area_of(const Mesh& mesh, const std::uint32_t* v) {
   return std::isfinite(area) ? area : 0;
 }
 
-/// Edges of the triangles that face up; of those that face down where none does.
+/// Edges of the triangles that face up; if none does, of those that face down.
 std::vector<Edge> list_edges(const Mesh& mesh) {
   std::vector<Edge> up, down;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -43,7 +42,7 @@ std::vector<Edge> list_edges(const Mesh& mesh) {
   return std::move(edges);
 }
 
-/// The mesh on a page: its longer side is `side` long, around it is a margin.
+/// The mesh on a page: its longer side is `side` long, plus a margin.
 class Page {
  public:
   Page(const Mesh& mesh, double side) : mesh_(mesh), edges_(list_edges(mesh)) {
@@ -67,7 +66,7 @@ class Page {
       const auto [a, b] = ends(edge);
       length += std::hypot(b[0] - a[0], b[1] - a[1]);
     }
-    // Thin enough to show white between the lines of a dense mesh.
+    // Thin enough to leave white between the lines of a dense mesh.
     if (!edges_.empty()) line_width_ = std::clamp(length / static_cast<double>(edges_.size()) / 12, 0.02, 0.6);
   }
 
@@ -75,7 +74,7 @@ class Page {
   double width() const { return width_; }
   double height() const { return height_; }
   double line_width() const { return line_width_; }
-  /// From the lower left corner of the page.
+  /// Coordinates start at the lower left corner of the page.
   std::array<std::array<double, 2>, 2> ends(const Edge& edge) const { return {place(edge.first), place(edge.second)}; }
 
  private:
@@ -104,7 +103,7 @@ std::vector<std::uint8_t> encode_svg(const Mesh& mesh) {
                  "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
                  "<g fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" stroke-width=\"{2:.3f}\">\n",
                  page.width(), page.height(), page.line_width());
-  constexpr std::size_t kPathEdges = 500;  // viewers choke on paths without end
+  constexpr std::size_t kPathEdges = 500;  // longer paths overload viewers
   for (std::size_t i = 0; i < page.edges().size(); ++i) {
     const auto [a, b] = page.ends(page.edges()[i]);
     const bool begins = i % kPathEdges == 0, ends = i % kPathEdges == kPathEdges - 1 || i + 1 == page.edges().size();

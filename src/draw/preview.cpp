@@ -18,9 +18,9 @@ using draw::Colour;
 using draw::Relief;
 
 constexpr Colour kFrameInk{24, 28, 48};
-constexpr int kWantedPreview = 1050;  // pixels of the longer side to which smaller rasters are enlarged
+constexpr int kWantedPreview = 1050;  // pixels of the longer side after enlargement of smaller rasters
 
-/// Means of the samples that fall into each pixel; nodata where more than half of them are.
+/// Means of the samples in each pixel; nodata if more than half of them are nodata.
 Result<Relief> reduce(const HeightField& field, int width, int height) {
   Relief relief{width, height, {}};
   const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -49,7 +49,7 @@ Result<Relief> reduce(const HeightField& field, int width, int height) {
   return relief;
 }
 
-/// Enlarges, bilinear between valid pixels; a pixel is nodata where its nearest one is.
+/// Enlarges bilinearly between valid pixels; a pixel is nodata if its nearest one is.
 void enlarge(const Relief& relief, const std::vector<Colour>& colours, int width, int height, Picture& picture) {
   const double per_x = static_cast<double>(relief.width) / width, per_y = static_cast<double>(relief.height) / height;
   const auto nearest = [](int at, int from, int to) {
@@ -86,8 +86,8 @@ struct MapPlace {
   double y(double row) const { return (row + 0.5) * per_row - 0.5; }
 };
 
-/// Draws the sides of the triangles that face up. Those of small triangles fade, and from a few pixels on they are
-/// omitted: they would cover the picture in grey.
+/// Draws the sides of the triangles that face up. Sides of small triangles fade, and vanish at a few pixels: they would
+/// cover the picture in grey.
 void draw_mesh(const HeightField& field, const Mesh& mesh, const MapPlace& place, int height, Picture& picture) {
   const draw::GridPositions at = draw::find_grid_positions(field.frame, field.cols, field.rows, mesh);
   draw::LineLayer lines(picture.width, height);
@@ -120,7 +120,7 @@ struct MarkStyle {
   const char* name;
 };
 
-// In the order in which they are drawn. Distinguishable with every common colour blindness.
+// In drawing order. Distinguishable with every common colour blindness.
 constexpr MarkStyle kMarkStyles[] = {
     {MarkKind::kLake, {0, 114, 178}, "lakes"},         {MarkKind::kRidge, {204, 90, 0}, "ridges and valleys"},
     {MarkKind::kWater, {0, 114, 178}, "rivers"},       {MarkKind::kWall, {120, 20, 60}, "walls"},
@@ -156,7 +156,7 @@ void fill_lakes(const std::vector<Mark>& marks, const MapPlace& place, int heigh
   }
 }
 
-/// Returns the names of the kinds that there are.
+/// Returns the names of the kinds present.
 std::vector<draw::Name> draw_marks(const std::vector<Mark>& marks, const MapPlace& place, int height,
                                    Picture& picture) {
   std::vector<draw::Name> names;

@@ -1,4 +1,4 @@
-// Heights by pixel, and how light falls on them.
+// Heights by pixel, and hillshade.
 #pragma once
 
 #include <cstddef>
@@ -18,27 +18,28 @@ struct Relief {
   }
 };
 
-/// Colours of heights. Below sea level they are blues, where heights have one.
+/// Colours of heights; blues below sea level, if known.
 struct Tints {
   double lowest = 0, highest = 0;
   bool has_sea = false;
   Colour at(double z) const;
 };
 
-/// The ground under a grid of samples.
+/// Scale and reference of a grid of samples.
 struct Ground {
-  double step_x = 1, step_y = 1;  ///< lengths of a cell
-  bool is_metric = false;         ///< in the unit of the heights
-  bool has_sea = false;           ///< heights count from the sea
+  double step_x = 1, step_y = 1;  ///< size of a cell
+  bool is_metric = false;         ///< cells measured in the unit of the heights
+  bool has_sea = false;           ///< heights are relative to sea level
 };
 Ground ground_of(const Frame& frame, int cols, int rows);
 
 struct Shaded {
-  std::vector<Colour> colours;  ///< by pixel of the relief, white where nodata
+  std::vector<Colour> colours;  ///< by pixel of the relief; white for nodata
   Tints tints;
 };
 
-/// Hillshade, tinted by height. The relief shows all of a grid of cols × rows samples, whose cells make slopes true.
+/// Hillshade, tinted by height. The relief shows a whole grid of cols × rows samples, whose cell size gives true
+/// slopes.
 Shaded shade(const Relief& relief, const Ground& ground, int cols, int rows);
 
 }  // namespace scarp::draw

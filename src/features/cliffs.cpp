@@ -15,8 +15,8 @@
 namespace scarp {
 namespace {
 
-/// Share of the max error that heights of samples may differ from a line: a smaller share costs more vertices, a larger
-/// one gives refinement no room.
+/// Share of the max error by which samples may differ from a line. A smaller share costs more vertices; a larger one
+/// leaves refinement no room.
 constexpr double kCliffShare = 0.9;
 
 Line to_map(const std::vector<WallVertex>& vertices, const std::array<double, 6>& affine, std::string name) {
@@ -43,7 +43,7 @@ Result<void> check_cliffs(const CliffOptions& options) {
   return {};
 }
 
-constexpr std::uint64_t kBytesPerLine = 3 * sizeof(Line);  // its place, its name, and what the list has in reserve
+constexpr std::uint64_t kBytesPerLine = 3 * sizeof(Line);  // its position, its name, and spare capacity of the list
 constexpr const char *kWhat = "walls", *kAdvice = "a larger height of cliffs";
 
 Result<CrackChains> find_cracks(const HeightField& field, double height, const SampleSet& marks,
@@ -67,7 +67,7 @@ Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& optio
   SCARP_RETURN_IF_ERROR(check_cliffs(options));
   SCARP_RETURN_IF_ERROR(check_size(field));
   Cliffs cliffs;
-  // Lines on a finer lattice need room.
+  // The finer lattice of lines must fit.
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return cliffs;
   LineRuns runs(options.affine, field.cols, field.rows);
   for (const Line& line : options.avoid) runs.add_course(line);

@@ -64,11 +64,11 @@ Point CrackChains::from_of(const Side& side) const {
   return {static_cast<std::int32_t>(sample % cols), static_cast<std::int32_t>(sample / cols)};
 }
 
-/// The cell beyond a crack on the way with the high sample on the left, by its first corner.
+/// The next cell along the chain, with the high sample on the left, by its first corner.
 Point CrackChains::cell_ahead(const Side& side) const {
   const Point from = from_of(side);
   const bool is_down = side.key % 2 == 1, falls = side.from > side.to;
-  // The way goes right if a side downwards falls, and up if one to the right falls.
+  // A vertical side that falls points right, a horizontal one up.
   const std::int32_t back = is_down == falls ? 0 : 1;
   return is_down ? Point{from.x - back, from.y} : Point{from.x, from.y - back};
 }
@@ -87,18 +87,18 @@ std::uint32_t CrackChains::find(std::uint64_t key) const {
   return at != sides_.end() && at->key == key ? static_cast<std::uint32_t>(at - sides_.begin()) : kNoCrack;
 }
 
-/// The height of a corner clockwise of a crack.
+/// Height at the corner clockwise of a crack.
 float CrackChains::corner(const Cell& cell, std::size_t k) const {
   return k < 2 ? sides_[cell[k]].from : sides_[cell[k]].to;
 }
 
-/// True if a wall with its high samples on the left goes out through a crack: it falls clockwise.
+/// True if a wall with its high samples on the left leaves through this crack: heights fall clockwise.
 bool CrackChains::goes_out(const Cell& cell, std::size_t k) const {
   const Side& side = sides_[cell[k]];
   return k < 2 ? side.from > side.to : side.to > side.from;
 }
 
-/// Finds what follows on crack i.
+/// Finds the successor of crack i.
 void CrackChains::link(std::uint32_t i) {
   if ((flags_[i] & kIsAheadWhole) == 0) return;
   const Point at = cell_ahead(sides_[i]);

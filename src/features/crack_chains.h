@@ -1,11 +1,11 @@
 // Cracks: steps of a raster between neighbours, and the chains that they form.
 //
 // A crack lies between two neighbours in a row or column whose heights differ by more than a given height. In a cell of
-// four samples with two cracked sides a wall enters through one and goes out through the other. So cracks form chains:
-// all high samples lie on the left (rows run downwards), all low samples on the right. A line that crosses the cracks
-// of a chain one after the other, each between its samples, separates high from low samples.
+// four samples with two cracked sides a wall enters through one and leaves through the other. So cracks form chains:
+// all high samples lie on the left (rows count downwards), all low samples on the right. A line through the cracks of a
+// chain in order, each crossed between its samples, separates high from low samples.
 //
-// Rows of samples are read once, from the top down, three at a time, so this works on rasters larger than memory.
+// Samples are read once, from the top down, three rows at a time, so rasters may be larger than memory.
 #pragma once
 
 #include <array>
@@ -21,42 +21,42 @@ namespace scarp {
 struct Crack {
   Point high, low;                ///< samples
   float top = 0, foot = 0;        ///< their heights
-  bool is_before_saddle = false;  ///< the cell between it and the next crack of its chain is passed twice
+  bool is_before_saddle = false;  ///< the chain passes the cell between it and the next crack twice
   friend bool operator==(const Crack&, const Crack&) = default;
 };
 
 struct CrackChain {
-  std::vector<Crack> cracks;  ///< successive ones are two sides of a cell of four heights
+  std::vector<Crack> cracks;  ///< successive cracks are two sides of a cell of four heights
   bool is_ring = false;       ///< the last is followed by the first
 };
 
-/// All cracks between samples that differ by more than `height`, each in one chain. Chains end where a cell has one
-/// crack or three, two that contradict each other, or nodata. A cell with four, a saddle, is passed twice: around the
-/// two samples that differ more. Cost: O(samples + n log n) for n cracks.
+/// All cracks between samples that differ by more than `height`, each in one chain. A chain ends where a cell has one
+/// crack, three, two that contradict each other, or nodata. A cell with four, a saddle, is passed twice: around the two
+/// samples that differ more. Cost: O(samples + n log n) for n cracks.
 class CrackChains {
  public:
-  /// `is_left_out`: of samples, cracks of which do not count.
+  /// `is_left_out`: true for samples whose cracks are ignored.
   CrackChains(std::int32_t cols, std::int32_t rows, double height, std::function<bool(Point)> is_left_out)
       : cols_(cols), rows_(rows), height_(height), is_left_out_(std::move(is_left_out)) {}
 
-  /// Scans a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata samples are NaN.
-  /// REQUIRES: each row once, from the top down.
+  /// Scans a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata is NaN. REQUIRES: each
+  /// row once, from the top down.
   void add_row(std::int32_t row, const float* above, const float* here, const float* below);
-  /// REQUIRES: all rows were scanned.
+  /// REQUIRES: all rows have been scanned.
   void link();
-  /// One after the other, in raster order of their first cracks, rings last. REQUIRES: link().
+  /// Visits chains in raster order of their first cracks, rings last. REQUIRES: link().
   void visit(const std::function<void(const CrackChain&)>& visit) const;
 
   std::uint64_t count() const { return sides_.size(); }  ///< number of cracks
-  static constexpr std::uint64_t kBytesPerCrack = 40;    ///< while rows are added; then less
+  static constexpr std::uint64_t kBytesPerCrack = 40;    ///< while rows are added; fewer afterwards
 
  private:
-  /// From a sample to the one on its right, or below it.
+  /// A crack from a sample to the one on its right or below it.
   struct Side {
-    std::uint64_t key;  // in raster order, the side to the right before the one downwards
+    std::uint64_t key;  // in raster order, the side to the right before the one below
     float from, to;
   };
-  /// Sides of a cell clockwise from above, side k from corner k to corner k + 1.
+  /// Sides of a cell, clockwise from the upper one: side k joins corners k and k + 1.
   using Cell = std::array<std::uint32_t, 4>;
   enum Flag : std::uint8_t { kIsAheadWhole = 1, kHasPrevious = 2, kIsBeforeSaddle = 4 };
 

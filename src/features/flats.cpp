@@ -19,23 +19,22 @@
 namespace scarp {
 namespace {
 
-/// Samples of one height that are connected side by side, as far as they have been seen.
+/// An edge-connected area of samples of equal height, as seen so far.
 struct Area {
-  std::vector<SampleRun> runs;  // in any order
+  std::vector<SampleRun> runs;  // unsorted
   std::uint64_t samples = 0;
   Point first;             // in raster order
   float height = 0;        // height of the first
-  std::uint32_t root = 0;  // the area that it has become part of
-  std::int32_t seen = 0;   // the last row with a part of it
+  std::uint32_t root = 0;  // the area that it was merged into
+  std::int32_t seen = 0;   // the last row that contains a part of it
 };
 
-/// Finds such areas from the top down. Areas that are complete and large enough are handed on; nothing is kept of the
-/// others.
+/// Finds flat areas from the top down. Complete areas that are large enough are passed on; others are discarded.
 class AreaSweep {
  public:
   explicit AreaSweep(std::uint64_t min_samples) : min_samples_(min_samples) {}
 
-  /// Adds the samples of the next row; visit(area) is called for each large area that does not reach it.
+  /// Adds the next row; calls visit(area) for each large area that ends above it.
   template <class Visit>
   void add_row(const float* samples, std::int32_t cols, const Visit& visit) {
     pieces_.clear();
@@ -62,14 +61,14 @@ class AreaSweep {
     end_row(visit);
   }
 
-  /// Behind the last row.
+  /// Call it after the last row.
   template <class Visit>
   void finish(const Visit& visit) {
     pieces_.clear();
     end_row(visit);
   }
 
-  /// Bytes of all that is kept. Areas handed on are still there, and sorted.
+  /// Bytes in use, including areas passed on and their sorting.
   std::uint64_t bytes() const {
     constexpr std::uint64_t kGrowth = 2;
     return kGrowth * (sizeof(SampleRun) * runs_ + sizeof(Piece) * (pieces_.size() + above_.size())) +
@@ -77,7 +76,7 @@ class AreaSweep {
   }
 
  private:
-  /// Samples [begin, end) of the row at hand.
+  /// Samples [begin, end) of the current row.
   struct Piece {
     std::int32_t begin, end;
     std::uint32_t area;
@@ -112,7 +111,7 @@ class AreaSweep {
     free_.push_back(number);
   }
 
-  /// The shorter list of runs moves.
+  /// Moves the shorter list of runs.
   std::uint32_t join(std::uint32_t a, std::uint32_t b) {
     if (a == b) return a;
     if (areas_[a].runs.size() < areas_[b].runs.size()) std::swap(a, b);
@@ -134,7 +133,7 @@ class AreaSweep {
     for (const Piece& piece : above_) {
       const std::uint32_t number = root_of(piece.area);
       Area& area = areas_[number];
-      // Several pieces of an area find it complete; the first of them ends it.
+      // Several pieces may find an area complete; the first one ends it.
       if (area.seen == row_ || area.samples == 0) continue;
       if (area.samples >= min_samples_) visit(area);
       runs_ -= area.runs.size();
@@ -152,7 +151,7 @@ class AreaSweep {
   std::int32_t row_ = 0;
   std::vector<Area> areas_;
   std::vector<std::uint32_t> free_, joined_;  // areas without samples; those that end with this row
-  std::vector<Piece> pieces_, above_;         // pieces of this row and the last
+  std::vector<Piece> pieces_, above_;         // pieces of this row and the previous one
   std::uint64_t runs_ = 0;
 };
 
@@ -188,7 +187,7 @@ class Flats {
   }
 
  private:
-  /// Shores need more memory until the mesh has them than during the search, unless much was found in vain.
+  /// Until the mesh contains them, shores need more memory than the search, unless it discarded much.
   Result<void> check_memory(std::uint64_t bytes, double share) const {
     constexpr std::uint64_t kBytesPerVertex = 2 * sizeof(std::array<double, 3>);
     return memory_.check_part(std::max(bytes + kBytesPerVertex * vertices_, shore_bytes_), share,
@@ -223,7 +222,7 @@ class Flats {
   const FlatOptions& options_;
   MemoryBudget memory_;
   Reporter reporter_;
-  std::vector<std::pair<Point, Lake>> found_;  // with the first of the samples
+  std::vector<std::pair<Point, Lake>> found_;  // with their first samples
   std::uint64_t vertices_ = 0, shore_bytes_ = 0;
 };
 

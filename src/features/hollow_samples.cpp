@@ -69,7 +69,7 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
 }
 
 std::uint64_t HollowSamples::bytes(const HeightField& field) {
-  // The strip, perhaps upside down, and what is found in it.
+  // The strip, also its negated copy, and the results in it.
   return 2 * sweep_bytes(field, kReach) + sweep_bytes(field, kReach) / 4 +
          sizeof(std::uint32_t) * static_cast<std::uint64_t>(field.rows);
 }

@@ -1,4 +1,4 @@
-// Samples lower than the land on both sides of them, and their neighbours, of a raster larger than memory.
+// Samples lower than the land on both sides, and their neighbours, for rasters larger than memory.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace scarp {
 class HollowSamples {
  public:
   struct Question {
-    double height = 0;                       ///< like in find_hollows()
-    bool is_upside_down = false;             ///< the raster is
-    std::function<bool(Point)> is_left_out;  ///< true for samples that do not count
-    /// How many there are when a share of the raster is searched; may refuse.
+    double height = 0;                       ///< see find_hollows()
+    bool is_upside_down = false;             ///< true: searches the negated raster
+    std::function<bool(Point)> is_left_out;  ///< true for samples to ignore
+    /// Called with the number of samples found so far and the share of the raster searched; may fail.
     std::function<Result<void>(std::uint64_t samples, double share)> check;
     int threads = 0;
   };
-  /// The samples within two of one that lies low. Fails as the field's source does, which is read once from the top
-  /// down, and as `check` does. Memory: 9 bytes a sample here, twice that while they are gathered, and bytes().
+  /// Low samples, and those within two samples of them. Reads the field's source once from the top down. Fails as the
+  /// source does, and as `check` does. Memory: 9 bytes per sample found, twice that while gathering, and bytes().
   static Result<HollowSamples> find(const HeightField& field, const Question& question);
-  /// Memory that find() uses in addition to the samples.
+  /// Memory of find() in addition to the samples.
   static std::uint64_t bytes(const HeightField& field);
 
   std::size_t size() const { return heights_.size(); }
@@ -33,7 +33,7 @@ class HollowSamples {
   float height(std::uint32_t i) const { return heights_[i]; }  ///< negated where the raster is upside down
   Hollow hollow(std::uint32_t i) const { return hollows_[i]; }
   Point point(std::uint32_t i) const;
-  /// Calls visit(j) for the samples next to one, at corners too, that are there.
+  /// Calls visit(j) for the existing samples adjacent to i, diagonals included.
   template <class Visit>
   void visit_neighbours(std::uint32_t i, const Visit& visit) const {
     const Point at = point(i);
@@ -52,7 +52,7 @@ class HollowSamples {
   std::vector<float> heights_;
   std::vector<std::int32_t> cols_;
   std::vector<Hollow> hollows_;
-  std::vector<std::uint32_t> begins_;  // begins of each row's, and the end of the last
+  std::vector<std::uint32_t> begins_;  // begin of each row's samples, and the end of the last
 };
 
 }  // namespace scarp

@@ -12,8 +12,8 @@ namespace {
 /// One side of a profile.
 struct Side {
   Hollow rise = Hollow::kNone;
-  std::int32_t level = 0;  // samples as high as the one that is asked about
-  bool is_cut = false;     // nothing else is there
+  std::int32_t level = 0;  // samples of the same height as the centre
+  bool is_cut = false;     // no other samples follow
 };
 
 class Profiles {
@@ -22,14 +22,14 @@ class Profiles {
 
   Hollow at(Point p) const {
     if (!raster_.is_valid(p)) return Hollow::kNone;
-    // Most samples end here.
+    // Most samples are rejected here.
     std::array<Point, 4> ways{};
     std::size_t count = 0;
     for (const Point way : {Point{1, 0}, Point{0, 1}, Point{1, 1}, Point{1, -1}}) {
       if (!falls(p, {-way.x, -way.y}) && !falls(p, way)) ways[count++] = way;
     }
     if (count < 2) return Hollow::kNone;
-    // How many profiles are at least so good, and how many of them have both sides.
+    // Number of profiles that are at least this good, and of those with both sides.
     std::array<int, 3> profiles{}, whole{};
     for (std::size_t w = 0; w < count; ++w) {
       const Point way = ways[w];

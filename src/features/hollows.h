@@ -1,4 +1,4 @@
-// Hollows: samples lower than the land on both sides.
+// Hollows: samples lower than the land on both sides of them.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace scarp {
 
-/// How clearly a sample lies lower than the land on both sides of it.
+/// How clearly a sample lies lower than the land on both sides.
 enum class Hollow : std::uint8_t {
   kNone,
-  kFaint,  ///< by half the height asked for
-  kClear,  ///< by all of it
+  kFaint,  ///< by half the given height
+  kClear,  ///< by the whole height
 };
 
-inline constexpr std::int32_t kHollowReach = 16;  ///< length of a side of a profile, in samples
+inline constexpr std::int32_t kHollowReach = 16;  ///< samples in one side of a profile
 
-/// The hollow at each sample: the second best of the four profiles through it, the row, the column and both diagonals.
-/// A profile is as good as the lower one of its two sides, and a side as the highest rise within kHollowReach samples
-/// before it falls below the sample. Where the nearest sample of a side is nodata or beyond the raster the other side
-/// counts for both, if another profile has two. In a level stretch of a profile only the middle lies low, a sample or
-/// two.
+/// The hollow at each sample: the second best of the four profiles through it (row, column, both diagonals). A profile
+/// is as good as the worse of its two sides. A side is rated by its highest rise within kHollowReach samples, before it
+/// falls below the sample. If the nearest sample of a side is nodata or beyond the raster, the other side counts for
+/// both, provided another profile has two sides. In a level stretch of a profile only the middle sample or two count as
+/// low.
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads);
-/// The same of the rows [begin, end) alone.
+/// The same for the rows [begin, end) only.
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads, std::int32_t begin,
                                  std::int32_t end);
 

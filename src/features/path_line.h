@@ -1,4 +1,4 @@
-// A path from sample to sample as a line with few vertices.
+// Simplification of a path of samples to a line with few vertices.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace scarp {
 
-/// The samples of a path, its ends and joints among them, that a line needs as vertices: the fewest with which each
-/// sample between two is no farther than a sample from the line's chord, nor the surface along the chord and the
-/// samples farther than `tolerance` from the heights along it. Among equally few, those with the least squared distance
-/// from samples. Only samples of the raster within two of the path are examined.
+/// The samples of a path, including its ends and joints, that form the simplified line. It has the fewest vertices such
+/// that each sample between two lies within one sample of the line's chord, and the surface along the chord and the
+/// samples differ by at most `tolerance` from the heights along it. Ties are broken by the smallest squared distance
+/// from samples. Reads only samples within two of the path.
 std::vector<Point> fewest_vertices(const LineSamples& samples, const ValleyPath& path, double tolerance);
 
 }  // namespace scarp

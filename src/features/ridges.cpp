@@ -22,7 +22,7 @@
 namespace scarp {
 namespace {
 
-/// Share of the max error within which lines follow the raster: insertion of soft lines adds no more bends.
+/// Share of the max error within which lines follow the raster, so that insertion as soft lines adds no bends.
 constexpr double kRidgeShare = 0.5;
 
 Result<void> check_ridges(const RidgeOptions& options) {
@@ -48,7 +48,7 @@ Line to_map(const std::vector<Point>& vertices, const RidgeOptions& options, std
   return line;
 }
 
-/// Samples within two of a path.
+/// Segments near all samples within two of paths.
 std::vector<Segment> courses_of(const std::vector<ValleyPath>& paths) {
   std::vector<Segment> courses;
   for (const ValleyPath& path : paths) {
@@ -67,7 +67,7 @@ std::vector<SampleRun> runs_of(const HeightField& field, const RidgeOptions& opt
   return runs.runs();
 }
 
-/// Detection on a raster and on the same upside down.
+/// Detection on a raster and its negation.
 class Detection {
  public:
   Detection(const HeightField& field, const RidgeOptions& options)
@@ -127,7 +127,7 @@ class Detection {
     hollows = {};
     SCARP_RETURN_IF_ERROR(take_step());
     SCARP_TRY(const auto& samples, LineSamples::read(field_, courses_of(paths)));
-    // Chords along the raster and along the same upside down are alike.
+    // Chords are the same on the raster and its negation.
     return draw(paths, samples, name);
   }
 
@@ -154,7 +154,7 @@ class Detection {
   Reporter reporter_;
   SampleSet marks_;
   MemoryBudget memory_;
-  std::uint64_t lines_ = 0;  // bytes of those found
+  std::uint64_t lines_ = 0;  // bytes of lines found
   int steps_ = 0;
 };
 
@@ -163,7 +163,7 @@ class Detection {
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options) try {
   SCARP_RETURN_IF_ERROR(check_ridges(options));
   SCARP_RETURN_IF_ERROR(check_size(field));
-  // Lines on a finer lattice need room.
+  // The finer lattice of lines must fit.
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return Ridges{};
   return Detection(field, options).run();
 } catch (...) {

@@ -28,7 +28,7 @@ bool is_closed(const Line& line) {
   return line.is_ring() || (first[0] == last[0] && first[1] == last[1]);
 }
 
-/// The raster's surface, with lakes a sample wider than they are.
+/// The raster's surface, with lakes enlarged by a sample.
 class Ground {
  public:
   Ground(LineSamples samples, std::span<const Lake> lakes, const std::array<double, 6>& affine)
@@ -47,7 +47,7 @@ class Ground {
   }
 
   struct Surface {
-    double height = kNoHeight;  // no height outside the surface
+    double height = kNoHeight;  // none outside the surface
     bool is_lake = false;
   };
   Surface at(const std::array<double, 3>& point) const {
@@ -59,7 +59,7 @@ class Ground {
   }
 
  private:
-  /// The level of the lowest lake that has a sample in this cell.
+  /// The level of the lowest lake with a sample in this cell.
   double level_around(double col, double row) const {
     double level = kNoHeight;
     for (const double y : {std::floor(row), std::ceil(row)}) {
@@ -76,7 +76,7 @@ class Ground {
   std::optional<SampleSet> lakes_;
 };
 
-/// A line, examined twice a sample.
+/// A line, sampled twice per raster step.
 class Course {
  public:
   Course(const Line& line, const Ground& ground) : line_(&line) {
@@ -110,7 +110,7 @@ class Course {
 
   double source() const { return source_; }  ///< kNoHeight: the line has no height anywhere
 
-  /// Lowers the water, to the levels of shared vertices at most, which are lowered, too. Returns whether one of those
+  /// Lowers the water, at most to the levels of shared vertices, and lowers these, too. Returns true if a shared vertex
   /// became lower.
   bool flow(std::map<std::array<double, 2>, double>& levels) {
     double level = std::numeric_limits<double>::infinity();
@@ -160,7 +160,8 @@ class Course {
   }
 
  private:
-  /// The line's vertices, and the last places outside lakes and the first in them: nothing of a lake is off its level.
+  /// The line's vertices, the last positions outside lakes and the first ones inside: no part of a lake leaves its
+  /// level.
   std::vector<std::size_t> fixed_places() const {
     std::vector<std::size_t> fixed = vertices_;
     for (std::size_t i = 1; i < places_.size(); ++i) {
@@ -177,8 +178,8 @@ class Course {
 
   const Line* line_;
   std::vector<std::array<double, 3>> places_;  // with the raster's heights
-  std::vector<std::size_t> vertices_;          // vertices of the line, among the places
-  std::vector<double> heights_;                // heights of the water
+  std::vector<std::size_t> vertices_;          // vertices of the line, as indices of places_
+  std::vector<double> heights_;                // water levels
   std::vector<bool> is_lake_;
   double source_ = kNoHeight;
   bool is_turned_ = false;
@@ -212,7 +213,7 @@ Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<cons
     Course course(line, ground);
     if (!std::isnan(course.source())) courses.push_back(std::move(course));
   }
-  // From the highest source down, most of a network is settled at once.
+  // Starting at the highest source settles most of a network at once.
   std::vector<std::size_t> order(courses.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

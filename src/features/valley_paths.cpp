@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kNoNode = 0xffffffff;
 
-/// Samples near low ones, in a table of all samples.
+/// Samples near low ones, indexed in the full raster.
 class DenseNear {
  public:
   using Id = std::size_t;  // in raster order
@@ -67,7 +67,7 @@ class DenseNear {
   std::vector<Id> near_;
 };
 
-/// The same in a table of their own.
+/// Samples near low ones, indexed separately.
 class SparseNear {
  public:
   using Id = std::uint32_t;  // in raster order
@@ -95,7 +95,7 @@ class SparseNear {
   std::vector<std::uint8_t> is_reached_;
 };
 
-/// The forest that links low samples, in the order in which they are reached.
+/// The forest that links low samples, in the order of reaching them.
 template <class Near>
 class Forest {
  public:
@@ -145,7 +145,7 @@ class Forest {
     Id sample;
     std::uint32_t parent;
     std::uint32_t heir = kNoNode;    // the child whose branch continues
-    std::uint32_t second = kNoNode;  // the one that would without it
+    std::uint32_t second = kNoNode;  // the child that would continue without the heir
     std::uint32_t low = 0;           // low samples from here to the end of the branch
   };
   struct Waiting {
@@ -177,7 +177,7 @@ class Forest {
 
   void weigh() {
     const auto low = [&](std::uint32_t n) { return n == kNoNode ? 0 : nodes_[n].low; };
-    // Children come before their parents, the last child first: among equals the first continues.
+    // Children precede their parents, the last child first, so that among equals the first continues.
     for (auto n = static_cast<std::uint32_t>(nodes_.size()); n-- > 0;) {
       Node& node = nodes_[n];
       node.low = low(node.heir) + (is_low(n) ? 1 : 0);
@@ -193,14 +193,14 @@ class Forest {
 
   bool is_low(std::uint32_t n) const { return near_.is_low(nodes_[n].sample); }
 
-  /// The branch from a node on, to its last low sample.
+  /// The branch from a node to its last low sample.
   std::vector<std::uint32_t> course(std::uint32_t first) const {
     std::vector<std::uint32_t> path;
     for (std::uint32_t n = first; n != kNoNode; n = nodes_[n].heir) path.push_back(n);
     while (!path.empty() && !is_low(path.back())) path.pop_back();
     return path;
   }
-  /// Both branches that continue from a root.
+  /// Both branches that continue at a root.
   std::vector<std::uint32_t> trunk(std::uint32_t root) const {
     std::vector<std::uint32_t> path;
     if (nodes_[root].second != kNoNode) path = course(nodes_[root].second);

@@ -11,23 +11,23 @@
 
 namespace scarp {
 
-inline constexpr std::size_t kShortestValley = 8;  ///< in samples that lie low
+inline constexpr std::size_t kShortestValley = 8;  ///< low samples
 
 struct ValleyPath {
-  std::vector<Point> samples;       ///< each a neighbour, or a diagonal one, of the next; at least two
-  std::vector<std::size_t> joints;  ///< indices of samples, ascending, at which others end at this one
+  std::vector<Point> samples;       ///< each is adjacent to the next, maybe diagonally; at least two
+  std::vector<std::size_t> joints;  ///< indices of samples, ascending, at which other paths end
 };
 
-/// Links samples that lie low. They and all samples within two of them hang together in parts; in each part samples are
-/// reached from its lowest one, always the lowest next that borders on those reached (Prim): so ways keep as low as
-/// they can. The branches with most low samples go through where they meet, the others end there. Branches have at
-/// least kShortestValley low samples, half of them clearly so.
+/// Links low samples. They and all samples within two of them form connected parts. Each part is searched from its
+/// lowest sample, always extended by the lowest neighbour (Prim), so paths run as low as they can. Where branches meet,
+/// the one with most low samples continues and the others end. Branches have at least kShortestValley low samples, half
+/// of them clearly low.
 ///
-/// `is_left_out`: of samples, those that no path may use. Equal heights count in raster order.
+/// `is_left_out`: true for samples that no path may use. Ties in height are broken by raster order.
 std::vector<ValleyPath> follow_valleys(const Raster& raster, const std::vector<Hollow>& hollows,
                                        const std::function<bool(Point)>& is_left_out);
 
-/// The same from known low samples and their neighbourhood. Memory: 26 bytes for each of these samples.
+/// The same from known low samples and their neighbourhood. Memory: 26 bytes per sample.
 std::vector<ValleyPath> follow_valleys(const HollowSamples& samples);
 
 }  // namespace scarp

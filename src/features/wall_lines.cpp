@@ -10,11 +10,11 @@
 namespace scarp {
 namespace {
 
-/// All in kLatticeSteps: half the distance of top and foot on a crack; the distance of pairs on cracks, and in cells.
-/// Twice as many pairs on the streets of Athens need five times the time and save 1 % of the vertices; none in cells
-/// add 4 %.
+/// All in kLatticeSteps: half the gap between top and foot on a crack; the spacing of pairs on cracks, and in cells.
+/// Doubling the pairs on the streets of Athens costs five times the time and saves 1 % of the vertices; no pairs in
+/// cells adds 4 %.
 constexpr std::int32_t kHalfGap = 2, kPairStep = 16, kCellStep = 64;
-/// Cost of two vertices, one on either line, and of a crack without lines.
+/// Cost of a pair of vertices, and of a crack without lines.
 constexpr std::int32_t kPairCost = 10, kCrackCost = 3;
 constexpr std::size_t kLongestWallLink = 1024;  ///< in stations
 
@@ -30,7 +30,7 @@ bool is_left(WallVector a, WallVector b) { return a.x * b.y - a.y * b.x < 0; }
 
 Point scaled(Point p) { return {p.x * kLatticeSteps, p.y * kLatticeSteps}; }
 
-/// Fewest vertices by dynamic programming over the pairs of lattice points where vertices may be.
+/// Finds the fewest vertices by dynamic programming over pairs of candidate lattice points.
 class WallSearch {
  public:
   explicit WallSearch(double tolerance) : tolerance_(tolerance) {}
@@ -53,7 +53,8 @@ class WallSearch {
   }
 
  private:
-  /// A possible place of a vertex: on a crack, or in the cell after it if the chain turns there and is alone.
+  /// A candidate position of a vertex: on a crack, or in the cell after it if the chain turns there and passes the cell
+  /// once.
   struct Station {
     std::size_t crack;
     bool is_cell;
@@ -76,7 +77,7 @@ class WallSearch {
     station_of_.clear();
   }
 
-  /// Begins a ring at a station, and ends it there.
+  /// Rotates a ring to begin and end at a station.
   void turn(const std::vector<Crack>& ring, const Station& at) {
     const Station cut = at;
     begin_of_cut_ = cut.begin;
@@ -107,7 +108,7 @@ class WallSearch {
   void add_cell(const Crack& before, const Crack& after) {
     const bool around_high = before.high == after.high, around_low = before.low == after.low;
     if (around_high == around_low || before.is_before_saddle) return;
-    // From the sample that the chain turns around to the opposite one.
+    // From the sample around which the chain turns to the opposite one.
     const Point pivot = around_high ? before.high : before.low;
     const Point a = around_high ? before.low : before.high, b = around_high ? after.low : after.high;
     const std::int32_t dx = a.x + b.x - 2 * pivot.x, dy = a.y + b.y - 2 * pivot.y;
@@ -143,7 +144,7 @@ class WallSearch {
       } else {
         begin_lines(station);
       }
-      // A ring's last crack is its first: lines continue there, or have ended before.
+      // A ring's last crack is its first: lines continue there, or have already ended.
       if (!station.is_cell) end_lines(station, first == kNoPair || s + 1 < stations_.size());
       find_ends(s);
       for (std::uint32_t p = station.begin; p < station.end; ++p) {
@@ -168,7 +169,7 @@ class WallSearch {
     }
   }
 
-  /// Finds the stations at which links from station s can end, by heights.
+  /// Finds the stations that links from station s can reach, by heights.
   void find_ends(std::size_t s) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     ends_.clear();
@@ -190,7 +191,7 @@ class WallSearch {
     }
   }
 
-  /// Links from a pair of station s to all that it sees through the cracks.
+  /// Links a pair of station s to all pairs visible through the cracks.
   void spread(std::size_t s, std::uint32_t p) {
     const std::int32_t cost = states_[p].cost + kPairCost;
     const PointPair& from = pairs_[p];
@@ -218,7 +219,7 @@ class WallSearch {
     }
   }
 
-  /// Pairs of vertices, from the last to the first.
+  /// Pairs of vertices, last one first.
   std::vector<std::uint32_t> trace(std::uint32_t first) const {
     std::vector<std::uint32_t> pairs;
     std::size_t crack = cracks_.size();
@@ -250,7 +251,7 @@ class WallSearch {
       walls.back().top.push_back({pairs_[*p].top, static_cast<float>(station.high)});
       walls.back().foot.push_back({pairs_[*p].foot, static_cast<float>(station.low)});
     }
-    // Parts of a ring on both sides of the cut.
+    // Merge the parts of a ring on both sides of the cut.
     if (walls.size() > 1 && walls.back().top.back() == walls.front().top.front()) {
       Wall& last = walls.back();
       last.top.insert(last.top.end(), walls.front().top.begin() + 1, walls.front().top.end());
@@ -267,7 +268,7 @@ class WallSearch {
   std::vector<std::uint32_t> station_of_;
   std::uint32_t begin_of_cut_ = 0;
   std::vector<State> states_;
-  std::vector<State> off_;  // before each crack, and at the end: no line runs there
+  std::vector<State> off_;  // before each crack, and at the end: state without lines
   std::vector<char> ends_;
 };
 

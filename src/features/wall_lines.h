@@ -16,16 +16,16 @@ struct WallVertex {
   friend bool operator==(const WallVertex&, const WallVertex&) = default;
 };
 
-/// Part of a wall: two polylines of equally many vertices, at least two, that have no point in common. A ring ends with
-/// its first vertex.
+/// Part of a wall: two polylines with equally many vertices, at least two, and no common point. A ring ends with its
+/// first vertex.
 struct Wall {
   std::vector<WallVertex> top, foot;
 };
 
-/// The parts of a chain for which lines are worth their vertices, and the lines with the fewest vertices for them.
+/// The parts of a chain where lines are worth their vertices, each with the fewest vertices.
 ///
-/// Along each part the high samples of its cracks lie on the left of `top`, the low ones on the right of `foot`, none
-/// between; vertices lie on cracks. Memory: kWallBytesPerCrack.
+/// Along each part the high samples of its cracks lie on the left of `top`, the low ones on the right of `foot`, and
+/// none between. Vertices lie on cracks. Memory: kWallBytesPerCrack.
 std::vector<Wall> find_walls(const CrackChain& chain, double tolerance);
 
 inline constexpr std::uint64_t kWallBytesPerCrack = 1000;

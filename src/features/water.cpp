@@ -28,13 +28,13 @@ struct ShoreBox {
   bool is_empty() const { return cols <= 0 || rows <= 0; }
 };
 
-/// Places polygons on a raster.
+/// Rasterises polygons.
 class Shores {
  public:
   Shores(const HeightField& field, const WaterOptions& options)
       : field_(field), options_(options), to_samples_(options.affine) {}
 
-  /// The rings of each polygon that is not wholly outside the raster.
+  /// The rings of each polygon that is not entirely outside the raster.
   std::vector<Rings> find_polygons(std::span<const Line> lines) const {
     std::vector<Rings> polygons;
     for (std::size_t first = 0, end = 0; first < lines.size(); first = end) {
@@ -58,7 +58,7 @@ class Shores {
     return LineSamples::read(field_, courses);
   }
 
-  /// The percentile of the surface along the rings; nothing where it is nowhere valid.
+  /// The percentile of the surface along the rings; nothing if it has no valid point.
   std::optional<double> level_of(Rings rings, const LineSamples& samples) const {
     std::vector<float> heights;
     for (const Line& ring : rings) {
@@ -89,7 +89,7 @@ class Shores {
     affine[3] += box.col * affine[4] + box.row * affine[5];
     LineRuns marks(affine, box.cols, box.rows);
     marks.add_polygons(rings);
-    // Lines are rounded to the lattice: what that puts into the lake is part of it.
+    // Lines are rounded to the lattice: samples thereby moved into the lake belong to it.
     for (const Line& ring : rings) marks.add_course(ring, 1.0 / 128);
     for (const auto& [row, begin, end] : marks.runs()) visit(SampleRun{box.row + row, box.col + begin, box.col + end});
   }
@@ -99,7 +99,7 @@ class Shores {
     return to_samples_.position(point[0], point[1]);
   }
 
-  /// With a sample around.
+  /// Bounding box, plus one sample.
   ShoreBox box_of(Rings rings) const {
     double left = field_.cols, right = 0, top = field_.rows, bottom = 0;
     for (const Line& ring : rings) {
@@ -125,23 +125,23 @@ class Shores {
   MapToSamples to_samples_;
 };
 
-/// Samples that lakes hold.
+/// Samples in lakes.
 struct LakeRun {
   std::uint32_t lake = 0;
   SampleRun samples;
 };
 
-/// Puts the samples of lakes onto their levels, row by row: a sample's own lakes in their order decide about it, and no
-/// other sample does.
+/// Sets the samples of lakes to their levels, row by row. Only the lakes that contain a sample affect it, in their
+/// order.
 class Flattening {
  public:
-  /// `runs`: by row, then by lake. `lakes` have their levels.
+  /// `runs`: by row, then by lake. Levels of `lakes` are set.
   Flattening(std::span<const LakeRun> runs, double freeboard, std::int32_t cols, std::vector<Lake>& lakes)
       : runs_(runs), lakes_(lakes), cols_(cols), water_(static_cast<std::size_t>(cols)), rim_(water_) {
     for (const Lake& lake : lakes) rims_.push_back(static_cast<float>(lake.level + freeboard));
   }
 
-  /// The first row at or below this one that lakes change; nothing: there is none.
+  /// The first row from this one on that lakes change; nothing: none.
   std::optional<std::int32_t> next_row(std::int32_t row) {
     while (above_ < runs_.size() && runs_[above_].samples.row < row - 1) ++above_;
     if (above_ == runs_.size()) return std::nullopt;
@@ -175,7 +175,7 @@ class Flattening {
     }
   }
 
-  /// The result of the row that was flattened last, for a source to report it.
+  /// The changes in the last flattened row, for a source.
   void take_runs(std::int32_t row, std::vector<LevelRun>& runs) {
     const auto at = [](std::int32_t x) { return static_cast<std::size_t>(x); };
     for (std::int32_t x = first_; x < last_;) {
@@ -190,7 +190,7 @@ class Flattening {
     }
   }
 
-  /// Before the next row.
+  /// Call it before the next row.
   void clear() {
     if (first_ < last_) {
       std::fill(water_.begin() + first_, water_.begin() + last_, 0);
@@ -231,7 +231,7 @@ class Flattening {
     }
   }
 
-  /// 1 if the sample is a height and was another.
+  /// 1 if the sample is a height and changed.
   static std::uint64_t put(float& sample, float height, Lake& lake) {
     if (std::isnan(sample) || sample == height) return 0;
     lake.largest_change = std::max(lake.largest_change, std::abs(double{sample} - double{height}));
@@ -243,10 +243,10 @@ class Flattening {
   std::vector<Lake>& lakes_;
   std::int32_t cols_;
   std::vector<float> rims_;                 // rims of the lakes
-  std::vector<std::uint32_t> water_, rim_;  // for each column of the row: 1 + the last lake that holds a sample, or
-                                            // rims it highest
-  std::int32_t first_ = 0, last_ = 0;       // the changed part of it
-  std::size_t above_ = 0;                   // the first run that matters yet
+  std::vector<std::uint32_t> water_, rim_;  // by column: 1 + the last lake that contains a sample, or has the highest
+                                            // rim there
+  std::int32_t first_ = 0, last_ = 0;       // range of changed columns
+  std::size_t above_ = 0;                   // the first run still relevant
 };
 
 Result<void> check_options(const WaterOptions& options) {
@@ -258,7 +258,7 @@ Result<void> check_options(const WaterOptions& options) {
   return {};
 }
 
-/// By row, then by lake, whose own are in raster order.
+/// By row, then by lake; runs of a lake are in raster order.
 std::vector<LakeRun> find_runs(const Shores& shores, const std::vector<Rings>& rings) {
   std::vector<LakeRun> runs;
   for (std::uint32_t lake = 0; lake < rings.size(); ++lake)
@@ -269,7 +269,7 @@ std::vector<LakeRun> find_runs(const Shores& shores, const std::vector<Rings>& r
   return runs;
 }
 
-/// Changes the samples, or the source of them.
+/// Changes the samples, or their source.
 Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& options, std::vector<Lake>& lakes,
                            OwnedHeightField& field) {
   Flattening flattening(runs, options.freeboard, field.cols, lakes);
@@ -300,8 +300,7 @@ struct LakesFound {
   std::vector<Rings> rings;
 };
 
-/// Those with a level, at it. All levels are found before any change: a lake's shore is the raster's, not what its
-/// neighbour has made of it.
+/// Lakes with a level. All levels are computed before any change, since shores come from the original raster.
 Result<LakesFound> find_levels(const Shores& shores, const std::vector<Rings>& polygons) {
   SCARP_TRY(const auto& samples, shores.read_samples(polygons));
   LakesFound found;

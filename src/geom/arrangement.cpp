@@ -16,7 +16,7 @@ struct LinePiece {
   std::uint32_t segment;  ///< segment of the line
 };
 
-/// Pieces that follow each other without a gap.
+/// Successive pieces without a gap.
 struct PieceRun {
   std::uint32_t line;
   std::size_t begin, end;  ///< range of the pieces
@@ -66,7 +66,7 @@ HotPoints find_hot_points(std::span<const Segment> pieces, std::span<const Segme
   return {std::move(points), rigid, is_exact};
 }
 
-/// The ends of an edge in one number, the lower first.
+/// An edge as one number made of its ends, the lower first.
 class Edges {
  public:
   explicit Edges(const HotPoints::Passes& passes) {
@@ -102,7 +102,7 @@ std::vector<Arrangement::Edge> merge(const std::vector<std::uint64_t>& lines, co
   return edges;
 }
 
-/// Removes hot points that nothing passes.
+/// Removes unused hot points.
 void number_vertices(const std::vector<Point>& points, Arrangement& result) {
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> numbers(points.size(), kUnused);
@@ -116,7 +116,7 @@ void number_vertices(const std::vector<Point>& points, Arrangement& result) {
   for (std::uint32_t& vertex : result.passes) vertex = numbers[vertex];
 }
 
-/// The stretch of its course that a segment covers.
+/// The stretch of a segment in its course.
 Arrangement::Stretch stretch_of(const LinePiece& piece, const Segment& course, const HotPoints& hot,
                                 const HotPoints::Passes& passes, std::size_t begin, std::size_t end) {
   const auto place_of = [&](Point p) {
@@ -155,7 +155,7 @@ Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std:
   for (const LinePiece& piece : cut.pieces) segments.push_back(piece.clipped.segment);
   const Courses courses = merge_overlaps(segments), rigid_courses = merge_overlaps(rigid);
   const HotPoints hot = find_hot_points(segments, rigid, courses, rigid_courses, result.is_exact);
-  // A course passes what its segments pass: their ends are among its points, and between two of these both see the
+  // A course passes the same points as its segments: their ends are among its points, and between these both meet the
   // same squares.
   HotPoints::Passes passes = hot.walk(courses.segments, false);
 

@@ -1,5 +1,5 @@
-// A search tree for intersecting boxes: a packed tree over boxes in the order of a space-filling curve (Kamel and
-// Faloutsos 1993, with Morton's curve instead of Hilbert's). Clusters, long and short boxes cost it nothing extra.
+// A search tree for intersecting boxes, packed in the order of a space-filling curve (Kamel and Faloutsos 1993, with
+// Morton's curve instead of Hilbert's). Clusters, long and short boxes add no cost.
 #pragma once
 
 #include <array>
@@ -32,16 +32,17 @@ class BoxTree {
   std::span<const std::uint32_t> order() const { return order_; }
   const Box& box_at(std::size_t place) const { return levels_[0][place]; }
 
-  /// Neighbours in that order, so many in each group but the last: what is near one of them is near all.
+  /// Size of groups of neighbours in that order; the last may be smaller. A box near one member is near all.
   static constexpr std::size_t kGroup = 8;
   std::size_t group_count() const { return (order_.size() + kGroup - 1) / kGroup; }
   const Box& hull_of_group(std::size_t group) const { return levels_[1][group]; }
 
-  /// The places, from `first` on in the tree's order, of boxes that overlap a box. False if they are more than `most`.
+  /// Collects the places, from `first` on in the tree's order, of boxes that overlap `box`. False if there are more
+  /// than `most`.
   bool gather(const Box& box, std::size_t first, std::size_t most, std::vector<std::size_t>& places) const;
 
-  /// Calls visit(index) for each box for which `meets` returns true, among those from `first` on in the tree's order.
-  /// REQUIRES: if meets() is true for a box, it is true for each box around that one.
+  /// Calls visit(index) for each box, from `first` on in the tree's order, for which `meets` returns true. REQUIRES: if
+  /// meets() is true for a box, it is true for each box around that one.
   template <class Meets, class Visit>
   void visit(Meets&& meets, Visit&& visit, std::size_t first = 0) const {
     visit_places(

@@ -7,7 +7,7 @@ namespace scarp {
 
 namespace {
 
-/// Extreme points in eight directions, in the order in which they lie around the hull.
+/// Extreme points in eight directions, in their order around the hull.
 std::array<Point, 8> find_extremes(std::span<const Point> points) {
   constexpr std::array<std::array<std::int64_t, 2>, 8> kDirections{
       {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};

@@ -9,10 +9,10 @@
 
 namespace scarp {
 
-/// Indices of the hull's corners, positively oriented, from the first point in raster order on; points within its edges
-/// are omitted. Fewer than three if all points lie on one line. Cost: O(n) and a sort of the points near the hull.
-/// Source: Andrew's monotone chain (1979), after points inside an octagon of extreme points are dropped (Akl &
-/// Toussaint 1978). REQUIRES: no two points at one place.
+/// Indices of the hull's corners, positively oriented, starting at the first point in raster order. Points inside hull
+/// edges are omitted. Fewer than three if all points are collinear. Cost: O(n) plus a sort of the points near the hull.
+/// Source: Andrew's monotone chain (1979), after dropping points inside an octagon of extreme points (Akl & Toussaint
+/// 1978). REQUIRES: distinct points.
 std::vector<std::uint32_t> convex_hull(std::span<const Point> points);
 
 }  // namespace scarp

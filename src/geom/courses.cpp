@@ -11,7 +11,7 @@
 namespace scarp {
 namespace {
 
-/// A segment on its line: the line's direction without a common factor and its distance from (0, 0) in those terms.
+/// A segment on its line, given by the line's primitive direction and its distance from (0, 0) in those units.
 struct OnLine {
   Point direction;
   std::int64_t offset;
@@ -27,7 +27,7 @@ OnLine on_line(Segment s) {
 
 bool same_line(const OnLine& a, const OnLine& b) { return a.direction == b.direction && a.offset == b.offset; }
 
-/// The same for segments of one line, and rarely for others.
+/// A hash: equal for segments of one line, rarely for others.
 std::uint32_t mark_of(const OnLine& line) {
   std::uint64_t bits =
       std::uint64_t{static_cast<std::uint32_t>(line.direction.x)} << 32 | static_cast<std::uint32_t>(line.direction.y);
@@ -36,7 +36,7 @@ std::uint32_t mark_of(const OnLine& line) {
   return static_cast<std::uint32_t>(bits >> 32);
 }
 
-/// The unions in the making.
+/// Builds the unions.
 class Merger {
  public:
   explicit Merger(std::span<const Segment> segments) : lines_(segments.size()), leaders_(segments.size()) {
@@ -60,7 +60,7 @@ class Merger {
   }
 
  private:
-  /// Those of one line follow each other along it.
+  /// Unites overlapping segments among those of equal marks.
   void unite(std::vector<std::uint32_t>& alike) {
     sort_rarely(alike, [this](std::uint32_t i, std::uint32_t j) {
       const OnLine &a = lines_[i], &b = lines_[j];

@@ -1,4 +1,4 @@
-// Segments that lie upon each other, merged: a stretch that a thousand of them share is examined once.
+// Overlapping segments merged into courses, so that a stretch shared by a thousand of them is examined once.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace scarp {
 
-/// The unions of segments on one line that have more than a point in common.
+/// The unions of collinear segments that share more than a point.
 struct Courses {
   std::vector<Segment> segments;  ///< `from` before `to` in raster order; in the order of their first segments
-  std::vector<std::uint32_t> of;  ///< for each segment given: the course that holds it
+  std::vector<std::uint32_t> of;  ///< for each segment given: the course that contains it
 };
 
-/// REQUIRES: no segment is a point; coordinates in [0, kMaxCoordinate]. Cost: O(n log n), O(n) where few share a line.
+/// REQUIRES: no segment is a point; coordinates in [0, kMaxCoordinate]. Cost: O(n log n); O(n) where few are collinear.
 Courses merge_overlaps(std::span<const Segment> segments);
 
 }  // namespace scarp

@@ -25,8 +25,8 @@ Dyadic dyadic(double value) {
 
 int bits(std::int64_t value) { return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::abs(value)))); }
 
-/// |Σ weights[i]·values[i]| > last weight · last value, where the last pair is the threshold's: all values scaled to
-/// integers by one power of two. True where that does not fit 128 bits.
+/// |Σ weights[i]·values[i]| > last weight · last value, where the last pair is the threshold's. All values are scaled
+/// to integers by one power of two. True if that does not fit 128 bits.
 template <std::size_t N>
 bool sum_exceeds(const std::array<std::int64_t, N>& weights, const std::array<double, N>& values) {
   std::array<Dyadic, N> terms;
@@ -42,7 +42,7 @@ bool sum_exceeds(const std::array<std::int64_t, N>& weights, const std::array<do
   Int128 sum = 0, limit = 0;
   for (std::size_t k = 0; k < N; ++k) {
     const int shift = terms[k].mantissa == 0 ? 0 : terms[k].exponent - low;
-    // Up to five products are added: three bits of head room and the sign.
+    // Up to five products are added: three bits of headroom and the sign.
     if (shift + bits(terms[k].mantissa) + weight_bits > 123) return true;
     const Int128 product = weights[k] * (Int128{terms[k].mantissa} * (Int128{1} << shift));
     (k + 1 < N ? sum : limit) += product;

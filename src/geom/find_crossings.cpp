@@ -1,6 +1,6 @@
-// Pairs of segments come from a tree of boxes. Long segments are cut into pieces of the mean length, so that a box
-// holds little but its segment; together there are at most twice as many pieces as segments. Neighbours in the tree ask
-// for the boxes around them together, unless those are too many for all of them to examine.
+// Pairs of segments are found by a tree of boxes. Long segments are divided into pieces of the mean length, so that
+// boxes fit closely; there are at most twice as many pieces as segments. Neighbours in the tree share a query, unless
+// it finds too many boxes.
 #include <algorithm>
 #include <cstdlib>
 
@@ -17,7 +17,7 @@ std::int64_t length(const Segment& s) {
   return std::max(std::int64_t{std::abs(s.to.x - s.from.x)}, std::int64_t{std::abs(s.to.y - s.from.y)});
 }
 
-/// A box around the k-th of n pieces of the stretch from a to b, both included.
+/// Bounds of the k-th of n pieces of the interval from a to b, both included.
 std::pair<std::int32_t, std::int32_t> piece(std::int32_t a, std::int32_t b, std::int64_t k, std::int64_t n) {
   const std::int64_t span = std::abs(b - a), low = span * k / n, high = (span * (k + 1) + n - 1) / n;
   return a <= b ? std::pair{static_cast<std::int32_t>(a + low), static_cast<std::int32_t>(a + high)}
@@ -52,7 +52,7 @@ struct Rounded {
   bool is_exact;
 };
 
-/// base + span · numerator / denominator; halves go up, or down if asked to.
+/// base + span · numerator / denominator; halves are rounded up, or down if requested.
 template <class Int>
 Rounded rounded(std::int32_t base, std::int32_t span, std::int64_t numerator, std::int64_t denominator,
                 bool half_down) {
@@ -98,7 +98,7 @@ class Finder {
  private:
   bool is_rigid_antidiagonal(std::uint32_t k) const { return k >= first_rigid_ && is_antidiagonal(segments_[k]); }
 
-  /// Thousands of lines through one point are millions of pairs.
+  /// Thousands of lines through one point give millions of pairs.
   void tidy() {
     sort_uniquely(found_.points);
     next_tidying_ = std::max(next_tidying_, 2 * found_.points.size());
@@ -110,7 +110,7 @@ class Finder {
   std::size_t next_tidying_ = std::size_t{1} << 20;
 };
 
-/// Calls visit(a, b) for each two places of boxes that overlap.
+/// Calls visit(a, b) for each two indices of overlapping boxes.
 template <class Visit>
 void visit_overlaps(const BoxTree& tree, const Visit& visit) {
   constexpr std::size_t kMostGathered = 64;

@@ -1,9 +1,9 @@
-// The plane of a triangle over the lattice, and how far its arithmetic can be trusted.
+// The plane of a triangle over the lattice, and the precision of its arithmetic.
 //
-// height_at() is the one formula by which every algorithm of the engine, textbook or fast, measures a sample: the
-// corners are put into raster order first, so the result depends on the triangle and the sample only, not on ids or on
-// the path of the scan. Double, no contraction: each operation rounds once. guard() bounds the sum of these roundings,
-// so that a comparison with a threshold is certain outside threshold ± guard; inside, exact_error.h decides.
+// Every algorithm of the engine, textbook or fast, measures a sample by height_at(). It first puts the corners into
+// raster order, so the result depends only on the triangle and the sample, not on ids or the order of the scan. Doubles
+// without contraction: each operation rounds once. guard() bounds the sum of these roundings, so a comparison with a
+// threshold is certain outside threshold ± guard. Inside, exact_error.h decides.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Plane {
   double height = 0;                ///< at base
   double slope_x = 0, slope_y = 0;  ///< per sample
   double guard = 0;  ///< bound of |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level, where
-                     ///< only that subtraction rounds
+                     ///< only the subtraction rounds
 
   /// REQUIRES: orient(corners) != 0; heights finite and far from overflow.
   static Plane through_double(std::array<Point, 3> corners, std::array<double, 3> heights) {
@@ -54,12 +54,12 @@ struct Plane {
     return through_double(corners, {heights[0], heights[1], heights[2]});
   }
 
-  /// Part of the height that is common to a row; height_at() = row_height(y) + slope_x · (x − base.x).
+  /// The part of the height common to a row; height_at() = row_height(y) + slope_x · (x − base.x).
   double row_height(std::int32_t y) const { return height + slope_y * static_cast<double>(y - base.y); }
   double height_at(Point p) const { return row_height(p.y) + slope_x * static_cast<double>(p.x - base.x); }
 };
 
-/// |n − m|² of the planes' unit normals: grows with the angle between them.
+/// |n − m|² of the planes' unit normals; grows with the angle between them.
 inline double bend_of(const Plane& a, const Plane& b) {
   const double la = std::sqrt(1 + a.slope_x * a.slope_x + a.slope_y * a.slope_y);
   const double lb = std::sqrt(1 + b.slope_x * b.slope_x + b.slope_y * b.slope_y);

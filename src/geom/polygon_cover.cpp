@@ -11,14 +11,15 @@ namespace scarp {
 
 namespace {
 
-/// Passes over a plane from its first row to its last, along each row from left to right, and knows the edges that lie
-/// across its way, in their order from left to right. The positive side of an edge is its left.
+/// Sweeps a plane from its first row to its last, along each row from left to right. It maintains the crossed edges
+/// from left to right. The positive side of an edge is its left.
 class Sweep {
  public:
   Sweep(std::span<const Point> vertices, std::span<const GraphEdge> edges)
       : vertices_(vertices), edges_(edges), status_(Order{this}), places_(edges.size()) {}
 
-  /// The cover on the positive side of each edge. cross(i, count): the cover beyond edge i, where `count` is before it.
+  /// The cover on the positive side of each edge. cross(i, count): the cover beyond edge i, where `count` is the cover
+  /// before it.
   template <class Cross>
   std::vector<std::int32_t> run(const Cross& cross) {
     std::vector<std::uint32_t> ends(edges_.size());
@@ -48,7 +49,7 @@ class Sweep {
     bool operator()(std::uint32_t i, std::uint32_t j) const { return sweep->is_left(i, j); }
   };
 
-  /// True for the left one of two edges that lie across the way at the same time.
+  /// True if edge i is left of edge j, in a row that crosses both.
   bool is_left(std::uint32_t i, std::uint32_t j) const {
     if (i == j) return false;
     const auto [a, b] = edges_[i];
@@ -63,7 +64,7 @@ class Sweep {
   std::vector<std::set<std::uint32_t, Order>::iterator> places_;
 };
 
-/// Those that a polygon passes an odd number of times, by polygon.
+/// Keeps edges that a polygon passes an odd number of times, by polygon.
 void drop_pairs(std::vector<PolygonEdge>& passes) {
   sort_rarely(passes, [](const PolygonEdge& a, const PolygonEdge& b) {
     return a.polygon != b.polygon ? a.polygon < b.polygon : a.edge < b.edge;
@@ -84,7 +85,7 @@ void drop_pairs(std::vector<PolygonEdge>& passes) {
 std::vector<EdgeCover> cover_edges(std::span<const Point> vertices, std::span<const GraphEdge> edges,
                                    std::vector<PolygonEdge> passes) {
   drop_pairs(passes);
-  std::vector<std::int32_t> steps(edges.size(), 0);  // how much more there is on the negative side
+  std::vector<std::int32_t> steps(edges.size(), 0);  // cover on the negative side minus that on the positive side
   std::vector<GraphEdge> own;
   for (std::size_t begin = 0, end = 0; begin < passes.size(); begin = end) {
     own.clear();

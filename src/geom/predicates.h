@@ -1,7 +1,7 @@
-// The in-circle question of a triangulation, answered exactly on the integer lattice (orient() is in base/point.h).
+// The in-circle predicate, evaluated exactly on the integer lattice (orient() is in base/point.h).
 //
-// Sizes: in_circle() is of degree 4: with all differences at most d its terms add up to less than 12 d⁴, which is below
-// 2⁶³ for d <= 29,609; beyond, 128-bit integers answer (12·2¹²⁰ < 2¹²⁷).
+// Sizes: in_circle() has degree 4. With all differences at most d its terms add up to less than 12 d⁴, which is below
+// 2⁶³ for d <= 29,609; beyond, 128-bit integers are used (12·2¹²⁰ < 2¹²⁷).
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ Int in_circle_determinant(Point a, Point b, Point c, Point d) {
 
 }  // namespace detail
 
-/// The arithmetic that in_circle() needs for these points.
+/// True if 64 bits suffice for in_circle() of these points.
 inline bool in_circle_fits_64(Point a, Point b, Point c, Point d) {
   const auto within = [d](Point p) {
     return std::abs(p.x - d.x) <= kMaxInCircle64 && std::abs(p.y - d.y) <= kMaxInCircle64;

@@ -12,7 +12,7 @@ namespace scarp {
 
 namespace detail {
 
-/// In exact integers: where a sloping edge meets a row of samples, in samples.
+/// The crossing of a sloping edge with a row of samples, in samples, as exact integers.
 struct Crossing {
   std::int64_t floor, ceil;
 
@@ -27,8 +27,8 @@ struct Crossing {
 
 }  // namespace detail
 
-/// Calls row(y, first, last) for every row of samples of which the closed triangle holds first … last, top down.
-/// Corners are in so many steps between two samples. REQUIRES: orient(corners) != 0. Cost: O(rows) plus the calls.
+/// Calls row(y, first, last), top down, for every row of samples of which the closed triangle contains first … last.
+/// Corners are in units of 1/steps sample. REQUIRES: orient(corners) != 0. Cost: O(rows) plus the calls.
 template <class Row>
 void scan_samples(std::array<Point, 3> corners, std::int32_t steps, Row&& row) {
   if (corners[1].y < corners[0].y) std::swap(corners[0], corners[1]);

@@ -1,8 +1,8 @@
 // The lattice points of a closed triangle, row by row.
 //
 // Each edge is followed in integers: its crossing with a row is a quotient and a remainder that advance by a fixed step
-// (Bresenham's idea with floor and ceiling), so a point on an edge belongs to both triangles of the edge, always.
-// Nothing is rounded, no row and no column is skipped: spans that are rounded, as in Scape, lose samples.
+// (Bresenham's idea with floor and ceiling). So a point on an edge always belongs to both triangles. Nothing is
+// rounded, and no row or column is skipped. Rounded spans, as in Scape, lose samples.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace scarp {
 
 namespace detail {
 
-constexpr std::int32_t kRowsWorthSkipping = 32;  // a division needs the time of so many rows
+constexpr std::int32_t kRowsWorthSkipping = 32;  // a division costs as much as so many rows
 
 /// x of an edge on consecutive rows, as floor(x) and whether the remainder is zero.
 class EdgeWalker {
@@ -33,8 +33,8 @@ class EdgeWalker {
   }
   std::int64_t floor() const { return x_; }
   std::int64_t ceil() const { return x_ + (remainder_ != 0); }
-  /// Rows until it has come to the next whole column, on its right or on its left; more than any raster has if it goes
-  /// the other way. REQUIRES: it stands between two columns.
+  /// Rows until the edge reaches the next whole column, on its right or left; more than any raster has if it runs the
+  /// other way. REQUIRES: the edge is between two columns.
   std::int64_t rows_to_reach(bool is_right) const {
     constexpr std::int64_t kNever = std::int64_t{1} << 40;
     if (is_right) {
@@ -64,8 +64,8 @@ class EdgeWalker {
 
 }  // namespace detail
 
-/// Calls row(y, first, last) for every row of the closed triangle that holds lattice points first … last (inclusive),
-/// in ascending y. REQUIRES: orient(corners) != 0. Cost: O(the smaller one of rows, and columns and calls).
+/// Calls row(y, first, last), in ascending y, for every row of the closed triangle that contains lattice points first …
+/// last (inclusive). REQUIRES: orient(corners) != 0. Cost: O(min(rows, columns + calls)).
 template <class Row>
 void scan_rows(std::array<Point, 3> corners, Row&& row) {
   if (corners[1].y < corners[0].y) std::swap(corners[0], corners[1]);
@@ -82,7 +82,7 @@ void scan_rows(std::array<Point, 3> corners, Row&& row) {
       if (first <= last) {
         row(y, static_cast<std::int32_t>(first), static_cast<std::int32_t>(last));
       } else if (end - y > detail::kRowsWorthSkipping) {
-        // Both edges stand between the same two columns: as slivers do for most of their rows.
+        // Both edges are between the same two columns, as in most rows of a sliver.
         const std::int64_t rows =
             std::min({left.rows_to_reach(false), right.rows_to_reach(true), std::int64_t{end} - y});
         long_edge.skip_rows(rows);
@@ -100,7 +100,7 @@ void scan_rows(std::array<Point, 3> corners, Row&& row) {
   if (middle.y < bottom.y) {
     half(long_edge, detail::EdgeWalker(middle, bottom), middle.y, bottom.y + 1);
   } else {
-    // A level edge at the bottom: its row runs from corner to corner.
+    // A horizontal edge at the bottom: its row runs from corner to corner.
     row(bottom.y, std::min(middle.x, bottom.x), std::max(middle.x, bottom.x));
   }
 }

@@ -1,12 +1,12 @@
 // Branch and bound over the 8 × 8 blocks. Compiled once for every instruction set (scan_kernels_vector.cpp).
 //
-// How far a sample of a block can lie off the plane, as computed: with f the computed plane at the block's centre and
-// M = |slope_x|·(width + 8) + |slope_y|·(height + 8) of the box, a sample's exact distance (of the float32 slopes) is
-// at most B = max(high − za − f, f − (low − za)) + 3.5(|slope_x| + |slope_y|). Its computed error is at most B(1 + 2u)
-// + 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So a margin of 2⁻²⁰M on the bound
-// and of 2⁻²⁰ on what it must reach never drops a sample that counts; 2⁻¹⁴⁰ covers numbers below the normal.
+// The computed distance of a block's samples from the plane. With f the computed plane at the block's centre and M =
+// |slope_x|·(width + 8) + |slope_y|·(height + 8) of the box, a sample's exact distance (of the float32 slopes) is at
+// most B = max(high − za − f, f − (low − za)) + 3.5(|slope_x| + |slope_y|). Its computed error is at most B(1 + 2u) +
+// 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So a margin of 2⁻²⁰M on the bound
+// and of 2⁻²⁰ on its limit never drops a relevant sample; 2⁻¹⁴⁰ covers subnormal numbers.
 
-// Highway's kind of guard: seen once for every instruction set.
+// An include guard like Highway's: included once for every instruction set.
 #if defined(SCARP_SCAN_KERNELS_BLOCKS) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_SCAN_KERNELS_BLOCKS
 #undef SCARP_SCAN_KERNELS_BLOCKS
@@ -26,7 +26,7 @@ using detail::Span;
 struct BlockBounds {
   const TileView& tile;
   const ScanTask& task;
-  float extent;  ///< extent of the plane from a block's centre, and the margin
+  float extent;  ///< extent of the plane around a block's centre, plus the margin
 
   BlockBounds(const TileView& view, const ScanTask& scan_task) : tile(view), task(scan_task) {
     const double x = task.plane.slope_x < 0 ? -double{task.plane.slope_x} : double{task.plane.slope_x};
@@ -56,12 +56,12 @@ HWY_INLINE float across_of(const ScanTask& task, std::int32_t row) {
   return task.plane.slope_y * (static_cast<float>(row * kBlock - task.base.y) + 3.5f);
 }
 
-/// The least bound for which its block matters.
+/// The least relevant bound of a block.
 HWY_INLINE float limit_of(const ScanBest& best) { return best.error * (1 - 0x1p-20f); }
 
 struct RowBound {
   float bound;
-  std::int32_t block;  ///< the first that has it
+  std::int32_t block;  ///< the first block with that bound
   Span columns;
 };
 
@@ -92,7 +92,7 @@ HWY_NOINLINE void scan_block(const TileView& tile, const ScanTask& task, std::in
   scan_box<8>(tile, task, column * kBlock, row * kBlock, kBlock, kBlock, best);
 }
 
-/// Scans the blocks of a row that can still matter, but the one that was scanned already. Returns how many.
+/// Scans the blocks of a row that can still matter, except the one already scanned. Returns their number.
 HWY_INLINE std::uint64_t scan_block_row(const BlockBounds& blocks, std::int32_t row, const RowBound& bounds,
                                         ScanBest& best) {
   const hn::CappedTag<float, 16> d;
@@ -113,8 +113,8 @@ HWY_INLINE std::uint64_t scan_block_row(const BlockBounds& blocks, std::int32_t 
   return scanned;
 }
 
-/// Hints first, then the best block of all, then the best of each row, then the rest: each step reduces the work of the
-/// next. The order does not depend on the number of lanes.
+/// Order: hints, the best block of all, the best of each row, the rest. Each step reduces the work of the next. The
+/// order does not depend on the number of lanes.
 HWY_NOINLINE std::uint64_t scan_blocks(const TileView& tile, const ScanTask& task,
                                        const std::array<TilePoint, 3>& corners, std::span<const TilePoint> hints,
                                        ScanBest& best) {

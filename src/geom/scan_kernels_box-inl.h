@@ -1,6 +1,6 @@
 // The samples of a triangle in a box. Compiled once for every instruction set (scan_kernels_vector.cpp).
 
-// Highway's kind of guard: seen once for every instruction set.
+// An include guard like Highway's: included once for every instruction set.
 #if defined(SCARP_SCAN_KERNELS_BOX) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_SCAN_KERNELS_BOX
 #undef SCARP_SCAN_KERNELS_BOX
@@ -30,7 +30,7 @@ HWY_INLINE float entry(const ScanTask& task, const ScanBest& best) {
   return bit_cast<float>(bit_cast<std::uint32_t>(best.error) - 1);
 }
 
-/// The largest error of each lane above `start`, and where it lies; a lane without one has `start` and any point.
+/// The largest error of each lane above `start`, and its position; a lane without one has `start` and any point.
 template <class D>
 struct Farthest {
   hn::Vec<D> error;
@@ -56,7 +56,7 @@ struct Farthest {
   }
 };
 
-/// A vector's columns from `x`, `rows` rows from `y`; reads up to 3 rows more.
+/// One vector of columns from `x`, `rows` rows from `y`; reads up to 3 more rows.
 template <class D>
 HWY_INLINE void scan_strip(D d, const TileView& tile, const ScanTask& task, std::int32_t x, std::int32_t y,
                            std::int32_t rows, float start, Farthest<D>& farthest) {
@@ -79,7 +79,7 @@ HWY_INLINE void scan_strip(D d, const TileView& tile, const ScanTask& task, std:
     for (int unrolled = 0; unrolled < 4; ++unrolled) {
       const auto surface = hn::Add(along, hn::Mul(slope_y, dy));
       const auto error = hn::Sub(surface, hn::Sub(hn::LoadU(d, samples), base));
-      // Outside of the triangle a weight is negative, and so is the error then: it is no candidate.
+      // Outside the triangle a weight is negative, hence also the error: the sample is no candidate.
       const auto weights = hn::BitCast(d, hn::Or(hn::Or(w_0, w_1), w_2));
       take_larger(hn::Or(hn::AndNot(sign, error), hn::And(sign, weights)), dy, most, most_dy);
       samples += tile.stride;
@@ -93,7 +93,7 @@ HWY_INLINE void scan_strip(D d, const TileView& tile, const ScanTask& task, std:
   farthest.merge(d, most, hn::Or(hn::ShiftLeft<16>(row), hn::Add(iota, hn::Set(di, x))));
 }
 
-/// The samples of the triangle among `rows` rows from `y`, and `width` columns from `x`; reads up to 3 rows more.
+/// The triangle's samples in `rows` rows from `y` and `width` columns from `x`; reads up to 3 more rows.
 template <std::size_t kLanes>
 HWY_INLINE void scan_box(const TileView& tile, const ScanTask& task, std::int32_t x, std::int32_t y, std::int32_t width,
                          std::int32_t rows, ScanBest& best) {
@@ -105,7 +105,7 @@ HWY_INLINE void scan_box(const TileView& tile, const ScanTask& task, std::int32_
   farthest.offer_to(d, start, best);
 }
 
-/// The rows of the box that hold samples of the triangle in strips of a vector's width: a superset.
+/// The rows of the box that contain samples of the triangle, in strips of a vector's width: a superset.
 struct StripRows {
   const ScanTask& task;
   float x_low[3], x_high[3], x[3], y[3], slant[3];  ///< data of the edge from corner i to the next
@@ -121,7 +121,7 @@ struct StripRows {
     }
   }
 
-  /// Rows first … last of as many strips as there are lanes, the first one from column `left` on.
+  /// Rows first … last of one strip per lane, the first starting at column `left`.
   template <class D>
   HWY_INLINE void of(D d, std::int32_t left, std::int32_t* first, std::int32_t* last) const {
     const hn::RebindToSigned<D> di;
@@ -139,15 +139,15 @@ struct StripRows {
       top = hn::IfThenElse(meets, smaller_of(top, smaller_of(y_from, y_to)), top);
       bottom = hn::IfThenElse(meets, larger_of(bottom, larger_of(y_from, y_to)), bottom);
     }
-    // Slant, product and sum lose at most 2⁻¹² each, since no edge goes farther than 2¹² rows; the margin is more than
-    // four times their sum, and so has room for its own roundings and those of the conversion.
+    // Slant, product and sum lose at most 2⁻¹² each, since an edge spans at most 2¹² rows. The margin exceeds four
+    // times their sum, which leaves room for its own roundings and those of the conversion.
     const auto margin = hn::Set(d, 0x1p-8f), one = hn::Set(d, 1.0f);
     hn::StoreU(hn::Max(hn::Set(di, task.top), hn::ConvertTo(di, hn::Add(hn::Sub(top, margin), one))), di, first);
     hn::StoreU(hn::Min(hn::Set(di, task.bottom), hn::ConvertTo(di, hn::Add(bottom, margin))), di, last);
   }
 };
 
-/// Strip by strip, each no longer than the triangle in it.
+/// Strip by strip, each only as long as the triangle in it.
 HWY_NOINLINE void scan_strips(const TileView& tile, const ScanTask& task, const std::array<TilePoint, 3>& corners,
                               ScanBest& best) {
   const hn::CappedTag<float, 16> d;

@@ -5,12 +5,12 @@
 
 namespace scarp::detail {
 
-/// Columns or rows from the first to the last; first > last where there are none.
+/// Columns or rows from the first to the last; first > last if empty.
 struct Span {
   std::int32_t first, last;
 };
 
-/// The columns of blocks that can hold samples of the triangle: a superset.
+/// The columns of blocks that can contain samples of the triangle: a superset.
 class BlockColumns {
  public:
   BlockColumns(const ScanTask& task, const std::array<TilePoint, 3>& corners);
@@ -21,7 +21,7 @@ class BlockColumns {
  private:
   const ScanTask& task_;
   std::array<Point, 3> corners_;
-  std::array<double, 3> slant_;  ///< x a row, of the edge from corner i to the next
+  std::array<double, 3> slant_;  ///< x per row, along the edge from corner i to the next
 };
 
 }  // namespace scarp::detail

@@ -11,13 +11,13 @@
 
 namespace scarp::detail {
 
-/// A farthest sample in the making. Above the floor while it is a hit.
+/// The farthest sample so far; a hit while it is above the floor.
 struct ScanBest {
   float error = 0;
   TilePoint at = 0;
 
-  /// Among equal errors the first in raster order wins; NaN never does. The floor has no point, so it loses to nothing
-  /// that merely equals it.
+  /// Among equal errors the first in raster order wins; NaN never does. The floor has no point, so it wins over an
+  /// equal error.
   void offer(float e, TilePoint p) {
     if (e > error || (e == error && p < at)) *this = {e, p};
   }
@@ -28,7 +28,7 @@ struct ScanTask {
   float floor = 0;
   Point base;                                    ///< origin of the plane
   std::int32_t left, right, top, bottom;         ///< box, inclusive
-  std::array<std::int32_t, 3> along_x, along_y;  ///< edge functions: a step in x, in y; at most 2¹² each
+  std::array<std::int32_t, 3> along_x, along_y;  ///< edge functions: steps in x and in y; at most 2¹² each
   std::array<std::int32_t, 3> at_corner;         ///< their values at (left, top), below 2²⁵; negative is outside
 
   [[gnu::always_inline]] ScanTask(const TileView& tile, const std::array<TilePoint, 3>& corners, double threshold)
@@ -69,10 +69,10 @@ struct ScanTask {
   }
 };
 
-/// The twin in plain loops.
+/// The scalar twin.
 const ScanKernels& scalar_scan_kernels();
 
-/// Those of the vectors of this machine, best first.
+/// The vector kernels of this machine, best first.
 std::span<const ScanKernels> vector_scan_kernels();
 
 }  // namespace scarp::detail

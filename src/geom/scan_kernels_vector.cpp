@@ -1,8 +1,8 @@
-// The scan kernels in vectors: this file is compiled once for every instruction set, through Highway.
+// The scan kernels in vectors, compiled once for every instruction set through Highway.
 //
-// Vectors of at most 16 lanes, so that TileView's padding is enough; any number of lanes is right. No lambdas and no
-// functions of the standard library between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for
-// one instruction set and linked for all.
+// Vectors have at most 16 lanes, so that TileView's padding suffices; any number of lanes is correct. No lambdas and no
+// standard library functions between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for one
+// instruction set and linked for all.
 
 #include <array>
 #include <cstddef>
@@ -151,7 +151,7 @@ namespace scarp::detail {
 
 namespace {
 
-/// Those of `table` that this machine has, in its order.
+/// The kernels of `table` that run on this machine, in its order.
 std::vector<ScanKernels> find_kernels() {
   const std::int64_t supported = hwy::SupportedTargets();
   std::vector<ScanKernels> found;

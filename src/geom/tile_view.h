@@ -1,6 +1,6 @@
-// A tile: a window of the raster in a buffer of its own, padded so that whole vectors can be read from it.
-// Points of a tile are one 32-bit number, row above column: comparing two of them is raster order, a triangle's three
-// corners are 12 bytes, and no extent of the whole raster is too large for them.
+// A tile: a copy of a window of the raster, padded so that whole vectors can be read from it. Points of a tile are one
+// 32-bit number, row above column. Their numerical order is raster order, and a triangle's three corners need 12 bytes.
+// They work for any extent of the whole raster.
 #pragma once
 
 #include <cstddef>
@@ -25,17 +25,16 @@ constexpr Point point_of(TilePoint p) { return {tile_x(p), tile_y(p)}; }
 inline constexpr std::int32_t kMaxTileSide = 4097;
 
 inline constexpr std::int32_t kBlock = 8;         ///< side of a block of the min/max pyramid, in samples
-inline constexpr std::int32_t kTilePadding = 16;  ///< samples to the right of each row, rows below the last
+inline constexpr std::int32_t kTilePadding = 16;  ///< extra samples to the right of each row, and rows below the last
 
 /// Borrowed samples of one tile with the smallest and largest of each 8 × 8 block.
 struct TileView {
-  const float* samples = nullptr;  ///< row-major, NaN is nodata; `stride` floats a row, at least cols + kTilePadding,
-                                   ///< and kTilePadding rows more than `rows`: all may be read, whatever they hold
+  const float* samples = nullptr;  ///< row-major, NaN is nodata. `stride` floats a row, at least cols + kTilePadding,
+                                   ///< and kTilePadding more rows than `rows`: all are readable, with any contents
   std::ptrdiff_t stride = 0;
   std::int32_t cols = 0, rows = 0;  ///< 2 … kMaxTileSide
-  /// Lowest and highest of the block's samples that are heights, +infinity and −infinity if there are none;
-  /// `block_stride` floats a row of blocks, at least the number of blocks + kTilePadding, the rest as for blocks
-  /// without heights.
+  /// Lowest and highest valid height of the block's samples; +infinity and −infinity if none. `block_stride` floats a
+  /// row of blocks, at least the number of blocks + kTilePadding; padding is filled as for blocks without heights.
   const float* block_low = nullptr;
   const float* block_high = nullptr;
   std::ptrdiff_t block_stride = 0;

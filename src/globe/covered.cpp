@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Places of the raster that are examined, each way.
+/// Raster positions examined each way.
 constexpr int kPlaces = 257;
 /// Degrees from Greenwich. Grids search for land up to two turns away.
 constexpr double kFarthest = 720;
@@ -43,7 +43,7 @@ Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<dou
     if (!std::isfinite(xs[k]) || !std::isfinite(ys[k])) continue;
     for (const std::size_t other : {k % kPlaces > 0 ? k - 1 : k, k >= kPlaces ? k - kPlaces : k}) {
       if (!std::isfinite(xs[other]) || !std::isfinite(ys[other])) continue;
-      // A turn more or less, so that places side by side are so in degrees.
+      // Add or subtract a turn, so that adjacent positions are adjacent in degrees.
       if (to_degrees != nullptr) xs[k] -= 360 * std::floor((xs[k] - xs[other]) / 360 + 0.5);
       longitudes.step = std::max(longitudes.step, std::abs(xs[k] - xs[other]));
       latitudes.step = std::max(latitudes.step, std::abs(ys[k] - ys[other]));
@@ -60,7 +60,7 @@ Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<dou
                             "degrees (gdal_translate -a_srs EPSG:CODE FILE NEW.tif)",
                             longitudes.low, longitudes.high, kFarthest));
   if (to_degrees != nullptr) {
-    // Between the places examined the raster may reach a step farther, and around a pole all round.
+    // The raster may extend a step beyond the positions examined, and around a pole all round.
     longitudes.low -= longitudes.step;
     longitudes.high += longitudes.step;
     latitudes.low -= latitudes.step;

@@ -1,4 +1,4 @@
-// The geoid EGM96, unpacked. tools/make_egm96.py packs it, and describes how.
+// The geoid EGM96, unpacked. tools/make_egm96.py packs it, and documents the format.
 #include "globe/egm96.h"
 
 #include <cstdlib>
@@ -31,14 +31,14 @@ class PackedBits {
   std::size_t at_ = 0;
 };
 
-/// From second differences to numbers: of the last two before, and a difference.
+/// Integrates second differences: the next number from the last two and a difference.
 int after(int last, int before, int difference) { return difference + 2 * last - before; }
 
 std::vector<float> unpack_egm96() {
   PackedBits bits;
   std::vector<float> heights;
   heights.reserve(std::size_t{kGeoidCols} * kGeoidRows);
-  // Second differences along a row, of the last two rows.
+  // Horizontal second differences of the last two rows.
   std::vector<int> last(kGeoidCols), before(kGeoidCols);
   for (int row = 0; row < kGeoidRows; ++row) {
     int size = 32, left = 0, left_of_that = 0;

@@ -1,4 +1,4 @@
-// The packed grid of EGM96: data/egm96.bin, which the build makes a source of.
+// The packed EGM96 grid: data/egm96.bin, which the build converts to a source.
 #pragma once
 
 #include <cstddef>

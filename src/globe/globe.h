@@ -1,4 +1,4 @@
-// The ellipsoid: positions in space, and what clients ask of a tile there.
+// The ellipsoid: positions in space, and what clients need for a tile there.
 #pragma once
 
 #include <array>
@@ -15,43 +15,43 @@ class Globe {
  public:
   explicit Globe(const Geodetic& geodetic);
 
-  /// Earth-centred: x towards 0° E, z towards the north pole; degrees and metres above the ellipsoid.
+  /// Degrees and metres above the ellipsoid to earth-centred metres: x towards 0° E, z towards the north pole.
   Space position(double longitude, double latitude, double height) const;
-  /// Away from the ellipsoid there, of unit length.
+  /// The unit normal of the ellipsoid, outwards.
   static Space up(double longitude, double latitude);
-  /// Radii of curvature in metres: of the meridian, and the distance to the axis.
+  /// Radii in metres: the meridian's curvature, and the distance to the axis.
   struct Radii {
     double meridian = 0, parallel = 0;
   };
   Radii radii(double latitude) const;
   double semi_major() const { return a_; }
-  /// Least radius of curvature anywhere: that of the meridian on the equator.
+  /// The smallest radius of curvature anywhere: the meridian's at the equator.
   double least_radius() const { return a_ * (1 - e2_); }
 
-  /// A sphere that holds the points, its radius rounded up.
+  /// A sphere around the points; its radius is rounded up.
   struct Sphere {
     Space centre{};
     double radius = 0;
   };
   static Sphere sphere_around(std::span<const Space> points);
-  /// The point along the way from the earth's centre through `centre`, in units of the axes, from which on a viewer
-  /// who does not see it sees none of the points either (Ring's and CesiumJS's horizon culling). NaN where there is
-  /// none, as for a hemisphere.
+  /// The horizon occlusion point (Ring's and CesiumJS's horizon culling): on the ray from the earth's centre through
+  /// `centre`, in units of the axes. A viewer who does not see it, or any point farther out, sees none of the points
+  /// either. NaN if none exists, as for a hemisphere.
   Space horizon_point(const Space& centre, std::span<const Space> points) const;
 
  private:
   double a_, b_, e2_;
 };
 
-/// Octahedral, two bytes, of a vector of unit length.
+/// Octahedral encoding of a unit vector in two bytes.
 std::array<std::uint8_t, 2> encode_octahedral(const Space& normal);
-/// A vector of unit length.
+/// A unit vector.
 Space decode_octahedral(const std::array<std::uint8_t, 2>& normal);
 
 double dot(const Space& a, const Space& b);
 Space scaled(const Space& a, double factor);
 Space sum(const Space& a, const Space& b);
-/// {0, 0, 1} for a vector without length.
+/// {0, 0, 1} for a null vector.
 Space normalized(const Space& a);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// Positions of degrees among nodes.
+// Conversion of degrees to columns and rows of nodes.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// Divided, and rounded down. REQUIRES: by > 0.
+/// Division, rounded down. REQUIRES: by > 0.
 inline std::int64_t floor_of(std::int64_t value, std::int64_t by) {
   return value / by - (value % by != 0 && value < 0 ? 1 : 0);
 }
@@ -17,10 +17,10 @@ class NodePlaces {
  public:
   NodePlaces(const TileGrid& grid, std::int64_t per_turn) { lattice_ = {per_turn, 0, 0, 0, 0, grid}; }
 
-  /// Column of a longitude, which may lie beyond a turn.
+  /// Column of a longitude, which may exceed a turn.
   double col(double longitude) const { return (longitude + 180) / 360 * static_cast<double>(lattice_.per_turn); }
 
-  /// The row of a latitude, with a fraction between two rows; row 0 north of all rows, the last one south of them.
+  /// Fractional row of a latitude; row 0 north of all rows, the last one south of them.
   double row(double latitude) const {
     std::int64_t above = 0, below = lattice_.last_row();
     if (latitude >= lattice_.latitude(above)) return static_cast<double>(above);

@@ -1,4 +1,4 @@
-// The points of a straight row that lie in a box.
+// The points of a straight row inside a box.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// From the first point in the box to the one after the last: of `count` at equal steps. A point outside the box by
-/// less than 1/100,000,000 of it, as rounding may put it, is in it, too.
+/// Begin and end of the points in the box, among `count` at equal steps. Points outside by less than 1/100,000,000 of
+/// the box count as inside, because of rounding.
 inline std::pair<std::size_t, std::size_t> range_within(double x, double step_x, double y, double step_y,
                                                         std::size_t count, const DegreeBox& box) {
   double first = 0, last = static_cast<double>(count) - 1;

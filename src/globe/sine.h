@@ -1,4 +1,4 @@
-// Sine and cosine whose bits are the same on every machine; those of mathematics libraries are not.
+// Sine and cosine with the same bits on every machine, unlike those of mathematics libraries.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,12 @@ struct SineCosine {
   double sine = 0, cosine = 1;
 };
 
-/// Sine and cosine of an angle in degrees, |degrees| <= 720; within 3 units of the last place of 1. Multiples of 90 are
-/// exact.
+/// Sine and cosine of an angle in degrees, |degrees| <= 720; error at most 3 units of the last place of 1. Multiples of
+/// 90 are exact.
 inline SineCosine sine_of_degrees(double degrees) {
   const double quarter = std::floor(degrees / 90 + 0.5);
   const double x = (degrees - 90 * quarter) * 0.017453292519943295, xx = x * x;
-  // Taylor's series: |x| <= π/4, so that the omitted terms are below 2⁻⁵⁶.
+  // Taylor's series for |x| <= π/4; the omitted terms are below 2⁻⁵⁶.
   double sine = 0, cosine = 0;
   for (int k = 17; k >= 3; k -= 2) sine = (1 - sine) * xx / (k * (k - 1));
   for (int k = 18; k >= 2; k -= 2) cosine = (1 - cosine) * xx / (k * (k - 1));

@@ -19,7 +19,7 @@ struct Named {
 constexpr Named kGrids[] = {{GridKind::kGeographic, "geographic", "EPSG:4326"},
                             {GridKind::kMercator, "mercator", "EPSG:3857"},
                             {GridKind::kLocal, "local", ""}};
-/// Steps of geometric errors on a side of a tile: 65 samples, a quarter of one each.
+/// Geometric errors per side of a tile: 65 samples, a quarter of a sample each.
 constexpr double kErrorsOfSide = 260;
 
 const Named& named(GridKind kind) {
@@ -34,24 +34,24 @@ std::optional<TileGrid> find_by(Member member, std::string_view text) {
   return {};
 }
 
-/// To 29 bits, so that its products with whole numbers of 24 bits are exact.
+/// Rounds to 29 bits, so that products with integers of 24 bits are exact.
 double rounded(double cell) {
   constexpr int kBits = 29;
   const int exponent = std::ilogb(cell) + 1 - kBits;
   return std::ldexp(std::floor(std::ldexp(cell, -exponent) + 0.5), exponent);
 }
 
-/// Degrees of a place on the map of Mercator, −1 … 1 from the southern to the northern end of its square. Uses
-/// arithmetic alone, so that the bits are the same on every machine; within 10⁻¹³ degrees.
+/// Latitude in degrees of a position on the Mercator map, −1 … 1 from the southern to the northern end of its square.
+/// Uses only basic arithmetic, so the bits are the same on every machine; precise to 10⁻¹³ degrees.
 double mercator_latitude(double place) {
-  // φ = 2 atan(tanh(y / 2)), y = π · place; e^(−y) is the 16th power of that of y / 16, by Taylor's series.
+  // φ = 2 atan(tanh(y / 2)), y = π · place; e^(−y) is the 16th power of e^(−y / 16), by Taylor's series.
   const double x = -std::numbers::pi * std::abs(place) / 16;
   double power = 0;
   for (int k = 14; k >= 1; --k) power = (1 + power) * x / k;
   power += 1;
   for (int k = 0; k < 4; ++k) power *= power;
   double tangent = (1 - power) / (1 + power);
-  // Half the angle twice, so that the series of the arc ends soon.
+  // Halve the angle twice, so that the arctangent series converges fast.
   for (int k = 0; k < 2; ++k) tangent /= 1 + std::sqrt(1 + tangent * tangent);
   const double square = tangent * tangent;
   double arc = 0;

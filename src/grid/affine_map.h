@@ -1,4 +1,4 @@
-// From the coordinates of a map to columns and rows: the inverse of an affine map of samples.
+// Conversion of map coordinates to columns and rows: the inverse of an affine map of samples.
 #pragma once
 
 #include <array>
@@ -6,12 +6,12 @@
 
 namespace scarp {
 
-/// A position or a difference of positions in samples, not rounded.
+/// A position, or a difference of positions, in samples, not rounded.
 struct SamplePosition {
   double col = 0, row = 0;
 };
 
-/// Farther away doubles do not resolve a step of the lattice, so the point where a line enters the raster is unknown.
+/// Farther away doubles do not resolve a step of the lattice, so it is unknown where a line enters the raster.
 inline constexpr double kFarthestSample = 0x1p41;
 inline bool can_be_placed(const SamplePosition& at) {
   return std::abs(at.col) <= kFarthestSample && std::abs(at.row) <= kFarthestSample;
@@ -19,7 +19,7 @@ inline bool can_be_placed(const SamplePosition& at) {
 
 class MapToSamples {
  public:
-  /// `affine`: from samples to the map, as Frame::affine. REQUIRES: it can be inverted.
+  /// `affine`: from samples to the map, as Frame::affine. REQUIRES: it is invertible.
   explicit MapToSamples(const std::array<double, 6>& affine)
       : affine_(affine), determinant_(affine[1] * affine[5] - affine[2] * affine[4]) {}
 

@@ -1,12 +1,12 @@
-// Voids that an outline tolerance closes.
+// Voids closed by an outline tolerance.
 //
-// The domain may grow by the tolerance from all sides, so a void that is nowhere farther than that from its outline may
-// become surface, and its outline costs nothing any more. A missing sample alone costs six triangles; around ragged
-// voids most are alone, or a few.
+// The domain may grow by the tolerance from all sides. So a void that lies entirely within that distance of its outline
+// may become surface, and its outline costs nothing. A single missing sample costs six triangles, and ragged voids are
+// mostly surrounded by voids of one or a few samples.
 //
 // Quarters of cells show whether every point of a void is near its outline: each must lie within the tolerance of one
-// edge. The farthest point of a square from an edge is one of its corners, so that is decided exactly, and it errs on
-// the side of a void that stays: where two edges are near to parts of a quarter only.
+// edge. The farthest point of a square from an edge is one of its corners, so this test is exact. It may keep a void
+// only where a quarter is covered by two edges together.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -17,7 +17,7 @@ namespace scarp {
 
 namespace {
 
-/// Steps of a sample: corners of quarters are even, their centres odd.
+/// Steps per sample: corners of quarters are even, their centres odd.
 constexpr std::int32_t kSteps = 4, kHalf = kSteps / 2, kQuarter = kSteps / 4;
 
 struct Edge {
@@ -54,7 +54,7 @@ class Void {
     for (std::int32_t y = 0; fits() && y < (high_.y - low_.y) * kSteps; y += kHalf) {
       find_edges(y, reach);
       for (std::size_t i = 0; i + 1 < crossings_.size(); i += 2) {
-        // Centres between the two, on the outline too.
+        // Centres between the two crossings, including on the outline.
         for (std::int32_t x = crossings_[i] / kHalf * kHalf; x + kQuarter <= crossings_[i + 1]; x += kHalf) {
           if (holds_a_height({x, y}) || !is_quarter_near({x, y}, reach)) return false;
         }
@@ -69,7 +69,7 @@ class Void {
     return high_.x - low_.x <= kMost && high_.y - low_.y <= kMost;
   }
 
-  /// Those near the row of quarters, and where they cross its middle: an outline runs along rows, columns and
+  /// Finds edges near the row of quarters, and where they cross its middle. An outline runs along rows, columns and
   /// diagonals.
   void find_edges(std::int32_t y, double reach) {
     near_.clear();
@@ -85,7 +85,7 @@ class Void {
     std::sort(crossings_.begin(), crossings_.end());
   }
 
-  /// At the quarter's corner that is a sample, and not on the outline.
+  /// Tests the quarter's corner that is a sample, unless it is on the outline.
   bool holds_a_height(Point quarter) const {
     const auto nearest = [](std::int32_t at) { return (at + kQuarter + kHalf) / kSteps; };
     const Point sample{nearest(quarter.x), nearest(quarter.y)}, p{sample.x * kSteps, sample.y * kSteps};

@@ -1,4 +1,4 @@
-// Sets of samples, column by column: how far above or below the next one is.
+// Sets of samples by column, with the vertical distance to the nearest one.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ class ColumnRuns {
     std::int32_t begin = 0, end = 0;
   };
 
-  /// `runs`: in raster order, apart from each other, within so many columns. Cost: O(runs + columns + runs made), which
-  /// are as many as the set's outline is long.
+  /// `runs`: in raster order, disjoint, within so many columns. Cost: O(runs + columns + runs made); these are
+  /// proportional to the length of the set's outline.
   ColumnRuns(std::span<const SampleRun> runs, std::int32_t cols);
 
-  /// Those of a column, downwards, apart from each other.
+  /// The disjoint runs of a column, downwards.
   std::span<const Run> column(std::int32_t x) const {
     const auto i = static_cast<std::size_t>(x);
     return std::span(runs_).subspan(begins_[i], begins_[i + 1] - begins_[i]);
@@ -30,16 +30,17 @@ class ColumnRuns {
 
  private:
   std::vector<Run> runs_;
-  std::vector<std::size_t> begins_;  // begins of each column's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // begin of each column's runs, and the end of the last
 };
 
-/// Goes down a column of a set, row after row.
+/// Walks down a column of a set, row by row.
 class ColumnWalk {
  public:
   /// The walk begins at `row`.
   ColumnWalk(std::span<const ColumnRuns::Run> column, std::int32_t row);
 
-  /// Steps from `row`, which is not above that of the call before, to the nearest sample of the set; −1: it has none.
+  /// Steps from `row` to the nearest sample of the set; −1: it has none. REQUIRES: rows do not decrease from call to
+  /// call.
   std::int32_t steps_from(std::int32_t row) {
     while (next_ != end_ && next_->end <= row) ++next_;
     const std::int32_t below = next_ == end_ ? -1 : next_->begin > row ? next_->begin - row : 0;

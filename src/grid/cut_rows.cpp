@@ -14,11 +14,11 @@ namespace scarp {
 
 namespace {
 
-/// The largest whole number that is not above a / b. REQUIRES: b > 0.
+/// Floor of a / b. REQUIRES: b > 0.
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-/// Calls visit(run) for the cells that an edge lies in, with some next to it, and for each row of cells of
-/// the raster only.
+/// Calls visit(run) for the cells that an edge crosses, plus some neighbours, only for rows of cells of
+/// the raster.
 template <class Visit>
 void visit_cells(Point p, Point q, std::int32_t cols, std::int32_t rows, const Visit& visit) {
   if (p.y > q.y) std::swap(p, q);
@@ -82,7 +82,7 @@ CutSide CutRows::side(Point sample) const {
   return on_.has(sample) ? CutSide::kOnWall : within_.has(sample) ? CutSide::kWithin : CutSide::kBeyond;
 }
 
-/// The cells that have a sample of this row which is not beyond.
+/// Adds the cells with a sample of this row that is not beyond the cut.
 void CutRows::add_held(std::int32_t row, SampleRuns& cells) const {
   for (const SampleSet* samples : {&within_, &on_}) {
     for (const auto& [y, begin, end] : samples->row(row)) {
@@ -92,7 +92,7 @@ void CutRows::add_held(std::int32_t row, SampleRuns& cells) const {
   }
 }
 
-/// The cells of a row that the cut surface lies in or touches, as a row of number 0.
+/// The cells of a row that contain or touch the cut surface, as row number 0.
 SampleRuns CutRows::near_cells(std::int32_t row) const {
   SampleRuns cells;
   for (const auto& [y, begin, end] : cells_.row(row)) cells.add({0, begin, end});
@@ -104,7 +104,7 @@ SampleRuns CutRows::near_cells(std::int32_t row) const {
 
 void CutRows::mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
                           std::ptrdiff_t stride) const {
-  std::array<SampleRuns, 4> near;  // runs of cells, those from row − 2 to row + 1, each in its place
+  std::array<SampleRuns, 4> near;  // runs of cells of rows row − 2 to row + 1, at index mod 4
   const auto place_of = [&](std::int32_t cell_row) -> SampleRuns& {
     return near[static_cast<std::size_t>(cell_row) % 4];
   };
@@ -117,7 +117,7 @@ void CutRows::mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols,
     SampleRuns kept;
     for (std::int32_t k = y - 2; k <= y + 1; ++k) {
       if (!has_cells(k)) continue;
-      // Cell i has the samples i and i + 1; the cells next to it have one more each.
+      // Cell i has the samples i and i + 1; each adjacent cell adds one.
       for (const auto& [none, begin, end] : place_of(k).all()) kept.add({0, begin - 1, end + 2});
     }
     kept.merge();

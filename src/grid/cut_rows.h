@@ -1,4 +1,4 @@
-// The outline of a cut by rows: on which side of it each sample lies, and which samples are near what stays.
+// The outline of a cut by rows: the side of each sample, and which samples are near the remaining surface.
 #pragma once
 
 #include <array>
@@ -12,27 +12,27 @@
 
 namespace scarp {
 
-/// On which side of a cut a sample lies.
+/// The side of a cut on which a sample lies.
 enum class CutSide : std::uint8_t { kBeyond, kOnWall, kWithin };
 
 class CutRows {
  public:
   /// `outline`: pairs of points in kLatticeSteps, the edges at which a polygon or its complement ends, complete within
-  /// the raster's rectangle up to its sides; which side stays does not matter. Memory: some 40 bytes for each row of
-  /// samples that an edge crosses or runs along, half of it while this is made, and 24 for each row.
+  /// the raster's rectangle up to its sides. Either side may be the one that remains. Memory: some 40 bytes for each
+  /// row of samples that an edge crosses or runs along, half of them during construction only, and 24 per row.
   CutRows(std::span<const std::array<Point, 2>> outline, std::int32_t cols, std::int32_t rows);
 
   /// The side of a sample. Cost: O(log(crossings of its row)).
   CutSide side(Point sample) const;
 
-  /// Makes samples of a window nodata (NaN) that no cell near the cut surface has: those of the cells that it lies in
-  /// or touches stay, and those of the cells around them, so that heights between samples and normals are what they
-  /// were. `samples`: row-major, `stride` floats from row to row. Whatever the window, a sample's fate is the same.
-  /// Cost: O(samples made nodata + crossings of the rows).
+  /// Masks samples of a window as nodata (NaN) unless they belong to a cell near the cut surface. Kept are the cells
+  /// that the surface lies in or touches and the cells around them, so that interpolated heights and normals do not
+  /// change. `samples`: row-major, `stride` floats from row to row. The result for a sample does not depend on the
+  /// window. Cost: O(samples masked + crossings of the rows).
   void mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
                    std::ptrdiff_t stride) const;
 
-  /// True if a cell that the cut surface lies in or touches has three heights. `raster`: all of it.
+  /// True if a cell that contains or touches the cut surface has three heights. `raster`: the whole raster.
   bool has_surface(const Raster& raster) const;
 
  private:
@@ -41,7 +41,7 @@ class CutRows {
 
   std::int32_t cols_, rows_;
   SampleSet within_, on_;  // samples
-  SampleSet cells_;        // cells that the outline passes, each at its first sample
+  SampleSet cells_;        // cells crossed by the outline, each by its first sample
 };
 
 }  // namespace scarp

@@ -32,7 +32,7 @@ class EdgeLine {
 
   double bound(std::size_t i) const { return kShare * (tolerances_.empty() ? tolerance_ : tolerances_[i]); }
 
-  /// Samples by the number of segments from `first` on, each seen first from the lowest that reaches it.
+  /// Adds samples by the number of segments from `first` on, each for the lowest segment that reaches it.
   void add_run(std::size_t first, std::size_t last) {
     std::vector<std::size_t> level{first}, next;
     while (last != first && before_[last] == kUnseen) {
@@ -48,7 +48,7 @@ class EdgeLine {
     std::reverse(vertices_.begin() + begin, vertices_.end());
   }
 
-  /// The slopes of segments from `i` that pass all samples so far within their bounds are an interval.
+  /// The slopes of segments from `i` that pass all samples so far within their bounds form an interval.
   void look_from(std::size_t i, std::size_t last, std::vector<std::size_t>& next) {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     const double from = heights_[i];

@@ -10,7 +10,7 @@ namespace scarp {
 
 namespace {
 
-/// Half of the values lie between them.
+/// The quartiles of some values.
 struct Quartiles {
   double lower = 0, upper = 0;
 
@@ -27,7 +27,7 @@ struct Quartiles {
   bool holds(double value, double margin) const { return value >= lower - margin && value <= upper + margin; }
 };
 
-/// The larger side of a box.
+/// The larger side of a bounding box.
 class Span {
  public:
   void include(double x, double y) {

@@ -1,4 +1,4 @@
-// Outliers: few points far from all others, which are mostly errors of the survey.
+// Outliers: few points far from all others, mostly survey errors.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace scarp {
 
-/// "point 7 (counted from 0) at (0, 0) lies far from all others, which span 20: remove it if it is an error", for a
-/// message about points that lie too far apart; empty unless a few points, at most three or 1 %, make the extent ten
-/// times that of the others. REQUIRES: coordinates are finite. Cost: O(n).
+/// "point 7 (counted from 0) at (0, 0) lies far from all others, which span 20: remove it if it is an error", for an
+/// error about points too far apart. Empty unless a few points, at most three or 1 %, make the extent ten times that of
+/// the others. REQUIRES: finite coordinates. Cost: O(n).
 std::string describe_far_points(const PointSet& points);
 
 }  // namespace scarp

@@ -1,14 +1,14 @@
 // Filling nodata.
 //
-// Problem: a nodata sample needs a height from the valid samples around it, near ones first, in time that does not grow
-// with the size of the area.
+// Problem: a nodata sample needs a height from the valid samples around it, weighted by proximity, in time independent
+// of the size of the area.
 //
 // Idea: search along the eight compass directions only. "The nearest valid sample to the north-west" of a sample is the
-// one of its north-western neighbour, unless that neighbour is valid itself: one sweep down the rows carries the
-// answers for W, N, NW and NE, one sweep up those for E, S, SW and SE. Each nodata sample gathers Σ w and Σ w·(z −
-// reference), w = 1 / distance², in two passes over the raster. The reference is the first height found: over a flat
-// surround the result is that height exactly. Σ w is a float, for memory; Σ w·(z − reference) may be beyond float's
-// range. Heights are written at the end, so that no filled sample feeds another.
+// one of its north-western neighbour, unless that neighbour is valid itself. So one sweep down the rows finds W, N, NW
+// and NE, and one sweep up E, S, SW and SE. Each nodata sample accumulates Σ w and Σ w·(z − reference), w = 1 /
+// distance², in two passes over the raster. The reference is the first height found: with a flat surround the result is
+// exactly that height. Σ w is a float, for memory; Σ w·(z − reference) may exceed float's range. Heights are written at
+// the end, so filled samples do not affect each other.
 //
 // Source: the sweeps are those of distance transforms (Rosenfeld & Pfaltz 1966); the weights are Shepard's (1968).
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 /// The nearest valid sample along one direction.
 struct Seen {
   float height = 0;
-  int steps = -1;  ///< away; -1: there is none
+  int steps = -1;  ///< distance; −1: none
 };
 
 /// Sums of one nodata sample: 16 bytes.
@@ -40,13 +40,12 @@ class Sweeper {
   Sweeper(const OwnedHeightField& field, std::vector<Gathered>& gathered, double max_distance)
       : field_(field), gathered_(gathered), max_squared_(max_distance * max_distance) {}
 
-  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and gathers heights for each
-  /// nodata sample along the four directions that lie behind the sweep.
+  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and accumulates heights for each
+  /// nodata sample along the four directions behind the sweep.
   void sweep(int step) {
     const int cols = field_.cols, rows = field_.rows;
     const std::size_t width = static_cast<std::size_t>(cols);
-    // Seen from the previous row and from this one: straight ahead, to the left, to the right. Spare columns for the
-    // border.
+    // Results of the previous row and this one: straight, left, right. Extra columns for the border.
     std::vector<Seen> straight(width + 2), left(width + 2), right(width + 2);
     std::vector<Seen> next_straight(width + 2), next_left(width + 2), next_right(width + 2);
     std::size_t slot = step > 0 ? 0 : gathered_.size();
@@ -112,7 +111,7 @@ std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance) {
   Sweeper sweeper(field, gathered, max_distance);
   sweeper.sweep(1);
   sweeper.sweep(-1);
-  constexpr double kLargest = std::numeric_limits<float>::max();  // a rounded mean of such heights may exceed it
+  constexpr double kLargest = std::numeric_limits<float>::max();  // a rounded mean of the largest heights may exceed it
   std::uint64_t filled = 0;
   std::size_t slot = 0;
   for (float& z : field.samples) {

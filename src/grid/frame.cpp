@@ -1,4 +1,4 @@
-// Frames: where samples lie.
+// Frames: positions of samples.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@ bool is_float32(double value) {
          static_cast<double>(static_cast<float>(value)) == value;
 }
 
-/// p·i + q·j is a float32 for |i| <= reach_i, |j| <= reach_j, because both are multiples of one power of two and the
+/// True if p·i + q·j is a float32 for |i| <= reach_i, |j| <= reach_j: both are multiples of one power of two, and the
 /// sum stays within 24 bits of it.
 bool sums_are_float32(double p, double q, int reach_i, int reach_j) {
   const double span = std::abs(p) * reach_i + std::abs(q) * reach_j;
@@ -26,9 +26,9 @@ bool sums_are_float32(double p, double q, int reach_i, int reach_j) {
   return unit >= std::numeric_limits<float>::denorm_min() && std::fmod(p, unit) == 0 && std::fmod(q, unit) == 0;
 }
 
-/// step·k is a float32 for every k in [first, last].
+/// True if step·k is a float32 for every k in [first, last].
 bool multiples_are_float32(double step, int first, int last) {
-  // A step of few digits, such as a power of two, is one whatever it is multiplied with.
+  // Multiples of a step with few digits, such as a power of two, are always float32.
   if (sums_are_float32(step, 0, std::max(std::abs(first), std::abs(last)), 0)) return true;
   for (int k = first; k <= last; ++k) {
     if (!is_float32(step * k)) return false;
@@ -60,7 +60,7 @@ bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps) {
   std::array<double, 6> a = frame.affine;
   for (double& term : a) term /= steps;
   const int reach_col = steps * centre_reach(cols), reach_row = steps * centre_reach(rows);
-  // An offset is affine[1]·(col − cols/2) + affine[2]·(row − rows/2): the constant terms play no part in it.
+  // An offset is affine[1]·(col − cols/2) + affine[2]·(row − rows/2), independent of the constant terms.
   const auto all_along = [steps](double term, int size) {
     return multiples_are_float32(term, -steps * (size / 2), steps * (size - 1 - size / 2));
   };

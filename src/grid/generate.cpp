@@ -1,6 +1,6 @@
 // Synthetic fields. The formulas, their integer divisions, float32 arguments and truncated heights are those of genstm,
-// so that its figures can be repeated; only the hyperbolic tangent is our own, since libm differs between machines,
-// and so is the cosine.
+// so that its figures can be reproduced. Only the hyperbolic tangent and the cosine are computed here, since libm
+// differs between machines.
 #include "grid/generate.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ constexpr std::uint64_t kMaxSamples = std::uint64_t{1} << 30;
 
 constexpr std::array kLetters{'h', 'x', 'X', 'd', 'D', 'q', 'p', 'P', 'o', 'r', '\0', '\0'};
 
-/// e⁻ʸ for y >= 0, from +, −, ·, / alone: Taylor's series about the nearest multiple of ln 2. Good to about 10⁻¹⁶.
+/// e⁻ʸ for y >= 0, using only +, −, ·, /: Taylor's series about the nearest multiple of ln 2. Precise to about 10⁻¹⁶.
 double exp_minus(double y) {
   constexpr double kLn2High = 0x1.62e42fefa39ep-1, kLn2Low = 0x1.f35793c7673p-45;
   const auto halvings = static_cast<int>(y / (kLn2High + kLn2Low) + 0.5);
@@ -37,13 +37,13 @@ double tanh_of(double s) {
   return s < 0 ? -t : t;
 }
 
-/// 1000 · (1 + tanh(offset / width)), whole.
+/// 1000 · (1 + tanh(offset / width)), truncated.
 float step_height(int offset, double width) {
   const auto s = static_cast<float>(offset / width);
   return static_cast<float>(static_cast<int>(1000 * (1 + tanh_of(static_cast<double>(s)))));
 }
 
-/// The same numbers for the same place, whatever is asked for before: a hash (splitmix64's finish) as −1 … 1.
+/// A hash (splitmix64's finish) of the position as −1 … 1, independent of other calls.
 double noise_at(std::uint64_t seed, int octave, std::uint64_t col, std::uint64_t row) {
   std::uint64_t h = seed + 0x9e3779b97f4a7c15u * (static_cast<std::uint64_t>(octave) + 1);
   for (const std::uint64_t part : {col, row}) {
@@ -55,7 +55,7 @@ double noise_at(std::uint64_t seed, int octave, std::uint64_t col, std::uint64_t
   return static_cast<double>(h >> 11) * 0x1p-52 - 1;
 }
 
-/// Noise on a lattice of `cell` samples, a cubic blend between.
+/// Noise on a lattice of `cell` samples, with cubic interpolation between.
 double noise_between(std::uint64_t seed, int octave, int cell, int col, int row) {
   const auto blend = [](double t) { return t * t * (3 - 2 * t); };
   const double u = blend(static_cast<double>(col % cell) / cell), v = blend(static_cast<double>(row % cell) / cell);
@@ -68,7 +68,7 @@ double noise_between(std::uint64_t seed, int octave, int cell, int col, int row)
   return top + v * (bottom - top);
 }
 
-/// cos(2π turns), from +, −, ·, / alone: Taylor's series within half a turn. Good to about 10⁻¹³.
+/// cos(2π turns), using only +, −, ·, /: Taylor's series within half a turn. Precise to about 10⁻¹³.
 double cosine_of(double turns) {
   constexpr double kTwoPi = 6.283185307179586;
   const double angle = kTwoPi * (turns - std::floor(turns + 0.5)), square = angle * angle;
@@ -77,7 +77,7 @@ double cosine_of(double turns) {
   return sum;
 }
 
-/// Each octave has half the scale and 0.55 of the height of the one before.
+/// Each octave has half the scale and 0.55 times the height of the previous one.
 double fractal_height(std::uint64_t seed, int first_cell, int col, int row) {
   double sum = 0, amplitude = 1;
   int octave = 0;
@@ -86,7 +86,7 @@ double fractal_height(std::uint64_t seed, int first_cell, int col, int row) {
   return sum;
 }
 
-/// To 0 … 1000. REQUIRES: two heights differ.
+/// Stretches heights to 0 … 1000. REQUIRES: two heights differ.
 void stretch(OwnedHeightField& field) {
   const auto [low, high] = std::minmax_element(field.samples.begin(), field.samples.end());
   const double least = static_cast<double>(*low), relief = static_cast<double>(*high) - least;
@@ -103,7 +103,7 @@ void fill_fractal(OwnedHeightField& field, std::uint64_t seed) {
   stretch(field);
 }
 
-/// A plane wave as products: cos(a + b) = cos a cos b − sin a sin b, of each column and each row {cosine, sine}.
+/// A plane wave as products of {cosine, sine} per column and per row: cos(a + b) = cos a cos b − sin a sin b.
 struct PlaneWave {
   std::vector<std::array<double, 2>> cols, rows;
 };
@@ -118,7 +118,7 @@ std::vector<std::array<double, 2>> sample_wave(double step, double phase, int co
   return wave;
 }
 
-/// Wave vectors are even in the disc of kMostPeriods over the longer side.
+/// Wave vectors are uniform in the disc of kMostPeriods over the longer side.
 std::vector<PlaneWave> draw_waves(std::uint64_t seed, int cols, int rows) {
   constexpr int kWaves = 64;
   constexpr double kMostPeriods = 8;

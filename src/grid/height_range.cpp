@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kEnds = HeightRange::kEnds;
 using Ends = std::array<HeightCount, kEnds>;
 
-/// Adds a height to those at one end, `sign` times which ascend.
+/// Adds a height to the sorted list of one end; `sign` is −1 for the upper end.
 void add_to(Ends& ends, double sign, const HeightCount& more) {
   for (std::size_t k = 0; k < kEnds; ++k) {
     HeightCount& here = ends[k];
@@ -41,7 +41,7 @@ struct Extent {
   std::uint64_t valid = 0;
 };
 
-/// Lanes without a branch, which compilers make vectors of. `nodata`: NaN for none.
+/// Branchless, for vectorisation. `nodata`: NaN for none.
 Extent extent_of(std::span<const float> samples, float nodata) {
   constexpr std::size_t kLanes = 16;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -69,7 +69,7 @@ Extent extent_of(std::span<const float> samples, float nodata) {
   return extent;
 }
 
-/// True if all of some samples lie strictly between `low` and `high`, or are NaN. Without branches, for vectors.
+/// True if all samples lie strictly between `low` and `high`, or are NaN. Branchless, for vectorisation.
 template <std::size_t kCount>
 bool are_between(const float* samples, float low, float high) {
   int beyond = 0;
@@ -77,7 +77,7 @@ bool are_between(const float* samples, float low, float high) {
   return beyond == 0;
 }
 
-/// Notes the heights of some samples that may be among the outermost. `nodata`: NaN for none.
+/// Adds the samples that may belong to the ends. `nodata`: NaN for none.
 void note_ends(HeightRange& range, std::span<const float> samples, float nodata) {
   constexpr std::size_t kTogether = 32;
   std::size_t i = 0;
@@ -137,7 +137,7 @@ HeightRange range_of(std::span<const float> samples, std::optional<float> nodata
     if (extents[k].valid > 0 && !is_between_ends(range, extents[k].least, extents[k].most))
       note_ends(range, block_at(k), none);
   };
-  // Starts where both ends lie, so that most others need no scan.
+  // Starts with both ends, so that most other samples need no scan.
   look(lowest);
   if (highest != lowest) look(highest);
   for (std::size_t k = 0; k < extents.size(); ++k) {

@@ -1,4 +1,4 @@
-// The range of many samples, and what lies at its ends.
+// The range of samples, and the values at its ends.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace scarp {
 /// The range of the samples that are finite and not `nodata`.
 HeightRange range_of(std::span<const float> samples, std::optional<float> nodata = std::nullopt);
 
-/// Adds samples that are known to hold `valid` heights from `least` to `most`; all others are NaN.
+/// Adds samples of which `valid` are heights from `least` to `most`, and all others NaN.
 void add_samples(HeightRange& range, std::span<const float> samples, float least, float most, std::uint64_t valid);
 
-/// Sets all fields of `info` about the range.
+/// Sets all range fields of `info`.
 void set_range(const HeightRange& range, RasterInfo& info);
 
 }  // namespace scarp

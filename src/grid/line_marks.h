@@ -11,19 +11,19 @@
 
 namespace scarp {
 
-/// Lines as runs: their memory grows with the length of the lines.
+/// Lines as runs: memory grows with the length of the lines.
 class LineRuns {
  public:
-  /// No sample is marked. `affine`: from samples to the coordinates of the lines.
+  /// Marks nothing. `affine`: from samples to the coordinates of the lines.
   LineRuns(const std::array<double, 6>& affine, int cols, int rows) : to_samples_(affine), cols_(cols), rows_(rows) {}
 
-  /// Marks the samples nearest to a line: to points of it, a quarter of a sample apart at most. `reach`: only those no
-  /// farther from it, in samples.
+  /// Marks the samples nearest to points along a line, at most a quarter of a sample apart. `reach`: the largest
+  /// distance of a marked sample from the line, in samples.
   void add_course(const Line& line, double reach = 1);
-  /// Marks the samples that polygons hold, those of each by its rings, even-odd. Lines that are no rings hold nothing.
+  /// Marks the samples inside polygons, each by its rings, even-odd. Open lines contain nothing.
   void add_polygons(std::span<const Line> lines);
 
-  /// All samples marked so far, in raster order, apart from each other.
+  /// All samples marked so far, in raster order, as disjoint runs.
   const std::vector<SampleRun>& runs() {
     runs_.merge();
     return runs_.all();

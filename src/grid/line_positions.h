@@ -1,4 +1,4 @@
-// Checks that the position of a line on a raster can be computed.
+// Checks that a line's position on a raster can be computed.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Fails with kInput, naming line and position, for a vertex farther away than kFarthestSample (grid/affine_map.h), or
-/// nowhere. `affine`: from samples to the coordinates of the line. REQUIRES: it can be inverted.
+/// Fails with kInput, naming line and position, for a vertex farther away than kFarthestSample (grid/affine_map.h) or
+/// without a position. `affine`: from samples to the coordinates of the line. REQUIRES: it is invertible.
 Result<void> check_line_positions(const std::string& name, std::span<const std::array<double, 3>> points,
                                   const std::array<double, 6>& affine);
 

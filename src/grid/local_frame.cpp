@@ -1,16 +1,16 @@
 // The local metric frame.
 //
 // Problem: a geographic raster has x and y in degrees and z in metres, which no 3-D model can mix. A true map
-// projection is not affine in the grid, so a triangle's plane over the grid would no longer be a plane in the model,
-// and rounding of projected positions to float32 would move vertices off their samples.
+// projection is not affine in the grid: planes of triangles over the grid would not be planes in the model, and float32
+// rounding of projected positions would move vertices off their samples.
 //
 // Idea: replace degrees by metres with two constants, those of the ellipsoid at the centre sample's latitude φ:
 //
 //   M = a (1 − e²) / (1 − e² sin²φ)^{3/2}    meridian radius of curvature:        one radian of latitude  = M
 //   N = a / (1 − e² sin²φ)^{1/2}             prime-vertical radius of curvature:  one radian of longitude = N cos φ
 //
-// with a the semi-major axis and e² = f (2 − f). The map stays affine, so the promise made on the grid is the promise
-// in the model. Its scale is true along the centre's parallel and meridian; elsewhere east–west lengths are off by cos
+// with a the semi-major axis and e² = f (2 − f). The map stays affine, so the bound on the grid also holds in the
+// model. Its scale is true along the centre's parallel and meridian; elsewhere east–west lengths are off by cos
 // φ_centre / cos φ. The cell sizes are then rounded so that integer multiples of them are exact float32 values: a
 // vertex in a file with float32 offsets lies exactly on its sample.
 //
@@ -77,7 +77,7 @@ Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerU
   const auto& a = samples;
   const double col = cols / 2, row = rows / 2;
   const double x = a[0] + a[1] * col + a[2] * row, y = a[3] + a[4] * col + a[5] * row;
-  constexpr double kFlat = 1e-3;  // cos φ nearer to the pole than this is no scale to build on
+  constexpr double kFlat = 1e-3;  // smallest usable cos φ, close to the poles
   if (!(metres.north > 0) || !(metres.east > kFlat * metres.north)) {
     return fail(ErrorKind::kUsage,
                 fmt::format("its centre lies at {:.9g}, {:.9g}, at or beyond a pole, where no local frame exists; "

@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Makes those of the samples [begin, end) of a row nodata (NaN) that no run holds. `runs`: of that row, ascending,
-/// apart from each other. `samples`: from `begin` on.
+/// Sets the samples [begin, end) of a row outside all runs to nodata (NaN). `runs`: of that row, ascending, disjoint.
+/// `samples`: starts at `begin`.
 inline void mask_beside(std::span<const SampleRun> runs, std::int32_t begin, std::int32_t end, float* samples) {
   std::int32_t done = begin;
   const auto mask_up_to = [&](std::int32_t to) {

@@ -12,7 +12,7 @@ namespace scarp {
 
 namespace {
 
-constexpr Point kCorner[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};  // positive order
+constexpr Point kCorner[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};  // in positive orientation
 
 struct DirectedEdge {
   Point from, to;
@@ -25,12 +25,12 @@ bool has_side(unsigned corners, unsigned k) {
   return is_surface_cell(corners) && (corners >> k & 1) && (corners >> (k + 1) % 4 & 1);
 }
 
-/// Adds the sides of a surface cell that the surface ends at. `beyond`: the corners of the cells at its four sides.
+/// Adds the sides of a surface cell at which the surface ends. `beyond`: the corners of the cells at its four sides.
 void add_cell(std::int32_t x, std::int32_t y, unsigned corners, const unsigned (&beyond)[4],
               std::vector<DirectedEdge>& edges) {
   const auto at = [&](unsigned k) { return Point{x + kCorner[k % 4].x, y + kCorner[k % 4].y}; };
   for (unsigned k = 0; k < 4; ++k) {
-    // A side's ends are the same samples in both cells, so the cell beyond has the side exactly if it is surface.
+    // Both cells share a side's ends, so the neighbour has the side exactly if it is surface.
     if (has_side(corners, k) && !is_surface_cell(beyond[k])) edges.push_back({at(k), at(k + 1)});
     if (!(corners >> k & 1)) edges.push_back({at(k + 3), at(k + 1)});  // the diagonal of a half cell
   }
@@ -42,7 +42,7 @@ void sort_edges(std::vector<DirectedEdge>& edges) {
   });
 }
 
-/// valid_corners() of the cells of row y with an empty cell before the first and after the last; all empty beyond the
+/// valid_corners() of the cells of row y, with an empty cell before the first and after the last; all empty beyond the
 /// raster.
 void fill_cell_row(const Raster& raster, std::int32_t y, std::vector<unsigned char>& cells) {
   cells.assign(static_cast<std::size_t>(raster.cols) + 1, 0);
@@ -71,7 +71,7 @@ std::vector<DirectedEdge> border_edges(const Raster& raster) {
   return edges;
 }
 
-/// Four rows of samples as bits: of each column the row above the one at hand, that one, and two below.
+/// Four rows of samples as bits per column: the row above the current one, the current one, and two below.
 class FourRows {
  public:
   explicit FourRows(std::span<const SampleRun> runs) : runs_(runs), row_(runs.front().row - 3) {
@@ -95,7 +95,7 @@ class FourRows {
     }
   }
 
-  /// valid_corners() of the cell `below` rows below the row at hand, −1 … 1.
+  /// valid_corners() of the cell `below` rows below the current row, −1 … 1.
   unsigned corners(std::int32_t x, int below) const {
     const std::size_t i = index(x);
     const unsigned left = static_cast<unsigned>(columns_[i]) >> (1 + below),
@@ -103,7 +103,7 @@ class FourRows {
     return (left & 1) | (right & 1) << 1 | (right & 2) << 1 | (left & 2) << 2;
   }
 
-  /// True if all around a cell is surface.
+  /// True if all cells around a cell are surface.
   bool is_inside(std::int32_t x) const {
     const std::size_t i = index(x);
     return (columns_[i - 1] & columns_[i] & columns_[i + 1] & columns_[i + 2]) == 15;
@@ -137,7 +137,7 @@ std::vector<DirectedEdge> border_edges(std::span<const SampleRun> runs) {
   return edges;
 }
 
-/// Orders the turn from `in` to `out`: larger means farther to the left, from just above −180° to +180°.
+/// A sort key for the turn from `in` to `out`, from just above −180° to +180°; larger is farther left.
 double left_turn(Point in, Point out) {
   const int cross = in.x * out.y - in.y * out.x, dot = in.x * out.x + in.y * out.y;
   // Unit steps of a lattice: the eight turns have exact, distinct keys without trigonometry.
@@ -147,7 +147,7 @@ double left_turn(Point in, Point out) {
 
 Point step(const DirectedEdge& e) { return {e.to.x - e.from.x, e.to.y - e.from.y}; }
 
-/// The closed polygons that these edges are. REQUIRES: sorted.
+/// Joins the edges to closed polygons. REQUIRES: sorted.
 Outline join_edges(const std::vector<DirectedEdge>& edges) {
   std::vector<bool> used(edges.size(), false);
   Outline outline;
@@ -161,8 +161,8 @@ Outline join_edges(const std::vector<DirectedEdge>& edges) {
           std::lower_bound(edges.begin(), edges.end(), edges[e].to,
                            [](const DirectedEdge& edge, Point p) { return before(edge.from, p); }) -
           edges.begin());
-      // If polygons touch, the sharpest left turn stays with the same wedge of surface. The start is still on offer
-      // although used: it closes the polygon.
+      // If polygons touch, the sharpest left turn stays in the same wedge of surface. The used start remains a
+      // candidate, since it closes the polygon.
       std::size_t next = edges.size(), end = first;
       for (; end < edges.size() && edges[end].from == edges[e].to; ++end) {
         if (used[end] && end != start) continue;
@@ -183,7 +183,7 @@ Outline join_edges(const std::vector<DirectedEdge>& edges) {
 
 bool is_whole(const Raster& raster) {
   for (std::int32_t y = 0; y < raster.rows; ++y) {
-    // Without a way out in the middle of a row, so that compilers see vectors.
+    // No early exit within a row, for vectorisation.
     int nodata = 0;
     for (std::int32_t x = 0; x < raster.cols; ++x) nodata += std::isnan(raster.row(y)[x]) ? 1 : 0;
     if (nodata > 0) return false;

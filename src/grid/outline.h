@@ -1,6 +1,6 @@
 // The domain: the part of the grid that is surface.
 //
-// A grid cell whose four corner samples are heights is surface; one with three such corners is surface on the half
+// A grid cell whose four corner samples are valid is surface; one with three valid corners is surface on the half
 // between them; any other cell is nodata. The outline of the union is a set of closed lattice polygons.
 #pragma once
 
@@ -13,8 +13,8 @@
 namespace scarp {
 
 /// Closed polygons with the domain on their left (positive orientation: outer borders positive, holes negative).
-/// Polygons may touch themselves and each other in single vertices, which then are vertices of all of them; they never
-/// cross. There are no other collinear points.
+/// Polygons may touch themselves and each other in single points, which are then vertices of all polygons there; they
+/// never cross. There are no other collinear points.
 using Outline = std::vector<std::vector<Point>>;
 
 /// True if every sample is a height. Cost: O(samples).
@@ -24,25 +24,24 @@ bool is_whole(const Raster& raster);
 /// edges.
 Outline trace_outline(const Raster& raster);
 
-/// The same of the surface of some samples alone, as if all others were nodata. `runs`: in raster order, apart from
-/// each other. Cost: O(samples + L log L), and bytes in proportion to L and a row, not to the samples.
+/// The outline of these samples only, as if all others were nodata. `runs`: in raster order, disjoint. Cost: O(samples
+/// + L log L). Memory: proportional to L and a row, not to the samples.
 Outline trace_outline(std::span<const SampleRun> runs);
 
-/// The corners of the cell [x, x+1] × [y, y+1] that are heights: bit k for corner k of (x,y), (x+1,y), (x+1,y+1),
-/// (x,y+1).
+/// The valid corners of the cell [x, x+1] × [y, y+1]: bit k for corner k of (x,y), (x+1,y), (x+1,y+1), (x,y+1).
 inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t y) {
   const auto bit = [&](std::int32_t i, std::int32_t j, unsigned k) { return raster.is_valid({i, j}) ? 1u << k : 0u; };
   return bit(x, y, 0) | bit(x + 1, y, 1) | bit(x + 1, y + 1, 2) | bit(x, y + 1, 3);
 }
 
-/// Removes the voids that hold no height and lie within `tolerance` samples of their outline everywhere: they become
+/// Closes voids that contain no height and lie entirely within `tolerance` samples of their outline: they become
 /// surface. REQUIRES: an outline as traced. Cost: O(L) for small voids.
 Outline close_voids(const Raster& raster, Outline outline, double tolerance);
 
 /// Simplifies the polygons so that each point of the old outline lies within `tolerance` samples of the new one. The
 /// domain only grows, over nodata samples: no valid sample is cut off or newly enclosed, and polygons still do not
-/// cross. Vertices are a subset of the old ones, those where polygons touch stay. Cost: O(L · tolerance) on typical
-/// outlines.
+/// cross. Vertices are a subset of the old ones and include those where polygons touch. Cost: O(L · tolerance) on
+/// typical outlines.
 Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance);
 
 }  // namespace scarp

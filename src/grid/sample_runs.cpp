@@ -14,7 +14,7 @@ void SampleRuns::add(const SampleRun& run) {
     runs_.back().end = std::max(runs_.back().end, run.end);
     return;
   }
-  // Millions of short segments side by side add the same again and again.
+  // Millions of short adjacent segments add the same runs repeatedly.
   if (runs_.size() > 2 * merged_ + (1u << 16)) merge();
   runs_.push_back(run);
 }

@@ -1,4 +1,4 @@
-// Sets of samples, row by row, whose memory grows with their outline only.
+// Sets of samples, row by row; memory grows with their outline only.
 #pragma once
 
 #include <compare>
@@ -21,7 +21,7 @@ class SampleRuns {
  public:
   /// REQUIRES: the run lies in the raster.
   void add(const SampleRun& run);
-  /// Puts runs into raster order, apart from each other. Cost: O(n log n) for n runs added.
+  /// Sorts runs into raster order and makes them disjoint. Cost: O(n log n) for n runs added.
   void merge();
 
   /// The runs added, as merge() arranged them.
@@ -29,17 +29,17 @@ class SampleRuns {
 
  private:
   std::vector<SampleRun> runs_;
-  std::size_t merged_ = 0;  // number of them that merge() has arranged
+  std::size_t merged_ = 0;  // number of runs arranged by merge()
 };
 
-/// The samples that runs hold, for many questions.
+/// A set of samples for many queries.
 class SampleSet {
  public:
-  /// Makes the set for a raster of so many rows. `runs`: in raster order, apart from each other.
+  /// Makes the set for a raster of so many rows. `runs`: in raster order, disjoint.
   SampleSet(std::vector<SampleRun> runs, std::int32_t rows);
 
   bool has(Point p) const;
-  /// Those of a row.
+  /// The runs of a row.
   std::span<const SampleRun> row(std::int32_t y) const {
     return std::span(runs_).subspan(begins_[static_cast<std::size_t>(y)],
                                     begins_[static_cast<std::size_t>(y) + 1] - begins_[static_cast<std::size_t>(y)]);
@@ -47,7 +47,7 @@ class SampleSet {
 
  private:
   std::vector<SampleRun> runs_;
-  std::vector<std::size_t> begins_;  // begins of each row's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // begin of each row's runs, and the end of the last
 };
 
 }  // namespace scarp

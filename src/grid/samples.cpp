@@ -26,7 +26,7 @@ Result<Samples> Samples::of(const HeightField& field) {
   samples.raster_ = {field.samples, field.cols, field.rows};
   const std::size_t count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
   const auto must_change = [&](float z) { return std::isinf(z) || (field.nodata && z == *field.nodata); };
-  // Without a way out in the middle of a row, so that compilers see vectors.
+  // No early exit within a row, for vectorisation.
   bool is_clean = true;
   const float nodata = field.nodata.value_or(std::numeric_limits<float>::infinity());
   for (std::size_t first = 0, cols = static_cast<std::size_t>(field.cols); is_clean && first < count; first += cols) {

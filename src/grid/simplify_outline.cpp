@@ -1,9 +1,9 @@
 // Fewer vertices on ragged outlines, without losing a sample.
 //
-// A straight segment may replace the chain between two vertices if the chain lies on the segment's domain side (left)
-// within the tolerance, so that the domain only grows, and if the area between chain and segment holds no other height,
-// so that nothing is newly enclosed. The second condition also keeps segments from crossing: whatever crossed one would
-// have to end in that area, on a sample. The way around a polygon with the fewest segments is used.
+// A straight segment may replace the chain between two vertices under two conditions. The chain lies on the segment's
+// domain side (left) within the tolerance, so that the domain only grows. The area between both contains no other
+// height, so that nothing is newly enclosed. The second condition also keeps segments from crossing: anything that
+// crossed one would have to end in that area, on a sample. The path around a polygon with the fewest segments is used.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -17,9 +17,9 @@ namespace scarp {
 namespace {
 
 constexpr std::size_t kLongestChain = 200;  // vertices replaced by one segment
-constexpr int kLinkPatience = 8;            // failures in a row before giving up on a longer segment
+constexpr int kLinkPatience = 8;            // successive failures before giving up on a longer segment
 
-/// Chain within `tolerance` of the segment from its first to its last point, and to the left of it or on it.
+/// True if the chain lies within `tolerance` of the segment from its first to its last point, on it or to its left.
 bool hugs_segment(std::span<const Point> chain, double tolerance) {
   const Point a = chain.front(), b = chain.back();
   const std::int64_t dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
@@ -31,7 +31,7 @@ bool hugs_segment(std::span<const Point> chain, double tolerance) {
   return true;
 }
 
-/// p in the closed polygon (crossing number; points on the border are found first).
+/// True if p is in the closed polygon (crossing number; points on the border are found first).
 bool encloses(std::span<const Point> polygon, Point p) {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -55,7 +55,7 @@ bool on_chain(std::span<const Point> chain, Point p) {
   return false;
 }
 
-/// No height lies between the chain and the segment that closes it, but those of the chain itself.
+/// True if the area between the chain and its closing segment contains no height except those of the chain.
 bool area_is_nodata(const Raster& raster, std::span<const Point> chain) {
   Point low = chain[0], high = chain[0];
   for (Point p : chain) {
@@ -85,7 +85,7 @@ std::vector<Point> touching_vertices(const Outline& outline) {
   return touching;
 }
 
-/// The polygon from a corner on, back to that corner.
+/// The polygon, starting and ending at a corner.
 std::vector<Point> unrolled(const std::vector<Point>& polygon, Point corner) {
   std::vector<Point> path = polygon;
   std::rotate(path.begin(), std::find(path.begin(), path.end(), corner), path.end());
@@ -93,8 +93,7 @@ std::vector<Point> unrolled(const std::vector<Point>& polygon, Point corner) {
   return path;
 }
 
-/// The corners, but the first, of the fewest segments that may replace a closed path; among equals those that grow
-/// least.
+/// The corners, except the first, of the fewest segments that may replace a closed path; ties by the smallest growth.
 std::vector<Point> shortest_path(const Raster& raster, const std::vector<Point>& path,
                                  const std::vector<Point>& touching, double tolerance) {
   struct Best {
@@ -131,7 +130,7 @@ std::vector<Point> shortest_path(const Raster& raster, const std::vector<Point>&
   return kept;
 }
 
-/// From a corner that stays in any case, or else from one that a first try keeps.
+/// Starts at a corner that must be kept, or else at one kept by a first run.
 std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Point>& polygon,
                                     const std::vector<Point>& touching, double tolerance) {
   std::vector<Point> simplest = polygon;

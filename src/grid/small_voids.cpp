@@ -1,12 +1,11 @@
-// Filling small voids, also of rasters that are read window by window.
+// Filling small voids, also of rasters read window by window.
 //
-// Problem: a window must show the same heights in a void, however it cuts through it, and without reading the whole
+// Problem: every window must show the same heights in a void, however it cuts the void, without reading the whole
 // raster.
 //
-// Idea: voids are 8-connected. Then each of the eight ways from a missing sample by which fill_nodata() searches for
-// heights ends at the first height next to its own void: what a void is filled with depends on the heights around it
-// alone. A void of at most s samples a side that reaches into a window lies within s samples of it, and its border
-// within s + 1.
+// Idea: voids are 8-connected. So each of the eight directions in which fill_nodata() searches from a missing sample
+// ends at the first height next to the sample's own void: the result depends only on the heights around the void. A
+// void of at most s samples a side that reaches into a window lies within s samples of it, and its border within s + 1.
 //
 // Runs of missing samples are joined row by row (Rosenfeld & Pfaltz 1966).
 #include "grid/small_voids.h"
@@ -26,11 +25,11 @@ namespace {
 struct SmallVoid {
   int left, top, right, bottom;  ///< the last column and row included
   std::uint64_t samples = 0;
-  bool is_open = false;  ///< reaches the border of the scanned part
+  bool is_open = false;  ///< touches the border of the scanned part
   float least = std::numeric_limits<float>::infinity(), most = -std::numeric_limits<float>::infinity();  ///< range of
                                                                                                          ///< the
+                                                                                                         ///< adjacent
                                                                                                          ///< heights
-                                                                                                         ///< next to it
 
   bool is_small(int side) const { return !is_open && right - left < side && bottom - top < side; }
 };
@@ -42,7 +41,7 @@ struct VoidRun {
 
 class VoidFinder {
  public:
-  /// `keep`: the runs of all rows, not of the last one alone.
+  /// `keep`: stores the runs of all rows instead of the last one only.
   VoidFinder(int cols, bool keep) : cols_(cols), keep_(keep) {}
 
   void add(std::span<const float> row) {
@@ -70,7 +69,7 @@ class VoidFinder {
     last_.assign(row.begin(), row.end());
     ++row_;
   }
-  /// After the last row.
+  /// Call it after the last row.
   void finish() {
     for (std::size_t k = first_above_; k < runs_.size(); ++k) voids_[root(runs_[k].area)].is_open = true;
   }
@@ -106,7 +105,7 @@ class VoidFinder {
           std::max(to.bottom, from.bottom), to.samples + from.samples,   to.is_open || from.is_open,
           std::min(to.least, from.least),   std::max(to.most, from.most)};
   }
-  /// The heights of a row at a run and next to it.
+  /// Adds the heights of a row in a run and next to it.
   void see(std::size_t area, std::span<const float> row, int begin, int end) {
     if (row.empty()) return;
     SmallVoid& one = voids_[root(area)];
@@ -143,7 +142,7 @@ struct Samples2d {
   float* row(int at) const { return data + at * stride; }
 };
 
-/// One void, by the heights around it. `runs`: its own.
+/// Fills one void from the heights around it. `runs`: the void's.
 void fill(const Samples2d& samples, const SmallVoid& one, const std::vector<VoidRun>& runs, int side) {
   OwnedHeightField box;
   box.cols = one.right - one.left + 3;
@@ -204,7 +203,7 @@ class FilledSource final : public SampleSource {
   bool is_in_memory() const override { return field_.source == nullptr || field_.source->is_in_memory(); }
 
  private:
-  /// True if a void may continue behind a border of the window that is none of the raster, and yet be small.
+  /// True if a void may continue across a border of the window inside the raster, and still be small.
   bool reaches_beyond(VoidFinder& finder, int col, int row, int cols, int rows) const {
     for (const VoidRun& run : finder.runs()) {
       const SmallVoid& one = finder.area(run.area);

@@ -1,4 +1,4 @@
-// Voids that are enclosed and small: missing samples that heights around them explain.
+// Small enclosed voids: missing samples that can be filled from the heights around them.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,18 @@
 
 namespace scarp {
 
-/// Fills enclosed voids of at most `side` samples a side. Returns what it found. REQUIRES: the samples are in memory as
-/// floats. Cost: O(samples), and the boxes of the voids.
+/// Fills enclosed voids of at most `side` samples a side. Returns the counts. REQUIRES: the samples are in memory as
+/// floats. Cost: O(samples + bounding boxes of the voids).
 VoidCount fill_small_voids(OwnedHeightField& field, int side);
 
-/// The samples of a field with such voids filled, the same heights, whichever windows are read: a window without
-/// missing samples costs its own reading; one with a small void across its border is read again with `side` samples
-/// more around it. The field is borrowed, but for its source where `owner` holds that.
+/// The samples of a field with such voids filled, identical for all windows. A window without missing samples costs
+/// only its own reading; one with a small void across its border is read again with `side` more samples around it.
+/// Borrows the field, except its source if `owner` holds that.
 std::shared_ptr<const SampleSource> without_small_voids(const HeightField& field, int side,
                                                         std::shared_ptr<const SampleSource> owner = nullptr);
 
-/// The number of voids to fill, from all rows. Cost: reads the field once. Memory: a few rows, and 50 bytes a void.
+/// The number of voids to fill in the whole field. Cost: reads the field once. Memory: a few rows, and 50 bytes per
+/// void.
 Result<VoidCount> count_voids(const HeightField& field, int side);
 
 }  // namespace scarp

@@ -1,11 +1,11 @@
-// The error of a source of samples, where no Result can carry it.
+// The error of a sample source, where no Result can carry it.
 #pragma once
 
 #include "scarp/result.h"
 
 namespace scarp {
 
-/// Thrown by readers that answer with samples alone; simplify() and measure() turn it into their own error.
+/// Thrown by readers that return only samples; simplify() and measure() convert it to their own error.
 struct SourceFailure {
   Error error;
 };

@@ -1,4 +1,4 @@
-// Heights that stand for nodata without being declared: what lies so far from all others that no land does.
+// Heights that probably mean nodata without being declared: outliers too far from all others to be land.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,11 +16,11 @@ using RareEnds = std::array<HeightCount, HeightRange::kEnds>;
 constexpr std::array kSigns{-999.0,   -10000.0, -32768.0, -9999.0,  -99999.0, -999999.0, -32767.0,
                             -65535.0, 9999.0,   99999.0,  999999.0, 32767.0,  65535.0,   0.0};
 
-/// From values of a file to heights.
+/// Conversion of file values to heights.
 struct Scale {
   double scale = 1, offset = 0;
 
-  /// The value of a height, which was rounded to a float32: a whole number if it may be one, as signs are.
+  /// The file value of a height that was rounded to float32: an integer if possible, as nodata values are.
   double value_of(double height) const {
     if (scale == 1 && offset == 0) return height;
     const double value = (height - offset) / scale;
@@ -34,12 +34,13 @@ bool is_usual_sign(double value) {
   return std::abs(value) >= kBeyond || (value != 0 && std::find(kSigns.begin(), kSigns.end(), value) != kSigns.end());
 }
 
-/// From the others, which begin `gap` away and have that range. `are_many`: heights at this end.
+/// True if a height is far from the others, which start at a distance of `gap` and span `range`. `are_many`: heights at
+/// this end.
 bool is_far(const HeightCount& here, double value, double gap, double range, std::uint64_t valid, bool are_many) {
   constexpr double kOfSigns = 0.2, kOfZero = 0.05, kLeastOfZero = 10, kOfAny = 50;
   constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100, kLeastOfWhole = 10;
   if (is_usual_sign(value) && gap >= kOfSigns * range) return true;
-  if (range == 0) return false;  // two heights, of which neither is odd
+  if (range == 0) return false;  // two heights, neither exceptional
   if (value == 0 && gap >= kLeastOfZero && gap >= kOfZero * range && here.samples >= valid / kShareOfZero) return true;
   const bool is_block = value == std::round(value) && here.samples >= std::max(kLeastOfWhole, valid / kShareOfZero) &&
                         here.samples <= valid / 2;
@@ -47,7 +48,7 @@ bool is_far(const HeightCount& here, double value, double gap, double range, std
   return gap >= kOfAny * range && here.samples <= valid / kShareOfAny;
 }
 
-/// How many of the heights at one end, from the outermost inwards, are far from all others, which reach to `other`.
+/// Number of heights at one end, from the outermost inwards, that are far from all others, which extend to `other`.
 std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std::uint64_t valid, const Scale& scale) {
   for (std::size_t next = first + 1; next < HeightRange::kEnds && ends[next].samples > 0; ++next) {
     const double range = std::abs(other - ends[next].height);
@@ -56,7 +57,7 @@ std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std
                     ends.back().samples > 0);
     };
     const bool may_tell =
-        range > 0 || !is_usual_sign(scale.value_of(ends[next].height));  // all others may be one height
+        range > 0 || !is_usual_sign(scale.value_of(ends[next].height));  // all other heights may be equal
     if (may_tell && std::all_of(ends.begin() + static_cast<std::ptrdiff_t>(first),
                                 ends.begin() + static_cast<std::ptrdiff_t>(next), far))
       return next;
@@ -69,7 +70,7 @@ std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale, double offset) {
   const Scale of_values{scale, offset};
   std::size_t low = 0, high = 0;
-  // A value far at one end may hide behind one far at the other.
+  // An outlier at one end may hide one at the other.
   for (std::size_t look = 0; look < HeightRange::kEnds; ++look) {
     const std::size_t before = low + high;
     low = count_far(range.lowest, low, range.highest[high].height, range.valid, of_values);

@@ -6,16 +6,17 @@
 
 namespace scarp {
 
-/// Steps of the lattice between two samples.
+/// Lattice steps between two samples.
 inline constexpr std::int32_t kLatticeSteps = 256;
-/// Vertices that fitting sets free stand on eighths of a sample: finer points are worth nothing, and have more digits.
+/// Vertices moved by fitting lie on eighths of a sample: finer positions gain nothing and need more digits.
 inline constexpr std::int32_t kFreeStep = kLatticeSteps / 8;
 
-/// On samples, or on a finer lattice with heights of their own.
+/// Vertices on samples, or on a finer lattice with separate heights.
 struct VertexLattice {
-  std::int32_t steps = 1;           ///< number of steps of the triangulation's points between two samples
-  std::vector<float> heights;       ///< by vertex; NaN at nodata; empty where steps is 1: a vertex has its sample's
-  std::vector<std::uint8_t> fixed;  ///< by vertex: 1 if it must stay where it is; empty: all may go
+  std::int32_t steps = 1;           ///< lattice steps between two samples
+  std::vector<float> heights;       ///< by vertex; NaN at nodata; empty where steps is 1: vertices have their samples'
+                                    ///< heights
+  std::vector<std::uint8_t> fixed;  ///< by vertex: 1 if it must not move or be removed; empty: none is fixed
 
   bool are_samples() const { return steps == 1; }
 };

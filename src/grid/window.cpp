@@ -8,7 +8,7 @@ namespace scarp {
 Result<void> read_window(const HeightField& field, int col, int row, int cols, int rows, float* out,
                          std::ptrdiff_t stride) {
   if (field.samples == nullptr) return field.source->read(col, row, cols, rows, out, stride);
-  // NaN is equal to nothing, so without nodata nothing is replaced by it.
+  // NaN equals nothing, so without nodata it replaces nothing.
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const float nodata = field.nodata.value_or(kNan);
   for (int y = 0; y < rows; ++y) {

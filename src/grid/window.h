@@ -8,8 +8,8 @@
 
 namespace scarp {
 
-/// Copies cols × rows samples from (col, row) on to `out`, `stride` floats a row; missing ones (NaN, the infinities,
-/// nodata) as NaN. Fails as the field's source does. REQUIRES: the window lies in the field.
+/// Copies cols × rows samples from (col, row) on to `out`, `stride` floats a row. Missing samples (NaN, infinities,
+/// nodata) become NaN. Fails as the field's source does. REQUIRES: the window lies in the field.
 Result<void> read_window(const HeightField& field, int col, int row, int cols, int rows, float* out,
                          std::ptrdiff_t stride);
 

@@ -1,4 +1,4 @@
-// Bytes as letters.
+// Base64 decoding.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace scarp {
 
 std::string write_base64(std::span<const std::uint8_t> bytes);
 
-/// Reads groups of four letters until `count` bytes are there; a padded group ends a part, and the next one continues.
-/// Returns false if letters are missing or wrong.
+/// Reads groups of four letters until `count` bytes are decoded; a padded group ends a part, and the next one
+/// continues. Returns false if letters are missing or invalid.
 bool read_base64(std::span<const std::uint8_t>& letters, std::size_t count, std::vector<std::uint8_t>& bytes);
 
 }  // namespace scarp

@@ -1,8 +1,8 @@
 // Whole files, written so that a reader sees the old file or the new one and never a part of it.
 //
-// The bytes go to a temporary name in the same folder (so that the rename stays inside one file system), are forced to
-// disk, and only then get the name asked for. Every step that can fail is checked, close() included: network file
-// systems report a full disk there.
+// The bytes are written to a temporary name in the same folder (so that the rename stays inside one file system) and
+// forced to disk before the rename. Every step that can fail is checked, including close(): network file systems report
+// a full disk there.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -117,8 +117,8 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
 
   std::vector<std::uint8_t> bytes;
   try {
-    // A size is a hint: pipes have none, files may grow. One byte more makes the last read() return less than it was
-    // asked for.
+    // The size is only a hint: pipes have none, files may grow. With one extra byte the last read() returns less than
+    // requested.
     std::size_t room = S_ISREG(info.st_mode) ? static_cast<std::size_t>(info.st_size) + 1 : 65536;
     std::size_t size = 0;
     for (;;) {

@@ -1,11 +1,11 @@
-// Why the system refused a file.
+// The system's reason for a file error.
 #pragma once
 
 #include <string>
 
 namespace scarp {
 
-/// The end of a sentence, of an errno.
+/// An errno as a sentence's end.
 std::string reason_of(int error);
 
 }  // namespace scarp

@@ -17,8 +17,8 @@ namespace {
 enum class Way { kMesh, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload };
 
 struct KindRow {
-  std::string_view magic;       ///< the first bytes; empty: the name decides
-  std::string_view extensions;  ///< between blanks
+  std::string_view magic;       ///< first bytes; empty: the name decides
+  std::string_view extensions;  ///< separated by blanks
   const char* is;
   Way way;
 };
@@ -55,7 +55,7 @@ const KindRow* find_kind(std::string_view head, const std::string& extension) {
   return row != kKinds.end() ? row : nullptr;
 }
 
-/// A mesh that Scarp reads, by its mark or its name: its title; empty for other files.
+/// The title of a supported mesh format, by mark or name; empty for others.
 std::string find_mesh_title(std::string_view head, const std::string& extension) {
   for (const MeshFormatRow& row : mesh_format_rows()) {
     if (!row.mark.empty() && head.starts_with(row.mark)) return row.traits.title;
@@ -77,7 +77,7 @@ std::string from_its_source(const std::string& path) {
                      file_word(path));
 }
 
-/// A header of ENVI, which GDAL reads. The heights of games are square and have 16 bits.
+/// Advice on an ENVI header for GDAL. Height maps of games are square and have 16 bits.
 std::string with_header(const std::string& path, const std::string& extension, std::uint64_t bytes) {
   const bool is_float = extension == ".r32" || extension == ".f32" || extension == ".flt";
   const auto side =

@@ -1,4 +1,4 @@
-// Files that hold something else than rasters or points that Scarp reads.
+// Unsupported kinds of files.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// The kind of the file, by its first bytes, else by the end of its name, and the way to a file that is read: the rest
-/// of a sentence. Empty for what is not known. `by_name`: false, the first bytes decide alone.
+/// The rest of an error message: the kind of the file, by its first bytes or else its extension, and how to convert it
+/// to a supported one. Empty if unknown. `by_name`: false: uses only the first bytes.
 std::string describe_kind(const std::string& path, std::string_view head, std::uint64_t bytes, bool by_name = true);
 
 }  // namespace scarp

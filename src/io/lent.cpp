@@ -49,10 +49,10 @@ Unfit count_unfit(const LentRaster& raster) {
   return unfit;
 }
 
-/// Copies the samples where one of them is no height as it stands.
+/// Copies the samples if one is invalid as it is.
 std::uint64_t clean_samples(const LentRaster& raster, const ReadOptions& options, OwnedHeightField& field) {
   const Unfit unfit = count_unfit(raster);
-  const bool is_changed = scales_heights(options) || options.as_values;  // values are changed by who asks for them
+  const bool is_changed = scales_heights(options) || options.as_values;  // callers change the values
   if (unfit.nodata == 0 && unfit.infinities == 0 && !is_changed) return 0;
   field.own();
   for (float& z : field.samples) {
@@ -61,7 +61,7 @@ std::uint64_t clean_samples(const LentRaster& raster, const ReadOptions& options
   return unfit.infinities;
 }
 
-/// Removes points of that height, and those whose height is not finite.
+/// Removes points with this height or a non-finite one.
 Result<void> leave_out_nodata(double nodata, PointSet& points) {
   if (!points.lines.empty())
     return fail(ErrorKind::kUsage,

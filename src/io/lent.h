@@ -1,4 +1,4 @@
-// The readers behind what is lent.
+// The readers for lent objects.
 #pragma once
 
 #include <array>
@@ -10,22 +10,23 @@
 
 namespace scarp {
 
-/// Null where this thread has lent nothing of that kind under the name.
+/// Null if this thread has lent no raster under the name.
 const LentRaster* find_lent_raster(const std::string& name);
 const Mesh* find_lent_mesh(const std::string& name);
 const PointSet* find_lent_points(const std::string& name);
 
-/// read_height_field() of a raster that is lent.
+/// read_height_field() for a lent raster.
 Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::string& name,
                                           const ReadOptions& options);
 
-/// read_points() of points that are lent.
+/// read_points() for lent points.
 Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name, const ReadPointsOptions& options);
 
-/// Completes the facts in `info` about the position of a raster with a geotransform, and finds the frame that the
-/// options ask for. A build without GDAL knows no CRS: it refuses those that the options name.
+/// Completes the position in `info` for a raster with a geotransform, and returns the frame requested by the options. A
+/// build without GDAL knows no CRS and rejects those named by the options.
 Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info);
-/// The same for points in memory: converts their x and y as the options ask. Returns the unit of their vertical CRS.
+/// The same for points in memory: converts their x and y as requested by the options. Returns the unit of their
+/// vertical CRS.
 Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points);
 
 }  // namespace scarp

@@ -10,7 +10,8 @@ namespace {
 
 using HeightPlace = std::array<double, 3>;
 
-/// Fills those between the places `from` and `to`, which have heights. Counts on beyond the end, where the ring begins.
+/// Fills the places between `from` and `to`, whose heights are known. Indices beyond the end continue at the ring's
+/// start.
 void fill_between(std::span<HeightPlace> places, std::size_t from, std::size_t to) {
   const auto at = [&](std::size_t k) -> HeightPlace& { return places[k % places.size()]; };
   std::vector<double> ways{0};
@@ -28,7 +29,7 @@ void fill_between(std::span<HeightPlace> places, std::size_t from, std::size_t t
 std::size_t fill_heights(std::span<HeightPlace> places, bool is_ring) {
   const auto is_known = [](const HeightPlace& place) { return !std::isnan(place[2]); };
   if (places.size() < 2) return 0;
-  // The last place of a ring is its first.
+  // A ring's last place is its first.
   const std::span<HeightPlace> distinct = is_ring ? places.first(places.size() - 1) : places;
   if (is_ring && !is_known(distinct.front())) distinct.front()[2] = places.back()[2];
   const auto known = static_cast<std::size_t>(std::count_if(distinct.begin(), distinct.end(), is_known));

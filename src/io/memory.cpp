@@ -1,4 +1,4 @@
-// The largest size of a raster.
+// The largest possible size of a raster.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -12,10 +12,9 @@
 namespace scarp {
 namespace {
 
-constexpr std::uint64_t kBytesPerSample = 5;  // bytes that simplify() promises to need, vertices apart
+constexpr std::uint64_t kBytesPerSample = 5;  // documented need of simplify(), without vertices
 
-/// Memory that can be had without swapping: what the kernel reports as available, what the container allows, what
-/// `ulimit -v` allows.
+/// Memory available without swapping: as reported by the kernel, and allowed by the container and by `ulimit -v`.
 std::uint64_t available_memory() {
   std::uint64_t available = std::numeric_limits<std::uint64_t>::max();
   std::ifstream meminfo("/proc/meminfo");

@@ -21,7 +21,7 @@ std::string describe_missing(const std::string& path) {
   const std::string sentence = "no such file";
   const fs::path folder = fs::path(path).parent_path();
   const std::string name = fs::path(path).filename().string();
-  constexpr int kMost = 10000;  // names that are examined
+  constexpr int kMost = 10000;  // names examined
   std::vector<std::string> names, alike;
   std::error_code error;
   int count = 0;

@@ -1,11 +1,11 @@
-// The sentence about a file that is not there.
+// The error message for a missing file.
 #pragma once
 
 #include <string>
 
 namespace scarp {
 
-/// "no such file", and what its folder holds that is like it: another ending, or a typo.
+/// "no such file", plus similar names in its folder: another extension, or a typo.
 std::string describe_missing(const std::string& path);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// The doors that GDAL stands behind, in a build without it.
+// Replacements for functions that need GDAL, in a build without it.
 #ifndef SCARP_WITH_GDAL
 
 #include <fmt/format.h>

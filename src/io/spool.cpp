@@ -24,7 +24,7 @@ bool is_pipe(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
 }
 
-/// A new file without a name; -1 and errno where there is none.
+/// A new unnamed file; -1 and errno on failure.
 int open_nameless() {
   std::string name = (std::filesystem::temp_directory_path() / "scarp-XXXXXX").string();
   const int fd = ::mkostemp(name.data(), O_CLOEXEC);
@@ -55,7 +55,7 @@ Result<std::string> copy(const std::string& path) {
   if (from < 0) return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", what, reason_of(errno)));
   const int to = open_nameless();
   int error = to < 0 ? errno : 0;
-  bool is_ours = true;  // whose fault it is
+  bool is_ours = true;  // the error concerns the copy, not the input
   std::array<char, 1 << 16> chunk;
   for (bool more = error == 0; more;) {
     const ssize_t got = ::read(from, chunk.data(), chunk.size());

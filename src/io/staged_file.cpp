@@ -42,12 +42,12 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
 int sync_file(int fd) {
   while (::fsync(fd) != 0) {
     if (errno == EINTR) continue;
-    return errno == EINVAL ? 0 : errno;  // file systems without fsync answer EINVAL
+    return errno == EINVAL ? 0 : errno;  // from file systems without fsync
   }
   return 0;
 }
 
-/// Standard output, or what the path names; an errno below 0. It waits two seconds for the reader of a pipe.
+/// Opens standard output, or the path; an errno below 0. Waits up to two seconds for the reader of a pipe.
 int open_directly(const std::string& path) {
   if (is_standard_output(path)) return ::dup(STDOUT_FILENO);
   constexpr int kMostTries = 100;
@@ -67,7 +67,7 @@ int rename_to(const std::string& temporary, const std::string& target, bool over
 #ifdef RENAME_NOREPLACE
   if (!overwrite) {
     if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) == 0) return 0;
-    if (errno != EINVAL && errno != ENOSYS) return errno;  // else: a file system that cannot refuse
+    if (errno != EINVAL && errno != ENOSYS) return errno;  // else: a file system without this flag
   }
 #else
   (void)overwrite;
@@ -80,7 +80,7 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash + 1);
 }
 
-/// The end of a chain of symbolic links, whether something is there or not; the path itself if it is no link.
+/// The end of a chain of symbolic links, existing or not; the path itself if it is no link.
 std::string follow_links(const std::string& path) {
   constexpr int kMostLinks = 40;  // Linux' limit
   std::filesystem::path target = path;

@@ -1,4 +1,4 @@
-// A file on its way: under a temporary name in the folder of the one that it will get.
+// An output file under a temporary name in its final folder until it is complete.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@ namespace scarp {
 
 class StagedFile {
  public:
-  /// Devices, pipes and standard output have no old content to protect and no name to get: their bytes wait in the
-  /// folder for temporary files if it is to be written by name, else nowhere. Fails as write_file() does.
+  /// Devices, pipes and standard output have no old content to protect and are not renamed. Their bytes go to the
+  /// folder for temporary files if they are written by name, else directly to the target. Fails as write_file() does.
   static Result<StagedFile> begin(const std::string& path, bool overwrite, bool by_name);
 
   const std::string& path() const { return path_; }
   bool is_direct() const { return target_.empty(); }
-  /// For others to write. REQUIRES: by_name.
+  /// For external writers. REQUIRES: by_name.
   const std::string& name() const { return temporary_->name(); }
   Result<void> write(std::span<const std::uint8_t> bytes);
   /// Ends writing: the bytes are on disk.
   Result<void> end();
   std::uint64_t size() const;  ///< after end()
-  /// The last step. REQUIRES: !is_direct().
+  /// The final rename. REQUIRES: !is_direct().
   Result<void> take_name(bool overwrite);
-  /// The last step of what was written by name. REQUIRES: is_direct().
+  /// The final copy of a file written by name. REQUIRES: is_direct().
   Result<void> copy_to_target() const;
 
  private:
-  std::string path_, target_;  // the latter is empty for what is written directly
+  std::string path_, target_;  // target_ is empty for direct output
   std::optional<unsigned> mode_;
   std::unique_ptr<TemporaryFile> temporary_;
 };
 
-/// To a device, a pipe or standard output.
+/// Writes to a device, a pipe or standard output.
 Result<void> write_directly(const std::string& path, std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

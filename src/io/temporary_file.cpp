@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() accepts, and our suffix
+constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() accepts, plus suffix
 char pending_names[kPendingOutputs][kPendingSize];
 std::atomic<bool> pending_taken[kPendingOutputs];
 std::atomic<Naming> naming = Naming::kNotYet;
@@ -22,7 +22,7 @@ static_assert(std::atomic<Naming>::is_always_lock_free);
 
 }  // namespace
 
-/// The first character is set last and cleared first, so that a handler that interrupts us sees a whole name or none.
+/// The first character is set last and cleared first, so that an interrupting handler sees a whole name or none.
 PendingName::PendingName(const std::string& name) {
   if (name.empty() || name.size() >= kPendingSize) return;
   int place = 0;
@@ -49,7 +49,7 @@ Naming outputs_naming() { return naming; }
 NamingOutputs::NamingOutputs() { naming = Naming::kNow; }
 NamingOutputs::~NamingOutputs() { naming = Naming::kDone; }
 
-/// Random names, because processes in two containers that share a folder may have the same number. A name that exists
+/// Names are random, because processes in two containers that share a folder may have equal numbers. An existing name
 /// belongs to another process and is not touched.
 TemporaryFile::TemporaryFile(const std::string& folder) {
   constexpr int kMostTries = 100;

@@ -1,4 +1,4 @@
-// New files under unique names, and that a signal handler knows.
+// New files under unique names, known to a signal handler.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,7 @@
 
 namespace scarp {
 
-/// Holds the name for pending_output() while it lives.
+/// Registers the name for pending_output() while it lives.
 class PendingName {
  public:
   explicit PendingName(const std::string& name);
@@ -18,7 +18,7 @@ class PendingName {
   int place_ = -1;
 };
 
-/// outputs_naming() returns kNow while it lives, and kDone from then on.
+/// outputs_naming() returns kNow while it lives, and kDone afterwards.
 class NamingOutputs {
  public:
   NamingOutputs();
@@ -27,7 +27,7 @@ class NamingOutputs {
   ~NamingOutputs();
 };
 
-/// A new, empty file in a folder; gone with this object, unless it was released.
+/// A new, empty file in a folder, deleted with this object unless released.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& folder);
@@ -37,11 +37,11 @@ class TemporaryFile {
 
   const std::string& name() const { return name_; }
   int fd() const { return fd_; }
-  /// Why there is none; an errno.
+  /// Reason of a failed creation; an errno.
   int error() const { return error_; }
   /// 0 or an errno.
   int close();
-  /// It has another name now.
+  /// It has been renamed.
   void let_go() { is_ours_ = false; }
 
  private:

@@ -1,7 +1,7 @@
-// ZIP, as far as documents in archives need it (PKWARE's APPNOTE 6.3): on writing, one way of doing things, all sizes
-// known beforehand; on reading, the directory at the end is what counts, since writers that stream do not fill in the
-// sizes in front of an entry. Sizes of 64 bits are read, for some write them whatever the size, and written where an
-// archive is too long or has too many entries.
+// ZIP as used by documents in archives (PKWARE's APPNOTE 6.3). On writing, all sizes are known beforehand. On reading,
+// the directory at the end is decisive, since streaming writers omit the sizes in front of entries. 64-bit sizes are
+// always read, since some programs write them for any size. They are written if an archive is too large or has too many
+// entries.
 
 #include "io/zip.h"
 
@@ -38,7 +38,7 @@ void append_text(std::vector<std::uint8_t>& bytes, std::string_view text) {
 /// zlib counts in 32 bits.
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
 
-/// Raw deflate.
+/// Deflates without a header.
 std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes) {
   z_stream stream = {};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -65,7 +65,7 @@ std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes) {
   return packed;
 }
 
-/// False if the bytes are not `size` bytes, deflated.
+/// False unless the bytes inflate to the right size.
 bool inflate_into(std::span<const std::uint8_t> packed, std::vector<std::uint8_t>& bytes) {
   z_stream stream = {};
   if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
@@ -93,7 +93,7 @@ bool inflate_into(std::span<const std::uint8_t> packed, std::vector<std::uint8_t
 
 tl::unexpected<Error> broken(std::string why) { return fail(ErrorKind::kInput, std::move(why)); }
 
-/// Appends the fields that are in the header of an entry as well as in its record.
+/// Appends the fields common to an entry's header and its record.
 void append_common(std::vector<std::uint8_t>& bytes, const ZipRecord& record, bool in_64) {
   append_number(bytes, in_64 ? kVersion64 : kVersion);
   append_number(bytes, record.flags);
@@ -194,7 +194,7 @@ Result<std::vector<std::uint8_t>> encode_zip(std::span<const ZipEntry> entries) 
 
 Result<ZipDirectory> find_zip_directory(std::span<const std::uint8_t> tail, std::uint64_t size) {
   constexpr std::size_t kLongestComment = 65535;
-  const std::uint64_t first = size - tail.size();  // byte of the archive
+  const std::uint64_t first = size - tail.size();  // offset of the tail in the archive
   for (std::size_t back = kEndSize; back <= std::min(tail.size(), kEndSize + kLongestComment); ++back) {
     const std::uint8_t* end = &tail[tail.size() - back];
     if (load_number<std::uint32_t>(end) != kEndRecord) continue;

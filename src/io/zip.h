@@ -1,4 +1,4 @@
-// ZIP archives: of 3MF in memory, and of tiles in files of any size.
+// ZIP archives: 3MF in memory, and tiles in files of any size.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct ZipEntry {
   std::vector<std::uint8_t> bytes;
 };
 
-/// The entries in their order, deflated, without times: equal entries make equal archives, with one version of zlib.
-/// Fails with kOutput beyond 4 GB.
+/// Deflates the entries in order, without times: equal entries make equal archives, with one version of zlib. Fails
+/// with kOutput beyond 4 GB.
 Result<std::vector<std::uint8_t>> encode_zip(std::span<const ZipEntry> entries);
 
 inline constexpr std::uint16_t kZipStored = 0, kZipDeflated = 8;
@@ -25,47 +25,46 @@ inline constexpr std::uint16_t kZipStored = 0, kZipDeflated = 8;
 /// The record of an entry in an archive.
 struct ZipRecord {
   std::string_view name;
-  std::uint64_t offset = 0, packed = 0, size = 0;  ///< offset of its header; bytes in the archive, and unpacked
+  std::uint64_t offset = 0, packed = 0, size = 0;  ///< offset of its header; compressed and original size in bytes
   std::uint32_t checksum = 0;
   std::uint16_t method = kZipStored, flags = 0;
 };
 
 std::uint32_t zip_checksum(std::span<const std::uint8_t> bytes);
 
-/// In front of an entry's bytes. REQUIRES: packed and size below 2^32 - 1.
+/// Precedes an entry's bytes. REQUIRES: packed and size below 2^32 - 1.
 void append_zip_header(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
-/// Appends a record of the directory behind all entries. Offsets have 64 bits where they must.
+/// Appends a record of the directory behind all entries. Offsets have 64 bits if necessary.
 void append_zip_record(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
-/// Behind a directory of `count` records that starts at `start` and has `size` bytes.
+/// Follows a directory of `count` records that starts at `start` and has `size` bytes.
 void append_zip_end(std::vector<std::uint8_t>& bytes, std::uint64_t count, std::uint64_t start, std::uint64_t size);
 
 /// The position of an archive's directory.
 struct ZipDirectory {
   std::uint64_t count = 0, start = 0;
 };
-/// The longest that is behind a directory: its end with 64-bit numbers and a comment.
+/// Largest size of the end behind a directory, with 64-bit numbers and a comment.
 inline constexpr std::uint64_t kLongestZipEnd = 22 + 65535 + 20 + 56;
-/// `tail`: the last kLongestZipEnd bytes of an archive of `size` bytes, or all. Fails with kInput for what is no
-/// archive.
+/// `tail`: the last kLongestZipEnd bytes of an archive of `size` bytes, or all. Fails with kInput if it is no archive.
 Result<ZipDirectory> find_zip_directory(std::span<const std::uint8_t> tail, std::uint64_t size);
-/// `bytes`: those from the directory's start on. The records' names borrow them. Fails with kInput.
+/// `bytes`: from the directory's start on; the records' names borrow them. Fails with kInput.
 Result<std::vector<ZipRecord>> read_zip_directory(std::span<const std::uint8_t> bytes, std::uint64_t count);
 
 inline constexpr std::size_t kZipHeaderSize = 30;
-/// Bytes from an entry's header to its contents, of the header's first kZipHeaderSize bytes; 0 if it is none.
+/// Offset from an entry's header to its contents, from the header's first kZipHeaderSize bytes; 0 if invalid.
 std::uint64_t zip_header_length(std::span<const std::uint8_t> header);
-/// `packed`: as many bytes as the record declares. Fails with kInput for an entry that is encrypted, packed otherwise
-/// than by deflate, damaged, or far larger than what it is packed in can hold.
+/// `packed`: as many bytes as the record declares. Fails with kInput for an entry that is encrypted, neither deflated
+/// nor stored, damaged, or impossibly large for its compressed size.
 Result<std::vector<std::uint8_t>> unpack_zip_entry(const ZipRecord& record, std::span<const std::uint8_t> packed);
 
-/// The names in an archive and their contents, unpacked one by one. Borrows the bytes.
+/// The names in an archive and their contents, unpacked individually. Borrows the bytes.
 class ZipReader {
  public:
-  /// Fails with kInput for what is no archive, or one of several volumes.
+  /// Fails with kInput if it is no archive, or one of several volumes.
   static Result<ZipReader> open(std::span<const std::uint8_t> bytes);
-  /// The name that equals `name` but for the case of ASCII letters; empty if there is none.
+  /// The name equal to `name` up to the case of ASCII letters; empty if none.
   std::string find(std::string_view name) const;
-  /// Fails with kInput for a name that is not there, and as unpack_zip_entry() does.
+  /// Fails with kInput for a missing name, and as unpack_zip_entry() does.
   Result<std::vector<std::uint8_t>> extract(std::string_view name) const;
 
  private:

@@ -1,11 +1,11 @@
-// CPU time that a process has used so far.
+// CPU time used by the process.
 #pragma once
 
 #include <ctime>
 
 namespace scarp {
 
-/// CPU time of the process, all of its threads.
+/// CPU time of all threads of the process so far.
 inline double core_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

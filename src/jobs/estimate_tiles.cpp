@@ -10,14 +10,13 @@
 namespace scarp {
 namespace {
 
-/// Core time that a trial may use; levels of larger tiles are then extrapolated.
+/// Limit of the trial's core time; levels of larger tiles are then extrapolated.
 constexpr double kMostSeconds = 5;
-/// Share of a level's tiles that a trial makes at most, so that a small set is not made to be estimated.
+/// Largest share of a level's tiles in a trial, so that estimating a small set does not build it.
 constexpr double kMostShare = 0.25;
 /// Cost of a tile relative to one of the next finer level, which has a quarter of its nodes and most of its triangles.
 constexpr double kTimeOfLarger = 2.2, kBytesOfLarger = 1.3;
-/// Seconds of a block in addition to its tiles, for each node of its lattice: copies for its tiles, the hash, the
-/// reduction.
+/// Seconds per lattice node of a block in addition to its tiles: copies for its tiles, the hash, the reduction.
 constexpr double kSecondsOfNode = 25e-9;
 /// Cost of a tile above the blocks.
 constexpr double kSecondsAbove = 0.01, kBytesAbove = 2000;
@@ -32,7 +31,7 @@ bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& cov
       plan.grid.turns(), [&](double turn) { return box.west + turn < covered.east && box.east + turn > covered.west; });
 }
 
-/// True if a tile may be made.
+/// True if a tile may be built.
 bool is_expected(const PyramidPlan& plan, TileId id) {
   const DegreeBox box = plan.grid.bounds_of(id);
   if (plan.sources.empty()) return overlap(plan, box, plan.covered);
@@ -41,7 +40,7 @@ bool is_expected(const PyramidPlan& plan, TileId id) {
   });
 }
 
-/// Tiles of a level below a block, or the block's own, that may have heights.
+/// Tiles of a level below a block, or the block itself, that may have heights.
 std::vector<TileId> tiles_below(const PyramidPlan& plan, TileId block, int level) {
   const int deeper = level - block.z;
   const std::uint32_t side = std::uint32_t{1} << deeper;
@@ -62,11 +61,11 @@ Result<bool> has_heights(const PyramidPlan& plan, TileId id, const NodeSource& n
   return std::any_of(heights.begin(), heights.end(), [](float height) { return !std::isnan(height); });
 }
 
-/// Cost of some tiles of a level.
+/// Measured cost of some tiles of a level.
 struct LevelLook {
   double looked_at = 0, made = 0;
-  double reading = 0, making = 0;  ///< seconds: of all tiles examined, of the tiles made without reading
-  double bytes = 0;                ///< bytes of the tiles made
+  double reading = 0, making = 0;  ///< seconds: of all tiles examined; of building tiles, without reading
+  double bytes = 0;                ///< bytes of the tiles built
 
   double share() const { return looked_at > 0 ? made / looked_at : 0; }
   double seconds_of_reading() const { return reading / std::max(looked_at, 1.0); }
@@ -74,7 +73,7 @@ struct LevelLook {
   double bytes_of_one() const { return bytes / std::max(made, 1.0); }
 };
 
-/// At `count` tiles, evenly over the blocks.
+/// Measures `count` tiles, evenly spread over the blocks.
 Result<LevelLook> look_at(const PyramidPlan& plan, const std::vector<TileId>& blocks, int level, int count,
                           const NodeSource& nodes, const TileEncoder& encode) {
   LevelLook look;
@@ -82,7 +81,7 @@ Result<LevelLook> look_at(const PyramidPlan& plan, const std::vector<TileId>& bl
     const auto twice = static_cast<std::size_t>(2 * k + 1);
     const std::size_t block = twice * blocks.size() / (2 * static_cast<std::size_t>(count));
     const std::vector<TileId> tiles = tiles_below(plan, blocks[block], level);
-    // Steps of the golden ratio spread the places in the blocks.
+    // Steps of the golden ratio spread the positions in the blocks.
     const double place = std::fmod(0.6180339887498949 * (k + 1), 1);
     const TileId id = tiles[static_cast<std::size_t>(place * static_cast<double>(tiles.size()))];
     const double start = core_seconds();

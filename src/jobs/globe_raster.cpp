@@ -18,7 +18,7 @@
 namespace scarp {
 namespace {
 
-/// Bytes that max_samples() counts for a sample.
+/// Bytes per sample that max_samples() assumes.
 constexpr std::uint64_t kBytesPerSample = 5;
 constexpr std::uint64_t kLeastMemory = 4'000'000;
 
@@ -29,7 +29,7 @@ struct GlobeSource {
   std::optional<RasterOnPlane> plane;
   DegreeBox covered;
   std::unique_ptr<NodeSource> samples, raised;
-  /// In a stack: the same with small voids filled, which show where no source of the stack has a height.
+  /// In a stack: the same with small voids filled, used where no source of the stack has a height.
   std::shared_ptr<const SampleSource> filled;
   std::unique_ptr<NodeSource> filled_samples, filled_raised;
 
@@ -43,7 +43,7 @@ struct GlobeSource {
   }
 };
 
-/// On the globe.
+/// Places a source on the globe.
 Result<void> place_source(GlobeSource& source, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
   SCARP_TRY(source.globe, place_on_globe(raster.info, raster.cols, raster.rows, datum, raster.info.path));
@@ -65,7 +65,7 @@ Result<void> fill_source(GlobeSource& source, int side) {
   return {};
 }
 
-/// On the plane of a local grid.
+/// Places a source on the plane of a local grid.
 Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_size, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
   SCARP_TRY(source.plane, place_on_plane(raster.info, raster.cols, raster.rows, cell_size, datum));
@@ -77,7 +77,7 @@ Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_s
   return {};
 }
 
-/// `grid`: where nothing, it becomes what suits the raster.
+/// `grid`: if nothing, it is set to one that suits the raster.
 Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>& mosaic, ReadOptions options,
                                                  const Datum& datum, std::optional<GridKind>& grid) {
   auto source = std::make_unique<GlobeSource>();
@@ -95,7 +95,7 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   return source;
 }
 
-/// The stamp of FILE, or of FILE:LAYER, which becomes absolute where it names a file.
+/// The stamp of FILE, or of FILE:LAYER; names of files become absolute.
 FileStamp stamp_lines(std::string& file) {
   FileStamp stamp = stamp_of(file);
   const std::size_t colon = file.rfind(':');
@@ -105,10 +105,10 @@ FileStamp stamp_lines(std::string& file) {
   return stamp;
 }
 
-/// The EPSG code of its CRS; EPSG:CODE, for the reader to complete, if it has none.
+/// Its EPSG code, or EPSG:CODE as a placeholder.
 std::string code_of(const RasterInfo& info) { return info.crs.starts_with("EPSG:") ? info.crs : "EPSG:CODE"; }
 
-/// Sources of one stack lie on one globe, and a setting for all must not contradict one of them.
+/// Sources of a stack must share one globe, and a common setting must not contradict any of them.
 Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, const Datum& datum) {
   const RasterInfo& info = source.field.info;
   const Geodetic &one = first.globe.ellipsoid, &other = source.globe.ellipsoid;
@@ -134,7 +134,7 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
 struct GlobeRaster::Impl {
   GridKind grid = GridKind::kGeographic;
   std::vector<std::unique_ptr<GlobeSource>> sources;
-  std::unique_ptr<NodeSource> stack;    ///< stack of more than one
+  std::unique_ptr<NodeSource> stack;    ///< for more than one source
   std::unique_ptr<NodeSource> watered;  ///< with water
   std::vector<std::string> warnings;    ///< warnings about water
 
@@ -169,7 +169,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
                               "together first ({}), or take --grid geographic",
                               mosaics[1].front(), mosaics[0].front(),
                               warp_command(file_word(mosaics[0].front()), mosaics[1].front())));
-    // Memory that is in use is not available to the sources behind it, down to a little for windows of files.
+    // Memory in use is not available to later sources, except a little for windows of files.
     if (mosaics.size() > 1) memory -= std::min(source->bytes(), memory - std::min(memory, kLeastMemory));
     if (mosaics.size() > 1) {
       const GlobeSource& first = impl->sources.empty() ? *source : *impl->sources.front();

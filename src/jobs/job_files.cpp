@@ -1,4 +1,4 @@
-// The files that a job of tiles is made of: their stamps, changes of them, and the job that follows a change.
+// The files of a tile job: their stamps, changes of them, and the job updated for a change.
 #include <fmt/format.h>
 #include <sys/stat.h>
 

@@ -15,18 +15,18 @@
 namespace scarp {
 namespace {
 
-/// Memory of a kept tile in addition to its bytes.
+/// Memory of a cached tile in addition to its bytes.
 constexpr std::uint64_t kEntryBytes = 200;
-/// The finest levels, whose tiles are made fast enough when somebody asks for them.
+/// The finest levels, whose tiles are built fast enough on request.
 constexpr int kFastLevels = 3;
-/// Four tiles at once of the level below the blocks' use as much memory as one of the blocks'.
+/// Four concurrent tiles of the level below the blocks use as much memory as one of the blocks.
 constexpr int kPreparingThreads = 4;
 
 using Key = std::tuple<int, std::uint32_t, std::uint32_t>;
 Key key_of(TileId id) { return {id.z, id.x, id.y}; }
 std::uint64_t size_of(const LiveTile& tile) { return tile.bytes.size() + kEntryBytes; }
 
-/// Tiles; those not asked for the longest are dropped first.
+/// A cache of tiles that drops the least recently used ones.
 class TileCache {
  public:
   using Tile = std::shared_ptr<const LiveTile>;
@@ -63,13 +63,13 @@ class TileCache {
   std::map<Key, std::list<std::pair<TileId, Tile>>::iterator> places_;
 };
 
-/// Keeps the tiles that it is given, up to a limit, with their bounds.
+/// Stores tiles with their bounds, up to a limit.
 class PreparedTiles final : public TileSink {
  public:
   explicit PreparedTiles(const TileEncoder& encode) : encode_(encode) {}
 
   void set_limit(std::uint64_t bytes) { room_ = bytes; }
-  /// Room that others share.
+  /// Reserves shared memory.
   Result<void> take_room(std::uint64_t bytes) {
     is_full_ = is_full_ || bytes > room_;
     if (is_full_) return fail(ErrorKind::kCancelled, "no room for more tiles");
@@ -79,7 +79,7 @@ class PreparedTiles final : public TileSink {
   bool is_full() const { return is_full_; }
 
   Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override {
-    // A tile that has too many bytes is made again: the last one is put.
+    // A tile with too many bytes is built again; the last one is put.
     bounds_.with([&](auto& bounds) { bounds[key_of(tile.id)] = tile.bound(); });
     return encode_(tile);
   }
@@ -106,7 +106,7 @@ class PreparedTiles final : public TileSink {
   bool is_full_ = false;
 };
 
-/// Nodes whose reading can be ended.
+/// Nodes whose reading can be cancelled.
 class EndableNodes final : public NodeSource {
  public:
   EndableNodes(const NodeSource& nodes, const std::function<bool()>& is_over) : nodes_(nodes), is_over_(is_over) {}

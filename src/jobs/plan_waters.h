@@ -7,9 +7,9 @@
 
 namespace scarp {
 
-/// Coordinates are base64 of doubles, so that they are read back exactly and need little room.
+/// Coordinates are stored as base64 of doubles: exact and compact.
 nlohmann::ordered_json describe_waters(const TileWaters& waters);
-/// Throws for what describe_waters() did not write; of waters.grid and waters.per_turn nothing is known.
+/// Throws for JSON not written by describe_waters(). Does not set waters.grid and waters.per_turn.
 TileWaters parse_waters(const nlohmann::ordered_json& json);
 
 }  // namespace scarp

@@ -1,8 +1,8 @@
-// Blocks on the disk, between the processes that make them and the one that joins them.
+// Blocks on disk, between the processes that build them and the one that joins them.
 //
-// A file: "SCARPTIL", version, key of the settings; then records: their payload's length and CRC-32, and the payload,
-// which begins with the block's name, the key of the sources, and the hash of its nodes. A payload with nothing behind
-// these shows that a block of the same nodes in another record is right for these sources, too. All numbers are
+// File format: "SCARPTIL", version, key of the settings; then records, each with the payload's length, CRC-32 and the
+// payload. That begins with the block's name, the key of the sources, and the hash of its nodes. A payload with no more
+// data confirms that a block of the same nodes in another record is also valid for these sources. All numbers are
 // little-endian.
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -130,7 +130,7 @@ std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, 
   return packer.take();
 }
 
-/// True if a process writes to it.
+/// True if a process is writing to it.
 bool is_locked(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return false;
@@ -160,8 +160,8 @@ struct TileParts::Impl {
   std::uint64_t settings = 0, sources = 0;
   std::map<std::string, std::size_t> names;
   std::vector<File> files;
-  std::map<Block, std::map<std::uint64_t, Place>> blocks;  ///< by nodes
-  std::map<Block, std::uint64_t> current;                  ///< the nodes that blocks have in the job's sources
+  std::map<Block, std::map<std::uint64_t, Place>> blocks;  ///< by the hash of nodes
+  std::map<Block, std::uint64_t> current;                  ///< nodes of blocks in the job's sources
 
   static Block name_of(TileId id) { return {id.z, id.x, id.y}; }
 
@@ -186,7 +186,7 @@ struct TileParts::Impl {
     return add(known->second);
   }
 
-  /// A record that was cut off is ignored, and so is all that follows it.
+  /// Ignores a truncated record and all that follow it.
   Result<void> add(std::size_t number) {
     File& file = files[number];
     const ByteSource& source = *file.source;
@@ -221,7 +221,7 @@ struct TileParts::Impl {
     return {};
   }
 
-  /// All parts whose names begin so.
+  /// Reads all parts whose names have this prefix.
   Result<void> look(const std::string& beginning) {
     std::error_code error;
     if (!fs::exists(folder, error)) return {};
@@ -319,7 +319,7 @@ Result<std::unique_ptr<PartWriter>> PartWriter::create(const std::string& folder
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail(ErrorKind::kOutput, fmt::format("cannot make {}: {}", folder, error.message()));
-  // A name of its own for each run, since another process may still write to the one before.
+  // A unique name for each run, since another process may still write to an earlier part.
   bool has_company = false;
   for (int run = 1;; ++run) {
     const std::string path = (fs::path(folder) / fmt::format("{}{:03}.part", name_of(shard), run)).string();
@@ -329,7 +329,7 @@ Result<std::unique_ptr<PartWriter>> PartWriter::create(const std::string& folder
       continue;
     }
     if (fd < 0) return tl::unexpected(cannot_write(path, errno));
-    // A lock that the system gives up with the process; where there are none, other processes are not noticed.
+    // The system releases the lock with the process. Without locks, other processes are not noticed.
     ::flock(fd, LOCK_EX | LOCK_NB);
     auto writer = std::unique_ptr<PartWriter>(new PartWriter(path, fd));
     writer->has_company_ = has_company;

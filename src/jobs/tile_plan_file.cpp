@@ -24,7 +24,7 @@ namespace scarp {
 namespace {
 
 constexpr int kPlanVersion = 1;
-/// Longitudes of lines.
+/// Range of longitudes of lines.
 constexpr double kMostDegrees = 720;
 constexpr std::pair<Effort, const char*> kEfforts[] = {
     {Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kHigh, "high"}};
@@ -169,7 +169,7 @@ Json describe_drape(const TileDrape& drape) {
   return {{"files", std::move(files)}, {"format", word_of(drape.format, kImageFormats)}};
 }
 
-/// True if it is one that plan_pyramid() could have made.
+/// True if plan_pyramid() could have made the plan.
 bool is_sound(const PyramidPlan& plan) {
   if (plan.levels.empty() || plan.max_zoom() > kMaxTileLevel || plan.block_level < 0 ||
       plan.block_level > plan.max_zoom() || plan.max_zoom() - plan.block_level > 8 || plan.cells < 16 ||
@@ -182,7 +182,7 @@ bool is_sound(const PyramidPlan& plan) {
   });
 }
 
-/// Throws std::out_of_range for what is no place.
+/// Throws std::out_of_range for invalid positions.
 void add_lines(std::vector<DegreeLine> lines, PyramidPlan& plan) {
   for (const DegreeLine& line : lines) {
     for (const auto& [longitude, latitude] : line) {
@@ -326,7 +326,7 @@ Json describe_job(const TileJob& job) {
   return json;
 }
 
-/// Files by their content where that is known, else by their stamps.
+/// Describes files by their content if known, else by their stamps.
 Json describe_contents(const std::vector<FileStamp>& files) {
   Json stamps = Json::array();
   for (const FileStamp& file : files) {
@@ -388,7 +388,7 @@ std::uint64_t settings_key_of(const TileJob& job) {
   json["datum"].erase("geoid");
   json["pyramid"].erase("covered");
   json["pyramid"].erase("waters");
-  // No block is kept whose texture would be another.
+  // Blocks with an outdated texture are not reused.
   if (job.drape) json["drape"]["files"] = describe_contents(job.drape->files);
   return hash_of(json);
 }

@@ -26,7 +26,7 @@ TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const G
   };
 }
 
-/// Tiles into a set of 3D Tiles.
+/// Writes tiles as 3D Tiles.
 class TerrainTilesetSink final : public TileSetSink {
  public:
   TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder)
@@ -38,7 +38,7 @@ class TerrainTilesetSink final : public TileSetSink {
     return TileSetSink::put(id, bytes);
   }
 
-  /// The files of encode_tileset(). Adds lattice_error() to the bounds.
+  /// Writes the files of encode_tileset(). Adds lattice_error() to the bounds.
   Result<void> put_files(PyramidReport& report, LayerFacts facts) override {
     facts.version = version();
     for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {

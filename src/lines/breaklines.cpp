@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-/// A vertex of a line in samples, not rounded.
+/// An unrounded vertex, in samples.
 struct PathVertex {
   double col = 0, row = 0, z = 0;
 };
@@ -23,7 +23,7 @@ PathVertex between(const PathVertex& a, const PathVertex& b, double at) {
   return {a.col + at * (b.col - a.col), a.row + at * (b.row - a.row), a.z + at * (b.z - a.z)};
 }
 
-/// Narrows [begin, end] to where from + t · span lies in [least, most]. False if that is nowhere.
+/// Narrows [begin, end] to where from + t · span lies in [least, most]. False if empty.
 bool narrow(double from, double span, double least, double most, double& begin, double& end) {
   if (span == 0) return from >= least && from <= most;
   const double a = (least - from) / span, b = (most - from) / span;
@@ -32,7 +32,7 @@ bool narrow(double from, double span, double least, double most, double& begin, 
   return begin <= end;
 }
 
-/// Lines in steps, cut roughly a sample outside of the raster so that every coordinate fits; arrange() cuts the rest.
+/// Lines in steps, clipped roughly a sample outside the raster so that every coordinate fits; arrange() clips the rest.
 class LatticeLines {
  public:
   LatticeLines(std::int32_t cols, std::int32_t rows) : most_col_(cols), most_row_(rows) {}
@@ -69,13 +69,13 @@ class LatticeLines {
   bool has_heights() const {
     return std::any_of(heights_.begin(), heights_.end(), [](double z) { return !std::isnan(z); });
   }
-  /// Neither end of a segment has a height.
+  /// True if neither end of a segment has a height.
   bool is_soft(std::uint32_t part, std::uint32_t segment) const {
     const double* z = &heights_[parts_.begins[part] + segment];
     return std::isnan(z[0]) && std::isnan(z[1]);
   }
   /// Calls visit(part, point, height, climb) for each point of the parts [from, to) that has a height. climb: the
-  /// larger one of the segments next to it, in a step.
+  /// change of height in a step, the larger one of the adjacent segments.
   template <class Visit>
   void visit_points(std::uint32_t from, std::uint32_t to, Visit&& visit) const {
     for (std::uint32_t part = from; part < to; ++part) {
@@ -86,7 +86,7 @@ class LatticeLines {
       }
     }
   }
-  /// The climb of the line in a step at a stop; 0 where it is soft.
+  /// The line's change of height in a step at a stop; 0 where it is soft.
   double climb_at(std::uint32_t part, const Arrangement::Stop& stop) const {
     return climbs_[parts_.begins[part] + stop.segment];
   }
@@ -100,7 +100,7 @@ class LatticeLines {
     heights_.push_back(v.z);
     climbs_.push_back(0);
   }
-  /// A cliff between two vertices at one lattice point is no climb: it is a conflict.
+  /// A cliff between two vertices at one lattice point counts as a conflict instead.
   static double climb(const PathVertex& a, const PathVertex& b) {
     const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLatticeSteps;
     const double climb = std::abs(b.z - a.z) / length;
@@ -116,10 +116,10 @@ class LatticeLines {
   double most_col_, most_row_;
   Polylines parts_;
   std::vector<double> heights_;       ///< heights of the parts' points
-  std::vector<double> climbs_;        ///< in a step, from each of them to the next
+  std::vector<double> climbs_;        ///< in a step, from each point to the next
   std::vector<std::uint32_t> lines_;  ///< lines of the parts
   std::uint32_t line_ = 0;
-  std::vector<Point> part_;  ///< at work
+  std::vector<Point> part_;  ///< the part being built
 };
 
 std::vector<Segment> segments_of(const Outline& outline) {
@@ -132,15 +132,15 @@ std::vector<Segment> segments_of(const Outline& outline) {
   return rigid;
 }
 
-/// The heights that hard lines ask for at one point, line after line.
+/// The heights of hard lines at one point, line by line.
 struct Claims {
-  std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; the last one that counted
-  std::uint32_t count = 0;                          ///< each line's heights, each once
+  std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; `opponent` differs in height
+  std::uint32_t count = 0;                          ///< distinct heights per line, summed up
   bool are_opposed = false;
-  bool yield = false;  ///< they are of lines that do
+  bool yield = false;  ///< they belong to lines that yield
   double first_height = 0, first_tolerance = 0, last_height = 0, opposed_height = 0;
   double sum = 0, highest = 0;
-  double climb = 0;  ///< climb of the raster, in a step
+  double climb = 0;  ///< change of the raster in a step
 
   void add(std::uint32_t line, bool yields, double height, double tolerance) {
     if (count > 0 && yields != yield) {
@@ -171,7 +171,7 @@ struct Claims {
   }
 };
 
-/// The climb of the raster in a step, in the cell of a point.
+/// The change of the raster in a step, in the cell of a point.
 double climb_of(const LineSamples& samples, Point point) {
   const std::int32_t col = std::min(point.x / kLatticeSteps, samples.cols() - 2),
                      row = std::min(point.y / kLatticeSteps, samples.rows() - 2);
@@ -194,7 +194,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
   const auto claim = [&](std::uint32_t point, std::uint32_t part, double height, double climb) {
     Claims& at = claims[point];
     const std::uint32_t line = lattice.line_of(part);
-    // Walls change no sample, should rounding lead one over it, and disagree with no line.
+    // Walls change no sample, even if rounding leads one over it, and conflict with no line.
     const Point p = points[point];
     const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
     if (is_wall(lines[line]) && (is_sample || at.count > 0)) return;
@@ -213,7 +213,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
         });
       }
     }
-    // A chain stops once where two vertices of a line share a lattice point.
+    // A chain stops once where two vertices share a lattice point.
     lattice.visit_points(part, end, [&](std::uint32_t of, Point p, double height, double climb) {
       const auto found = std::lower_bound(points.begin(), points.end(), p, before);
       if (found == points.end() || *found != p) return;
@@ -266,10 +266,10 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   return lattice;
 }
 
-/// A line that is inserted first and need not stay in the end.
+/// True for a line that is inserted first but need not remain.
 bool is_start(const Line& line) { return is_wall(line) || line.kind == LineKind::kRidge; }
 
-/// By edge: a line runs there that is no start, or the outline. Empty without starts.
+/// By edge: true if a line other than a start, or the outline, runs there. Empty without starts.
 std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& lattice, std::span<const Line> lines) {
   std::vector<bool> is_held;
   if (std::none_of(lines.begin(), lines.end(), is_start)) return is_held;
@@ -291,7 +291,7 @@ std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& la
   return is_held;
 }
 
-/// Lines without a chain.
+/// Sets the chains; counts lines without one.
 void take_chains(const Arrangement& arranged, const LatticeLines& lattice, Breaklines& placed) {
   for (const auto& chain : arranged.chains) {
     const auto begin = static_cast<std::uint32_t>(placed.passed.size());
@@ -319,7 +319,7 @@ double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, 
                                 raster.at({col, row + 1})};
   double whole = 0;
   for (std::size_t k = 0; k < 4; ++k) whole += weights[k] * heights[k];
-  if (!std::isnan(whole)) return whole;  // without nodata the weights, which are exact, add up to 1
+  if (!std::isnan(whole)) return whole;  // without nodata the exact weights add up to 1
   const auto nodata = std::count_if(heights.begin(), heights.end(), [](double z) { return std::isnan(z); });
   if (nodata == 1) {
     const auto k = static_cast<std::size_t>(

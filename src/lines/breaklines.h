@@ -1,4 +1,4 @@
-// Lines of a map on the lattice of a raster: arranged with the outline of its surface, with heights.
+// Lines of a map snapped to the lattice of a raster and arranged with the outline of its surface, with heights.
 #pragma once
 
 #include <array>
@@ -22,25 +22,25 @@
 namespace scarp {
 
 struct Breaklines {
-  /// Vertices, in raster order, in kLatticeSteps of a sample: those of lines within the raster's rectangle and of its
-  /// outline.
+  /// Vertices of the lines within the raster's rectangle and of its outline, in raster order, in kLatticeSteps of a
+  /// sample.
   std::vector<Point> points;
-  /// The height of each point: that of the hard lines that pass, else the raster's. The raster is bilinear in a cell of
-  /// four heights, the plane of three in one of three, and else the mean of the corners that are heights, weighted as
-  /// in the bilinear; NaN where none with a weight is. On a sample it is the sample.
+  /// The height of each point: that of the hard lines through it, otherwise the raster's. The raster is bilinear in a
+  /// cell of four heights and a plane in one of three. In other cells it is the mean of the valid corners with bilinear
+  /// weights, NaN if they have no weight. On a sample it is the sample.
   std::vector<float> heights;
-  std::vector<bool> is_hard;  ///< for each point: its height is that of lines
+  std::vector<bool> is_hard;  ///< for each point: lines determine its height
   std::vector<Arrangement::Edge> edges;
-  std::vector<bool> is_held;  ///< for each edge: more than starts run there; EMPTY: there are none
+  std::vector<bool> is_held;  ///< for each edge: true if it does not consist of starts only; EMPTY: no starts
 
-  std::uint64_t outside = 0;  ///< lines without any remaining part
+  std::uint64_t outside = 0;  ///< lines with no part inside
 
   /// A line, or a part of it within the rectangle: points[passed[begin]], …, points[passed[end − 1]].
   struct Chain {
-    std::uint32_t line;  ///< index among the lines given
+    std::uint32_t line;  ///< index into the given lines
     std::uint32_t begin, end;
   };
-  std::vector<Chain> chains;  ///< in the order of the lines and along each; where they were asked for
+  std::vector<Chain> chains;  ///< by line, then along each; only if requested
   std::vector<std::uint32_t> passed;
 
   std::span<const std::uint32_t> points_of(const Chain& chain) const {
@@ -48,33 +48,34 @@ struct Breaklines {
   }
 };
 
-/// A line found in the raster, which is inserted before refinement.
+/// True for a line detected in the raster, which is inserted before refinement.
 bool is_inserted_first(const Line& line);
 
 /// Snaps lines to the lattice of a raster. A vertex of a line moves by at most half a step, 1/512 sample; its segments
 /// move by at most one and a half steps. `affine` maps samples to the coordinates of the lines, as Frame::affine does;
 /// `outline` is trace_outline()'s, not simplified. Outline and rectangle are the rigid edges.
 ///
-/// Along a hard line heights run from vertex to vertex; between a vertex with a height and one without the line is
-/// soft. Two hard lines do not conflict if their heights differ by no more than they, or the raster in that cell, climb
-/// within two steps each, and the rounding of float32: the lattice moves lines that far. Then the height of the line
-/// given first is used, as in kFirst.
+/// Along a hard line heights are interpolated between vertices; between a vertex with a height and one without, the
+/// line is soft. The lattice moves lines by up to two steps. So two hard lines do not conflict if their heights differ
+/// by at most the change of either, or of the raster in that cell, within two steps, plus the rounding of float32. Then
+/// the height of the first given line is used, as in kFirst.
 ///
-/// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
-/// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
-/// kLatticeSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
-/// arrange(), and a visit to each point of each hard line (with chains: of each line), which n that overlap make n²/2.
+/// Fails with kInput where hard lines conflict (kError: names both and the place in map coordinates), and for
+/// coordinates too large for the raster's precision; with kUsage for a raster of more than 2^30 / kLatticeSteps samples
+/// a side. REQUIRES: lines as read_lines() returns them; the affine map is invertible. Cost: as arrange(), plus a visit
+/// to each point of each hard line (with chains: of each line), n²/2 for n overlapping lines.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
-/// The same with samples near lines only. `rigid`: edges outside the rectangle, in kLatticeSteps: the outline wherever
-/// lines pass, and all other edges at which they are cut.
+/// The same, reading samples near lines only. `rigid`: edges outside the rectangle, in kLatticeSteps: the outline
+/// wherever lines pass, and all other edges at which lines are cut.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
                                     bool with_chains);
 
-/// The lines within the raster and one sample around it, in kLatticeSteps. Fails with kInput for too large coordinates.
+/// The lines clipped to the raster and one sample around it, in kLatticeSteps. Fails with kInput for too large
+/// coordinates.
 Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
                                           std::int32_t cols, std::int32_t rows);
 

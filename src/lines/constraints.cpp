@@ -13,7 +13,7 @@ namespace scarp {
 
 namespace {
 
-/// True if a lattice point belongs to the domain, closed.
+/// True if a lattice point belongs to the closed domain.
 bool is_in_domain(const Triangulation& tin, const Triangulation::Location& location) {
   using Kind = Triangulation::Location::Kind;
   if (!tin.is_outside(location.edge / 3)) return true;
@@ -27,7 +27,7 @@ bool is_in_domain(const Triangulation& tin, const Triangulation::Location& locat
   return std::any_of(star.begin(), star.end(), [&](Triangle t) { return !tin.is_outside(t); });
 }
 
-/// Indices of points along Morton's curve: searches for one after the other in a triangulation are short.
+/// Indices of points along Morton's curve, which keeps successive searches in a triangulation short.
 std::vector<std::uint32_t> nearby_order(const std::vector<Point>& points) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
   keys.reserve(points.size());
@@ -48,7 +48,7 @@ std::vector<Vertex> corners_of(const Triangulation& tin) {
   return corners;
 }
 
-/// Makes a triangle at a vertex the one that was touched last: a query for its edges need not search for it.
+/// Makes a triangle at a vertex the last touched one, so that a query for its edges need not search.
 void touch(Triangulation& tin, Vertex v, Triangle hint) {
   const HalfEdge last = 3 * tin.last_touched();
   if (tin.origin(last) == v || tin.origin(last + 1) == v || tin.origin(last + 2) == v) return;
@@ -59,7 +59,7 @@ bool is_start(const ConstraintGraph& graph, std::size_t edge) {
   return !graph.is_start.empty() && graph.is_start[edge] != 0;
 }
 
-/// Points with an edge that stays.
+/// True for points with a permanent edge.
 std::vector<bool> held_points(const ConstraintGraph& graph) {
   std::vector<bool> is_held(graph.points.size(), false);
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
@@ -118,7 +118,7 @@ Result<ConstrainedMesh> ConstrainedMesh::insert(const Raster& raster, Triangulat
 void ConstrainedMesh::release_starts(Triangulation& tin) {
   for (const auto& [a, b] : start_edges_) {
     const HalfEdge h = tin.find_edge(a, b);
-    // An edge with a sample on it is two edges by now: they stay.
+    // An edge with a sample on it has been split; both parts remain.
     if (h != kNone && tin.twin(h) != kNone) tin.release(h);
   }
   starts_.clear();

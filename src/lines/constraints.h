@@ -20,32 +20,32 @@ struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
   std::vector<float> heights;                       ///< heights of the points; the height of a sample has precedence
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
-  std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is inserted outside the domain, too; EMPTY: none is
-  std::vector<std::uint8_t> is_start;   ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
+  std::vector<std::uint8_t> is_shared;  ///< by point: 1 if it is also inserted outside the domain; EMPTY: none is
+  std::vector<std::uint8_t> is_start;   ///< by edge: 1 if the final mesh need not contain it; EMPTY: all are kept
   bool is_inserted_first = false;       ///< before the surface is refined
-  std::optional<SurfaceCut> cut;        ///< nothing: all of the surface stays
+  std::optional<SurfaceCut> cut;        ///< nothing: no cut
 };
 
 /// A triangulation with constraints.
 class ConstrainedMesh {
  public:
-  /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
-  /// constrained; then what is cut away is marked outside. Points outside the domain, but for shared ones, are omitted
-  /// with their edges. `tin` and the raster stay alive; no other code changes them. Fails with kInternal where an edge
-  /// crosses one that is constrained. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges cross no
-  /// constrained edge of `tin` but in points of the graph.
+  /// Converts the points of `tin` from samples to kLatticeSteps and inserts the graph's edges as chains of constrained
+  /// edges. Then marks the cut-away part as outside. Points outside the domain, except shared ones, are omitted with
+  /// their edges. `tin` and the raster must outlive the result; no other code may change them. Fails with kInternal
+  /// where an edge crosses a constrained one. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges
+  /// cross constrained edges of `tin` only in points of the graph.
   static Result<ConstrainedMesh> insert(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
-  /// True if some surface remains after a cut, if there is one.
+  /// False if a cut leaves no surface.
   bool has_surface() const { return has_surface_; }
   /// Changed triangles, ascending.
   const std::vector<Triangle>& changed() const { return changed_; }
-  /// Frees the edges that are only a start, and the vertices that belong to no other edge of the graph.
+  /// Releases the edges that are only starts, and the vertices that belong to no other edge of the graph.
   void release_starts(Triangulation& tin);
 
   const LatticeHeights& heights() const { return heights_; }
-  /// The lattice of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not
-  /// released. With several threads the samples are those of a raster, not of rows.
+  /// The lattice of all current vertices of `tin`: heights, and which vertices the graph still fixes. With several
+  /// threads the samples must be a raster, not rows.
   VertexLattice lattice(int threads = 1) const;
 
  private:
@@ -53,7 +53,7 @@ class ConstrainedMesh {
 
   const Triangulation* tin_;
   LatticeHeights heights_;
-  std::vector<Vertex> fixed_, starts_;  // the latter: vertices of starts only
+  std::vector<Vertex> fixed_, starts_;  // starts_: vertices of starts only
   std::vector<std::array<Vertex, 2>> start_edges_;
   std::vector<Triangle> changed_;
   bool has_surface_ = true;

@@ -18,7 +18,7 @@ class CutAway {
     for (HalfEdge h = 0; h < walls_.size(); ++h) first_[tin.origin(h)] = h;
   }
 
-  /// Along the edges from a to b, which lie on one line.
+  /// Marks the edges from a to b, which are collinear.
   void add_wall(Vertex a, Vertex b) {
     for (Vertex v = a; v != b;) {
       const HalfEdge h = edge_towards(v, tin_.point(b));
@@ -27,7 +27,7 @@ class CutAway {
     }
   }
 
-  /// True if something stays.
+  /// True if something remains.
   bool run() {
     std::vector<bool> is_seen(tin_.triangle_count(), false);
     bool any = false;
@@ -44,7 +44,7 @@ class CutAway {
   }
 
  private:
-  /// Kind of a half-edge: whether it is part of a wall, and if so whether its triangle stays.
+  /// Kind of a half-edge: no wall, or the side of a wall on which its triangle lies.
   enum class Wall : std::uint8_t { kNo, kBeyond, kWithin };
 
   void mark(HalfEdge h, Vertex from) {
@@ -59,7 +59,7 @@ class CutAway {
     return std::int64_t{target.x - p.x} * (q.x - p.x) + std::int64_t{target.y - p.y} * (q.y - p.y) > 0;
   }
 
-  /// The edge at v that runs towards the target: from v, or to it where nothing lies on its other side.
+  /// The half-edge from v towards the target; if it has no triangle, the one in the opposite direction.
   HalfEdge edge_towards(Vertex v, Point target) const {
     const HalfEdge first = first_[v];
     HalfEdge h = first;
@@ -76,7 +76,7 @@ class CutAway {
     return kNone;
   }
 
-  /// Triangles of the domain that no wall parts from t.
+  /// Collects triangles of the domain that no wall separates from t.
   void collect_part(Triangle t, std::vector<bool>& is_seen) {
     part_.assign(1, t);
     is_seen[t] = true;
@@ -95,7 +95,7 @@ class CutAway {
     }
   }
 
-  /// True if the part stays: decided by its walls; else by a sample of it that is on no wall; else by one triangle.
+  /// True if the part remains: decided by its walls; else by a sample in it that is on no wall; else by one triangle.
   bool stays() const {
     if (verdict_ != Wall::kNo) return verdict_ == Wall::kWithin;
     for (const Triangle t : part_) {
@@ -108,7 +108,7 @@ class CutAway {
     return holds_centre(part_.front());
   }
 
-  /// By the parity of the outline to the left of the triangle's centre.
+  /// By the parity of outline edges to the left of the triangle's centre.
   bool holds_centre(Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
     const Int128 x = Int128{a.x} + b.x + c.x, y = Int128{a.y} + b.y + c.y;
@@ -128,7 +128,7 @@ class CutAway {
   std::vector<Wall> walls_;      // by half-edge
   std::vector<HalfEdge> first_;  // by vertex, one that starts there
   std::vector<Triangle> part_;
-  Wall verdict_ = Wall::kNo;  // verdict of a wall of the part
+  Wall verdict_ = Wall::kNo;  // side of a wall of the part
 };
 
 }  // namespace

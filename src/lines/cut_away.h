@@ -14,21 +14,21 @@
 namespace scarp {
 
 struct SurfaceCut {
-  /// Edges of a graph, by indices of its points, that part what stays, on their positive side, from what goes.
+  /// Edges of a graph, by indices of its points, that separate the remaining side (positive) from the removed one.
   std::vector<std::array<std::uint32_t, 2>> walls;
-  /// All around what stays, in kLatticeSteps: the walls, and along the sides of the raster's rectangle.
+  /// The border of the remaining part, in kLatticeSteps: the walls, and parts of the raster's rectangle.
   std::vector<std::array<Point, 2>> outline;
   std::shared_ptr<const CutRows> rows;  ///< rows of the outline of the whole raster
-  std::int32_t first = 0;               ///< index in these of the first row of samples here
+  std::int32_t first = 0;               ///< index in `rows` of the first row of samples here
 };
 
-/// The error message if nothing stays.
+/// The error message if nothing remains.
 inline constexpr const char* kNothingInCutline = "no part of the raster's surface lies in the cutline";
 
-/// Marks the triangles that a cut removes as outside. `tin`: in kLatticeSteps; `vertices`: what the graph's points are
-/// in it, kNone where they are not. Returns whether something stays. REQUIRES: walls whose ends are in `tin` are chains
-/// of constrained edges; no triangle of the domain has parts on both sides. Cost: O(triangles + walls); O(walls) more
-/// for each part of the domain that touches walls in points only.
+/// Marks the triangles that a cut removes as outside. `tin`: in kLatticeSteps; `vertices`: vertex of each point of the
+/// graph, kNone if absent. Returns true if something remains. REQUIRES: walls whose ends are in `tin` are chains of
+/// constrained edges; no triangle of the domain has parts on both sides. Cost: O(triangles + walls), plus O(walls) for
+/// each part of the domain that touches walls in points only.
 bool cut_away(Triangulation& tin, const SurfaceCut& cut, std::span<const Vertex> vertices);
 
 }  // namespace scarp

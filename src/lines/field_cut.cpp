@@ -61,7 +61,7 @@ class RingClipper {
     return {{point[0], point[1], std::numeric_limits<double>::quiet_NaN()}, {at.col, at.row}};
   }
 
-  /// Keeps what is not beyond a line: direction · (coordinate − limit) >= 0.
+  /// Clips at a line: keeps direction · (coordinate − limit) >= 0.
   void clip_at(std::size_t axis, double limit, double direction) {
     clipped_.clear();
     for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -105,10 +105,10 @@ class SourceWithin final : public SampleSource {
   std::shared_ptr<const SampleSet> within_;
 };
 
-/// Counts heights within runs and outside, row after row from the top.
+/// Counts heights within runs and outside, row by row from the top.
 class OutsideCount {
  public:
-  /// `samples`: of a row, as they were.
+  /// `samples`: the original ones of a row.
   void add(std::span<const SampleRun> within, std::span<const float> samples) {
     here_.assign(samples.size(), 0);
     const HeightRange here = range_of(samples);

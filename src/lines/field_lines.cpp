@@ -20,15 +20,14 @@ namespace scarp {
 
 namespace {
 
-/// Gives a soft line the vertices that it needs to follow the raster. Those of a cutline's ring lie a sample apart
-/// where they may, and on samples where the ring passes some: triangles at edges much shorter than themselves are
-/// slivers.
+/// Adds the vertices that a soft line needs to follow the raster. Those of a cutline's ring are at least a sample apart
+/// if possible, and on samples if it passes any: triangles at edges much shorter than themselves are slivers.
 class SoftLine {
  public:
   SoftLine(const LineSamples& samples, const std::array<double, 6>& affine, double tolerance)
       : samples_(samples), affine_(affine), to_samples_(affine), tolerance_(tolerance) {}
 
-  /// `is_cut`: a ring that was clipped, and the sides of the raster, along which it may run, are followed by others.
+  /// `is_cut`: a clipped ring. It gets no vertices along the raster's sides, which other edges follow.
   Line follow(const Line& line, bool is_cut = false) const {
     Line result = line;
     result.points.clear();
@@ -66,7 +65,7 @@ class SoftLine {
     }
     return false;
   }
-  /// The nearest sample where it lies on the line from one place to the other, else the place itself.
+  /// The nearest sample if it lies on the line between both places; else the place itself.
   Place on_sample(const Place& place, const Place& from, const Place& to) const {
     const auto p = sample_of(from), q = sample_of(to), at = sample_of(place);
     const double col = std::round(at[0]), row = std::round(at[1]), dx = q[0] - p[0], dy = q[1] - p[1];
@@ -82,7 +81,7 @@ class SoftLine {
     return surface_at(samples_, {col, row});
   }
 
-  /// Bends where the surface asks for it. Two visits a sample, whose heights are stored in `heights`.
+  /// Adds bends required by the surface. Visits two positions per sample, and stores their heights in `heights`.
   void add_between(const Place& from, const Place& to, bool is_cut, std::vector<double>& heights,
                    std::vector<Place>& points) const {
     const SamplePosition way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
@@ -106,7 +105,7 @@ class SoftLine {
   double tolerance_;
 };
 
-/// Edges among those that lines are part of.
+/// Edges that are part of lines.
 std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
   std::vector<GraphEdge> edges;
   for (const Arrangement::Edge& edge : placed.edges) {
@@ -115,7 +114,7 @@ std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
   return edges;
 }
 
-/// For each of these edges, 1 where none but lines of walls run. EMPTY: there are no walls.
+/// For each of these edges, 1 if only lines of walls run there. EMPTY: no walls.
 std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
   std::vector<std::uint8_t> is_start;
   for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
@@ -124,7 +123,7 @@ std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
   return is_start;
 }
 
-/// The edges that lines pass, those from number `first` up to `end`.
+/// The edges that lines pass, for those from number `first` up to `end`.
 std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
                                    std::size_t end) {
   std::vector<PolygonEdge> passes;
@@ -138,19 +137,18 @@ std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Lin
   return passes;
 }
 
-/// On the border of the raster's rectangle.
+/// True if the edge is on the border of the raster's rectangle.
 bool is_on_side(Point p, Point q, std::int32_t cols, std::int32_t rows) {
   const std::int32_t right = (cols - 1) * kLatticeSteps, bottom = (rows - 1) * kLatticeSteps;
   return (p.x == q.x && (p.x == 0 || p.x == right)) || (p.y == q.y && (p.y == 0 || p.y == bottom));
 }
 
-/// The edges that become part of the mesh, and where the surface is cut.
+/// The edges that become part of the mesh, and the cut of the surface.
 struct KeptEdges {
   std::vector<GraphEdge> edges;
-  std::vector<std::uint8_t> is_start;  ///< like in the graph
-  std::vector<GraphEdge> walls;        ///< those of these at which the surface ends, on their positive side
-  std::vector<std::array<Point, 2>>
-      outline;  ///< outline of what stays: the walls, and where it ends at the sides of the raster
+  std::vector<std::uint8_t> is_start;         ///< see the graph
+  std::vector<GraphEdge> walls;               ///< edges at which the surface ends, on their positive side
+  std::vector<std::array<Point, 2>> outline;  ///< outline of the rest: the walls, and parts of the raster's sides
 };
 
 /// Edges of breaklines in and around polygons, and the outline of the polygons' union.
@@ -181,7 +179,7 @@ KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::
   return kept;
 }
 
-/// All edges, where nothing is cut.
+/// All edges, without a cut.
 KeptEdges all_edges(const Breaklines& placed) {
   KeptEdges kept;
   kept.edges = edges_of_lines(placed);
@@ -189,7 +187,7 @@ KeptEdges all_edges(const Breaklines& placed) {
   return kept;
 }
 
-/// The edges and the points that they need.
+/// The edges, with their points.
 ConstraintGraph graph_of(const Breaklines& placed, const KeptEdges& kept) {
   ConstraintGraph graph;
   std::vector<std::uint32_t> numbers(placed.points.size(), kNone);
@@ -224,8 +222,7 @@ void visit_samples(Point a, Point b, const Visit& visit) {
   }
 }
 
-/// Gives the samples on hard lines, but for walls, the heights of the lines. `change(p, height)` does so, and returns
-/// what the sample was.
+/// Sets samples on hard lines, except walls, to the heights of the lines. `change(p, height)` returns the old height.
 template <class Change>
 std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& change) {
   std::vector<SampleEdit> edits;
@@ -253,10 +250,10 @@ std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& cha
   return edits;
 }
 
-/// The graph of what was placed: `followed` are `breaklines` of them, and rings where there is a cut.
+/// The graph of the placed lines: the first `breaklines` of `followed`, then rings if there is a cut.
 Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed, std::size_t breaklines, bool is_cut,
                         std::int32_t cols, std::int32_t rows, FieldLines& result) {
-  // Those that were found in the raster are no lines of the caller's.
+  // Lines detected in the raster are not the caller's.
   std::vector<bool> is_inserted(breaklines, !is_cut);
   for (const auto& chain : placed.chains) {
     if (chain.line < breaklines) is_inserted[chain.line] = true;
@@ -278,7 +275,7 @@ Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed
   return {};
 }
 
-/// Makes what lies well beyond the cut nodata.
+/// Sets samples well beyond the cut to nodata.
 Result<void> cut_samples(const CutRows& cut, std::int32_t cols, std::int32_t rows, FieldLines& lines) {
   for (const float sample : lines.samples) lines.valid += std::isnan(sample) ? 0 : 1;
   if (!cut.has_surface({lines.samples.data(), cols, rows}))
@@ -300,7 +297,7 @@ HeightField FieldLines::apply(const HeightField& field) const {
 
 namespace {
 
-/// Lines, `count` of them, with the vertices that they need. `follow(k)`: one of them.
+/// `count` lines with the vertices that they need. `follow(k)` returns one.
 template <class Follow>
 std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follow) {
   std::vector<Line> followed(count);
@@ -312,8 +309,8 @@ std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follo
   return followed;
 }
 
-/// The farthest of the breaklines with heights, before they change the raster. Those at zero count tenfold: most were
-/// never given heights.
+/// The breakline farthest from the raster in height, before lines change it. Lines entirely at zero count tenfold: most
+/// were never given heights.
 FarthestLine find_farthest(std::span<const Line> lines, const std::array<double, 6>& affine,
                            const LineSamples& samples) {
   const MapToSamples to_samples(affine);
@@ -335,7 +332,7 @@ FarthestLine find_farthest(std::span<const Line> lines, const std::array<double,
   return farthest;
 }
 
-/// In a raster that is not in memory.
+/// For a streamed raster.
 Result<FieldLines> prepare_from_source(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                        double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
   const bool is_cut = !cutline.rings.empty();

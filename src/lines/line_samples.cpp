@@ -12,16 +12,16 @@ namespace scarp {
 
 namespace {
 
-/// Samples between lines that are not read with their neighbours.
+/// Wider gaps between lines are not read.
 constexpr std::int32_t kWideGap = 4096;
 
-/// Corners of a cell, as valid_corners() counts them.
+/// Valid corners of a cell, as in valid_corners().
 unsigned corners_near(const LineSamples& samples, std::int32_t col, std::int32_t row) {
   const auto bit = [&](std::int32_t i, std::int32_t j, unsigned k) { return samples.is_valid({i, j}) ? 1u << k : 0u; };
   return bit(col, row, 0) | bit(col + 1, row, 1) | bit(col + 1, row + 1, 2) | bit(col, row + 1, 3);
 }
 
-/// True if the surface of a cell reaches along the side between two of its corners.
+/// True if the surface of a cell includes the side between two of its corners.
 bool reaches(unsigned corners, unsigned a, unsigned b) {
   return std::popcount(corners) >= 3 && (corners >> a & 1u) != 0 && (corners >> b & 1u) != 0;
 }
@@ -39,7 +39,7 @@ Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const 
   samples.begins_.assign(static_cast<std::size_t>(field.rows) + 1, 0);
   for (const Run& run : samples.runs_) ++samples.begins_[static_cast<std::size_t>(run.row) + 1];
   for (std::size_t row = 1; row < samples.begins_.size(); ++row) samples.begins_[row] += samples.begins_[row - 1];
-  // Whole rows, as sources like to be asked, but for wide gaps.
+  // Whole rows, which suits sources, except for wide gaps.
   std::vector<float> row(static_cast<std::size_t>(field.cols));
   for (std::size_t i = 0; i < samples.runs_.size();) {
     const std::int32_t at = samples.runs_[i].row, first = samples.runs_[i].col;
@@ -65,7 +65,7 @@ void LineSamples::mark(const Segment& segment) {
   const auto row_of = [](double y) { return static_cast<std::int32_t>(std::floor(y / kSteps)); };
   const double height = static_cast<double>(q.y) - p.y,
                slope = height > 0 ? (static_cast<double>(q.x) - p.x) / height : 0;
-  // By rows of cells, one more above and below: those have a row of samples each at their other side.
+  // By rows of cells, plus one above and below: those share a row of samples.
   for (std::int32_t row = std::max(row_of(p.y), -1); row <= std::min(row_of(q.y), rows()); ++row) {
     const double top = std::max<double>(p.y, kSteps * row), bottom = std::min<double>(q.y, kSteps * (row + 1.0));
     const double from = height > 0 ? p.x + slope * (top - p.y) : p.x,
@@ -76,7 +76,7 @@ void LineSamples::mark(const Segment& segment) {
     for (std::int32_t k = std::max(row - 1, 0); k <= std::min(row + 2, rows() - 1); ++k)
       runs_.push_back({k, std::max(first, 0), std::min(last, cols() - 1) + 1, 0});
   }
-  // Millions of short segments side by side mark the same again and again.
+  // Millions of short adjacent segments repeat the same marks.
   if (runs_.size() > heights_.size() / 2 + (1u << 16)) merge_marks();
 }
 
@@ -134,7 +134,7 @@ std::vector<Segment> LineSamples::outline_near() const {
       if (has_cell(col, row - 1) && reaches(here, 0, 1) != reaches(corners_near(*this, col, row - 1), 3, 2))
         outline.push_back(in_steps({col, row}, {col + 1, row}));
       if (std::popcount(here) != 3) continue;
-      // Across the corner that is missing.
+      // Across the missing corner.
       if ((here & 5u) == 5u)
         outline.push_back(in_steps({col, row}, {col + 1, row + 1}));
       else

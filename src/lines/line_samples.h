@@ -1,4 +1,4 @@
-// The samples that lines read: all of a raster, or, of one that is not in memory, those near lines.
+// The samples that lines read: a whole raster, or for a streamed one the samples near the lines.
 #pragma once
 
 #include <cmath>
@@ -16,28 +16,28 @@ namespace scarp {
 
 class LineSamples {
  public:
-  /// All, borrowed.
+  /// Borrows the whole raster.
   explicit LineSamples(const Raster& raster) : raster_(raster) {}
 
-  /// Reads the samples of the cells that segments on the lattice pass, and of the cells around them, from the top down.
-  /// Segments may end outside the raster, by some samples. Fails as the field does. Memory: 4 bytes a sample, 24 for
+  /// Reads the samples of the cells that lattice segments cross, and of the cells around them, from the top down.
+  /// Segments may end outside the raster, by some samples. Fails as the field does. Memory: 4 bytes per sample, 24 for
   /// each row that a line crosses, 8 for each row of the raster.
   static Result<LineSamples> read(const HeightField& field, std::span<const Segment> near);
 
   std::int32_t cols() const { return raster_.cols; }
   std::int32_t rows() const { return raster_.rows; }
-  /// NaN where nodata, or not near a line.
+  /// NaN for nodata and away from lines.
   float at(Point p) const {
     if (raster_.samples != nullptr) return raster_.at(p);
     const std::size_t i = find(p);
     return i == kNowhere ? std::numeric_limits<float>::quiet_NaN() : heights_[i];
   }
   bool is_valid(Point p) const { return !std::isnan(at(p)); }
-  /// Gives a sample near a line another height, unless it is nodata; returns what it was. REQUIRES: read().
+  /// Changes the height of a sample near a line, unless it is nodata; returns the old one. REQUIRES: read().
   float change(Point p, float height);
 
-  /// The outline of the surface near the lines, as far as both sides of it are known; without the sides of the raster.
-  /// REQUIRES: read().
+  /// The outline of the surface near the lines, where both sides are known, without the sides of the raster. REQUIRES:
+  /// read().
   std::vector<Segment> outline_near() const;
 
   std::uint64_t bytes() const { return sizeof(float) * heights_.size() + sizeof(Run) * runs_.size(); }
@@ -56,8 +56,8 @@ class LineSamples {
   bool has_cell(std::int32_t col, std::int32_t row) const;
 
   Raster raster_;
-  std::vector<Run> runs_;            // by row and column, apart from each other
-  std::vector<std::size_t> begins_;  // begins of each row's runs, and the end of the last
+  std::vector<Run> runs_;            // by row and column, disjoint
+  std::vector<std::size_t> begins_;  // begin of each row's runs, and the end of the last
   std::vector<float> heights_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 /// Doubles of a cache line.
 constexpr std::size_t kLine = 8;
 
-/// 1 for each sample that is a height. Returns true if all are.
+/// Sets 1 for each valid sample. Returns true if all are.
 bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
   bool all = true;
   for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -92,7 +92,7 @@ Result<void> Band::take_heights(const HeightField& field) {
 }
 
 bool Band::borrow_heights(const HeightField& field, int top, int bottom) {
-  // Kernels read beyond a row, in memory only where there is another.
+  // Kernels read beyond a row, which is safe only if another row follows in memory.
   const bool has_both = top == first_ - 1 && bottom == end() + 1 && cols_ >= static_cast<int>(kKernelPadding);
   if (field.samples == nullptr || limits_.region != nullptr || !has_both) return false;
   const float* const from = field.samples + static_cast<std::size_t>(top) * static_cast<std::size_t>(cols_);
@@ -109,7 +109,7 @@ bool Band::borrow_heights(const HeightField& field, int top, int bottom) {
   return true;
 }
 
-/// Notes the range of the band's rows; the lowest and the highest first, so that most others need no scan.
+/// Adds the range of the band's rows; the lowest and the highest first, so that most others need no scan.
 void Band::note_range(const std::vector<RowHeights>& rows, int top) {
   int lowest = first_, highest = first_;
   const auto heights_of = [&](int row) -> const RowHeights& { return rows[static_cast<std::size_t>(row - top)]; };
@@ -158,7 +158,7 @@ void Band::classify() {
     } else {
       count_cells(here, after, below);
     }
-    // A whole row below a whole row needs no check of single samples; both count arrays stay true for the next row.
+    // Two successive whole rows need no check of single samples; both count arrays remain valid for the next row.
     const bool has_cells = row + 1 < end() || has_row_below_;
     if (!(here_is_whole && after_is_whole && has_cells)) {
       for (std::size_t c = 0; c < cols; ++c) {
@@ -296,7 +296,7 @@ BandReport Band::finish(Keep keep) {
     }
   }
   find_largest();
-  // A triangle's worst sample only: the lowest row, then column, among equals.
+  // Keep only a triangle's worst sample; ties by the lowest row, then column.
   auto& offenders = report_.offenders;
   sort_rarely(offenders, is_worse_of_triangle);
   const auto same = [](const TriangleOffender& a, const TriangleOffender& b) { return a.triangle == b.triangle; };

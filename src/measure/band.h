@@ -1,4 +1,4 @@
-// A band of rows: what must be covered, and the errors found so far.
+// A band of rows: the samples that must be covered, and the errors found so far.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace scarp::judge {
 
-/// Bound of the rounding of an error in double arithmetic, relative to the heights it was made from.
+/// Bound of the rounding of an error in double arithmetic, relative to its heights.
 constexpr double kRounding = 0x1p-48;
 
 /// The worst sample of one triangle in one band.
@@ -29,7 +29,7 @@ struct TriangleOffender {
   Offender offender;
 };
 
-/// By triangle, the worst first; the lowest row, then column, among equals.
+/// By triangle, the worst first; ties by the lowest row, then column.
 inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffender& b) {
   if (a.triangle != b.triangle) return a.triangle < b.triangle;
   const double x = std::abs(a.offender.error), y = std::abs(b.offender.error);
@@ -37,41 +37,41 @@ inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffend
   return a.offender.row != b.offender.row ? a.offender.row < b.offender.row : a.offender.col < b.offender.col;
 }
 
-/// The findings of one band about the mesh. Depends on the band only.
+/// The findings of one band about the mesh. They depend on the band only.
 struct BandReport {
   std::vector<RowSums> rows;
-  double largest = -1;                             ///< |error|; −1 if there is no sample
-  std::array<std::int32_t, 2> largest_at{-1, -1};  ///< the lowest row, then column, among equals
+  double largest = -1;                             ///< |error|; −1 without samples
+  std::array<std::int32_t, 2> largest_at{-1, -1};  ///< ties by the lowest row, then column
   HeightRange heights;
   std::uint64_t uncovered = 0, stray = 0, cut_off = 0, nodata_cells_covered = 0;
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< the first one
   std::vector<TriangleOffender> offenders;
   std::vector<Offender> uncovered_offenders;
   std::uint64_t over_tolerance = 0;
-  std::vector<float> kept;  ///< row-major; filled if asked for
+  std::vector<float> kept;  ///< row-major; only if requested
 };
 
 /// The errors that make a sample an offender.
 struct Limits {
   double everywhere = HUGE_VAL;
   std::span<const float> by_sample = {};  ///< limits of the whole field; empty: none, or those of `source`
-  const SampleSource* source = nullptr;   ///< who is asked for those of a band
-  bool with_uncovered = false;            ///< so are samples that no triangle covers
-  const CutRegion* region = nullptr;      ///< samples outside it do not count; null: there is none
+  const SampleSource* source = nullptr;   ///< provides the limits of a band
+  bool with_uncovered = false;            ///< samples without a triangle are offenders, too
+  const CutRegion* region = nullptr;      ///< samples outside it are ignored; null: none
 };
 
-/// The value that a band hands back for each sample: nothing, mesh − sample, or the mesh's height.
+/// The value that a band returns for each sample: none, mesh − sample, or the mesh's height.
 enum class Keep { kNothing, kErrors, kHeights };
 
-/// The rows [first, first + rows) of a field, to work on. Scanners read heights and cells, and write errors.
+/// The rows [first, first + rows) of a field during judging. Scanners read heights and cells, and write errors.
 class Band {
  public:
   static constexpr int kMostRows = kMostBandRows;
   static int rows_per_band(int cols) { return cols <= 4096 ? kMostRows : std::max(8, kMostRows * 4096 / cols); }
 
-  /// Reads the rows, with every sample that need not be covered (nodata, stray or cut off) as NaN, and finds the cells
-  /// that must not be covered. Errors will be counted in `histogram`, which outlives the band. Fails as the field's
-  /// source and that of limits do.
+  /// Reads the rows, with every sample that need not be covered (nodata, stray or cut off) as NaN. Finds the cells that
+  /// must not be covered. Errors are counted in `histogram`, which must outlive the band. Fails as the field's source
+  /// and that of limits do.
   static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard,
                            Histogram& histogram);
 
@@ -82,19 +82,19 @@ class Band {
   double* errors(int row) { return all_errors_ + std::ptrdiff_t{row - first_} * stride_; }
   BandRows rows() { return {heights(first_), all_errors_, cols_, stride_, first_, is_whole_}; }
 
-  /// Accepts `error` for a sample of errors() if it is larger than what is `held` there; among equals the positive.
+  /// Replaces the error `held` for a sample of errors() if `error` is larger, or equal and positive.
   void offer(double& held, double error) {
     const double now = std::abs(error), before = std::abs(held);
     if (now < before || (now == before && !(error > held))) return;  // false for the NaN of a sample not covered yet
     held = error;
     if (now > largest_) largest_ = now;
   }
-  /// The least error that is critical or makes an offender.
+  /// The smallest error that is critical or makes an offender.
   double watch() const {
     const double limit = lesser(largest_, least_limit_);
     return limit - (2 * guard_ + 4 * kRounding * std::abs(limit));
   }
-  /// True if an error of about this size may become the band's largest or break a bound, so that its last bit counts.
+  /// True if an error of about this size may become the band's largest or exceed a bound, so that its last bit matters.
   bool is_critical(int col, int row, double error) const {
     const double magnitude = std::abs(error);
     const double upper = magnitude + (guard_ + kRounding * magnitude);
@@ -104,46 +104,44 @@ class Band {
     const double magnitude = std::abs(error);
     return magnitude > least_limit_ && (magnitude > limits_.everywhere || magnitude > tolerance(col, row));
   }
-  /// Notes a sample of `triangle` that breaks the bound.
+  /// Records a sample of `triangle` above its bound.
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
 
-  /// Sums up the rows whose samples are covered as they must be. True if a sample of the band that must be covered is
-  /// not. Called once; samples near the end of the region that are not covered are cut off then.
+  /// Sums up the rows that are completely covered. True if a sample that must be covered is not. Called once; then cuts
+  /// off uncovered samples near the edge of the region.
   bool find_missing();
-  /// The same of a row, after find_missing().
+  /// The same for one row, after find_missing().
   bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
   bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
-  /// Offers a triangle at some distance to a missing sample: the nearest wins, the larger error among equals.
+  /// Offers a triangle at some distance to a missing sample: the nearest wins; ties by the larger error.
   void offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error);
 
   // Cells. Cell (col, row) lies between the samples (col, row) and (col + 1, row + 1).
   bool has_nodata_cells() const { return has_nodata_cells_; }
   bool row_has_nodata_cells(int row) const { return row_nodata_cells_[static_cast<std::size_t>(row - first_)] != 0; }
-  /// The point that shows whether the nodata part of the cell is covered; nothing if the cell is whole or already
-  /// counted.
+  /// A point to test whether the nodata part of the cell is covered; nothing if the cell is whole or already counted.
   std::optional<std::array<double, 2>> nodata_point(int col, int row) const;
   void count_nodata_cell(int col, int row);
 
-  /// Sums up the rest. Ends the band's life as a workplace.
+  /// Sums up the remaining rows. Ends the use of the band.
   BandReport finish(Keep keep);
 
  private:
   Band(const HeightField& field, int first, int rows, const Limits& limits, double guard, Histogram& histogram);
   Result<void> take_heights(const HeightField& field);
-  /// Borrows the rows from `top` to `bottom` − 1 as they lie in the field's memory, and returns true, if all samples
-  /// are heights.
+  /// Borrows the rows from `top` to `bottom` − 1 from the field's memory and returns true, if all samples are heights.
   bool borrow_heights(const HeightField& field, int top, int bottom);
   void note_range(const std::vector<RowHeights>& rows, int top);
 
   struct Nearest {
-    double distance = -1;  ///< −1: not missing; infinite: nothing near yet
+    double distance = -1;  ///< −1: not missing; infinite: no triangle near yet
     std::uint32_t triangle = 0;
   };
   static constexpr std::uint8_t kWhole = 0, kNodata = 1, kHalf = 2, kCounted = 6;  // kHalf + missing corner
   std::size_t at(int col, int row) const {
     return static_cast<std::size_t>(row - first_) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
   }
-  /// heights_ holds a row more above and below, for the cells there; NaN beyond the field.
+  /// heights_ has one more row above and below, for the cells there; NaN beyond the field.
   std::size_t height_at(int col, int row) const { return at(col, row + 1); }
   bool is_close(int col, int row, double magnitude, double upper) const {
     const double lower = magnitude - (upper - magnitude);
@@ -172,17 +170,17 @@ class Band {
   int cols_ = 0, stride_ = 0, first_ = 0, rows_ = 0;
   bool has_row_below_ = false;  // in the field
   Limits limits_;
-  double least_limit_ = HUGE_VAL;  // no sample has a smaller one
+  double least_limit_ = HUGE_VAL;  // the smallest limit of any sample
   double guard_ = 0, largest_ = 0;
   bool is_whole_ = false;  // all of its samples must be covered
   bool has_nodata_cells_ = false;
   Histogram& histogram_;
-  Array<float> heights_;                // empty where they are the field's
-  const float* all_heights_ = nullptr;  // from the row above on
-  std::vector<std::int32_t> valid_;     // by row, from the one above on: heights that are left
-  std::vector<float> tolerances_;       // empty unless there is a source of them
+  Array<float> heights_;                // empty if borrowed from the field
+  const float* all_heights_ = nullptr;  // starts at the row above
+  std::vector<std::int32_t> valid_;     // by row, from the one above on: number of remaining heights
+  std::vector<float> tolerances_;       // empty unless read from a source
   Array<double> errors_;
-  double* all_errors_ = nullptr;  // in errors_: rows of stride_, each where a cache line begins
+  double* all_errors_ = nullptr;  // in errors_: rows of stride_, each aligned to a cache line
   Array<std::uint32_t> scratch_;
   std::vector<CutRegion::Place> places_;  // empty without a region
   std::vector<Nearest> nearest_;          // empty if nothing is missing

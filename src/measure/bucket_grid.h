@@ -1,4 +1,4 @@
-// Buckets of equal size over the plane, each with the ids of what touches it.
+// Equal buckets over the plane, each with the ids of the shapes that touch it.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ struct Box {
 
 class BucketGrid {
  public:
-  /// Buckets over `box`, about `buckets` in number and nearly square. The outermost ones continue without end: a point
-  /// outside is searched in the nearest bucket, and shapes outside are in it.
+  /// Buckets over `box`, about `buckets` in number and nearly square. The outermost ones extend to infinity: points and
+  /// shapes outside belong to the nearest bucket.
   BucketGrid(const Box& box, std::size_t buckets) : box_(box) {
     const double width = std::max(box.x1 - box.x0, 0.0), height = std::max(box.y1 - box.y0, 0.0);
     const double count = static_cast<double>(std::clamp<std::size_t>(buckets, 1, std::size_t{1} << 28));
@@ -51,7 +51,7 @@ class BucketGrid {
     return {x, y, x + step_x_, y + step_y_};
   }
 
-  /// Fills the buckets. each(visit) calls visit(id, shape) for everything, in the same order each time; a shape has
+  /// Fills the buckets. each(visit) calls visit(id, shape) for every shape, in the same order each time; a shape has
   /// y_extent() and x_range(lo, hi). Entries of a bucket keep that order.
   template <class Each>
   void fill(const Each& each) {
@@ -71,7 +71,7 @@ class BucketGrid {
   template <class Shape, class Visit>
   void touch(const Shape& shape, const Visit& visit) const {
     const Interval along = shape.y_extent();
-    // A hair more than the bucket, so that rounding cannot lose what lies on its border.
+    // Slightly more than the bucket, so that rounding cannot lose shapes on its border.
     const double hair_x = 1e-9 * step_x_ + 1e-15 * std::max(std::abs(box_.x0), std::abs(box_.x1));
     const double hair_y = 1e-9 * step_y_ + 1e-15 * std::max(std::abs(box_.y0), std::abs(box_.y1));
     const int first = row_of(along.lo - hair_y), last = row_of(along.hi + hair_y);

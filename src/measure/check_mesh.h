@@ -1,4 +1,4 @@
-// Meshes that can be judged at all.
+// Validation of meshes before they are judged.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@
 
 namespace scarp::judge {
 
-/// Coordinates of this size can be multiplied three times before they are infinite.
+/// Coordinates up to this size can be multiplied three times without overflow.
 inline bool is_in_reach(double coordinate) { return std::abs(coordinate) <= 1e100; }
 
-/// kInput unless the mesh has triangles, all of vertices that it has, at finite coordinates in reach.
+/// kInput unless the mesh has triangles, all with existing vertices at finite coordinates in reach.
 Result<void> check_mesh(const Mesh& mesh);
 
 }  // namespace scarp::judge

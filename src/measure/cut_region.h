@@ -1,7 +1,7 @@
 // The region within the cutline of a mesh.
 //
-// The rings are used as they are, in double arithmetic; the mesh has them rounded to its lattice, by 3/512 sample at
-// most. So near the rings nothing is asked: kNear is twice as far and more.
+// The rings are used as given, in double arithmetic. The mesh has them rounded to its lattice, by at most 3/512 sample.
+// So samples near the rings are not required; kNear is more than twice as far.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class CutRegion {
  public:
   static constexpr double kNear = 1.0 / 64;  ///< in samples
 
-  /// REQUIRES: the affine map can be inverted. Cost: O(rows + segments · rows that they cross).
+  /// REQUIRES: the affine map is invertible. Cost: O(rows + segments · rows that they cross).
   CutRegion(const Cutline& cutline, int cols, int rows);
 
   enum class Place : std::uint8_t { kOutside, kNear, kInside };
@@ -23,7 +23,7 @@ class CutRegion {
   std::vector<Place> places(int first, int rows) const;
   /// True if a point of the grid lies in a polygon. REQUIRES: its row is in the field. Cost: O(segments in that row).
   bool holds(double x, double y) const;
-  /// True if a ring is no farther than `distance`, at most 2 · kNear. Otherwise like holds().
+  /// True if a ring is within `distance`, at most 2 · kNear. Requirements and cost as holds().
   bool is_near(double x, double y, double distance) const;
 
  private:
@@ -39,7 +39,8 @@ class CutRegion {
   void mark_near(int row, Place* places) const;
 
   int cols_, rows_;
-  std::vector<std::vector<Segment>> segments_;  // by row of cells, those within 2 kNear of it; of a polygon in sequence
+  std::vector<std::vector<Segment>> segments_;  // by row of cells, those within 2 kNear of it; each polygon's are
+                                                // consecutive
 };
 
 }  // namespace scarp::judge

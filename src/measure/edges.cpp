@@ -34,11 +34,10 @@ class UnionFind {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Half-edges by the smaller of their vertices, then the larger one, then their number, 3·triangle + the corner that
-/// they start from.
+/// Half-edges by their smaller vertex, then the larger one, then their number, 3·triangle + their first corner.
 class EdgeList {
  public:
-  /// The larger vertex, then the number, in one: they are sorted by both.
+  /// The larger vertex, then the number, as one sort key.
   struct HalfEdge {
     std::uint64_t key;
 
@@ -51,7 +50,7 @@ class EdgeList {
     const std::size_t vertices = mesh.vertex_count();
     starts_.resize(vertices + 2);
     std::fill(starts_.begin(), starts_.end(), 0u);
-    // Two places on: while they are filled, starts_[v + 1] is where the next of v goes.
+    // Counts are stored two places ahead, so that starts_[v + 1] is the next free slot of v during filling.
     each_half([&](std::uint32_t low, HalfEdge) { ++starts_[low + 2]; });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     halves_.resize(starts_.back());
@@ -107,9 +106,9 @@ class EdgeList {
   Array<HalfEdge> halves_;
 };
 
-/// Corners that are joined by edges of two triangles form fans; an open edge ends a fan at both its vertices, and each
-/// fan with an end has two. So the open edges chained through fans are the loops, also where loops touch in a vertex.
-/// Only fans at vertices of open edges matter.
+/// Corners connected by edges of two triangles form fans; an open edge ends a fan at both its vertices, and each fan
+/// with an end has two. So the open edges chained through fans are the loops, also where loops touch in a vertex. Only
+/// fans at vertices of open edges matter.
 std::uint64_t count_loops(const Mesh& mesh, const EdgeList& edges, std::span<const OpenEdge> open,
                           std::span<const std::uint32_t> open_halves) {
   std::vector<bool> is_end(mesh.vertex_count());

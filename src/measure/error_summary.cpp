@@ -47,7 +47,7 @@ void Histogram::add(const Buckets& buckets) {
   count_ += static_cast<std::uint64_t>(static_cast<std::int64_t>(buckets.count) + buckets.zeros);
 }
 
-/// From here on there are pages, if anything was counted.
+/// Moves the first counts to pages.
 void Histogram::turn_pages() {
   if (!few_.empty()) count(std::exchange(few_, {}));
 }
@@ -107,12 +107,12 @@ std::uint64_t Histogram::count_in(std::size_t first, std::size_t end) const {
 
 namespace {
 
-/// The last finite bucket ends at infinity; there is none above it.
+/// The last finite bucket ends at infinity; none is above it.
 double end_of(std::uint32_t bucket) { return static_cast<double>(bit_cast<float>((bucket + 1) << kBucketShift)); }
 
 }  // namespace
 
-/// Finds ascending ranks, each at least 1 and at most as many as were counted.
+/// Finds ascending ranks, from 1 to the number counted.
 void Histogram::find_among_few(std::span<const std::uint64_t> ranks, std::span<double> found) const {
   std::vector<std::uint32_t> buckets = few_;
   const auto larger = std::partition(buckets.begin(), buckets.end(), [](std::uint32_t bucket) { return bucket == 0; });
@@ -144,7 +144,7 @@ void Histogram::find(std::span<const unsigned> permilles, std::span<double> foun
     while (next < permilles.size() && passed != 0 && passed >= rank(permilles[next])) found[next++] = value;
   };
   if (pages_[0] != kNone) passed += count_in(pages_[0], pages_[0] + 1);
-  settle(0);  // zeros, and what is nearer to it than 1e-41
+  settle(0);  // zeros, and errors below 1e-41
   for (std::uint32_t p = 0; p < kPages && next < permilles.size(); ++p) {
     if (pages_[p] == kNone) continue;
     const std::size_t first = pages_[p] + (p == 0 ? 1 : 0), end = pages_[p] + kPageSize;

@@ -1,4 +1,4 @@
-// Statistics of errors that do not depend on who counted what first.
+// Statistics of errors that do not depend on the order of counting.
 #pragma once
 
 #include <array>
@@ -12,25 +12,25 @@
 
 namespace scarp::judge {
 
-/// A bucket of the histogram holds the |error| whose float32 have the same leading bits: 2^12 to a power of two, so a
+/// A bucket of the histogram holds the |error| whose float32 share the leading bits: 2^12 per power of two, so a
 /// bucket's ends differ by at most 0.025 %.
 constexpr int kBucketShift = 11;
 
-/// Buckets of the errors of a row, as the kernels hand them out.
+/// Buckets of the errors of a row, as returned by the kernels.
 struct Buckets {
-  std::uint32_t* values = nullptr;  ///< room for all of the row and kKernelPadding more
+  std::uint32_t* values = nullptr;  ///< room for the whole row and kKernelPadding more
   std::size_t count = 0;
-  std::int64_t zeros = 0;  ///< to be added to the count of bucket 0
+  std::int64_t zeros = 0;  ///< to add to the count of bucket 0
 };
 
-/// Counts |error| by bucket: the first kFew one by one, more in pages, which small rasters would clear for longer than
-/// they are judged.
+/// Counts |error| by bucket: the first kFew in a list, later ones in pages. Clearing pages would cost more than judging
+/// a small raster.
 class Histogram {
  public:
   void add(const Buckets& buckets);
   void merge(const Histogram& other);
-  /// For each of the ascending `permilles` the upper end of the bucket in which the `permille`·n/1000-th smallest value
-  /// lies; 0 if nothing was counted.
+  /// For each of the ascending `permilles`: the upper end of the bucket of the `permille`·n/1000-th smallest value; 0
+  /// if nothing was counted.
   template <std::size_t kCount>
   std::array<double, kCount> percentiles(const std::array<unsigned, kCount>& permilles) const {
     std::array<double, kCount> found{};
@@ -60,16 +60,16 @@ class Histogram {
   std::uint64_t count_in(std::size_t first, std::size_t end) const;
   void find(std::span<const unsigned> permilles, std::span<double> found) const;
 
-  std::vector<std::uint32_t> few_;  ///< buckets, as long as there are no pages
+  std::vector<std::uint32_t> few_;  ///< buckets, before pages exist
 
-  /// Pages of counts, one for each exponent of the float, made when first needed. The first ones are neighbours, so
-  /// that most errors need no access to pages_: those of `dense_size_` buckets from `dense_from_` on. Counts there go
-  /// to small_ first, which needs half as much of the cache.
+  /// Pages of counts, one per exponent of the float, created on first use. The first ones are adjacent, so that most
+  /// errors need no access to pages_: those of `dense_size_` buckets from `dense_from_` on. Their counts are first
+  /// added to small_, which needs half as much cache.
   Array<std::uint32_t> counts_;
   Array<std::uint16_t> small_;
-  std::array<std::uint32_t, kPages> pages_ = no_pages();  ///< by exponent: where the page begins
+  std::array<std::uint32_t, kPages> pages_ = no_pages();  ///< by exponent: start of the page
   std::uint32_t dense_from_ = 0, dense_size_ = 0;
-  std::vector<std::uint64_t> carried_;  ///< counts that counts_ had no room for, in the same order
+  std::vector<std::uint64_t> carried_;  ///< overflow of counts_, in the same order
   std::uint64_t recent_ = 0;            ///< in counts_
   std::int64_t zeros_ = 0;              ///< zeros in addition to those counted in bucket 0
   std::uint64_t count_ = 0;
@@ -85,11 +85,11 @@ class Sum {
   double sum_ = 0, lost_ = 0;
 };
 
-/// Sums of one row. Each has kSumParts parts, by column; the parts of a sum are added up as sum_of_parts() does.
+/// Sums of one row. Each has kSumParts parts, by column, added up by sum_of_parts().
 struct RowSums {
   std::uint64_t samples = 0;
   double error = 0, magnitude = 0, square = 0;
-  double largest = -1;  ///< |error|; −1 if there is no sample
+  double largest = -1;  ///< |error|; −1 without samples
 };
 
 constexpr std::size_t kSumParts = 8;
@@ -98,10 +98,10 @@ constexpr std::size_t kSumParts = 8;
   return ((parts[0] + parts[4]) + (parts[2] + parts[6])) + ((parts[1] + parts[5]) + (parts[3] + parts[7]));
 }
 
-/// Sums up the errors that are not NaN, by the kernels in use, and returns their buckets, which lie in `room`.
+/// Sums up the errors that are not NaN, with the kernels in use. Returns their buckets, stored in `room`.
 RowSums sum_row(std::span<const double> errors, Array<std::uint32_t>& room, Buckets& buckets);
 
-/// p50 … p999 of the errors counted, none above the max error that `result` has.
+/// Sets p50 … p999 of the counted errors, none above the max error in `result`.
 void set_percentiles(const Histogram& histogram, Measurement& result);
 
 }  // namespace scarp::judge

@@ -8,16 +8,16 @@
 
 namespace scarp::judge {
 
-/// Sums up row after row, from the top.
+/// Sums up rows from the top.
 class ErrorWeigher {
  public:
-  /// A sample is above `bound` by more than the `allowance`, which is subtracted from errors after the `reserve` for
-  /// the rounding of samples is added, and 2^-23 of the bound, since the judge hands out errors as float32.
+  /// An error plus the `reserve` (for the rounding of samples) minus the `allowance` counts as above `bound` if it
+  /// exceeds it by more than 2^-23 of it, since the judge returns errors as float32.
   ErrorWeigher(double bound, double reserve, double allowance);
 
   struct Row {
     std::span<const float> errors;          ///< signed, NaN where nodata or uncovered
-    std::span<const double> norms = {};     ///< these count in their place, unless it is empty
+    std::span<const double> norms = {};     ///< replace `errors` unless empty
     std::span<const float> mask = {};       ///< empty: none
     std::span<const float> tolerance = {};  ///< empty: none
     std::span<const float> limits = {};     ///< above 0: no bound; empty: none

@@ -7,7 +7,7 @@
 namespace scarp::judge {
 namespace {
 
-/// A sum of doubles without rounding: components that do not overlap, smallest first.
+/// An exact sum of doubles: components that do not overlap, smallest first.
 struct ExactSum {
   std::array<double, 16> parts{};
   std::size_t count = 0;

@@ -5,14 +5,14 @@
 
 namespace scarp::judge {
 
-/// Σ w[k]·z[k] / Σ w[k] − sample, correctly rounded but for ties closer than 2^-100: if the true error is at most some
-/// double, so is the result. The sums are free of rounding (error-free transformations: Dekker 1971, Shewchuk 1997), so
-/// with corners on the lattice a mesh that reproduces a sample exactly is found to do so. REQUIRES: w[k] >= 0, Σ w[k] >
-/// 0, all finite and far from overflow.
+/// Σ w[k]·z[k] / Σ w[k] − sample, correctly rounded except for ties closer than 2^-100: if the true error is at most
+/// some double, so is the result. The sums are exact (error-free transformations: Dekker 1971, Shewchuk 1997). So with
+/// corners on the lattice a mesh that reproduces a sample exactly has error 0. REQUIRES: w[k] >= 0, Σ w[k] > 0, all
+/// finite and far from overflow.
 double settle_error(const std::array<double, 3>& w, const std::array<double, 3>& z, double sample);
 
 /// Error of a sample at (x, y) outside the facet but near it: on the facet's plane, extrapolated. For a facet thinner
-/// than `tolerance` the nearest point is used, because its plane means nothing.
+/// than `tolerance`, whose plane is meaningless, the nearest point is used.
 double error_beside(const Facet& facet, double x, double y, double sample, double tolerance);
 
 }  // namespace scarp::judge

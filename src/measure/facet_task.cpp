@@ -5,11 +5,10 @@
 namespace scarp::judge {
 namespace {
 
-/// Weights of a facet on the lattice of 256ths that is no larger have 45 bits at most, and its slack is less than one
-/// of their steps.
+/// Facets on the lattice of 256ths up to this size have weights of at most 45 bits, and a slack below their step.
 constexpr double kMostExact = 2048;
-/// In a row, a side of such a facet lies on a sample or 2^-27 of a column away from it at least; the margin and what is
-/// rounded in a column below this one are less than half of that.
+/// Largest column for exact spans. In a row, a side of such a facet is either on a sample or at least 2^-27 of a column
+/// away. The margin plus the rounding in a column below this one is less than half of that.
 constexpr std::int32_t kMostExactCols = 1 << 22;
 /// In narrower rows a search for sides does not pay.
 constexpr std::int32_t kNarrow = 8;

@@ -1,4 +1,4 @@
-// The facts about a triangle in a band that a kernel needs.
+// The data of a triangle in a band that a kernel needs.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace scarp::judge {
 
-/// Whole numbers in [lo, hi] that are in [least, most]; first > second if there are none.
+/// Integers in [lo, hi] and [least, most]; first > second if none.
 inline std::pair<int, int> whole_between(double lo, double hi, int least, int most) {
   return {static_cast<int>(lesser(greater(std::ceil(lo), least), most + 1.0)),
           static_cast<int>(lesser(greater(std::floor(hi), least - 1.0), most))};

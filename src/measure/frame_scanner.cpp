@@ -1,9 +1,9 @@
 // Judging in any frame.
 //
-// A frame with a transform (a map projection) cannot be inverted here, so the samples go to the mesh instead: each
-// row's positions are transformed, and a grid of buckets over the field's image, one for each triangle, names the
-// triangles that may lie over a position. Tolerances are given in samples; near a sample the frame is treated as
-// affine, and triangles are brought into grid coordinates around the sample by the inverse of that affine map.
+// A frame with a transform (a map projection) cannot be inverted here, so samples are converted to the mesh's frame.
+// Each row's positions are transformed. A bucket grid over the field's image, with as many buckets as triangles, yields
+// the candidates at a position. Tolerances are in samples: near a sample the frame is treated as affine, and its
+// inverse converts triangles to grid coordinates around the sample.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -26,7 +26,7 @@ struct LocalFrame {
   double col_x = 0, col_y = 0, row_x = 0, row_y = 0;
 
   double determinant() const { return col_x * row_y - col_y * row_x; }
-  /// The facet in columns and rows from the point.
+  /// Converts the facet to columns and rows relative to the point.
   bool to_grid(const Facet& facet, Facet& local) const {
     const double det = determinant();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -71,8 +71,8 @@ class FrameScanner : public Scanner {
   }
 
  private:
-  /// The bounds of the field, from its border and some lines across it, with a margin; triangles elsewhere cost
-  /// nothing. A sample that is missed by it still finds its triangles, if slowly.
+  /// The bounds of the field, from its border and some lines across it, with a margin; triangles outside cost nothing.
+  /// Samples outside the bounds still find their triangles, but slowly.
   Box bounds(const HeightField& field) const {
     std::vector<double> cols, rows;
     const double last_col = field.cols - 1, last_row = field.rows - 1;
@@ -95,7 +95,7 @@ class FrameScanner : public Scanner {
     return {box.x0 - margin_x, box.y0 - margin_y, box.x1 + margin_x, box.y1 + margin_y};
   }
 
-  /// Positions of grid points; NaN where they have no image.
+  /// Positions of grid points; NaN without an image.
   void locate(const std::vector<double>& cols, const std::vector<double>& rows, double col_shift, double row_shift,
               Points& points) const {
     points.x.resize(cols.size());
@@ -147,7 +147,7 @@ class FrameScanner : public Scanner {
     }
   }
 
-  /// The local frames of grid points; a point without image, or where the frame is singular, gets NaN.
+  /// The local frames of grid points; NaN without an image, or if singular.
   std::vector<LocalFrame> local_frames(const std::vector<double>& cols, const std::vector<double>& rows) const {
     Points here, right, down;
     locate(cols, rows, 0, 0, here);
@@ -168,7 +168,7 @@ class FrameScanner : public Scanner {
   }
 
   /// Calls visit(id, facet in grid coordinates around the point) for all triangles in the buckets within `reach`
-  /// samples. A triangle may be visited more than once.
+  /// samples, maybe repeatedly.
   template <class Visit>
   void visit_near(const LocalFrame& at, double reach, const Visit& visit) const {
     const double dx = reach * (std::abs(at.col_x) + std::abs(at.row_x)),

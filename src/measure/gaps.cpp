@@ -1,13 +1,13 @@
 // Holes in the surface.
 //
-// A triangle whose samples all lie on its edges can go without any sample losing its cover. Its border gives the hole
-// away: edges with one triangle, next to which the domain continues. So each open edge is cut where it crosses the
-// lattice lines, and next to the middle of each piece, a little outside, the raster is asked whether there is surface.
+// A triangle whose samples all lie on its edges can be missing without uncovering any sample. Its border reveals the
+// hole: edges with one triangle, next to which the domain continues. So each open edge is split where it crosses the
+// lattice lines. Then the raster is tested for surface slightly outside the middle of each piece.
 //
-// There may be, in a mesh without fault: where the outline was simplified, a thin wedge of nodata can part an edge from
-// the surface of another place. There the point is covered, and the edge itself lies in nodata; it is a gap only if
-// the point is bare, or if no nodata parts it from the edge (a crack thinner than the step outwards). Likewise where
-// the mesh was cut: a slit of the cutline may part an edge from the surface next to it.
+// Surface there is not always a fault. Where the outline was simplified, a thin wedge of nodata can separate an edge
+// from the surface of another place. There the point is covered, and the edge itself lies in nodata. It is a gap only
+// if the point is uncovered, or if no nodata separates it from the edge (a crack thinner than the step outwards).
+// Likewise a slit of the cutline may separate an edge from the surface next to it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,8 +33,8 @@ class ValidDomain {
   double last_col() const { return field_.cols - 1.0; }
   double last_row() const { return field_.rows - 1.0; }
 
-  /// True if p lies in a cell of four heights, or in the half cell of three; `q`, next to it, lies in the same one up
-  /// to `noise` if it `is_beside`.
+  /// True if p lies in a cell of four heights, or in the half cell of three. `is_beside`: the adjacent point q lies in
+  /// the same cell, up to `noise`.
   bool has_surface(const Point& p, const Point& q, double noise, bool& is_beside) {
     if (!(p.x >= 0 && p.y >= 0 && p.x < last_col() && p.y < last_row())) return false;
     const int col = static_cast<int>(p.x), row = static_cast<int>(p.y);
@@ -61,8 +61,8 @@ class ValidDomain {
   HeightMarks marks_;
 };
 
-/// The places where the line from a to b crosses lattice lines, within the raster: ascending, in parts of the line,
-/// with both ends. Empty if it runs outside the raster.
+/// The crossings of the line from a to b with lattice lines, within the raster: ascending, as fractions of the line,
+/// including both ends. Empty if it is outside the raster.
 void cut_at_lattice(const ValidDomain& domain, const Point& a, const Point& b, std::vector<double>& cuts) {
   cuts.clear();
   double first = 0, last = 1;
@@ -76,7 +76,7 @@ void cut_at_lattice(const ValidDomain& domain, const Point& a, const Point& b, s
     first = std::max(first, std::min(t0, t1));
     last = std::min(last, std::max(t0, t1));
   };
-  // Half a sample more: an edge outside the raster by rounding is checked as well.
+  // Half a sample more, to include edges outside the raster by rounding.
   clip(a.x, b.x, -0.5, domain.last_col() + 0.5);
   clip(a.y, b.y, -0.5, domain.last_row() + 0.5);
   if (!(first < last)) return;
@@ -95,7 +95,7 @@ void cut_at_lattice(const ValidDomain& domain, const Point& a, const Point& b, s
   std::sort(cuts.begin(), cuts.end());
 }
 
-/// Positions of vertices in the grid; NaN where the inverse of the frame is not found. A frame that is not affine is
+/// Positions of vertices in the grid; NaN if the frame cannot be inverted there. Frames that are not affine are
 /// inverted by Newton's method from the raster's centre.
 std::vector<Point> map_to_grid(const HeightField& field, const Mesh& mesh, const std::vector<std::uint32_t>& vertices) {
   const Frame& frame = field.frame;
@@ -141,7 +141,7 @@ std::vector<Point> map_to_grid(const HeightField& field, const Mesh& mesh, const
   return found;
 }
 
-/// A place in the domain next to an open edge: a gap if no triangle covers it.
+/// A point of the domain next to an open edge: a gap if no triangle covers it.
 struct Doubt {
   std::uint32_t edge = 0;
   Point at;  ///< in the grid
@@ -222,7 +222,7 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, con
     double longest = 0;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) longest = std::max(longest, cuts[i + 1] - cuts[i]);
     for (std::size_t i = 0; i + 1 < cuts.size() && !is_gap[e]; ++i) {
-      // A rounded vertex leaves a short piece beyond its lattice line, next to a cell that the edge has no part in.
+      // A rounded vertex causes a short piece beyond its lattice line, next to a cell that the edge does not touch.
       if ((cuts[i + 1] - cuts[i]) * length < 4 * step && cuts[i + 1] - cuts[i] < longest) continue;
       const double t = (cuts[i] + cuts[i + 1]) / 2;
       const Point middle{a.x + t * ux, a.y + t * uy};

@@ -1,4 +1,4 @@
-// From the mesh back to the grid, for affine frames.
+// Conversion of mesh positions to grid positions, for affine frames.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace scarp::judge {
 
-/// The inverse of an affine frame, in plain double arithmetic: the same on all machines. A coordinate that comes as
-/// near to a whole number, or to a 256th, as rounding may have moved it is put onto it: four units in the last place of
-/// the coordinates that the vertex was made from (the frame's, the origin, its own), in samples, and the loss of the
+/// The inverse of an affine frame in plain double arithmetic, the same on all machines. A coordinate is snapped to an
+/// integer, or to a 256th, if rounding may have moved it that far. Rounding is estimated as four units in the last
+/// place of the vertex's source coordinates (the frame's, the origin, its own), in samples, plus the loss of the
 /// inverse itself.
 class GridMap {
  public:
@@ -38,7 +38,7 @@ class GridMap {
  private:
   static constexpr double kUlp = 0x1p-52;
 
-  /// a + b + c, rounded once or twice: the difference of large coordinates loses nothing.
+  /// a + b + c, rounded once or twice: differences of large coordinates are not lost.
   static double sum_of(double a, double b, double c) {
     const auto lost = [](double p, double q, double sum) {
       const double back = sum - p;

@@ -19,8 +19,7 @@ struct FacetCorner {
   double x, y, z;
 };
 
-/// Corners by vertex. Those of a mesh whose vertices lie on samples, or near them on the lattice of fitting, need half
-/// the memory.
+/// Corners by vertex. They need half the memory if vertices lie on samples, or near them on the lattice of fitting.
 class FacetCorners {
  public:
   /// x and y in steps of the GridMap's lattice.
@@ -48,7 +47,7 @@ class FacetCorners {
     return {at.x / GridMap::kSteps, at.y / GridMap::kSteps, at.z};
   }
   double row(std::size_t v) const { return shorts_.empty() ? corners_[v].y : shorts_[v].y / GridMap::kSteps; }
-  /// The corner will be asked for soon.
+  /// Prefetches the corner.
   void expect(std::size_t v) const {
     if (shorts_.empty()) {
       __builtin_prefetch(&corners_[v]);
@@ -58,7 +57,7 @@ class FacetCorners {
   }
 
  private:
-  Array<FacetCorner> corners_;  // empty where there are shorts
+  Array<FacetCorner> corners_;  // empty if shorts are used
   Array<Short> shorts_;
 };
 
@@ -68,8 +67,8 @@ struct GridPlaces {
   bool are_on_lattice = true;  ///< all columns and rows are multiples of 1/256
 };
 
-/// Computes the places of GridMap. kInput for a vertex that is out of reach (check_mesh.h). REQUIRES: an affine frame
-/// that can be inverted. The result does not depend on threads.
+/// Computes the places with GridMap. kInput for a vertex out of reach (check_mesh.h). REQUIRES: an invertible affine
+/// frame. The result does not depend on threads.
 Result<GridPlaces> place_on_grid(const HeightField& field, const Mesh& mesh, int threads);
 
 }  // namespace scarp::judge

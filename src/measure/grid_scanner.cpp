@@ -1,12 +1,12 @@
 // Judging in an affine frame.
 //
 // The vertices are mapped back to grid coordinates, where sample (col, row) is the point (col, row). The inverse map
-// leaves noise of some 1e-16 of the coordinates; a coordinate that near to a lattice line is put onto it (see GridMap),
-// so that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for
-// a row the samples between its left and right side are visited, in vectors (judge_kernels.h). Samples on a side belong
-// to both triangles. A sample's error is the barycentric mean of (corner height − sample): all weights are positive, so
-// nothing cancels that was not equal before. An error that may be the band's largest or break a bound is settled
-// without rounding. For a mesh in space this finds the samples near each triangle, and those uncovered; space_judge.h
+// leaves noise of some 1e-16 of the coordinates. Coordinates that close to a lattice line are snapped to it (see
+// GridMap), so that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is scanned
+// by rows: the samples between its left and right side are judged in vectors (judge_kernels.h). Samples on a side
+// belong to both triangles. A sample's error is the barycentric mean of (corner height − sample): all weights are
+// positive, so there is no further cancellation. An error that may be the band's largest or exceed a bound is computed
+// exactly. For a mesh in space this finds the samples near each triangle, and the uncovered ones; space_judge.h
 // computes the errors.
 #include <bit>
 #include <cmath>
@@ -72,7 +72,7 @@ class GridScanner : public Scanner {
     std::int32_t first, last;
   };
 
-  /// Those that the triangle, grown by the tolerance, touches.
+  /// Bands that the triangle, enlarged by the tolerance, touches.
   BandSpan touched_bands(std::uint32_t id) const {
     const std::uint32_t* vertices = &facets_.mesh->triangles[3 * std::size_t{id}];
     const double a = facets_.corners.row(vertices[0]), b = facets_.corners.row(vertices[1]),
@@ -83,13 +83,13 @@ class GridScanner : public Scanner {
     return {static_cast<std::int32_t>(lo) / rows_per_band_, static_cast<std::int32_t>(hi) / rows_per_band_};
   }
 
-  /// By counting, part by part: triangles of a band stay ascending.
+  /// Counting sort, part by part: triangles of a band remain ascending.
   void sort_into_bands(std::optional<std::span<const std::uint32_t>> ids, int threads) {
     constexpr std::size_t kTogether = 1 << 16;
     const auto bands = static_cast<std::size_t>((rows_ - 1) / rows_per_band_ + 1);
     const std::size_t count = ids ? ids->size() : facets_.mesh->triangle_count();
     const std::size_t parts = (count + kTogether - 1) / kTogether;
-    std::vector<std::size_t> next(parts * bands, 0);  // by part, then band: first the count, then where to put
+    std::vector<std::size_t> next(parts * bands, 0);  // by part, then band: first the count, then the next position
     const auto each_touch = [&](const auto& visit) {
       parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
         std::size_t* const at = &next[first / kTogether * bands];
@@ -121,7 +121,7 @@ class GridScanner : public Scanner {
     if (inside.worst.error != 0) band.add_offender(id, inside.worst);
   }
 
-  /// One facet in one band, as far as its samples need more than plain arithmetic.
+  /// One facet in one band, for samples that need more than plain arithmetic.
   struct Inside {
     const Facet& facet;
     const FacetTask& task;
@@ -149,7 +149,7 @@ class GridScanner : public Scanner {
     }
   };
 
-  /// `error_of`: of a sample, on the facet.
+  /// `error_of`: returns the error of a sample on the facet.
   template <class ErrorOf>
   void judge_beside(const Facet& facet, std::uint32_t id, Band& band, const ErrorOf& error_of) const {
     const Interval along = facet.plan.y_extent();

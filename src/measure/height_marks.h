@@ -1,4 +1,4 @@
-// Marks of the samples of a field that are heights, for random access.
+// Random access to the validity of a field's samples.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace scarp::judge {
 
-/// Reads the field by squares and remembers some hundred of them, 4 KB each: questions that move along a line read
-/// each square once. After a failure of the field's source nothing is a height, and failure() returns the reason.
+/// Reads the field by squares and caches some hundred of them, 4 KB each: queries along a line read each square once.
+/// After a failure of the field's source no sample is a height, and failure() returns the reason.
 class HeightMarks {
  public:
   explicit HeightMarks(const HeightField& field) : field_(field), squares_(kSquares) {}
@@ -26,12 +26,13 @@ class HeightMarks {
     if (square.x != x || square.y != y) read(square, x, y);
     return square.marks[static_cast<std::size_t>(row % kSide * kSide + col % kSide)] != 0;
   }
-  /// Nothing has failed so far, or the first failure.
+  /// Success, or the first failure.
   const Result<void>& failure() const { return failure_; }
 
  private:
   static constexpr int kSide = 64;
-  static constexpr std::int64_t kSquares = 512, kSquaresAcross = 37;  // no multiple of each other: columns spread too
+  static constexpr std::int64_t kSquares = 512, kSquaresAcross = 37;  // not multiples of each other, so that columns
+                                                                      // spread too
   struct Square {
     std::int64_t x = -1, y = -1;
     std::vector<std::uint8_t> marks;

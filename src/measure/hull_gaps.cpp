@@ -26,7 +26,7 @@ std::vector<Spot> chain_of(const std::vector<Spot>& sorted, double sign) {
   return chain;
 }
 
-/// How far p lies on the inner side of the chain; negative outside.
+/// Distance of p from the chain towards the inside; negative outside.
 double depth(const std::vector<Spot>& chain, double sign, const Spot& p) {
   const auto after = std::upper_bound(chain.begin(), chain.end(), p.x, [](double x, const Spot& s) { return x < s.x; });
   if (after == chain.begin() || after == chain.end()) return -HUGE_VAL;

@@ -9,9 +9,8 @@
 
 namespace scarp::judge {
 
-/// Open edges for which the point 4 `tolerance` outside of their middle lies in the inside of the points' convex hull,
-/// and deeper than that: the mesh has a hole or an inlet there. Cost: O(open edges · log hull), and a sort of the
-/// points.
+/// Counts open edges at which the mesh has a hole or an inlet: the point 4 `tolerance` outside their middle lies deeper
+/// than that inside the points' convex hull. Cost: O(open edges · log hull), plus a sort of the points.
 std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance);
 

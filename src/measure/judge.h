@@ -1,7 +1,7 @@
 // Judging a mesh by heights, channels, masks, tolerances and ignored samples.
 //
-// measure() gives the distance of a mesh from the heights. judge_mesh() checks the promise of simplify() with a mask,
-// tolerances, a script or channels. Like measure() it knows nothing of how the mesh was made.
+// measure() returns the distance of a mesh from the heights. judge_mesh() checks the bound of simplify() with a mask,
+// tolerances, a script or channels. Like measure() it is independent of how the mesh was built.
 #pragma once
 
 #include <array>
@@ -23,19 +23,18 @@
 
 namespace scarp {
 
-/// The largest of some errors, without sign, and its sample (col, row): (−1, −1) if all are 0.
+/// The largest of some absolute errors, and its sample (col, row): (−1, −1) if all are 0.
 struct LargestError {
   double value = 0;
   std::array<std::int32_t, 2> at{-1, -1};
 };
 
-/// Errors that are compared with a bound: of heights or norms, under a mask or tolerances. Errors are rounded to
-/// float32.
+/// Errors compared with a bound: of heights or norms, under a mask or tolerances. They are rounded to float32.
 struct WeighedErrors {
-  LargestError largest;    ///< largest error of all judged samples, HeightField::sample_rounding not counted
-  LargestError bounded;    ///< largest error of the judged samples that have a bound
+  LargestError largest;    ///< over all judged samples, without HeightField::sample_rounding
+  LargestError bounded;    ///< over the judged samples with a bound
   double rmse = 0;         ///< root of the mean square over all judged samples
-  std::uint64_t over = 0;  ///< samples above their bound, HeightField::sample_rounding counted
+  std::uint64_t over = 0;  ///< samples above their bound, including HeightField::sample_rounding
 };
 
 /// weight · error.
@@ -43,59 +42,59 @@ double weigh_by_mask(float weight, double error);
 /// error / tolerance; 0 for an error of 0.
 double weigh_by_tolerance(float tolerance, double error);
 
-/// The most by which an error of measure() may exceed `bound` through the rounding of its double arithmetic:
-/// 1e-12 · bound + 1e-12 · max |z|.
+/// The largest excess of an error of measure() over `bound` through rounding in double arithmetic: 1e-12 · bound +
+/// 1e-12 · max |z|.
 double judging_allowance(double bound, const HeightRange& heights);
 
 struct JudgeOptions {
-  Tolerances tolerances = {};  ///< like SimplifyOptions::tolerances; no values together with weights
-  /// The bound of all samples, at least 0: of the weighted error under a mask, of the norm with channels, else of the
-  /// height. With tolerances it also bounds samples whose tolerance is infinite. DEFAULT: none.
+  Tolerances tolerances = {};  ///< like SimplifyOptions::tolerances; not together with weights
+  /// The bound of all samples, at least 0: of the weighted error under a mask, of the norm with channels, otherwise of
+  /// the height error. With tolerances it also bounds samples whose tolerance is infinite. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
-  /// How a sample's errors in heights and channels become one.
+  /// How to combine a sample's errors in heights and channels.
   Norm norm = Norm::kSum;
   const Cutline* cutline = nullptr;  ///< Like MeasureOptions::cutline. Borrowed.
   bool topology = true;              ///< like MeasureOptions::topology
-  /// False: Judgement::combined and weighted are omitted, and Judgement::ignored where bounds are read in windows. This
-  /// saves a pass over these, and the memory of errors. DEFAULT: true.
+  /// False: omits Judgement::combined and weighted, and Judgement::ignored where bounds are read in windows. This saves
+  /// a pass over them, and the memory of errors. DEFAULT: true.
   bool weigh = true;
   bool keep_errors = false;  ///< fill Judgement::height_errors and norms. DEFAULT: false.
-  /// Like MeasureOptions::on_row: signed errors of the heights, row by row, in place of keeping them.
+  /// Like MeasureOptions::on_row: signed errors of the heights by row, as an alternative to keep_errors.
   std::function<void(int row, std::span<const float> errors)> on_row = {};
   Run run = {};
 };
 
 struct Judgement {
   Measurement heights;                ///< without offenders and over_tolerance
-  std::vector<Measurement> channels;  ///< one for each channel, in its own units; without topology
+  std::vector<Measurement> channels;  ///< one per channel, in its own units; without topology
   std::uint64_t ignored = 0;          ///< valid samples without a bound: ignored, of weight 0, of an infinite tolerance
-  LargestError bounded;               ///< error of heights, over covered samples that are not ignored
+  LargestError bounded;               ///< largest height error of covered samples that are not ignored
   std::optional<WeighedErrors> combined;  ///< with channels: norms, compared with max_error
   /// With a mask: weighted errors, compared with max_error. With tolerances: error / tolerance, compared with 1. With
   /// channels the errors are norms.
   std::optional<WeighedErrors> weighted;
-  std::vector<float> height_errors;  ///< kept: mesh − sample, one a sample; NaN where nodata or uncovered
-  std::vector<double> norms;         ///< kept, with channels: of all errors of a sample, one a sample
+  std::vector<float> height_errors;  ///< if kept: mesh − sample, one per sample; NaN where nodata or uncovered
+  std::vector<double> norms;         ///< if kept, with channels: norm of all errors of a sample, one per sample
 };
 
 /// Judges heights, then each channel as if it were the height, then the combined and weighted errors. A sample counts
-/// as above its bound only if it exceeds the bound by more than the rounding of the judge: 1e-12 of the largest value,
-/// and 2⁻²³ of the bound, since errors are float32.
+/// as above its bound only if the excess is larger than the rounding of the judge: 1e-12 of the largest value, and 2⁻²³
+/// of the bound, since errors are float32.
 ///
-/// `mesh` has as many channels as `field`, values in Mesh::channels. Nothing is kept of what is borrowed. A field with
-/// a source, and sources of weights and tolerances, are read in bands of rows; where some errors are above their bound,
-/// twice. Fails with kUsage for weights or tolerances of another size than the field, both at once, a max_error below
-/// 0, another number of channels than the mesh has, channels or an array of weights or tolerances with a field with a
-/// source, channels with a frame in space, and an ignored sample outside the raster; and as measure() and the sources
-/// do. Memory: as measure(); with weights, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more
-/// with channels, 4 more where samples in memory are ignored. Cost: as measure(), once for the heights and once a
-/// channel.
+/// `mesh` has as many channels as `field`, values in Mesh::channels. Borrows its arguments for the call. Reads a field
+/// with a source, and sources of weights and tolerances, in bands of rows; twice if errors are above their bound. Fails
+/// with kUsage if weights or tolerances do not have the field's size, or both are given; if max_error is below 0; if
+/// numbers of channels differ; if a field with a source has channels, or an array of weights or tolerances; for
+/// channels with a frame in space; and for an ignored sample outside the raster. Fails also as measure() and the
+/// sources do. Memory: as measure(); with weights, an array of tolerances, channels or keep_errors 4 bytes per sample,
+/// 8 more with channels, 4 more where samples in memory are ignored. Cost: as measure(), once for the heights and once
+/// per channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});
 
 /// The errors that take_error_raster() returns.
 enum class ErrorsOf {
-  kHeights,  ///< signed errors of the heights
-  kNorms,    ///< norms over heights and channels; as heights without channels
+  kHeights,  ///< signed height errors
+  kNorms,    ///< norms over heights and channels; without channels as kHeights
 };
 /// The kept errors as a raster, NaN where nodata or uncovered. REQUIRES: JudgeOptions::keep_errors.
 std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);

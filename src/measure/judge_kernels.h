@@ -1,14 +1,14 @@
 // The judge's inner loops in vectors of doubles: the errors of a triangle's samples, and their sums.
 //
-// One source is compiled for every instruction set, as that of the engine's scan, with which it shares nothing; the
-// best that the machine has is chosen at run time. All of them, and the twin in plain loops, give the same bits: a
-// sample's error is the same sequence of separately rounded operations everywhere, samples are judged row by row, and
-// sums have eight parts by column whatever the width of a vector.
+// One source is compiled for every instruction set, as for the engine's scan, with which it shares no code; the best
+// that the machine supports is chosen at run time. All of them, and the scalar twin, give the same bits. A sample's
+// error is the same sequence of separately rounded operations everywhere, samples are judged row by row, and sums have
+// eight parts by column for any vector width.
 //
 // The computation for a sample at column c of a row, with the side opposite to corner k from (x, y) along (dx, dy):
-//   weight[k] = dx[k]·(row − y[k]) − dy[k]·(c − x[k])                  not below 0
+//   weight[k] = dx[k]·(row − y[k]) − dy[k]·(c − x[k])                  at least 0
 //   error     = (Σ weight[k]·(z[k] − sample)) · per_area              in the order of k
-// It belongs to the triangle if no weight is below −slack, and where the row has a span, if c lies in it:
+// It belongs to the triangle if no weight is below −slack, and in rows with a span, if c is in it:
 //   for dy[k] > 0:  c <= x[k] + dx[k]·(row − y[k])·per_dy[k] + margin     and likewise >= … − margin for dy[k] < 0
 #pragma once
 
@@ -21,73 +21,73 @@
 
 namespace scarp::judge {
 
-/// The arrays of a band may be read, and that of errors written, this far beyond their end.
+/// The arrays of a band are readable, and that of errors is writable, this far beyond their end.
 constexpr std::size_t kKernelPadding = 8;
 
-/// Number of rows; the most that a kernel is given at once.
+/// Largest number of rows passed to a kernel.
 constexpr std::int32_t kMostBandRows = 32;
 
-/// The rows of a band, one after the other.
+/// The rows of a band, consecutive in memory.
 struct BandRows {
-  const float* heights;  ///< NaN: not to be judged
+  const float* heights;  ///< NaN: ignored
   double* errors;        ///< NaN: none so far
-  std::int32_t cols;     ///< also from one row of heights to the next
-  std::int32_t stride;   ///< from one row of errors to the next
-  std::int32_t first;    ///< the row that the arrays begin with
+  std::int32_t cols;     ///< also stride of the heights
+  std::int32_t stride;   ///< stride of the errors
+  std::int32_t first;    ///< first row of the arrays
   bool is_whole;         ///< no height is NaN
 };
 
-/// A triangle, counter-clockwise, and the part of it that lies in a band.
+/// A counter-clockwise triangle, and its part in a band.
 struct FacetTask {
   std::array<double, 3> x, y, dx, dy;  ///< side opposite to corner k
   std::array<double, 3> z;
   double slack, per_area;
   std::int32_t first, last;  ///< rows, in the band
-  std::int32_t left, right;  ///< columns, in the raster: no sample of the triangle lies outside them
-  /// Nothing is rounded in a weight: corners are multiples of 1/256, and not far from each other nor from the origin.
+  std::int32_t left, right;  ///< columns, in the raster: all samples of the triangle lie within
+  /// Weights are computed without rounding: corners are multiples of 1/256, close to each other and to the origin.
   bool is_exact;
-  /// Each row's columns end at the triangle's sides, `margin` farther out. For an exact facet these are its samples, no
-  /// more and no less: no side passes a sample that it misses as near as that.
+  /// Each row's columns end at the triangle's sides, `margin` farther out. For an exact facet these are exactly its
+  /// samples, since no outside sample is that close to a side.
   bool has_spans;
   double margin;
   std::array<double, 3> per_dy;  ///< 1 / dy, with spans
 };
 
-/// Samples whose errors must not be left to plain arithmetic.
+/// Samples whose errors need more than plain arithmetic.
 struct Caution {
-  double watch;  ///< errors of this magnitude or more, but for those of samples that lie exactly on all corners' height
+  double watch;  ///< errors of at least this magnitude, except where the sample equals all corners' heights
   void* judge;
-  /// Judges the samples of a row at column + k for each bit k in `lanes`, from the lowest. Returns the new `watch`,
-  /// which never falls.
+  /// Judges the samples of a row at column + k for each bit k in `lanes`, in ascending order. Returns the new `watch`,
+  /// which never decreases.
   double (*look)(void* judge, std::int32_t row, std::int32_t column, std::uint32_t lanes);
 };
 
 /// The result of reading a row of samples.
 struct RowHeights {
   std::uint32_t valid = 0;
-  float least = 0, most = 0;  ///< infinite, least above most, without a valid one
+  float least = 0, most = 0;  ///< infinite, with least > most, if none is valid
 };
 
 struct JudgeKernels {
-  const char* name;  ///< name in Highway; "SCALAR": the twin in plain loops
+  const char* name;  ///< Highway's name; "SCALAR": the twin
 
-  /// The errors of the facet's samples become those of the band where they are larger than what is held, or of equal
-  /// magnitude and positive. Calls caution.look() for those from caution.watch on instead, in raster order.
+  /// Stores the errors of the facet's samples in the band if they are larger than those held, or equal in magnitude and
+  /// positive. For errors from caution.watch on it calls caution.look() instead, in raster order.
   void (*judge_facet)(const FacetTask& facet, const BandRows& band, Caution& caution);
 
-  /// Sums up the errors that are not NaN and hands out their buckets, up to kKernelPadding more than there are errors:
-  /// those too many are 0, and subtracted by Buckets::zeros.
+  /// Sums up the errors that are not NaN and returns their buckets, up to kKernelPadding more than there are errors.
+  /// Those extra ones are 0, and subtracted by Buckets::zeros.
   RowSums (*sum_row)(const double* errors, std::int32_t count, Buckets& buckets);
 
-  /// Copies samples, those that are no heights (NaN, the infinities, `nodata`) as NaN. `nodata` is NaN where there is
-  /// none; `from` and `to` may be equal. A null `to`: nothing is copied.
+  /// Copies samples, with missing ones (NaN, infinities, `nodata`) as NaN. `nodata` is NaN if none; `from` and `to` may
+  /// be equal. Copies nothing if `to` is null.
   RowHeights (*take_row)(const float* from, std::int32_t count, float nodata, float* to);
 };
 
-/// The kernels in use: see base/instruction_sets.h. Chosen once, at the first call.
+/// The kernels in use: see base/instruction_sets.h. Chosen at the first call.
 const JudgeKernels& judge_kernels();
 
-/// All that run on this machine, best first, the twin last.
+/// All kernels that run on this machine, best first, the twin last.
 std::span<const JudgeKernels> available_judge_kernels();
 
 namespace detail {

@@ -1,4 +1,4 @@
-// The twin in plain loops: what the vectors must repeat bit by bit.
+// The scalar twin, which the vectors must match bit by bit.
 #include <algorithm>
 #include <cmath>
 #include <limits>

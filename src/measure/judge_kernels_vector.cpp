@@ -1,6 +1,6 @@
-// The judge's kernels in vectors: this file is compiled once for every instruction set, through Highway.
+// The judge's kernels in vectors, compiled once for every instruction set through Highway.
 //
-// Vectors of at most eight lanes. No lambdas and no functions of the standard library between HWY_BEFORE_NAMESPACE and
+// Vectors of at most eight lanes. No lambdas and no standard library functions between HWY_BEFORE_NAMESPACE and
 // HWY_AFTER_NAMESPACE: they would be compiled for one instruction set and linked for all.
 
 #include <array>
@@ -30,8 +30,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Wide = hn::CappedTag<double, 8>;
 using WideVec = hn::Vec<Wide>;
 
-/// The values that are the same for all samples of a facet, in registers: stores of errors might change what is in
-/// memory.
+/// Constants of a facet, in registers: the compiler must assume that stores of errors change memory.
 struct FacetHeights {
   WideVec z0, z1, z2, per_area, watch;
 
@@ -43,8 +42,8 @@ struct FacetHeights {
         watch(hn::Set(Wide(), caution.watch)) {}
 };
 
-/// Offers the errors of the samples at `heights`, which are those of row `row` from column `col` on, to `errors`.
-/// `w0` … `w2`: their weights, not below 0 for those `inside`.
+/// Offers the errors of the samples at `heights` (row `row` from column `col` on) to `errors`. `w0` … `w2`: their
+/// weights, at least 0 for those `inside`.
 template <bool kIsWhole, class Mask>
 HWY_INLINE void judge_samples(FacetHeights& facet, WideVec w0, WideVec w1, WideVec w2, Mask inside,
                               const float* heights, double* errors, std::int32_t row, std::int32_t col,
@@ -78,7 +77,7 @@ HWY_INLINE void judge_samples(FacetHeights& facet, WideVec w0, WideVec w1, WideV
   hn::StoreU(hn::IfThenElse(taken, error, held), d, errors);
 }
 
-/// Weights of the columns from `col` on in a row: what the side's direction and the row give, then the columns.
+/// Weights of the given columns in a row.
 HWY_INLINE WideVec weights_at(const FacetTask& facet, std::size_t k, WideVec columns, std::int32_t row) {
   const Wide d;
   const double across = facet.dx[k] * (row - facet.y[k]);
@@ -91,7 +90,7 @@ HWY_INLINE WideVec columns_from(std::int32_t col) {
   return hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(col)));
 }
 
-/// For an exact facet that is no wider than a vector: a row is one step.
+/// For an exact facet at most as wide as a vector: a row is one step.
 template <bool kIsWhole>
 HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Caution& caution) {
   const Wide d;
@@ -116,8 +115,8 @@ HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Cauti
   }
 }
 
-/// For an exact facet, whose spans hold its samples and no others: weights continue by steps. Steps begin at multiples
-/// of the lanes, so that what a neighbour has just stored can be loaded again at once.
+/// For an exact facet, whose spans contain exactly its samples: weights advance by steps. Steps begin at multiples of
+/// the lanes, so that values just stored by a neighbour can be reloaded at once.
 template <bool kIsWhole, bool kHasSpans>
 HWY_INLINE void judge_exact_row(const FacetTask& facet, const BandRows& band, std::int32_t row, std::int32_t left,
                                 std::int32_t right, FacetHeights& heights_of, Caution& caution) {
@@ -164,7 +163,7 @@ HWY_INLINE void judge_row(const FacetTask& facet, const BandRows& band, std::int
   }
 }
 
-/// The columns of the rows from facet.first on: as many rows as a vector has lanes in a step.
+/// The columns of the rows from facet.first on, in steps of as many rows as a vector has lanes.
 HWY_INLINE void find_spans(const FacetTask& facet, std::int32_t* left, std::int32_t* right) {
   const Wide d;
   const hn::Rebind<std::int32_t, Wide> di;
@@ -257,7 +256,7 @@ RowSums sum_row(const double* errors, std::int32_t count, Buckets& buckets) {
       next += kLanes;
     }
   }
-  // Lanes that are no samples count as zeros among the buckets, and so did all of those that are omitted.
+  // Lanes without samples counted as zeros in the buckets, and so did all omitted lanes.
   buckets.count = static_cast<std::size_t>(next - buckets.values);
   buckets.zeros = static_cast<std::int64_t>(samples) - static_cast<std::int64_t>(buckets.count);
   RowSums sums;
@@ -285,7 +284,7 @@ RowHeights take_row(const float* from, std::int32_t count, float nodata, float* 
   std::int32_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const auto height = hn::LoadU(d, from + i);
-    // If `nodata` is NaN nothing is equal to it; Ne() may report that nothing is unequal either.
+    // A NaN `nodata` equals nothing, and Ne() may also return false for NaN.
     const auto is_height = hn::AndNot(hn::Eq(height, none), hn::Le(hn::Abs(height), most_finite));
     valid += hn::CountTrue(d, is_height);
     if (to != nullptr) hn::StoreU(hn::IfThenElse(is_height, height, missing), d, to + i);

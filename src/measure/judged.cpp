@@ -1,6 +1,6 @@
 // Samples without a bound are found first, as limits of 0 or infinity, so that measure() reports the largest errors of
-// the rest. Errors are then weighed: row by row as they are found where bounds are read in windows, else when they are
-// all in.
+// the others. Then errors are weighed: row by row during judging if bounds are read in windows, otherwise all at the
+// end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ bool is_nodata(const HeightField& field, std::size_t sample) {
   return !std::isfinite(z) || (field.nodata && z == *field.nodata);
 }
 
-/// 0 where there is a bound, +infinity where there is none.
+/// Limits: 0 for samples with a bound, +infinity without.
 class BoundLimits final : public SampleSource {
  public:
   explicit BoundLimits(const JudgeOptions& options)
@@ -39,7 +39,7 @@ class BoundLimits final : public SampleSource {
         tolerances_(options.max_error ? nullptr : options.tolerances.source),
         ignored_(PointRows(options.tolerances.ignored)) {}
 
-  /// True if any sample may be without a bound.
+  /// True if samples may be without a bound.
   bool has_any() const { return weights_ != nullptr || tolerances_ != nullptr || !ignored_.empty(); }
   const PointRows& ignored() const { return ignored_; }
 
@@ -66,12 +66,12 @@ class BoundLimits final : public SampleSource {
 
 /// The valid samples without a bound.
 struct Exceptions {
-  std::vector<float> limits;            ///< +infinity for them, 0 for the others; empty if there are none
-  std::unique_ptr<BoundLimits> source;  ///< the same in windows; null if there are none
+  std::vector<float> limits;            ///< +infinity for them, 0 for the others; empty if none
+  std::unique_ptr<BoundLimits> source;  ///< the same in windows; null if none
   std::uint64_t count = 0;
 };
 
-/// The heights without a bound. Both are read once through.
+/// Counts the heights without a bound. Reads both sources once.
 Result<std::uint64_t> count_unbounded(const HeightField& field, const BoundLimits& limits) {
   constexpr int kSamples = 1 << 18;
   const int together = std::clamp(kSamples / field.cols, 1, field.rows);
@@ -130,7 +130,7 @@ Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions&
   return found;
 }
 
-/// The largest error of a covered sample; the lowest row, then column, among equals.
+/// The largest error of a covered sample; ties by the lowest row, then column.
 LargestError find_largest(const std::vector<Offender>& offenders) {
   LargestError largest;
   for (const Offender& offender : offenders) {
@@ -142,7 +142,7 @@ LargestError find_largest(const std::vector<Offender>& offenders) {
   return largest;
 }
 
-/// Adds |scaled error| to each sample's norm: squares until they are all in. A missing error adds nothing.
+/// Adds |scaled error| to each sample's norm; kSquares sums squares until the last one. Missing errors are skipped.
 void add_to_norms(std::span<double> norms, std::span<const float> errors, double scale, Norm norm) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
     if (std::isnan(errors[k])) continue;
@@ -183,12 +183,12 @@ class ChannelJudge {
   std::vector<float> samples_;
 };
 
-/// The possible rounding of the judge's own arithmetic.
+/// Bound of the rounding of the judge's arithmetic.
 double rounding_of(const HeightRange& range, double magnitude) {
   return 1e-12 * (std::max(std::abs(range.min), std::abs(range.max)) + magnitude);
 }
 
-/// The largest norm of the scaled values of the channels, at most.
+/// Upper bound of the norm of the scaled channel values.
 double magnitude_of(const HeightField& field) {
   double magnitude = 0;
   for (const Channel& channel : field.channels) {
@@ -201,10 +201,10 @@ double magnitude_of(const HeightField& field) {
   return magnitude;
 }
 
-/// Weighs rows as they are judged, by tolerances or weights that are read along with them.
+/// Weighs rows during judging, by tolerances or weights read in parallel.
 class RowWeigher {
  public:
-  /// REQUIRES: a source of either.
+  /// REQUIRES: a source of tolerances or weights.
   RowWeigher(const HeightField& heights, const JudgeOptions& request, const Exceptions& exceptions, double allowance)
       : cols_(heights.cols),
         rows_(heights.rows),
@@ -246,12 +246,12 @@ class RowWeigher {
   const SampleSource& values_;
   const PointRows* ignored_;
   ErrorWeigher weigher_;
-  std::vector<float> held_, limits_;  // values of rows [first_, end_); of a row
+  std::vector<float> held_, limits_;  // held_: values of rows [first_, end_); limits_: of a row
   int first_ = 0, end_ = 0;
   Result<void> read_;
 };
 
-/// Measures, and weighs by what is read along. Fails as the sources do.
+/// Measures and weighs in one pass. Fails as the sources do.
 Result<Measurement> measure_and_weigh(const HeightField& heights, const Mesh& mesh, RowWeigher rows,
                                       MeasureOptions options, std::optional<WeighedErrors>& weighed) {
   options.on_row = [&, keep = options.on_row](int row, std::span<const float> errors) {
@@ -295,7 +295,7 @@ Result<void> check_request(const HeightField& field, const Mesh& mesh, const Jud
   return {};
 }
 
-/// Weighs errors that were kept.
+/// Weighs errors that were stored.
 class Scales {
  public:
   Scales(const HeightField& field, const Judgement& judgement, const Exceptions& exceptions)

@@ -1,7 +1,7 @@
-// The judge: the triangles that count, the error of each sample, and how the triangles hang together.
+// The judge: the triangles that count, the error of each sample, and the connections of triangles.
 //
-// The field is judged in bands of rows. Bands are independent of each other and are worked on at once, a window of them
-// at a time; their reports are added up in order, so the result never depends on threads.
+// The field is judged in bands of rows. Bands are independent and are processed in parallel, a window of them at a
+// time. Their reports are summed in order, so the result never depends on threads.
 #include "scarp/measure.h"
 
 #include <fmt/core.h>
@@ -78,7 +78,7 @@ int facing(const Mesh& mesh, std::size_t t) {
   return (area > 0) - (area < 0);
 }
 
-/// Adds up the bands' reports, in order.
+/// Sums the bands' reports, in order.
 class Verdict {
  public:
   Verdict(const MeasureOptions& options, int cols, Measurement& result)
@@ -126,7 +126,7 @@ class Verdict {
   }
 
  private:
-  /// A triangle in several bands has one offender, and so have two triangles that share a sample.
+  /// A triangle in several bands has one offender; so have two triangles that share a sample.
   void merge_offenders() {
     sort_rarely(offenders_, judge::is_worse_of_triangle);
     for (std::size_t i = 0; i < offenders_.size(); ++i) {
@@ -151,8 +151,7 @@ class Verdict {
   std::vector<judge::TriangleOffender> offenders_;
 };
 
-/// Rounding that an error in plain double arithmetic may carry, with room to spare; the part that comes from the mesh's
-/// heights.
+/// Bound of the rounding of an error in plain double arithmetic, with a margin: the part from the mesh's heights.
 double error_guard(const Mesh& mesh) {
   double size = 0;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -161,7 +160,7 @@ double error_guard(const Mesh& mesh) {
   return kRounding * size;
 }
 
-/// Fills all that concerns heights; on_row is given what `keep` names. Fails with kCancelled if the caller stops it,
+/// Sets all results about heights; `keep` selects the values for on_row. Fails with kCancelled if the caller stops it,
 /// and as the field's source does.
 Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
                            const judge::CutRegion* region, const MeasureOptions& options, judge::Keep keep,
@@ -173,7 +172,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;
   const int window = 2 * std::min(thread_count(options.run.threads), 1024);
-  // Histograms stay with their place in the window: counts add up to the same whoever made them.
+  // One histogram per slot of the window: the sums do not depend on which band used it.
   std::vector<Histogram> histograms(static_cast<std::size_t>(std::min(window, bands)));
   Verdict verdict(options, field.cols, result);
   for (int first = 0; first < bands; first += window) {
@@ -199,13 +198,13 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
   return {};
 }
 
-/// The triangles that count for heights: all, or the upward ones of a solid.
+/// The triangles judged for heights: all, or the upward ones of a solid.
 struct Surface {
   std::optional<Array<std::uint32_t>> judged;  ///< ascending; nothing: all
-  judge::Connections connections;              ///< connections if they were asked for or needed
+  judge::Connections connections;              ///< connections, if requested or needed
   bool closed = false;
 
-  /// Those of a mesh of `count` triangles, one by one.
+  /// The judged triangles of a mesh of `count` triangles, as a list.
   std::span<const std::uint32_t> list(std::size_t count) {
     if (!judged) {
       judged.emplace().resize(count);
@@ -226,7 +225,7 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
     upwards[first / kTogether] = here;
   });
   std::size_t upward = std::accumulate(upwards.begin(), upwards.end(), std::size_t{0});
-  // A solid has walls and a bottom: if all triangles face up, the edges matter for the topology only.
+  // A solid has walls and a bottom. If all triangles face up, edges matter for the topology only.
   if (with_edges || upward < count) {
     surface.connections = judge::connect(mesh, upward == count);
     surface.closed = surface.connections.edges.open.empty();
@@ -241,10 +240,10 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
   return surface;
 }
 
-/// The mesh that is judged on the map: a mesh in space is brought there, and its heights are judged in space.
+/// The mesh as judged on the map: a mesh in space is converted to the map, and its heights are judged in space.
 class Judged {
  public:
-  /// `field` and `mesh` outlive this. `with_heights`: there will be a scanner. Fails as measure().
+  /// `field` and `mesh` must outlive this. `with_heights`: make_scanner() will be called. Fails as measure().
   static Result<Judged> of(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                            bool with_heights = true) {
     Judged judged(field, mesh);
@@ -262,7 +261,7 @@ class Judged {
   const HeightField& field() const { return flat_field_ ? *flat_field_ : field_; }
   const Mesh& mesh() const { return flat_mesh_ ? *flat_mesh_ : mesh_; }
 
-  /// Makes the scanner of the triangles of the surface. Called once.
+  /// Makes the scanner of the surface's triangles. Called once.
   std::unique_ptr<judge::Scanner> make_scanner(Surface& surface, double tolerance, int threads) {
     const std::size_t count = mesh_.triangle_count();
     if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, surface.list(count), tolerance);
@@ -272,13 +271,13 @@ class Judged {
     return judge::make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
   }
 
-  /// Before folds are asked for.
+  /// Prepares the counting of folds.
   void look_in_space(Surface& surface) {
     if (!flat_mesh_ || space_) return;
     space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, surface.list(mesh_.triangle_count()));
   }
 
-  /// Samples that may mend faults other than errors of heights; in addition to the offenders.
+  /// Samples, besides the offenders, that may repair faults other than height errors.
   std::vector<Offender> unfolding() const { return space_ ? space_->unfolding() : std::vector<Offender>(); }
 
   /// REQUIRES: look_in_space() was called.
@@ -306,7 +305,7 @@ std::unique_ptr<judge::CutRegion> make_region(const MeasureOptions& options, con
   return std::make_unique<judge::CutRegion>(*options.cutline, field.cols, field.rows);
 }
 
-/// Fills topology and shape.
+/// Sets topology and shape.
 Result<void> judge_topology(const Judged& judged, Surface& surface, const judge::CutRegion* region,
                             const MeasureOptions& options, ProgressGate& gate, Measurement& result) {
   if (!gate.go_on("topology", 0)) return cancelled();

@@ -1,10 +1,10 @@
 // Pairs of triangles that overlap seen from above.
 //
 // Two convex polygons have disjoint interiors exactly if a side of one of them has the other on its far side
-// (separating axis). Pairs are sought in a grid of buckets with about two triangles each; a bucket that holds many
-// (dense relief in a large mesh) gets a grid of its own, as long as that helps. Neighbours share corners, bit by bit,
-// so their common side separates them without rounding; for strangers a penetration less deep than the rounding of
-// positions is none.
+// (separating axis). Pairs are sought in a bucket grid with about two triangles per bucket. A bucket with many (dense
+// relief in a large mesh) gets a nested grid, as long as that helps. Neighbours share corners, bit by bit, so their
+// common side separates them without rounding. For other pairs a penetration below the rounding of positions is
+// ignored.
 #include <algorithm>
 #include <cstddef>
 
@@ -36,7 +36,7 @@ class OverlapFinder {
     return area != 0;
   }
 
-  /// Buckets as large as two ordinary triangles, so that heaps of triangles do not make the buckets small.
+  /// Buckets as large as two ordinary triangles, so that dense clusters do not make them small.
   BucketGrid build_grid(const Box& box, std::span<const std::uint32_t> ids) const {
     PlanTriangle plan;
     double covered = 0;
@@ -57,7 +57,7 @@ class OverlapFinder {
     return grid;
   }
 
-  /// Appends the overlapping pairs of one bucket to `found`, which may name a pair twice, until it holds `most`.
+  /// Appends the overlapping pairs of one bucket to `found`, maybe repeatedly, until it has `most`.
   void search(const Box& box, std::span<const std::uint32_t> ids, int depth, std::size_t most,
               std::vector<Pair>& found) const {
     if (found.size() >= most) return;
@@ -107,7 +107,7 @@ class OverlapFinder {
     }
   }
 
-  /// True if a side of `a` has all of `b` on its far side, up to rounding.
+  /// True if all of `b` is on the far side of a side of `a`, up to rounding.
   bool separates(const PlanTriangle& a, const PlanTriangle& b) const {
     for (int k = 0; k < 3; ++k) {
       const int next = k == 2 ? 0 : k + 1;
@@ -143,7 +143,7 @@ std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> id
   if (ids.size() < 2) return 0;
   const BucketGrid grid = finder.build_grid(box, ids);
 
-  // Rows of buckets are searched in windows; what a row finds does not depend on the others.
+  // Rows of buckets are searched in windows; the results of rows are independent.
   const auto rows = static_cast<std::size_t>(grid.rows());
   const std::size_t window = 2 * static_cast<std::size_t>(thread_count(threads));
   std::vector<Pair> pairs;

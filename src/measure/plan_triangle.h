@@ -1,4 +1,4 @@
-// A triangle seen from above, as the judge sees it: corners in double, closed, without any lattice.
+// A triangle seen from above, as the judge represents it: corners in double, closed, without any lattice.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct PlanTriangle {
   }
   Interval x_extent() const { return {lesser(x[0], x[1], x[2]), greater(x[0], x[1], x[2])}; }
   Interval y_extent() const { return {lesser(y[0], y[1], y[2]), greater(y[0], y[1], y[2])}; }
-  /// A weight above −slack() is zero or positive up to rounding.
+  /// Weights above −slack() count as zero or positive, because of rounding.
   double slack() const {
     const Interval across = x_extent(), along = y_extent();
     return 1e-12 * (across.hi - across.lo) * (along.hi - along.lo);
@@ -39,7 +39,7 @@ struct PlanTriangle {
     const double least = -slack();
     return weight(0, px, py) >= least && weight(1, px, py) >= least && weight(2, px, py) >= least;
   }
-  /// How far p lies inside: distance to the nearest side's line; negative outside.
+  /// Depth of p inside: distance to the nearest side's line; negative outside.
   double depth(double px, double py) const {
     double least = weight(0, px, py) / side(0);
     least = std::min(least, weight(1, px, py) / side(1));

@@ -1,7 +1,7 @@
-// The judge of scattered points: each point searches the triangles that may lie over it in a grid of buckets.
+// The judge of scattered points: a bucket grid yields the triangles that may lie over each point.
 //
-// Points are judged where they were given, not where the lattice has them. Near their own order in the plane they are
-// worked on in chunks at once; every error has its own place in one array, which is summed up in input order, so the
+// Points are judged at their original positions, not at those on the lattice. Chunks of points, mostly close in the
+// plane, are processed in parallel. Every error has its own slot in one array, which is summed in input order, so the
 // result never depends on threads.
 #include "measure/point_judge.h"
 
@@ -55,7 +55,7 @@ class Judge {
     });
   }
 
-  /// Lattice points first, then what shares them.
+  /// Lattice points first, then the points that share them.
   std::size_t size() const { return snapped_.size() + snapped_.echoes.size(); }
   std::uint32_t source_of(std::size_t point) const {
     return point < snapped_.size() ? snapped_.source[point] : snapped_.echoes[point - snapped_.size()];
@@ -89,7 +89,7 @@ class Judge {
     }
     return make_counter_clockwise(facet);
   }
-  /// The larger error counts; that of the lower triangle among equals.
+  /// Keeps the larger error; ties by the lower triangle.
   static void take(Verdict& verdict, double error, std::uint32_t t) {
     if (std::abs(error) <= std::abs(verdict.error)) return;
     verdict = {error, t};
@@ -119,7 +119,7 @@ class Judge {
   BucketGrid grid_;
 };
 
-/// The worst point of each triangle, and what is uncovered, in input order.
+/// The worst point of each triangle, and uncovered points, in input order.
 class Offenders {
  public:
   void add(std::uint32_t triangle, std::uint32_t point, double error) { found_.push_back({triangle, point, error}); }

@@ -9,7 +9,7 @@
 
 namespace scarp::judge {
 
-/// measure_points() where duplicates are given up already.
+/// measure_points() after duplicates have been resolved.
 Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options);
 

@@ -1,4 +1,4 @@
-// Asks the caller whether to continue, but not too often.
+// Asks the caller at intervals whether to continue.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Finds the triangle over each sample: two ways to do so, one for affine frames and one for all.
+// Finds the triangle over each sample, with one algorithm for affine frames and one for all.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace scarp::judge {
 
-/// The triangles to judge heights on, in some plan coordinates.
+/// The triangles for judging heights, in some plan coordinates.
 struct Facets {
   FacetCorners corners;
   const Mesh* mesh = nullptr;
@@ -29,13 +29,13 @@ struct Facets {
     }
     return make_counter_clockwise(facet);
   }
-  /// The triangle `id` will be asked for soon.
+  /// Prefetches triangle `id`.
   void expect(std::uint32_t id) const {
     for (std::size_t k = 0; k < 3; ++k) corners.expect(mesh->triangles[3 * std::size_t{id} + k]);
   }
 };
 
-/// Finds the error of each sample of a band and the nodata cells that are covered. Immutable: bands may be scanned at
+/// Finds the error of each sample of a band, and the covered nodata cells. Immutable: several bands may be scanned at
 /// once.
 class Scanner {
  public:
@@ -45,14 +45,14 @@ class Scanner {
 
 class SpaceJudge;
 
-/// For affine frames: `places` holds the vertices' positions in the grid, triangles are scanned row by row. `ids`:
-/// those to judge, ascending; nothing: all; not needed any more once the scanner is made. `space`: the judge of errors
-/// of a mesh in space, which `field` and `mesh` then are on the map; null: there is none. All else that is borrowed
-/// outlives the scanner.
+/// For affine frames: `places` holds the vertices' positions in the grid; triangles are scanned row by row. `ids`:
+/// triangles to judge, ascending; nothing: all; used during construction only. `space`: for a mesh in space, the judge
+/// of its errors (`field` and `mesh` are then on the map); null: none. Everything else borrowed must outlive the
+/// scanner.
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
                                            std::optional<std::span<const std::uint32_t>> ids, double tolerance,
                                            int threads, const SpaceJudge* space = nullptr);
-/// For any frame: samples are mapped to the mesh, where a grid of buckets knows the triangles. About ten times slower.
+/// For any frame: samples are mapped to the mesh and located in a bucket grid of triangles. About ten times slower.
 std::unique_ptr<Scanner> make_frame_scanner(const HeightField& field, const Mesh& mesh,
                                             std::span<const std::uint32_t> ids, double tolerance);
 

@@ -178,7 +178,7 @@ void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, int
   in_parts(judged.size(), threads, [&](std::size_t, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) tangents[i] = smallest_tangent(plan_of(mesh, judged[i]));
   });
-  // From the largest percentile down: the next one lies in what is left of it.
+  // From the largest percentile down: each search only needs the values below the previous.
   constexpr std::array<std::size_t, 3> kPercents{1, 5, 50};
   double* end = tangents.end();
   for (std::size_t i = kPercents.size(); i-- > 0;) {

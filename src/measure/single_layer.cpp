@@ -1,10 +1,10 @@
 // Surfaces that lie in one layer, seen from above.
 //
-// If all triangles face up and each edge has one triangle or two that run along it in opposite directions, the
-// triangles over a point are as many as the open edges, each with its triangle on its left, wind around it. So no two
-// triangles overlap if the border winds around no point twice. Horizontal lines through all ends of open edges cut the
-// plane into slabs. In each of them the edges must lie side by side, as well at its lower as at its upper end, and lead
-// down and up by turns, beginning with down.
+// If all triangles face up and each edge has one triangle or two in opposite directions, the number of triangles over a
+// point is the winding number of the open edges, each with its triangle on its left. So no two triangles overlap if the
+// border winds around no point twice. Horizontal lines through all ends of open edges cut the plane into slabs. In each
+// slab the edges must lie next to each other, at its lower and its upper end, and lead down and up alternately,
+// beginning with down.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,7 +26,7 @@ struct Side {
   }
 };
 
-/// By their lower end. Level ones are omitted: slabs end at them.
+/// By their lower end. Horizontal ones are omitted: slabs end at them.
 std::vector<Side> sides_of(const Mesh& mesh, std::span<const OpenEdge> open) {
   std::vector<Side> sides;
   sides.reserve(open.size());
@@ -39,7 +39,7 @@ std::vector<Side> sides_of(const Mesh& mesh, std::span<const OpenEdge> open) {
   return sides;
 }
 
-/// Vertices of open edges that lie in one place with another vertex of them.
+/// True if vertices of open edges share a position.
 bool share_places(const Mesh& mesh, std::span<const OpenEdge> open) {
   std::vector<std::uint32_t> vertices;
   for (const OpenEdge& edge : open) vertices.insert(vertices.end(), {edge.from, edge.to});
@@ -64,7 +64,7 @@ bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open) {
   std::sort(levels.begin(), levels.end());
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   const double noise = position_noise(mesh);
-  // More than that is not quick; raggedness of that kind is left to the search.
+  // Gives up on ragged borders that need more work; overlaps are then searched.
   std::size_t left_to_do = 8 * mesh.triangle_count() + 1024;
   std::vector<const Side*> active;
   std::size_t next = 0;

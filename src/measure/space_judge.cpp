@@ -43,7 +43,7 @@ double noise_of(const Mesh& mesh) {
   return std::max(is_float ? largest * 0x1p-22 : 0, farthest * 0x1p-48);
 }
 
-/// Samples of the grid for one metre, at most, near the raster's centre.
+/// Largest number of grid samples per metre, near the raster's centre.
 double samples_per_metre(const HeightField& field) {
   const double col = field.cols / 2, row = field.rows / 2;
   SpacePoints at;
@@ -77,7 +77,7 @@ double snapped(double value, double noise) {
   return std::abs(value - place) <= std::min(noise, 0.25 / kSteps) ? place : value;
 }
 
-/// Length along a vertical, in metres; long compared with the rounding of coordinates.
+/// Length along a vertical, in metres; large relative to the rounding of coordinates.
 constexpr double kRise = 1000;
 
 }  // namespace
@@ -177,7 +177,7 @@ void SpaceJudge::find_bends(std::span<const std::uint32_t> ids) {
     const auto straight = to_grid((p[0] + q[0]) / 2, (p[1] + q[1]) / 2);
     const auto bent = to_grid(middles.x[edge], middles.y[edge]);
     ++edge;
-    // The bend is largest near the middle: twice that much is never reached.
+    // The bend is largest near the middle and stays below twice this value.
     const double off = 2 * std::hypot(bent[0] - straight[0], bent[1] - straight[1]);
     bends_[id] = std::max(bends_[id], std::isfinite(off) ? static_cast<float>(off) : HUGE_VALF);
   });
@@ -249,7 +249,7 @@ void SpaceJudge::judge_met(const Facet& facet, std::uint32_t id, const Verticals
     const float* heights = band.heights(row);
     for (int col = begin; col <= end; ++col) {
       if (std::isnan(heights[col])) continue;
-      // Corners relative to the sample: their heights along its vertical, and areas seen along it.
+      // Corners relative to the sample: heights along its vertical, and areas seen along it.
       const Verticals::Line& line = verticals.at(col, row);
       std::array<Vector, 3> away{};
       for (std::size_t k = 0; k < 3; ++k) away[k] = minus(corners.at[k], line.sample);

@@ -1,12 +1,12 @@
-// Judging in space: which triangle a sample's vertical meets, and where.
+// Judging in space: the triangle and the point where a sample's vertical meets the mesh.
 //
-// The mesh is brought back to the map, where everything but heights is judged. An error is the way along the vertical
+// The mesh is converted to the map, where everything except heights is judged. An error is measured along the vertical
 // of a sample, the straight line of all heights there, from the sample to the triangle that it meets. The border of a
-// mesh is a chord of a curved line of samples, so some verticals there meet no triangle: then the nearest point of the
-// triangle that covers the sample on the map decides how high the mesh is.
+// mesh is a chord of a curved line of samples, so some verticals there meet no triangle. Then the nearest point of the
+// triangle that covers the sample on the map gives the mesh's height.
 //
-// Edges are straight in space and slightly bent on the map, so a triangle may be met by samples that lie outside it
-// there. The middle of its edges shows how far.
+// Edges are straight in space and slightly bent on the map, so a triangle may meet verticals of samples outside it on
+// the map. The bend at the middle of its edges gives the margin.
 #pragma once
 
 #include <array>
@@ -22,9 +22,8 @@
 
 namespace scarp::judge {
 
-/// A mesh in space as seen on the map: positions in the raster's x, y and heights. A coordinate that comes as near to a
-/// 256th of a sample as rounding in the file may have moved it is put onto it. kInput for a vertex that has no place on
-/// the map.
+/// A mesh in space converted to the map: positions in the raster's x, y and heights. A coordinate is snapped to a 256th
+/// of a sample if rounding in the file may have moved it that far. kInput for a vertex without a position on the map.
 Result<Mesh> bring_to_map(const HeightField& field, const Mesh& mesh);
 
 /// The field without its frame in space.
@@ -41,7 +40,7 @@ class Verticals {
   Verticals(const Frame& frame, const Vector& origin, const Band& band);
 
   struct Line {
-    Vector sample, up;  ///< relative to the mesh's origin; `up` is of unit length
+    Vector sample, up;  ///< relative to the mesh's origin; `up` is a unit vector
   };
   const Line& at(int col, int row) const {
     return lines_[static_cast<std::size_t>(row - first_) * cols_ + static_cast<std::size_t>(col)];
@@ -55,21 +54,22 @@ class Verticals {
 
 class SpaceJudge {
  public:
-  /// Judges the triangles `ids` of `mesh`. All outlive this.
+  /// Judges the triangles `ids` of `mesh`. All arguments must outlive it.
   SpaceJudge(const HeightField& field, const Mesh& mesh, const Mesh& on_map, std::span<const std::uint32_t> ids);
 
   Verticals verticals(const Band& band) const { return {frame_, mesh_.origin, band}; }
-  /// Triangles that face down in space though not on the map, or the other way round: an edge bends on the map by more
-  /// than the third corner is away from it.
+  /// Number of triangles that face down in space but not on the map, or vice versa: an edge bends on the map beyond the
+  /// third corner.
   std::uint64_t folds() const { return folded_.size(); }
-  /// A sample near the middle of the longest edge of each, where that is no corner: as a vertex it may unfold it.
+  /// For each, a sample near the middle of its longest edge, unless that is a corner: as a vertex it may unfold the
+  /// triangle.
   std::vector<Offender> unfolding() const;
-  /// By how many samples a triangle's edges bend on the map, at most.
+  /// The largest bend of a triangle's edges on the map, in samples.
   double bend(std::uint32_t id) const { return bends_[id]; }
-  /// Offers the errors of the samples whose verticals meet the triangle, which `facet` is on the map.
+  /// Offers the errors of the samples whose verticals meet the triangle; `facet` is the triangle on the map.
   void judge_met(const Facet& facet, std::uint32_t id, const Verticals& verticals, Band& band) const;
-  /// mesh − sample of a sample whose vertical meets no triangle: at the point of the triangle's border that is nearest,
-  /// seen along the vertical.
+  /// mesh − sample for a sample whose vertical meets no triangle: at the nearest point of the triangle's border, seen
+  /// along the vertical.
   double error_beside(std::uint32_t id, int col, int row, const Verticals& verticals) const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace scarp::judge {
 
-/// For each vertex the first one at exactly the same position: files without shared vertices (STL) become connected.
+/// For each vertex the first one at exactly the same position, to connect files without shared vertices (STL).
 std::vector<std::uint32_t> weld_vertices(const Mesh& mesh);
 
 /// An edge with one triangle, in the direction of that triangle; welded vertex ids.
@@ -26,42 +26,41 @@ struct EdgeReport {
   std::uint64_t misoriented = 0, non_manifold = 0, loops = 0;
 };
 
-/// `welded`: from weld_vertices(); empty: no two vertices are one. Triangles with two corners in one place have no
-/// edges. In a mesh without open edges four triangles may meet in an edge, two in each direction: there two solids
-/// touch. Cost: O(triangles).
+/// `welded`: from weld_vertices(); empty: all vertices are distinct. Triangles with two corners at one position have no
+/// edges. In a mesh without open edges, an edge may have four triangles, two in each direction: there two solids touch.
+/// Cost: O(triangles).
 EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded);
 
-/// How the triangles of a mesh hang together.
+/// How the triangles of a mesh are connected.
 struct Connections {
   std::vector<std::uint32_t> welded;  ///< input of check_edges()
   EdgeReport edges;
-  /// No two triangles overlap, and no vertex but those of open edges lies on an open edge, seen from above. False: it
-  /// is not known.
+  /// No two triangles overlap, and only vertices of open edges lie on an open edge, seen from above. False: unknown.
   bool is_single_layer = false;
 
   std::uint32_t vertex(std::uint32_t v) const { return welded.empty() ? v : welded[v]; }
 };
 
-/// `looks_up`: all triangles do, seen from above. Cost: O(triangles).
+/// `looks_up`: all triangles face up. Cost: O(triangles).
 Connections connect(const Mesh& mesh, bool looks_up);
 
-/// True if the border of a surface, its triangles on the left of each open edge, winds around no point more than once,
-/// up to the rounding of positions. False where that is not quickly seen.
+/// True if the border of a surface, with its triangles on the left of each open edge, winds around no point more than
+/// once, up to the rounding of positions. False where this is not quickly decided.
 bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open);
 
-/// Vertices in the interior of an open edge, seen from above, up to rounding: 1e-9 of the edge's length and the doubt
-/// from the positions' precision (float32, or double). Cost: O(vertices) for edges of ordinary shape.
+/// Vertices in the interior of an open edge, seen from above, up to 1e-9 of the edge's length and the uncertainty of
+/// positions (float32, or double). Cost: O(vertices) for edges of ordinary shape.
 std::uint64_t count_t_junctions(const Mesh& mesh, const Connections& connections);
 
 /// Open edges next to which the domain of `field` continues, within `region` (null: everywhere); see Measurement::gaps.
-/// Cost: O(open edges · samples next to each · log), O(triangles) more if there is doubt. Fails as the field's source
+/// Cost: O(open edges · samples next to each · log), plus O(triangles) in unclear cases. Fails as the field's source
 /// does.
 Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, const Connections& connections,
                                  double tolerance, const CutRegion* region);
 
-/// Pairs among the triangles `ids` whose interiors overlap seen from above by more than rounding; at most kMostOverlaps
-/// are counted. `go_on` is called from this thread from time to time; false ends the search. Cost: O(triangles · log)
-/// for meshes without overlaps and without vertices of huge degree.
+/// Pairs among the triangles `ids` whose interiors overlap seen from above by more than rounding; counts at most
+/// kMostOverlaps. `go_on` is called at intervals from this thread; false ends the search. Cost: O(triangles · log) for
+/// meshes without overlaps and without vertices of huge degree.
 constexpr std::uint64_t kMostOverlaps = 1000000;
 std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> ids, int threads,
                              FunctionRef<bool(double fraction)> go_on);
@@ -70,9 +69,9 @@ std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> id
 /// if all positions are float32 values.
 double position_noise(const Mesh& mesh);
 
-/// Fills down_facing and degenerate.
+/// Sets down_facing and degenerate.
 void count_faults(const Mesh& mesh, int threads, Measurement& result);
-/// Fills the angles, of `judged` triangles seen along z.
+/// Sets the angles of the `judged` triangles, seen along z.
 void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, int threads, Measurement& result);
 
 }  // namespace scarp::judge

@@ -1,13 +1,12 @@
-// From a terrain to a solid: top, walls, floor.
+// Conversion of a terrain to a solid: top, walls, floor.
 //
-// One trap is a border vertex at which two parts of the domain touch (two cells that share a corner and no edge).
-// Its vertical wall edge would have four triangles. Each fan of triangles around such a vertex therefore gets a vertex
-// of its own before anything else is built; after that, every border vertex has one border edge in and one out, so
-// walls close around it.
+// A border vertex at which two parts of the domain touch (two cells that share a corner and no edge) needs care. Its
+// vertical wall edge would have four triangles. So each fan of triangles around such a vertex first gets a separate
+// vertex. Then every border vertex has one incoming and one outgoing border edge, and walls close around it.
 //
 // The floor keeps the corners of the outline only. Between two of them a wall is a polygon in a vertical plane: above
 // one straight edge of the floor, the border vertices of the terrain in order. Such a polygon ("monotone mountain") is
-// triangulated from one end to the other with a stack: whatever turns left is cut off (Fournier and Montuno 1984,
+// triangulated from one end to the other with a stack: every left turn is cut off (Fournier and Montuno 1984,
 // "Triangulating simple polygons and equivalent problems").
 
 #include <algorithm>
@@ -42,7 +41,7 @@ class Closing {
  private:
   const double* at(std::uint32_t v) const { return &mesh_.positions[3 * std::size_t{v}]; }
 
-  /// Border half-edges are those without a twin; each fan around a vertex has exactly one that starts there.
+  /// Border half-edges have no twin; exactly one starts at each fan around a vertex.
   void split_fans(bool step_back) {
     std::vector<bool> has_fan(mesh_.vertex_count(), false);
     for (std::uint32_t h = 0; h < top_; ++h) {
@@ -62,7 +61,7 @@ class Closing {
     }
   }
 
-  /// From the start of a half-edge towards the middle of its triangle.
+  /// The direction from the start of a half-edge to the middle of its triangle.
   std::array<double, 2> step_into(std::uint32_t h) const {
     const double *from = at(mesh_.triangles[h]), *b = at(mesh_.triangles[next_half_edge(h)]),
                  *c = at(mesh_.triangles[previous_half_edge(h)]);
@@ -105,7 +104,7 @@ class Closing {
     }
   }
 
-  /// Below the border from one corner to the next; seen from outside the first stands on the left.
+  /// Adds the wall below the border from one corner to the next; seen from outside the first is on the left.
   void add_wall(const std::vector<std::uint32_t>& run) {
     const std::uint32_t low_first = drop(run.front()), low_last = drop(run.back());
     const double along[2] = {at(run.back())[0] - at(run.front())[0], at(run.back())[1] - at(run.front())[1]};
@@ -129,7 +128,7 @@ class Closing {
   std::vector<std::uint32_t> twins_;
   std::size_t top_;                   // half-edges of the terrain
   std::vector<std::uint32_t> below_;  // the floor's copy of each vertex
-  std::vector<bool> is_corner_;       // for each vertex: the floor has it
+  std::vector<bool> is_corner_;       // for each vertex: used by the floor
   std::vector<std::uint32_t> stack_;
 };
 

@@ -1,4 +1,4 @@
-// The steps from a terrain to a solid that its two doors, add_base() and build_solid(), share.
+// The common part of add_base() and build_solid(): closing a terrain to a solid.
 #pragma once
 
 #include "scarp/mesh.h"
@@ -8,7 +8,7 @@ namespace scarp {
 /// True if a base at z = `base` is below every vertex, also in float32 offsets.
 bool is_below_all(const Mesh& mesh, double base);
 
-/// Adds walls and base. Vertices where parts meet in a single point are doubled; `step_back`: all copies but one move
+/// Adds walls and base. Duplicates vertices where parts meet in a single point. `step_back`: all copies except one move
 /// into their part by a few units in the last place of float32. REQUIRES: as add_base(); is_below_all().
 void close_solid(Mesh& mesh, double base, bool step_back);
 

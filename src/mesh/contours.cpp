@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostHeights = 1e6;
 
-/// The lines of one height, of triangles that it crosses.
+/// Traces the lines of one height through the triangles that it crosses.
 class ContourTracer {
  public:
   ContourTracer(const Mesh& mesh, const std::vector<std::uint32_t>& twins, std::vector<std::int64_t>& done)
@@ -26,7 +26,7 @@ class ContourTracer {
     height_ = height;
   }
 
-  /// The line through a triangle that the height crosses; without points if it was found before, or is a single point.
+  /// The line through a triangle at this height; empty if found before, or a single point.
   Contour trace(std::uint32_t triangle) {
     Contour line{height_, false, {}};
     if (done_[triangle] == number_) return line;
@@ -55,20 +55,20 @@ class ContourTracer {
  private:
   bool is_above(std::uint32_t half_edge) const { return mesh_.vertex(mesh_.triangles[half_edge])[2] >= height_; }
 
-  /// The edge of the triangle at which the line enters it, the ground rising on its left: the one that falls below.
+  /// The edge where the line enters the triangle, with higher ground on its left: the edge that falls below.
   std::uint32_t entry_of(std::uint32_t triangle) const {
     std::uint32_t h = 3 * triangle;
     while (!is_above(h) || is_above(next_half_edge(h))) h = next_half_edge(h);
     return h;
   }
-  /// The one that rises above.
+  /// The edge that rises above.
   std::uint32_t exit_of(std::uint32_t entry) const {
     std::uint32_t h = next_half_edge(entry);
     while (is_above(h) || !is_above(next_half_edge(h))) h = next_half_edge(h);
     return h;
   }
 
-  /// The entry of the line's first triangle: the line comes over the border there, or returns to the given triangle.
+  /// The entry of the line's first triangle: at the border, or in a closed line the given triangle.
   std::uint32_t find_start(std::uint32_t triangle) const {
     const std::uint32_t given = entry_of(triangle);
     std::uint32_t entry = given;
@@ -93,7 +93,7 @@ class ContourTracer {
 
   const Mesh& mesh_;
   const std::vector<std::uint32_t>& twins_;
-  std::vector<std::int64_t>& done_;  // for each triangle, the last height whose line through it was found
+  std::vector<std::int64_t>& done_;  // for each triangle, the last height already traced through it
   std::int64_t number_ = 0;
   double height_ = 0;
 };
@@ -140,7 +140,7 @@ Result<std::vector<Contour>> find_contours(const Mesh& mesh, double interval) {
     low = std::min(low, mesh.vertex(v)[2]);
     high = std::max(high, mesh.vertex(v)[2]);
   }
-  constexpr double kMostMultiple = 1e15;  // all whole numbers below are doubles
+  constexpr double kMostMultiple = 1e15;  // integers below are exact doubles
   if ((high - low) / interval > kMostHeights || std::max(std::fabs(low), std::fabs(high)) / interval > kMostMultiple)
     return fail(ErrorKind::kUsage,
                 fmt::format("contours every {} between {} and {} are too many: 1,000,000 heights at most", interval,

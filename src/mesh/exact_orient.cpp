@@ -1,7 +1,7 @@
 // A determinant of doubles is a sum of six products. Each product of two doubles is exactly the sum of two doubles
-// (Dekker 1971), and a sum of doubles can be kept exactly as a list of doubles that do not overlap (Shewchuk 1997,
-// "Adaptive precision floating-point arithmetic and fast robust geometric predicates"), whose last non-zero member has
-// the sign of the whole. Nearly all questions are settled before, by the rounded determinant and a bound on its error.
+// (Dekker 1971). A sum of doubles can be stored exactly as a list of doubles that do not overlap, whose last non-zero
+// member has the sign of the whole (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
+// geometric predicates"). In nearly all cases the rounded determinant and a bound on its error already decide.
 
 #include "mesh/exact_orient.h"
 

@@ -1,20 +1,20 @@
-// The problem: a floor for a solid needs the outline of the terrain and nothing inside it. Triangulating an outline
-// with holes from scratch asks for a polygon triangulator; but we already hold a triangulation, with too many vertices.
+// Problem: a floor for a solid needs the outline of the terrain without inner vertices. Triangulating an outline with
+// holes from scratch needs a polygon triangulator. But a triangulation exists already, with too many vertices.
 //
-// The idea: remove the inner vertices, one at a time. Removing v makes a star-shaped hole, the ring of its neighbours.
-// Three neighbours p, q, r in sequence are an ear that may be cut off if they turn left and v lies strictly left of
-// p→r: what remains is still star-shaped around v, and the test uses these four points only, so that cutting an ear
-// changes the answer for its two neighbours alone. While more than four neighbours are left there is always such an ear
-// (of the ears of any triangulation of the ring, two or more, one does not touch v); of the last four, v may lie on a
-// diagonal. Vertices with few neighbours go first, which keeps rings short. With exact orientation nothing can go
-// wrong; the border and all edges along it are never touched, so the result fits the walls.
+// Idea: remove the inner vertices, one at a time. Removing v leaves a star-shaped hole, the ring of its neighbours.
+// Three successive neighbours p, q, r are an ear that may be cut off if they turn left and v lies strictly left of p→r.
+// The rest is still star-shaped around v. The test uses these four points only, so cutting an ear changes the answer
+// for its two neighbours only. While more than four neighbours remain, such an ear exists (of the ears of any
+// triangulation of the ring, two or more, one does not touch v). Of the last four, v may lie on a diagonal. Vertices
+// with few neighbours are removed first, which keeps rings short. Orientation is exact, and the border and all edges
+// along it are never changed, so the result fits the walls.
 //
-// Then the vertices of the border go that lie between their neighbours on a line along x or y. Such a vertex has half a
-// star, whose ring is closed by that line; v lies on it, which is all that the test above needs: an ear at either end
-// of the line has v on its wrong side, and of the others there is always one.
+// Then border vertices that lie between their neighbours on a line along x or y are removed. Such a vertex has half a
+// star, whose ring is closed by that line. v lies on the line, which suffices for the test above: an ear at either end
+// of the line has v on its wrong side, and among the others one always exists.
 //
-// Slanted borders give rings whose corners lie on a line but for their rounding. Ears as thin as that are not cut,
-// since a writer that rounds again would fold them; a vertex that cannot go without one stays.
+// Slanted borders give rings whose corners are collinear except for rounding. Ears that thin are not cut, since a
+// writer that rounds again would fold them; a vertex that needs one is kept.
 //
 // This is vertex deletion by ear queue without its Delaunay priority (Devillers 2002, "On deletion in Delaunay
 // triangulations"): a floor may have long thin triangles.
@@ -46,7 +46,7 @@ class FlatBase {
     remove_vertices(true);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < triangles_.size(); t += 3) {
-      if (triangles_[t] == triangles_[t + 1]) continue;  // a slot given back
+      if (triangles_[t] == triangles_[t + 1]) continue;  // a released slot
       for (std::size_t k = 0; k < 3; ++k) triangles_[kept++] = triangles_[t + k];
     }
     triangles_.resize(kept);
@@ -55,8 +55,8 @@ class FlatBase {
 
  private:
   struct RingEdge {
-    std::uint32_t start;   // the vertex from which the edge goes to the next ring vertex
-    std::uint32_t across;  // the half-edge that runs back along it, or kNoHalfEdge
+    std::uint32_t start;   // the vertex from which the edge leads to the next ring vertex
+    std::uint32_t across;  // the half-edge in the opposite direction, or kNoHalfEdge
     std::uint32_t previous, next;
   };
   struct Ear {
@@ -70,8 +70,8 @@ class FlatBase {
   }
   bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return orient(a, b, c) > 0; }
 
-  /// True if a triangle turns left, and will when its corners are moved and rounded once more: by the share of its
-  /// longest side that it is high.
+  /// True if a triangle turns left, and still will when its corners are moved and rounded once more: by its height
+  /// relative to its longest side.
   bool is_firm(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     constexpr double kThinnest = 0x1p-36;
     const auto side = [&](std::uint32_t from, std::uint32_t to, std::size_t axis) {
@@ -96,7 +96,7 @@ class FlatBase {
     }
   }
 
-  /// Those of the border that it does not need, or all inner ones.
+  /// Removes unneeded border vertices, or all inner ones.
   void remove_vertices(bool of_border) {
     using Entry = std::pair<std::uint32_t, std::uint32_t>;  // neighbours, vertex
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -106,7 +106,7 @@ class FlatBase {
     while (!queue.empty()) {
       const auto [degree, v] = queue.top();
       queue.pop();
-      if (degree != degrees_[v]) continue;  // an entry of the past
+      if (degree != degrees_[v]) continue;  // an outdated entry
       collect_ring(v);
       if (star_.size() != degree || (of_border && !is_straight(v)) || !cut_ears(v)) continue;
       for (const std::uint32_t t : star_) {
@@ -122,8 +122,7 @@ class FlatBase {
     }
   }
 
-  /// The neighbours of v, counter-clockwise, and the triangles around it; from its border to its border if it lies
-  /// there.
+  /// The neighbours of v, counter-clockwise, and the triangles around it; for a border vertex from border to border.
   void collect_ring(std::uint32_t v) {
     ring_.clear();
     star_.clear();
@@ -145,8 +144,8 @@ class FlatBase {
     ring_.back().next = 0;
   }
 
-  /// True for a straight vertex of the border, whose neighbours along it end its ring. Lines along an axis stay
-  /// straight, and the wall below them vertical, whatever is done to each coordinate: scaled, moved, rounded.
+  /// True for a straight vertex of the border, whose neighbours along it end its ring. Lines along an axis remain
+  /// straight, and the wall below them vertical, under any change of single coordinates: scaling, moving, rounding.
   bool is_straight(std::uint32_t v) const {
     const double *from = &positions_[3 * std::size_t{ring_.back().start}], *at = &positions_[3 * std::size_t{v}],
                  *to = &positions_[3 * std::size_t{ring_.front().start}];
@@ -155,8 +154,8 @@ class FlatBase {
            (from[1] == at[1] && at[1] == to[1] && is_between(from[0], at[0], to[0]));
   }
 
-  /// Fills ears_ with the triangles that fill the ring of v; ear number e will replace triangle star_[e]. Returns false
-  /// if there is no way without an ear that is too thin, or if the triangles given overlap.
+  /// Stores the triangles that fill the ring of v in ears_; ear number e will replace triangle star_[e]. Returns false
+  /// if every solution has an ear that is too thin, or if the given triangles overlap.
   bool cut_ears(std::uint32_t v) {
     ears_.clear();
     if (ring_.size() < 3) return false;

@@ -14,9 +14,9 @@ inline constexpr std::uint32_t kNoHalfEdge = std::numeric_limits<std::uint32_t>:
 inline std::uint32_t next_half_edge(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 inline std::uint32_t previous_half_edge(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-/// For each half-edge a→b, the half-edge b→a of the other triangle; kNoHalfEdge on the border, and where an edge does
-/// not have exactly two triangles that run along it in opposite directions. REQUIRES: fewer than 2^32 / 3 triangles.
-/// Cost: O(n log n), 16 bytes a half-edge while it runs.
+/// For each half-edge a→b, the half-edge b→a of the other triangle. kNoHalfEdge on the border, and where an edge does
+/// not have exactly two triangles in opposite directions. REQUIRES: fewer than 2^32 / 3 triangles. Cost: O(n log n), 16
+/// bytes per half-edge during the call.
 std::vector<std::uint32_t> build_twins(std::span<const std::uint32_t> triangles);
 
 }  // namespace scarp

@@ -1,5 +1,5 @@
-// Triangles by place, then for the vertex cache (meshoptimizer's Tipsify: Sander, Nehab and Barczak 2007) in chunks of
-// them, which are small enough for the processor's own cache, and are the work of many threads.
+// Sorts triangles by place, then for the vertex cache (meshoptimizer's Tipsify: Sander, Nehab and Barczak 2007) in
+// chunks. These fit the processor's cache and are distributed over threads.
 #include "mesh/order.h"
 
 #ifdef SCARP_WITH_MESHOPTIMIZER
@@ -49,7 +49,7 @@ namespace {
 constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64;
 constexpr unsigned kCacheSize = 16;
 
-/// The position of each vertex on a curve through `side` × `side` cells of the rectangle of all.
+/// The position of each vertex along a curve through `side` × `side` cells of the bounding rectangle.
 std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_places, std::size_t side, int threads) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr std::size_t kAtOnce = 4096;
@@ -92,7 +92,7 @@ std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_pl
     each_place(first, end, [&](std::size_t v, const std::array<double, 2>& place) {
       const auto cell = [&](std::size_t k) {
         const double at = (place[k] - whole.low[k]) * scale[k];
-        return at > 0 ? static_cast<std::uint64_t>(std::min(at, static_cast<double>(side - 1))) : 0;  // 0 of NaN
+        return at > 0 ? static_cast<std::uint64_t>(std::min(at, static_cast<double>(side - 1))) : 0;  // 0 for NaN
       };
       on_curve[v] = static_cast<std::uint32_t>(curve_place(cell(0), cell(1)));
     });
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_pl
 
 }  // namespace
 
-// Each triangle at its corner that comes first; those of one cell stay in their order.
+// Each triangle is sorted by its first corner along the curve; triangles of one cell keep their order.
 std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
                                          FindPlaces find_places, int threads) {
   constexpr std::size_t kMostParts = 8, kLeastTogether = 1 << 16;
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners,
   const auto place_of = [&](std::size_t t) {
     return std::min({places[corners[3 * t]], places[corners[3 * t + 1]], places[corners[3 * t + 2]]});
   };
-  // Counters need memory by part, and the order is the same with any number of them.
+  // Counters need memory per part; the order does not depend on the number of parts.
   const std::size_t parts = std::clamp<std::size_t>(static_cast<std::size_t>(thread_count(threads)), 1, kMostParts);
   const std::size_t together = std::max(kLeastTogether, (count + parts - 1) / parts);
   std::vector<std::vector<std::uint32_t>> begins((count + together - 1) / together);
@@ -173,13 +173,13 @@ void order_chunk(std::uint32_t* corners, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) corners[i] = ids.vertices()[ordered[i]];
 }
 
-/// Chunks of triangles that are sorted.
+/// Chunks of triangles to sort.
 constexpr std::size_t kChunkCorners = 3 * kChunkTriangles;
 
-/// New ids of the vertices, in the order in which the corners first name them; kUnused for those that none does.
-/// Returns how many are used.
+/// New ids of the vertices, in the order of their first use by corners; kUnused for unused ones. Returns the number
+/// used.
 std::size_t number_by_first_use(std::span<const std::uint32_t> corners, int threads, std::vector<std::uint32_t>& ids) {
-  // Who names a vertex first, by chunk; in there all is one thread's.
+  // The first chunk that uses each vertex; in a chunk one thread numbers them.
   std::vector<std::uint32_t> owners(ids.size(), kUnused);
   parallel_for_parts(corners.size(), kChunkCorners, threads, [&](std::size_t first, std::size_t end) {
     const auto chunk = static_cast<std::uint32_t>(first / kChunkCorners);

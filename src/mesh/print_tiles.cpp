@@ -1,12 +1,12 @@
-// A large print is made of print tiles. The cuts run along rows and columns of samples, where the mesh can have edges
-// whose ends lie on samples; a tab in the middle of each shared edge is a trapezoid that is wider at its head, so that
-// print tiles hook into each other as the pieces of a jigsaw do and slide together from above.
+// A large print consists of print tiles. The cuts follow rows and columns of samples, where the mesh can have edges
+// whose ends lie on samples. A tab in the middle of each shared edge is a trapezoid that is wider at its head, so that
+// print tiles interlock like a jigsaw and slide together from above.
 //
-// Every cut is a polyline from one end of the raster to the other. simplify() inserts it into the mesh as a soft line,
-// so that triangles lie on one side of it, and each triangle belongs to the print tile that its centre lies in. Both
-// neighbours get their vertices from the same mesh: what one of them ends with the other begins with.
+// Every cut is a polyline across the raster. simplify() inserts it into the mesh as a soft line, so that triangles lie
+// on one side of it, and each triangle belongs to the print tile that contains its centre. Both neighbours get their
+// vertices from the same mesh, so their edges are identical.
 //
-// A gap is two polylines instead of one, each half of it away from the cut; no print tile covers the space between.
+// A gap is two polylines, each half its width from the cut; no print tile covers the space between.
 
 #include "mesh/print_tiles.h"
 
@@ -22,9 +22,9 @@ namespace {
 
 using Point2 = std::array<double, 2>;
 
-constexpr int kLeastCells = 2;                               // least number of cells across a print tile
-constexpr int kLeastTabCells = 12;                           // least number across a print tile that has tabs
-constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // shares of the print tile that the tab stands on or in
+constexpr int kLeastCells = 2;                               // smallest number of cells across a print tile
+constexpr int kLeastTabCells = 12;                           // smallest number across a print tile with tabs
+constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // relative to the print tile that the tab touches
 
 /// The indices of samples at which print tiles begin and end.
 std::vector<int> divide(int samples, int parts) {
@@ -35,8 +35,8 @@ std::vector<int> divide(int samples, int parts) {
   return at;
 }
 
-/// Along a cut at `across`, from the first sample to the last: straight, or with a tab in the middle of each print
-/// tile. Points are (along, across).
+/// A cut at `across`, from the first sample to the last: straight, or with a tab in the middle of each print tile.
+/// Points are (along, across).
 std::vector<Point2> draw_cut(int across, const std::vector<int>& tiles, double depth, bool dovetail) {
   std::vector<Point2> cut{{double(tiles.front()), double(across)}};
   for (std::size_t k = 0; dovetail && k + 1 < tiles.size(); ++k) {
@@ -53,7 +53,8 @@ std::vector<Point2> draw_cut(int across, const std::vector<int>& tiles, double d
   return cut;
 }
 
-/// The polyline, `distance` to its left in the metric of cells; its ends stay where it ends. In (along, across).
+/// The polyline offset by `distance` to its left in the metric of cells; its ends keep their position along. In (along,
+/// across).
 std::vector<Point2> shift(const std::vector<Point2>& line, double distance, Point2 cell) {
   if (distance == 0) return line;
   const auto normal = [&](std::size_t k) {  // normal of the segment from point k
@@ -64,7 +65,7 @@ std::vector<Point2> shift(const std::vector<Point2>& line, double distance, Poin
   std::vector<Point2> shifted;
   for (std::size_t k = 0; k < line.size(); ++k) {
     const Point2 a = normal(k > 0 ? k - 1 : 0), b = normal(std::min(k, line.size() - 2));
-    // The point whose distance from both segments is as wanted: along the bisector.
+    // The point at this distance from both segments, along the bisector.
     const double scale = distance / (1 + a[0] * b[0] + a[1] * b[1]);
     shifted.push_back({line[k][0] + scale * (a[0] + b[0]) / cell[0], line[k][1] + scale * (a[1] + b[1]) / cell[1]});
   }
@@ -75,7 +76,7 @@ void turn_over(std::vector<Point2>& line) {
   for (Point2& point : line) std::swap(point[0], point[1]);
 }
 
-/// True if the point lies before a cut: counts how often the cut passes between it and the far end. The cut continues
+/// True if the point lies before a cut, by the number of crossings between it and the far end. The cut continues
 /// straight at both ends. In (along, across).
 bool is_before(const std::vector<Point2>& cut, Point2 p) {
   bool before = false;
@@ -106,7 +107,7 @@ Result<PrintTilePlan> PrintTilePlan::make(int cols, int rows, const PrintTileOpt
   SCARP_RETURN_IF_ERROR(check_span("rows", rows, options.rows, options.dovetail));
   const std::vector<int> along_cols = divide(cols, options.columns), along_rows = divide(rows, options.rows);
   const double width = (cols - 1.0) / options.columns, height = (rows - 1.0) / options.rows;
-  // A tab and its gap must not meet its neighbours': half the narrower side is more than all of them need.
+  // A tab and its gap must not meet its neighbours': half the narrower side exceeds their total.
   const double narrowest = std::min(width * options.cell[0], height * options.cell[1]);
   const double widest = narrowest * (options.dovetail ? kNeck / 4 : 0.25);
   if (!(options.gap >= 0) || options.gap > widest) {

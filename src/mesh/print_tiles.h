@@ -1,4 +1,4 @@
-// The cuts of a terrain into print tiles that fit together.
+// The division of a terrain into print tiles that fit together.
 #pragma once
 
 #include <array>
@@ -14,24 +14,25 @@
 
 namespace scarp {
 
-/// How a terrain is cut into print tiles.
+/// How to divide a terrain into print tiles.
 struct PrintTileOptions {
-  int columns = 1, rows = 1;  ///< number of print tiles, at least 1
-  bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two tiles share. DEFAULT: none.
-  double gap = 0;             ///< between neighbours, in the unit of `cell`, at least 0
+  int columns = 1, rows = 1;         ///< number of print tiles, at least 1
+  bool dovetail = false;             ///< a trapezoid tab in the middle of each edge between two tiles. DEFAULT: none.
+  double gap = 0;                    ///< between neighbours, in the unit of `cell`, at least 0
   std::array<double, 2> cell{1, 1};  ///< width and height of a cell of the raster
 };
 
-/// Cuts along rows and columns of samples, from which tabs stand out.
+/// Cuts along rows and columns of samples, with protruding tabs.
 class PrintTilePlan {
  public:
-  /// Fails with kUsage if a tile would be too narrow for two cells, its tabs or its gap: names the number of samples.
+  /// Fails with kUsage if a tile would be too narrow for two cells, its tabs or its gap; the error gives the number of
+  /// samples.
   static Result<PrintTilePlan> make(int cols, int rows, const PrintTileOptions& options);
 
-  /// The cuts as soft lines for Features::breaklines, one for each line along which tiles end; `affine` as
+  /// The cuts as soft lines for Features::breaklines, one for each line where tiles end; `affine` as
   /// LineConstraints::affine.
   std::vector<Line> lines(const std::array<double, 6>& affine) const;
-  /// The tile at a position in the grid, counted row by row from the top left; nothing in a gap.
+  /// The tile at a position in the grid, counted by rows from the top left; nothing in a gap.
   std::optional<int> tile_at(double col, double row) const;
   int columns() const { return options_.columns; }
   int rows() const { return options_.rows; }
@@ -39,7 +40,7 @@ class PrintTilePlan {
  private:
   using Point2 = std::array<double, 2>;  // column, row
   struct Cut {
-    std::vector<Point2> low, high;  // the end of the tile before, and the start of the one behind; equal without a gap
+    std::vector<Point2> low, high;  // the end of the previous tile, and the start of the next; equal without a gap
   };
   std::optional<int> interval_at(const std::vector<Cut>& cuts, bool across_columns, Point2 at) const;
 
@@ -47,9 +48,9 @@ class PrintTilePlan {
   std::vector<Cut> column_cuts_, row_cuts_;
 };
 
-/// The triangles of each tile, by their centres, as meshes with vertices of their own. Vertices along a cut have the
-/// same positions on both sides. Tiles without triangles are empty. Attributes are dropped.
-/// REQUIRES: the frame is affine, and it is the mesh's. Cost: O(n).
+/// The triangles of each tile, assigned by their centres, as meshes with separate vertices. Vertices along a cut have
+/// the same positions on both sides. Tiles without triangles are empty. Attributes are dropped.
+/// REQUIRES: `frame` is the mesh's frame and affine. Cost: O(n).
 std::vector<Mesh> cut_print_tiles(const Mesh& terrain, const Frame& frame, const PrintTilePlan& plan);
 
 }  // namespace scarp

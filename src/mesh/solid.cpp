@@ -1,8 +1,8 @@
-// Facts of a solid as a printer's software reads it, and solids that pass these checks.
+// Facts of a solid as printing software reads it, and solids that pass its checks.
 //
-// Such software reads positions as float32 and joins vertices by their places. So we round before we judge, join what
-// has come to lie at one place, and then ask what makes a surface: every edge runs once in each direction, the
-// triangles at each vertex form one fan, none has lost its area, and each part encloses a volume.
+// Such software reads positions as float32 and merges vertices at equal positions. So positions are rounded and merged
+// before judging. The requirements for a surface: every edge runs once in each direction, the triangles at each vertex
+// form one fan, none has lost its area, and each part encloses a volume.
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ constexpr const char* kPlacementEntry = "placement";
 
 float rounded(double value) { return static_cast<float>(value) + 0.0f; }  // and no −0
 
-/// The triangles with the least vertex at each place.
+/// The triangles with the lowest vertex at each position.
 std::vector<std::uint32_t> weld(const std::vector<float>& places, const std::vector<std::uint32_t>& triangles) {
   const std::size_t count = places.size() / 3;
   std::vector<std::uint32_t> order(count), first(count);
@@ -141,7 +141,7 @@ class Inspection {
     }
   }
 
-  /// Down to the lowest vertex; negative for a triangle that faces down.
+  /// Volume down to the lowest vertex; negative for a triangle that faces down.
   double volume_under(std::uint32_t t) const {
     const auto a = at(triangles_[3 * t]), b = at(triangles_[3 * t + 1]), c = at(triangles_[3 * t + 2]);
     const double area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;

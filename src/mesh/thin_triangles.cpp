@@ -49,7 +49,7 @@ class Trimmer {
     const double *p = &mesh_.positions[3 * std::size_t{a}], *q = &mesh_.positions[3 * std::size_t{b}];
     return std::hypot(q[0] - p[0], q[1] - p[1]);
   }
-  /// Over the longest side; negative if the triangle is clockwise.
+  /// Height over the longest side; negative if clockwise.
   double height(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const double *p = &mesh_.positions[3 * std::size_t{a}], *q = &mesh_.positions[3 * std::size_t{b}],
                  *r = &mesh_.positions[3 * std::size_t{c}];

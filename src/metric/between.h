@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Calls visit(p, share) for each lattice point p strictly between a and b on their straight line, from a to b; share
-/// is how far along it lies, in (0, 1).
+/// Calls visit(p, share) for each lattice point p strictly between a and b on their line, from a to b; share is its
+/// fraction of the way, in (0, 1).
 template <class Visit>
 void visit_between(Point a, Point b, Visit&& visit) {
   const std::int32_t dx = b.x - a.x, dy = b.y - a.y, steps = std::gcd(std::abs(dx), std::abs(dy));

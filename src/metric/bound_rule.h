@@ -1,4 +1,4 @@
-// The promised bound of a sample, and the aim of refinement, from the requested bound.
+// The guaranteed bound of a sample, and the target of refinement, from the requested bound.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// The largest double that times `weight` is at most `value`, as real numbers, or the one below it.
+/// The largest double whose product with `weight` is at most `value`, as real numbers, or the one below it.
 double divide_down(double value, double weight);
 
 /// goal − reserve, rounded down, at least 0.
@@ -16,17 +16,17 @@ double tightened(double goal, double reserve);
 
 struct BoundRule {
   double reserve = 0;  ///< for the rounding of samples
-  double aim = 1;      ///< share of each bound
+  double aim = 1;      ///< fraction of each bound
 
-  /// The largest float that is no more than what is left of `asked`; +infinity for none.
+  /// The largest float that is at most `asked` minus the reserve; +infinity for none.
   float bound(double asked) const;
   float aim_at(float bound) const;
 
-  /// kPromise: less was asked at a sample than its rounding.
+  /// kPromise: the requested bound of a sample is below its rounding.
   Error refuse(Point at, double asked) const;
 };
 
-/// kUsage: a value of a raster of weights or bounds that is none.
+/// kUsage: an invalid value in a raster of weights or bounds.
 Error refuse_value(const char* what, Point at, float value, const char* rest = "");
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// The sample that a triangle would have inserted.
+// Candidates for insertion.
 #pragma once
 
 #include "base/point.h"
@@ -6,13 +6,13 @@
 
 namespace scarp {
 
-/// The sample that a triangle would have inserted.
+/// The sample that a triangle would insert next.
 struct Candidate {
-  double error = 0;  ///< its importance: |plane − sample| by Plane::height_at(), where nothing else is asked for
+  double error = 0;  ///< importance; by default |plane − sample| by Plane::height_at()
   Point at;
 };
 
-/// Larger error first, then raster order: a total order on candidates that are different samples.
+/// Larger error first, then raster order: a total order on candidates at different samples.
 inline bool is_worse(const Candidate& a, const Candidate& b) {
   return a.error != b.error ? a.error > b.error : before(a.at, b.at);
 }

@@ -1,4 +1,4 @@
-// The criterion of errors from the options and the field, prepared for the engine and for the proof.
+// The error criterion from the options and the field, prepared for the engine and for the proof.
 #pragma once
 
 #include <cmath>
@@ -18,52 +18,51 @@
 
 namespace scarp {
 
-/// True if samples have tolerances of their own, in memory or in a source.
+/// True if samples have individual tolerances, in memory or in a source.
 bool has_tolerances(const SimplifyOptions& options);
-/// True if samples in memory have bounds of their own, by tolerances or weights, or because some are ignored.
+/// True if samples in memory have individual bounds, by tolerances or weights, or because some are ignored.
 bool has_own_bounds(const SimplifyOptions& options, bool is_streamed);
-/// The bound that tolerances, weights and `max_error` (nothing: none of all samples) set at a sample of a raster in
-/// memory; +infinity for none.
+/// The bound at a sample of a raster in memory, from tolerances, weights and `max_error` (nothing: no general bound);
+/// +infinity for none.
 double asked_bound(const SimplifyOptions& options, std::optional<double> max_error, Point at, std::int32_t cols);
 
-/// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for bounds read
-/// in windows.
+/// Owns the arrays of the engine's error metric: at most 12 bytes per sample, none for plain heights and for bounds
+/// read in windows.
 class Criterion {
  public:
   /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without
   /// value at a sample, named) and kPromise (a tolerance below the rounding of the samples). `field`, `options` and the
-  /// raster's samples stay alive. `aim`: the share of the bounds that the metric holds to where heights alone have
-  /// some. `factor`: of all tolerances.
+  /// raster's samples must outlive it. `aim`: the fraction of the bounds that the metric targets where only heights
+  /// have bounds. `factor`: multiplies all tolerances.
   static Result<Criterion> make(const HeightField& field, const Request& options, const Raster& raster, double aim = 1,
                                 double factor = 1);
-  /// Plain SimplifyOptions become a Request that does not stay alive.
+  /// A temporary Request, as converted from SimplifyOptions, would not live long enough.
   static Result<Criterion> make(const HeightField&, Request&&, const Raster&, double = 1, double = 1) = delete;
 
   const ErrorMetric& metric() const { return *metric_; }
-  /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
+  /// Bound of the combined error if samples have no individual bounds; nothing without an error goal.
   std::optional<double> bound() const { return bound_; }
-  /// The aim of the metric in place of bound().
+  /// The metric's target in place of bound().
   double aim() const { return aim_ * bound_.value_or(0); }
   /// Factor of all tolerances.
   double factor() const { return factor_; }
-  /// The max error, of all samples; +infinity for none.
+  /// The max error of all samples; +infinity for none.
   double most() const { return options_->goals.max_error.value_or(HUGE_VAL); }
   /// Reserve of bounds for the rounding of samples.
   double reserve() const { return field_->sample_rounding; }
-  /// Bounds of the samples; empty where bound() holds for all.
+  /// Bounds of the samples; empty if bound() applies to all.
   std::span<const float> bounds() const { return bounds_; }
-  /// Bounds that are read in windows; null: the above hold all.
+  /// Bounds read in windows; null: the above are complete.
   const SourceBounds* source_bounds() const { return source_bounds_.get(); }
-  /// The largest bound that the metric holds to at a valid sample; +infinity: some have none. REQUIRES: samples in
-  /// memory.
+  /// The metric's largest target at a valid sample; +infinity if a sample has none. REQUIRES: samples in memory.
   double largest_aim() const;
-  /// Those that the metric holds to.
+  /// The metric's targets.
   std::span<const float> aims() const { return aims_.empty() ? bounds_ : aims_; }
-  /// The engine's importance is an error that grows and shrinks with the promised error.
+  /// The engine's importance is an error that grows and shrinks with the bounded error.
   bool importance_is_error() const { return importance_is_error_; }
-  /// Order of insertion for one pass, without the samples that have no bound; empty otherwise.
+  /// Order of insertion for one pass, without unbounded samples; empty if not used.
   std::vector<Point> ranking() const;
-  /// Samples without a bound; those of source_bounds() the proof counts.
+  /// Samples without a bound; those of source_bounds() are counted by the proof.
   std::uint64_t ignored() const { return ignored_; }
   /// The fields whose errors count.
   std::vector<MetricField> metric_fields() const;

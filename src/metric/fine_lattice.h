@@ -10,11 +10,10 @@
 
 namespace scarp {
 
-/// The finest lattice on which triangles are scanned. Without a limit one sliver across a large raster would cost more
-/// than all the rest.
+/// The finest lattice for scans of triangles. Without a limit one sliver across a large raster would dominate the cost.
 inline constexpr int kFinestLattice = 32;
 
-/// Bilinear interpolant at the lattice point (x, y) / lattice; NaN if a nodata sample has a share in it.
+/// Bilinear interpolant at the lattice point (x, y) / lattice; NaN if a nodata sample contributes.
 inline double interpolate(const float* samples, std::int32_t cols, std::int64_t x, std::int64_t y, int lattice) {
   const std::int64_t col = x / lattice, row = y / lattice;
   const double u = static_cast<double>(x % lattice) / lattice, v = static_cast<double>(y % lattice) / lattice;
@@ -36,8 +35,8 @@ void scan_fine(std::array<Point, 3> corners, int lattice, Visit&& visit) {
   });
 }
 
-/// The lattice for a triangle under the control f: ⌈(width + height) / (2 · area · f)⌉, but no finer than allowed and
-/// no coordinate beyond the lattice; 1 if f is 0 (off).
+/// The lattice of a triangle under the control f: ⌈(width + height) / (2 · area · f)⌉, but no finer than allowed and no
+/// coordinate beyond the lattice; 1 if f is 0 (off).
 inline int find_lattice(const std::array<Point, 3>& corners, double f) {
   if (!(f > 0)) return 1;
   const auto [low_x, high_x] = std::minmax({corners[0].x, corners[1].x, corners[2].x});

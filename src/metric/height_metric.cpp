@@ -18,7 +18,7 @@ std::array<float, 3> heights_at(const Raster& raster, const std::array<Point, 3>
   return {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};
 }
 
-/// The worst of a row's samples that is worse than `worst`. NaN samples lose every comparison.
+/// The worst of a row's samples, if worse than `worst`. NaN samples lose every comparison.
 void find_worst(const ScanKernels& kernels, const Plane& plane, const float* samples, std::int32_t y,
                 std::int32_t first, std::int32_t last, Candidate& worst) {
   const double row_height = plane.row_height(y);
@@ -36,7 +36,7 @@ void find_worst(const ScanKernels& kernels, const Plane& plane, const float* sam
   }
 }
 
-/// The worst and the squares of a row's samples.
+/// Adds the worst and the squares of a row's samples.
 void add_row(const Plane& plane, const float* samples, std::int32_t y, std::int32_t first, std::int32_t last,
              Candidate& worst, double& squares) {
   const double row_height = plane.row_height(y);
@@ -73,7 +73,7 @@ Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQue
   return fit;
 }
 
-/// The scores again, on a finer lattice.
+/// Computes the scores again, on a finer lattice.
 void refine_scores(const Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question, Fit& fit) {
   const Plane plane = Plane::through(corners, heights_at(raster, corners));
   double most = 0, squares = 0;
@@ -119,7 +119,7 @@ std::optional<Candidate> HeightMetric::find_candidate(const std::array<Point, 3>
   const Candidate& worst = fit.worst;
   if (worst.error > threshold_ + fit.guard) return worst;
   if (worst.error < threshold_ - fit.guard) return std::nullopt;
-  // A level plane has no guard: one subtraction rounds, monotonely, so that only equality is in doubt.
+  // A level plane has no guard: one subtraction rounds, monotonically, so only equality is uncertain.
   if (fit.guard == 0 && (threshold_ == 0 || worst.error != threshold_)) return std::nullopt;
   return scan_exactly(raster_, corners, Plane::through(corners, heights_at(raster_, corners)), threshold_);
 }

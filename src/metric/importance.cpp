@@ -18,7 +18,7 @@ class Neighbourhood {
   }
   double at(std::int32_t x, std::int32_t y) const { return raster_.at({x, y}); }
 
-  /// Sum of the two neighbours at ±d minus twice the sample; no value (0, false) if one is missing.
+  /// Sum of the two neighbours at ±d minus twice the sample; 0 and false if one is missing.
   bool second_difference(Point p, Point d, double& value) const {
     if (!has(p.x - d.x, p.y - d.y) || !has(p.x + d.x, p.y + d.y)) return false;
     value = at(p.x - d.x, p.y - d.y) + at(p.x + d.x, p.y + d.y) - 2 * at(p.x, p.y);

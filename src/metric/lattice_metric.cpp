@@ -47,11 +47,11 @@ Fit LatticeMetric::fit(const std::array<Point, 3>& corners, const FitQuestion&) 
   return bounds_ ? fit_by_bounds(corners) : fit_evenly(corners);
 }
 
-/// The largest error, where it may exceed the threshold.
+/// The largest error, if it may exceed the threshold.
 Fit LatticeMetric::fit_evenly(const std::array<Point, 3>& corners) const {
   const Plane plane = plane_of(corners);
   const double least = threshold_ - plane.guard;
-  double worst = std::nextafter(least, -1.0);  // an error equal to `least` is in doubt, too
+  double worst = std::nextafter(least, -1.0);  // an error equal to `least` is uncertain, too
   Point at;
   const ScanKernels& kernels = scan_kernels();
   // Powers of two: each product rounds as slope_x times steps does.
@@ -95,7 +95,7 @@ Fit LatticeMetric::fit_by_bounds(const std::array<Point, 3>& corners) const {
       const double offset = static_cast<double>(x * kLatticeSteps - plane.base.x);
       const double error = std::abs(row_height + plane.slope_x * offset - double{samples[x - first]});
       const double bound = bounds[x - first];
-      if (!(error >= bound - plane.guard)) continue;  // nodata, or within its bound for certain
+      if (!(error >= bound - plane.guard)) continue;  // nodata, or certainly within its bound
       fit.max_error = std::max(fit.max_error, error);
       fit.unsettled = true;
       const double share = importance(error, bound);

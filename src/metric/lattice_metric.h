@@ -1,4 +1,4 @@
-// The error metric of triangles whose corners lie between samples, at heights of their own.
+// The error metric of triangles whose corners lie between samples, with separate heights.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@
 
 namespace scarp {
 
-/// Heights of lattice points: the height that set() gave to a point, else that of its sample.
+/// Heights of lattice points: set by set(), otherwise those of their samples.
 class LatticeHeights {
  public:
   explicit LatticeHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
   void set(Point point, float height);
-  /// Makes room for so many, so that set() need not move others.
+  /// Reserves memory for `count` points, so that set() need not rehash.
   void reserve(std::size_t count);
   static bool is_sample(Point point) { return point.x % kLatticeSteps == 0 && point.y % kLatticeSteps == 0; }
-  /// REQUIRES: it was given, or is a sample's.
+  /// REQUIRES: the point was set, or is a sample.
   float at(Point point) const {
     if (is_sample(point) && !has_samples_) return sample(point);
     const Slot& slot = slots_[find(key(point))];
@@ -30,7 +30,7 @@ class LatticeHeights {
   }
 
  private:
-  /// An open table of which at most half is filled.
+  /// A slot of an open-addressing table, at most half filled.
   struct Slot {
     std::uint64_t key = 0;  // 0: an empty slot
     float height = 0;
@@ -41,7 +41,7 @@ class LatticeHeights {
   static std::uint64_t key(Point point) {
     return (std::uint64_t{static_cast<std::uint32_t>(point.y)} << 32 | static_cast<std::uint32_t>(point.x)) + 1;
   }
-  /// The key's slot, or the one where it would stand.
+  /// The key's slot, or the one to insert it.
   std::size_t find(std::uint64_t key) const {
     std::size_t slot = (key * 0x9e3779b97f4a7c15) >> 32 & (slots_.size() - 1);
     while (slots_[slot].key != key && slots_[slot].key != 0) slot = (slot + 1) & (slots_.size() - 1);
@@ -51,20 +51,20 @@ class LatticeHeights {
   SampleView samples_;
   std::vector<Slot> slots_;
   std::size_t taken_ = 0;
-  bool has_samples_ = false;  ///< samples were given other heights
+  bool has_samples_ = false;  ///< set() changed heights of samples
 };
 
-/// Corners and candidates are in kLatticeSteps. Where samples have bounds of their own (row-major, +infinity for none),
-/// importance is the error over the bound, else the error. Bounds are decided exactly.
+/// Corners and candidates are in kLatticeSteps. Importance is the error over the bound if samples have individual
+/// bounds (row-major, +infinity for none), otherwise the error. Comparisons with bounds are exact.
 class LatticeMetric final : public ErrorMetric {
  public:
-  /// `heights` and the bounds stay alive.
+  /// `heights` and the bounds must outlive it.
   LatticeMetric(const SampleView& samples, const LatticeHeights& heights, double threshold,
                 std::span<const float> bounds)
       : samples_(samples), heights_(heights), threshold_(threshold) {
     if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
   }
-  /// With per-sample bounds of which rows are held elsewhere.
+  /// With individual bounds, whose rows `bounds` holds.
   LatticeMetric(const SampleView& samples, const LatticeHeights& heights, const Band& bounds)
       : samples_(samples), heights_(heights), bounds_(bounds) {}
 

@@ -1,6 +1,6 @@
-// Distances are those of P. F. Felzenszwalb and D. P. Huttenlocher, "Distance Transforms of Sampled Functions", Theory
-// of Computing 8, 2012: the lower envelope of parabolas, along each row, above the distances along the columns. The
-// envelope is made in stretches of a row that do not depend on what is read, so that its rounding does not either.
+// Distances follow P. F. Felzenszwalb and D. P. Huttenlocher, "Distance Transforms of Sampled Functions", Theory of
+// Computing 8, 2012: the lower envelope of parabolas along each row, above the distances along the columns. The
+// envelope is built in stretches of a row that do not depend on the window, so neither does its rounding.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,14 +17,15 @@ namespace {
 constexpr double kFarAway = std::numeric_limits<double>::infinity();
 constexpr std::int32_t kLeastStretch = 1024;  // samples of a row
 
-/// Squared distances along a row of samples that are `cell` apart: the least of a place's height + (cell · steps)².
+/// Squared distances along a row of samples that are `cell` apart: the minimum over all places of height + (cell ·
+/// steps)².
 class Envelope {
  public:
   Envelope(std::size_t most, double cell) : cell_(cell), lows_(most), from_(most + 1) {}
 
   void clear() { count_ = 0; }
   bool is_empty() const { return count_ == 0; }
-  /// Places come from the left to the right.
+  /// REQUIRES: places from left to right.
   void add(std::int32_t x, double height) {
     double begins = -kFarAway;
     for (; count_ > 0; --count_) {
@@ -35,7 +36,7 @@ class Envelope {
     lows_[count_] = {x, height};
     from_[count_++] = begins;
   }
-  /// each(x, squared distance) for x in [begin, end). REQUIRES: not empty.
+  /// Calls each(x, squared distance) for x in [begin, end). REQUIRES: not empty.
   template <class Each>
   void visit(std::int32_t begin, std::int32_t end, const Each& each) {
     from_[count_] = kFarAway;
@@ -47,7 +48,7 @@ class Envelope {
     }
   }
 
-  static constexpr std::size_t kBytes = 24;  // a place
+  static constexpr std::size_t kBytes = 24;  // per place
 
  private:
   struct Low {
@@ -71,7 +72,7 @@ float rounded_down(double value) {
   return double{rounded} > value ? std::nextafter(rounded, 0.0f) : rounded;
 }
 
-/// Samples on the way through `falloff`, all of a side at most.
+/// Width of `falloff` in samples, at most one side.
 std::int32_t reach_of(double falloff, double cell, int side) {
   return static_cast<std::int32_t>(std::min(std::ceil(falloff / cell), double{1} * side));
 }
@@ -80,10 +81,10 @@ struct SampleWindow {
   std::int32_t col, row, cols, rows;
 };
 
-/// One region's samples and what is around them.
+/// One region's samples and their surroundings.
 class RegionSamples {
  public:
-  /// REQUIRES: there are runs.
+  /// REQUIRES: the region has runs.
   RegionSamples(std::span<const SampleRun> runs, double tolerance, const RegionGrid& grid)
       : grid_(grid),
         columns_(runs, grid.cols),
@@ -113,7 +114,7 @@ class RegionSamples {
     std::vector<ColumnWalk> walks;
     walks.reserve(widest());
     const std::int32_t end = window.col + window.cols;
-    // Without a falloff columns know nothing of each other.
+    // Without a falloff columns are independent.
     for (std::int32_t begin = reach_ == 0 ? window.col : window.col / stretch_ * stretch_; begin < end;) {
       const std::int32_t next = begin > grid_.cols - stretch_ ? grid_.cols : begin + stretch_;
       const std::int32_t left = std::max(begin - reach_, left_);

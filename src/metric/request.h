@@ -1,4 +1,4 @@
-// The request for a run of the engine.
+// The parameters of a run of the engine.
 #pragma once
 
 #include <utility>
@@ -13,7 +13,7 @@ struct Request : SimplifyOptions {
   Request(SimplifyOptions options) : SimplifyOptions(std::move(options)) {}
 
   Strategy strategy;
-  bool chose_effort = false;  ///< the effort was not asked for
+  bool chose_effort = false;  ///< the effort was chosen by default
 };
 
 inline bool has_budget(const SimplifyOptions& options) {

@@ -24,7 +24,7 @@ constexpr std::int32_t kChunkSamples = 64;
 /// If the importance is 0 the error itself decides, far below any other importance.
 constexpr double kUnimportant = 1e-280;
 
-/// Combining kMaxChannels + 1 errors rounds about as often, by 2^-53 each time, and a few times more.
+/// Combining kMaxChannels + 1 errors rounds about as often, by 2^-53 each time, plus a few roundings.
 constexpr double kNormRounding = 0x1p-46;
 
 /// Adds one error to a norm; `total` holds Σ, Σ² or max.
@@ -49,7 +49,7 @@ double distance_from_corner(const std::array<Point, 3>& corners, Point p) {
 
 }  // namespace
 
-/// A plane for each field. Few fields, the usual case, cost no allocation and no clearing of many planes.
+/// A plane for each field. The usual few fields need no allocation and no clearing of many planes.
 struct SampleMetric::Surface {
   static constexpr std::size_t kFew = 4;
   std::array<Plane, kFew> few;
@@ -155,7 +155,7 @@ Fit SampleMetric::fit(const std::array<Point, 3>& corners, const FitQuestion& qu
         fit.sum_squares += score * score;
         const Point p{begin + static_cast<std::int32_t>(i), y};
         const double value = importance(error, index + i, corners, p);
-        if (value <= fit.worst.error) continue;  // no candidate, whatever its bound
+        if (value <= fit.worst.error) continue;  // not a candidate, for any bound
         const double bound = bound_at(index + i), margin = surface.guard + kNormRounding * error;
         if (error < bound - margin) continue;
         if (error > bound + margin) {

@@ -1,5 +1,4 @@
-// The general error metric: combined errors of heights and channels, with a bound and a factor of importance for each
-// sample.
+// The general error metric: combined errors of heights and channels, with a bound and an importance factor per sample.
 #pragma once
 
 #include <algorithm>
@@ -14,37 +13,38 @@
 
 namespace scarp {
 
-/// One of the fields whose errors are combined. All have values wherever the heights have.
+/// A field whose errors are combined. It is valid wherever the heights are.
 struct MetricField {
   const float* samples = nullptr;
   double scale = 1;  ///< above 0
 };
 
-/// Factors stay finite, so that errors still count.
+/// Keeps factors finite, so that errors still count.
 inline constexpr float kMostFactor = 1e30f;
-/// The factor of a sample whose error counts by its bound: a bound of 0 outranks every other.
+/// The factor of a sample ranked by error over bound. A bound of 0 outranks all others.
 inline float per_bound(float bound) { return std::min(1 / bound, kMostFactor); }
 
 /// Borrows everything.
 struct MetricSettings {
-  Raster heights;                   ///< decides which samples count
+  Raster heights;                   ///< determine which samples are valid
   std::vector<MetricField> fields;  ///< at least one
   Norm norm = Norm::kSum;
-  double threshold = 0;            ///< bound of the combined error, where `bounds` is null
+  double threshold = 0;            ///< bound of the combined error, if `bounds` is null
   const float* bounds = nullptr;   ///< bound of each sample, +infinity for none
   const float* factors = nullptr;  ///< importance = error · factor; null: the error
   bool per_bound = false;          ///< importance = error · per_bound(bound); without `factors`
   bool by_error = true;            ///< false: importance = factor
-  /// Importance is also multiplied by the damped distance from the nearest corner. DEFAULT: it is not.
+  /// Importance is also multiplied by the damped distance from the nearest corner. DEFAULT: off.
   std::optional<Importance::Damping> distance = {};
   double goal = 0;  ///< see ErrorMetric::goal()
 };
 
-/// Settings for heights alone, each with a bound of its own, ranked by the error over it.
+/// Settings for heights alone with individual bounds, ranked by error over bound.
 MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds);
 
-/// With one field of scale 1 bounds are decided exactly. A norm of several is decided within its rounding on the safe
-/// side, exactly only at bound 0: a sample may be inserted whose norm equals its bound, none is left that exceeds it.
+/// With one field of scale 1 comparisons with bounds are exact. A norm of several fields is compared within its
+/// rounding on the safe side, exactly only for bound 0: a sample whose norm equals its bound may be inserted, but none
+/// above it remains.
 class SampleMetric final : public ErrorMetric {
  public:
   explicit SampleMetric(MetricSettings settings);

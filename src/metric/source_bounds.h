@@ -1,4 +1,4 @@
-// Bounds of the samples of streamed rasters: tolerances and weights are read in windows, as the samples are.
+// Bounds of the samples of streamed rasters: tolerances and weights are read in windows, as samples are.
 #pragma once
 
 #include <cstddef>
@@ -16,40 +16,40 @@
 
 namespace scarp {
 
-/// True if streamed samples have bounds of their own.
+/// True if streamed samples have individual bounds.
 bool has_source_bounds(const SimplifyOptions& options, bool is_streamed);
 
 class SourceBounds {
  public:
-  /// `tolerances`: the request for each sample, alive. `most`: in addition; +infinity for none.
+  /// `tolerances`: by sample; must outlive it. `most`: an additional bound of all samples; +infinity for none.
   SourceBounds(const SampleSource& tolerances, double most, const BoundRule& rule)
       : tolerances_(&tolerances), most_(most), rule_(rule) {}
-  /// The bounds that the options ask for, with `factor` times the tolerances. Their sources stay alive. REQUIRES: a max
+  /// The bounds from the options, with `factor` times the tolerances. Their sources must outlive it. REQUIRES: a max
   /// error, or tolerances.
   SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor);
 
-  /// The aims of refinement in a window, `stride` floats a row. Fails with kUsage where a tolerance or a weight is
-  /// negative, NaN or, a weight, infinite, and as the sources do.
+  /// The targets of refinement in a window, `stride` floats a row. Fails with kUsage if a tolerance or weight is
+  /// negative or NaN, or a weight is infinite, and as the sources do.
   Result<void> read_aims(Point first, std::int32_t cols, std::int32_t rows, float* aims, std::ptrdiff_t stride) const;
-  /// The same of whole rows, from `first` on, of these samples. Fails with kPromise, too, where less is asked of a
-  /// sample than its rounding.
+  /// The same for whole rows of these samples, from `first` on. Also fails with kPromise where the requested bound is
+  /// below a sample's rounding.
   Result<void> read_aims(std::int32_t first, const Raster& samples, float* aims) const;
 
-  /// The tolerances or weights of rows as they are. Fails as the source does. REQUIRES: has_values().
+  /// Unprocessed tolerances or weights of rows. Fails as the source does. REQUIRES: has_values().
   Result<void> read_values(std::int32_t first, std::int32_t rows, std::int32_t cols, float* values) const;
   bool has_values() const { return tolerances_ != nullptr || weights_ != nullptr; }
   bool has_weights() const { return weights_ != nullptr; }
-  /// The bounds promised at the samples of a row, whose values are these; empty values where !has_values().
+  /// The guaranteed bounds of the samples of a row with these values; empty values if !has_values().
   void find_bounds(std::int32_t row, std::span<const float> values, std::span<float> bounds) const;
 
-  /// True if every sample is to be within the max error.
+  /// True if the max error bounds every sample.
   bool has_most() const;
 
  private:
   Result<void> read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
                     std::ptrdiff_t stride) const;
   const SampleSource* source() const { return weights_ != nullptr ? weights_ : tolerances_; }
-  /// The bound of a sample with this tolerance or weight that is not ignored.
+  /// The requested bound of a sample with this tolerance or weight, unless it is ignored.
   double asked(float value) const;
 
   const SampleSource* tolerances_ = nullptr;

@@ -7,11 +7,11 @@
 
 namespace scarp {
 
-/// HeightMetric's answers, bit for bit, or SampleMetric's where samples have bounds of their own, each from a window of
-/// the source around the triangle: for few questions. Throws SourceFailure where a source fails.
+/// Equals HeightMetric, bit for bit, or SampleMetric where samples have individual bounds. Reads a window of the source
+/// around each triangle: for few queries. Throws SourceFailure where a source fails.
 class SourceMetric final : public ErrorMetric {
  public:
-  /// `bounds`: null where the threshold holds for all; stay alive.
+  /// `bounds`: null if the threshold applies to all; must outlive it.
   SourceMetric(const HeightField& field, double threshold, const SourceBounds* bounds = nullptr)
       : field_(field), threshold_(threshold), bounds_(bounds) {}
 

@@ -16,13 +16,13 @@ namespace {
 
 constexpr float kNoTolerance = std::numeric_limits<float>::infinity();
 
-/// Rows of so many samples at a time.
+/// Number of rows with about so many samples.
 int rows_of(int samples, int cols) { return std::max(1, samples / cols); }
 
-/// The tolerance that a value of a raster means; `is_rounded`: to float32, so that it may be above the file's.
+/// The tolerance for a raster value; `is_rounded`: to float32, maybe above the file's value.
 float tolerance_of_value(float value, bool is_rounded) {
   if (std::isnan(value)) return kNoTolerance;
-  return is_rounded ? std::nextafter(value, 0.0F) : value;  // not above the value in the file
+  return is_rounded ? std::nextafter(value, 0.0F) : value;  // at most the value in the file
 }
 
 /// Converts the values of an opened raster to their meaning.
@@ -85,7 +85,7 @@ tl::unexpected<Error> refuse_negative(const OwnedHeightField& raster, float valu
                                              raster.info.path, value, at % raster.cols, row + at / raster.cols));
 }
 
-/// Reports how far a raster has been scanned, now and then.
+/// Reports at intervals how far a raster has been scanned.
 class LookProgress {
  public:
   explicit LookProgress(const ProgressCallback& progress) : progress_(progress) {}
@@ -105,7 +105,8 @@ class LookProgress {
   Clock::time_point last_ = Clock::now();
 };
 
-/// Scans all values, some rows at a time, from the top, and refuses one below 0. The largest; none: there is none.
+/// Scans all values, some rows at a time, from the top, and rejects negative ones. Returns the largest; nothing if none
+/// is valid.
 Result<std::optional<float>> look_through(const OwnedHeightField& raster, const ProgressCallback& progress) {
   constexpr int kSamples = 1 << 18;
   const int most = rows_of(kSamples, raster.cols);
@@ -132,7 +133,7 @@ Result<std::optional<float>> look_through(const OwnedHeightField& raster, const 
   return largest;
 }
 
-/// The weight for a value of a raster of which the largest is given.
+/// The weight for a raster value, given the largest one.
 float weight_of_value(float value, float largest) {
   if (std::isnan(value)) return 0;
   return largest > 1 ? value / largest : value;

@@ -1,4 +1,4 @@
-// A height field that ends near a cut, where its samples are not in memory.
+// A streamed height field that ends near a cut.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// The samples of `source`, nodata where CutRows::mask_beyond() masks them. Cost: a window's own.
+/// The samples of `source`, nodata where CutRows::mask_beyond() masks them. Cost: that of the window.
 class CutSource final : public SampleSource {
  public:
   CutSource(const SampleSource& source, std::shared_ptr<const CutRows> cut) : source_(source), cut_(std::move(cut)) {}

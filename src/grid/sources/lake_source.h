@@ -1,4 +1,4 @@
-// A raster with lakes, where its samples are not in memory as one array.
+// A streamed raster with lakes.
 #pragma once
 
 #include <memory>
@@ -9,15 +9,15 @@
 
 namespace scarp {
 
-/// Samples that are put onto a height.
+/// Samples that are set to a height.
 struct LevelRun {
   SampleRun samples;
   float height = 0;
-  bool only_raises = false;  ///< those that lie above it stay
+  bool only_raises = false;  ///< samples above that height are unchanged
 };
 
-/// `source` with some samples at other heights; nodata stays nodata. `runs`: in raster order, apart from each other.
-/// Cost: a window's own, and a search for its first run in each row.
+/// `source` with some samples set to other heights; nodata stays nodata. `runs`: in raster order, disjoint. Cost: that
+/// of the window, plus a search for the first run in each row.
 std::shared_ptr<const SampleSource> level_source(std::shared_ptr<const SampleSource> source,
                                                  std::vector<LevelRun> runs);
 

@@ -11,7 +11,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// A mask that holds more than "not the declared nodata value": a mask band, an alpha band, nodata by colour.
+/// A mask with more information than the declared nodata value: a mask band, an alpha band, nodata by colour.
 GDALRasterBandH find_mask(GDALDatasetH dataset, GDALRasterBandH band, const ReadOptions& options) {
   const int flags = GDALGetMaskFlags(band);
   const bool by_value = (flags & GMF_NODATA) != 0;
@@ -19,7 +19,7 @@ GDALRasterBandH find_mask(GDALDatasetH dataset, GDALRasterBandH band, const Read
   if (by_dataset_value && !options.nodata) return GDALGetMaskBand(band);
   if ((flags & GMF_ALL_VALID) == 0 && !by_value) return GDALGetMaskBand(band);
   if (!by_value) return nullptr;
-  // A declared value hides the alpha band from GDAL's mask.
+  // A declared nodata value hides the alpha band from GDAL's mask.
   for (int k = 1; k <= GDALGetRasterCount(dataset); ++k) {
     GDALRasterBandH other = GDALGetRasterBand(dataset, k);
     if (other != band && GDALGetRasterColorInterpretation(other) == GCI_AlphaBand) return other;

@@ -32,14 +32,14 @@ using Group = Owned<GDALGroupH, GDALGroupRelease>;
 using Array = Owned<GDALMDArrayH, GDALMDArrayRelease>;
 using Type = Owned<GDALExtendedDataTypeH, GDALExtendedDataTypeRelease>;
 
-constexpr double kMostUneven = 0.05;  // share of a cell; coordinates in float32 are that exact
+constexpr double kMostUneven = 0.05;  // share of a cell; the precision of float32 coordinates
 
 bool is_netcdf(GDALDatasetH dataset) {
   GDALDriverH driver = GDALGetDatasetDriver(dataset);
   return driver != nullptr && EQUAL(GDALGetDriverShortName(driver), "netCDF");
 }
 
-/// The coordinates along a dimension; empty if there are none.
+/// The coordinates along a dimension; empty if none.
 std::vector<double> read_coordinates(GDALDimensionH dimension) {
   const Array array(GDALDimensionGetIndexingVariable(dimension));
   if (!array || GDALMDArrayGetDimensionCount(array.get()) != 1) return {};
@@ -74,7 +74,7 @@ std::optional<Axes1D> read_axes(GDALDatasetH dataset) {
   return axes;
 }
 
-/// How far the farthest one lies from even ones between the first and the last, in steps.
+/// The largest deviation from even spacing between the first and the last value, in steps.
 double unevenness(const std::vector<double>& values) {
   if (values.size() < 3) return 0;
   const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
@@ -89,7 +89,7 @@ std::vector<double> to_mercator(std::vector<double> latitudes) {
   return latitudes;
 }
 
-/// GDAL shows the northern row first where it assumes even rows, else the last one of the file.
+/// GDAL shows the northern row first if it assumes even rows, otherwise the last one of the file.
 std::string place_in_mercator(const Axes1D& axes, bool is_placed, const std::string& path) {
   constexpr double kRadius = 6378137;
   std::vector<double> x = axes.x, y = to_mercator(axes.y);

@@ -9,11 +9,11 @@
 
 namespace scarp::gdal {
 
-/// True if the file's coordinates are longitudes and latitudes, whose datum CF files need not name.
+/// True if the file's coordinates are longitudes and latitudes, whose datum CF files may omit.
 bool is_in_degrees(GDALDatasetH dataset);
 
-/// kInput if a netCDF raster's rows or columns are not as far from each other as those of a raster are: GDAL checks
-/// three of them, and tolerates a tenth of a degree.
+/// kInput if rows or columns of a netCDF raster are not evenly spaced: GDAL checks only three of them, and tolerates a
+/// tenth of a degree.
 Result<void> verify_axes(GDALDatasetH dataset, const std::string& path);
 
 }  // namespace scarp::gdal

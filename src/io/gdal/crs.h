@@ -23,46 +23,46 @@ struct DestroyCrs {
 /// Always two-dimensional, x (east, longitude) before y (north, latitude).
 using Crs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyCrs>;
 
-/// The CRS that the raster declares, with a vertical datum and in its own order of axes; null if it has none.
-/// Coordinates of CF files in degrees without more are those of WGS 84.
+/// The declared CRS of the raster, with a vertical datum and in its own order of axes; null if none. CF files in
+/// degrees without a datum are in WGS 84.
 Crs declared_crs(GDALDatasetH dataset);
-/// The raster's CRS; null if it has none.
+/// The raster's CRS; null if none.
 Crs crs_of(GDALDatasetH dataset);
 /// Null for null and for a CRS without a name.
 Crs copy_crs(OGRSpatialReferenceH borrowed);
 
-/// Like find_crs(), with a vertical datum and the order of axes as they are.
+/// Like find_crs(), but keeps a vertical datum and the order of axes.
 Crs find_declared_crs(const std::string& definition);
-/// The CRS of what is in memory, as find_declared_crs(); null for none. kUsage if GDAL does not know it.
+/// The CRS of data in memory, as find_declared_crs(); null for none. kUsage if GDAL does not know it.
 Result<Crs> find_crs_of(const std::string& name, const std::string& definition);
 /// From an option: "EPSG:32611", "32611", WKT, a PROJ string. Null if GDAL does not know it.
 Crs find_crs(const std::string& definition);
 
-/// "EPSG:32611" where an authority is known, else WKT.
+/// "EPSG:32611" if its authority code is known, else WKT.
 std::string crs_name(const Crs& crs);
-/// WKT of 2019, which knows vertical datums. Empty for null.
+/// WKT version of 2019, which supports vertical datums. Empty for null.
 std::string wkt_with_heights(const Crs& crs);
-/// "EPSG:26917+5703" where both parts of a compound CRS are known, "EPSG:4979" for one of three dimensions; else empty.
+/// "EPSG:26917+5703" if both parts of a compound CRS are known, "EPSG:4979" for a three-dimensional one; else empty.
 std::string name_with_heights(const Crs& crs);
 /// "EPSG:32611", or the name in the WKT: short enough for a sentence.
 std::string short_name(const Crs& crs);
 
 bool same_crs(const Crs& a, const Crs& b);
 
-/// kInput for a centre that is far from all degrees, in a CRS of degrees. `way`: the command that names another CRS.
+/// kInput for a centre far outside the range of degrees, in a CRS of degrees. `way`: the command that sets another CRS.
 Result<void> verify_degrees(const Crs& crs, const std::array<double, 2>& centre, const std::string& path,
                             const std::string& way);
 
-/// The way from one CRS to another, through PROJ. A handle of GDAL's serves one call at a time; idle ones wait in a
-/// pool, and a new one is made when all are out.
+/// The conversion from one CRS to another by PROJ. A GDAL handle serves one call at a time. Idle handles are pooled,
+/// and a new one is created when all are in use.
 class Passage {
  public:
-  /// `is_strict`: only by a way that PROJ knows to be right, with the grids of it on this machine.
+  /// `is_strict`: use only operations that PROJ knows to be correct, whose grids are on this machine.
   Passage(const Crs& from, const Crs& to, bool is_strict = false);
 
-  /// False if PROJ knows no way.
+  /// False if PROJ knows no conversion.
   bool usable() const;
-  /// Maps the points in place; `z` is empty for points of a map. Returns false if any point has no image (it is then
+  /// Maps the points in place; `z` is empty for points of a map. Returns false if any point has no image (it becomes
   /// NaN).
   bool apply(std::span<double> x, std::span<double> y, std::span<double> z) const;
 
@@ -80,8 +80,8 @@ class Passage {
   mutable std::vector<Handle> idle_;
 };
 
-/// From one CRS to another, through PROJ. The point's image depends on nothing but the point: not on the thread, not on
-/// the other points of a call. Null if PROJ knows no way.
+/// The conversion from one CRS to another by PROJ. A point's image depends only on the point, not on the thread or the
+/// other points of a call. Null if PROJ knows no conversion.
 std::shared_ptr<const PointTransform> build_transform(const Crs& from, const Crs& to);
 
 }  // namespace scarp::gdal

@@ -1,10 +1,10 @@
 // Frames in space.
 //
-// Heights are those above the ellipsoid. PROJ applies a geoid where the raster's CRS names one and its grid is on this
-// machine; else heights are used as they are, and a warning reports it.
+// Heights are above the ellipsoid. PROJ applies a geoid if the raster's CRS names one and its grid is on this machine;
+// otherwise heights are used unchanged, with a warning.
 //
-// The tangent frame is a rotation of the earth-centred one about the raster's centre on the ellipsoid: what is proven
-// in one holds in the other.
+// The tangent frame is a rotation of the earth-centred one about the raster's centre on the ellipsoid, so bounds proven
+// in one hold in the other.
 #include "io/gdal/earth_frame.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ Vector unit(const Vector& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// Length along a vertical, in metres; long compared with the rounding of coordinates.
+/// Length along a vertical, in metres; large relative to the rounding of coordinates.
 constexpr double kRise = 1000;
 
 struct Points {
@@ -48,19 +48,19 @@ struct Points {
   Vector at(std::size_t k) const { return {x[k], y[k], z[k]}; }
 };
 
-/// Three directions at right angles, and a place.
+/// Three orthogonal directions, and an origin.
 struct Axes {
   Vector origin{}, east{1, 0, 0}, north{0, 1, 0}, up{0, 0, 1};
 };
 
 class EarthTransform final : public SpaceTransform {
  public:
-  /// `turn`: of a whole turn in x, where x is a longitude; else 0. `up`: metres of a unit of heights in `from`.
+  /// `turn`: a whole turn in units of x, if x is a longitude; else 0. `up`: metres per unit of heights in `from`.
   EarthTransform(const Crs& from, const Crs& earth, bool is_strict, double centre_x, double turn, double up)
       : forth_(from, earth, is_strict), back_(earth, from, is_strict), centre_x_(centre_x), turn_(turn), up_(up) {}
 
   bool usable() const { return forth_.usable() && back_.usable(); }
-  /// Puts positions into the tangent frame of the axes, or keeps them earth-centred.
+  /// Converts positions to the tangent frame of the axes, or leaves them earth-centred.
   void settle(const Axes& axes, bool is_tangent) {
     axes_ = axes;
     is_tangent_ = is_tangent;
@@ -119,7 +119,7 @@ Crs find_geocentric(const std::string& definition) {
   return OSRIsGeocentric(crs.get()) != 0 ? std::move(crs) : nullptr;
 }
 
-/// The geocentric CRS of the raster's own ellipsoid: another planet, or a datum whose position is unknown.
+/// The geocentric CRS of the raster's own ellipsoid: for other planets, or a datum of unknown position.
 Crs own_geocentric(const Georeference& geo) {
   OGRErr error = OGRERR_NONE;
   const double a = OSRGetSemiMajor(geo.crs.get(), &error), rf = OSRGetInvFlattening(geo.crs.get(), &error);
@@ -127,7 +127,7 @@ Crs own_geocentric(const Georeference& geo) {
   return find_geocentric("+proj=geocent " + shape + " +units=m +no_defs");
 }
 
-/// Null if PROJ knows no way for the raster's centre.
+/// Null if PROJ knows no conversion for the raster's centre.
 std::shared_ptr<EarthTransform> find_way(const Georeference& geo, const Crs& from, const Crs& earth, bool is_strict,
                                          double up = 1) {
   const double turn = geo.geographic ? 2 * std::numbers::pi / geo.unit_in_metres : 0;
@@ -156,8 +156,9 @@ Axes axes_of(const EarthTransform& way, const Georeference& geo) {
   return axes;
 }
 
-/// kUsage unless a net of points over the raster, its edges included, lies within 60 degrees of its centre, keeps one
-/// orientation, comes back to where it was, and has less than half of all longitudes where these are its x.
+/// Checks a net of points over the raster, including its edges. kUsage unless it lies within 60 degrees of the raster's
+/// centre, keeps one orientation, and is recovered by the inverse. If x is a longitude, it must also span less than
+/// half a turn.
 Result<void> verify(const EarthTransform& way, const Axes& axes, const Georeference& geo, const std::string& path) {
   constexpr int kNet = 32;
   constexpr double kLeastCosine = 0.5, kBack = 1.0 / 1024;
@@ -258,7 +259,7 @@ Result<Frame> earth_frame(const Georeference& geo, const std::string& wanted, Ra
   Crs earth = find_geocentric(is_tangent ? "EPSG:4978" : wanted);
   Crs flat(OSRClone(geo.crs.get()));
   OSRPromoteTo3D(flat.get(), nullptr);
-  bool is_applied = !geo.in_space.vertical.empty() && !geo.in_space.is_down;  // z is up, whatever it was in the file
+  bool is_applied = !geo.in_space.vertical.empty() && !geo.in_space.is_down;  // z points up now, regardless of the file
   auto way = is_applied ? find_way(geo, geo.in_space.crs, earth, true, geo.in_space.unit.metres) : nullptr;
   if (!way) {
     is_applied = false;

@@ -13,17 +13,17 @@ struct Georeference;
 
 /// A CRS of three dimensions, x (east, longitude) before y (north, latitude) before heights.
 struct SpaceCrs {
-  Crs crs;                      ///< null if there is none
-  std::string vertical;         ///< zero of its heights, such as "EGM96 height"; empty: unknown
+  Crs crs;                      ///< null if none
+  std::string vertical;         ///< reference of its heights, such as "EGM96 height"; empty: unknown
   HeightUnit unit;              ///< unit of its heights; empty name: unknown
-  bool is_ellipsoidal = false;  ///< they are above the ellipsoid
-  bool is_down = false;         ///< they are depths: the vertical axis points down
+  bool is_ellipsoidal = false;  ///< heights are above the ellipsoid
+  bool is_down = false;         ///< heights are depths: the vertical axis points down
 };
 SpaceCrs space_crs_of(const Crs& declared);
 
-/// The frame in space that `wanted` names. REQUIRES: is_in_space().
-/// Warnings go to `info`. kUsage if there is no way from the raster's CRS, and for
-/// rasters that reach around a pole or the earth.
+/// The frame in space named by `wanted`. REQUIRES: is_in_space().
+/// Warnings are added to `info`. kUsage if the raster's CRS cannot be converted, and for
+/// rasters that extend around a pole or the earth.
 Result<Frame> earth_frame(const Georeference& georeference, const std::string& wanted, RasterInfo& info);
 
 }  // namespace scarp::gdal

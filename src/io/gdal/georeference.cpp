@@ -15,7 +15,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// GDAL's terms are of pixel corners, a Frame's of pixel centres.
+/// Converts GDAL's pixel corners to a Frame's pixel centres.
 std::array<double, 6> at_centres(const std::array<double, 6>& gt) {
   return {gt[0] + gt[1] / 2 + gt[2] / 2, gt[1], gt[2], gt[3] + gt[4] / 2 + gt[5] / 2, gt[4], gt[5]};
 }
@@ -25,7 +25,7 @@ Geodetic geodetic_of(const Georeference& geo) {
   return {OSRGetSemiMajor(geo.crs.get(), &error), OSRGetInvFlattening(geo.crs.get(), &error), geo.unit_in_metres};
 }
 
-/// Metres for one unit of x and one of y at the centre sample; zeros where they are unknown.
+/// Metres per unit of x and of y at the centre sample; zeros if unknown.
 MetresPerUnit metres_per_unit(const Georeference& geo) {
   if (!geo.crs) return {};
   if (!geo.geographic) return {geo.unit_in_metres, geo.unit_in_metres};
@@ -44,7 +44,7 @@ Frame source_frame(const Georeference& geo) {
   return frame;
 }
 
-/// Warns of coordinates that resemble degrees, without a CRS or in one of lengths.
+/// Warns of coordinates that resemble degrees without a CRS, or with one in units of length.
 void doubt_lengths(const Georeference& geo, RasterInfo& info) {
   if (geo.geographic || info.format == "memory" || !looks_like_degrees(geo.pixels, geo.cols, geo.rows)) return;
   if (geo.crs && OSRIsProjected(geo.crs.get()) == 0) return;
@@ -98,8 +98,8 @@ Result<Frame> centred_frame(const Georeference& geo, RasterInfo& info) {
   return frame;
 }
 
-/// kUsage unless a net of points over the raster, its edges included, has finite images that neither fold nor tear: all
-/// its triangles keep one orientation.
+/// kUsage unless a net of points over the raster, including its edges, has finite images that neither fold nor tear:
+/// all its triangles keep one orientation.
 Result<void> verify_transform(const Frame& frame, const Georeference& geo, const std::string& path) {
   constexpr int kNet = 32;
   const int across = std::min(kNet, geo.cols - 1), down = std::min(kNet, geo.rows - 1);

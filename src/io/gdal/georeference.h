@@ -1,4 +1,4 @@
-// From a raster's geotransform and CRS to the frame of its mesh.
+// Conversion of a raster's geotransform and CRS to the frame of its mesh.
 #pragma once
 
 #include <array>
@@ -12,36 +12,36 @@
 
 namespace scarp::gdal {
 
-/// The position that a raster declares.
+/// The georeference that a raster declares.
 struct Georeference {
   int cols = 0, rows = 0;
-  bool located = false;                             ///< it has a geotransform
+  bool located = false;                             ///< true if it has a geotransform
   std::array<double, 6> pixels{0, 1, 0, 0, 0, 1};   ///< GDAL's geotransform, of pixel corners
-  std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< the same in a Frame's terms: integer (col, row) are centres
+  std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< the same as in a Frame: integer (col, row) are centres
   Crs crs;                                          ///< null if unknown
-  SpaceCrs in_space;                                ///< the same with heights; null if unknown
+  SpaceCrs in_space;                                ///< the CRS with heights; null if unknown
   bool geographic = false;
   double unit_in_metres = 1;  ///< unit of x and y; in radians if geographic
-  std::string unit_name;      ///< "metre", "degree", …; empty if there is no CRS
+  std::string unit_name;      ///< "metre", "degree", …; empty without a CRS
 
   /// Position of the sample (cols / 2, rows / 2).
   std::array<double, 2> centre() const;
-  /// Metres in one unit of x and y; 0 for degrees, and if there is no CRS.
+  /// Metres per unit of x and y; 0 for degrees, and without a CRS.
   double length_in_metres() const;
 };
 
-/// `space`: the CRS with heights, if that is known.
+/// `space`: the CRS with heights, if known.
 Georeference make_georeference(int cols, int rows, const std::optional<std::array<double, 6>>& pixels, Crs crs,
                                SpaceCrs space);
 
 /// Fails with kInput if the geotransform maps all samples to a line or is not finite.
 Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path);
 
-/// Fills in the CRS, cell sizes and warnings of `info`.
+/// Sets the CRS, cell sizes and warnings of `info`.
 void describe_georeference(const Georeference& georeference, RasterInfo& info);
 
-/// The frame that the options ask for. Warnings go to `info`. kUsage if the CRS is unknown or cannot be reached from
-/// every part of the raster.
+/// The frame requested by the options. Warnings are added to `info`. kUsage if the CRS is unknown or the conversion
+/// fails for a part of the raster.
 Result<Frame> choose_frame(const Georeference& georeference, const ReadOptions& options, RasterInfo& info);
 
 }  // namespace scarp::gdal

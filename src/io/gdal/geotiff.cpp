@@ -23,14 +23,14 @@
 namespace scarp {
 namespace {
 
-constexpr std::string_view kGenerated = "generated";  // RasterInfo::format of a field that was made of no raster
+constexpr std::string_view kGenerated = "generated";  // RasterInfo::format of a field not read from a raster
 
 tl::unexpected<Error> refuse_geotiff(const std::string& why) {
   return fail(ErrorKind::kOutput, "the raster cannot be encoded as GeoTIFF: " + why);
 }
 
-/// Blocks go to the file past GDAL's block cache: there they would drive out those of the rasters that are read, and
-/// blocks of two sizes fragment memory.
+/// Blocks are written past GDAL's block cache. In it they would displace blocks of the rasters being read, and blocks
+/// of two sizes fragment memory.
 class GdalGeoTiff final : public GeoTiff {
  public:
   GdalGeoTiff(gdal::Dataset dataset, int cols) : dataset_(std::move(dataset)), cols_(cols) {
@@ -63,7 +63,7 @@ class GdalGeoTiff final : public GeoTiff {
   }
 
  private:
-  /// Zeros lie beyond the raster's last column and row.
+  /// Zeros pad the raster beyond its last column and row.
   void fill_block(const float* samples, int rows, int cols) {
     std::fill(block_.begin(), block_.end(), 0.0f);
     for (int y = 0; y < rows; ++y) {

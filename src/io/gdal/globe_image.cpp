@@ -17,17 +17,17 @@ namespace scarp {
 namespace gdal {
 namespace {
 
-/// Planets whose radii differ by more are not the same.
+/// Larger differences of radii mean different planets.
 constexpr double kSamePlanet = 0.01;
 
-/// Pixels first … end − 1 of a side that lie in the span, or touch it.
+/// Pixels first … end − 1 along a side that intersect or touch the span.
 std::pair<int, int> pixels_within(double start, double step, int side, double from, double to) {
   const auto pixel = [&](double at) { return std::clamp(at, 0.0, static_cast<double>(side)); };
   return {static_cast<int>(pixel(std::floor((from - start) / step))),
           static_cast<int>(pixel(std::ceil((to - start) / step)))};
 }
 
-/// A copy that needs `image` no longer.
+/// A copy that does not depend on `image`.
 Result<Dataset> arrange(Session& session, GDALDatasetH image, const std::string& path) {
   SCARP_TRY(const auto& arranged, arrange_bands(session, image, path, true));
   return open_virtual(session, arranged.get(), path);
@@ -37,7 +37,7 @@ class WarpedImage final : public GlobeImage {
  public:
   WarpedImage(std::string path, Crs degrees) : path_(std::move(path)), degrees_(std::move(degrees)) {}
 
-  /// Finds its position. Fails with kInput.
+  /// Sets its position. Fails with kInput.
   Result<void> find_place(const Georeference& geo) {
     auto to_degrees = build_transform(geo.crs, degrees_);
     if (!to_degrees)
@@ -94,7 +94,7 @@ class WarpedImage final : public GlobeImage {
     return arrange(session, opened.get(), path_);
   }
 
-  /// Onto the picture of the box; whether there is a colour.
+  /// Warps the image to the box's picture; true if it has colour there.
   Result<bool> lay(Session& session, GDALDatasetH image, const DegreeBox& box, Picture& picture) const {
     const int side = picture.width;
     const double east = (box.east - box.west) / side, south = (box.north - box.south) / side;

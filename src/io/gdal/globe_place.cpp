@@ -1,4 +1,4 @@
-// The position of a raster on the globe: the ways to longitude, latitude and heights above the ellipsoid.
+// The position of a raster on the globe: conversions to longitude, latitude and heights above the ellipsoid.
 #include "io/globe_place.h"
 
 #include <cpl_conv.h>
@@ -22,7 +22,7 @@ namespace {
 using gdal::Crs;
 using gdal::Passage;
 
-/// Degrees that two geodetic datums may differ by and yet count as one, for rasters in degrees.
+/// Largest difference in degrees between two geodetic datums treated as equal, for rasters in degrees.
 constexpr double kSameDegrees = 1e-9;
 
 /// A CRS of three dimensions, x before y before heights; null if GDAL does not know it.
@@ -33,10 +33,10 @@ Crs find_space_crs(const std::string& definition) {
   return crs;
 }
 
-/// By PROJ, through the raster's own x and y where its zero is that of a CRS of these.
+/// Uses PROJ, via the raster's own x and y if the zero belongs to their CRS.
 class ProjZero final : public HeightZero {
  public:
-  /// `from_degrees`: null where x and y are degrees.
+  /// `from_degrees`: null if x and y are degrees.
   ProjZero(std::shared_ptr<const PointTransform> from_degrees, const Crs& heights, const Crs& ellipsoid)
       : from_degrees_(std::move(from_degrees)), way_(heights, ellipsoid, true) {}
 
@@ -54,7 +54,7 @@ class ProjZero final : public HeightZero {
   Passage way_;
 };
 
-/// Degrees of the earth's, where there is a way to them; else of the raster's own ellipsoid, of another planet.
+/// Degrees of the earth, if a conversion exists; else of the raster's own ellipsoid, for another planet.
 struct Degrees {
   Crs crs;
   Geodetic ellipsoid;
@@ -81,8 +81,8 @@ bool is_same_point(const PointTransform& transform, double x, double y) {
          std::abs(mapped_y - y) < kSameDegrees;
 }
 
-/// True if places of the raster are found again from their degrees. Beyond 180° of a cylindrical projection they are
-/// not: the way back ends a turn away.
+/// True if positions of the raster are recovered from their degrees. Beyond 180° of a cylindrical projection they are
+/// not: the inverse is a turn away.
 bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
   const std::array<double, 6>& a = globe.place.affine;
   const double cell = std::hypot(a[1], a[4]) + std::hypot(a[2], a[5]);
@@ -99,10 +99,10 @@ bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
   return true;
 }
 
-/// PROJ's name for them.
+/// PROJ's name for EGM96 heights.
 constexpr const char* kEgm96Heights = "EGM96 height";
 constexpr int kEgm96Epsg = 5773;
-/// Metres between a geoid of the earth and the ellipsoid, at most.
+/// Largest distance in metres between a geoid of the earth and the ellipsoid.
 constexpr double kGeoidReach = 110;
 
 constexpr const char* kWaysOut =
@@ -113,7 +113,7 @@ constexpr const char* kWaysOutElsewhere =
     "give --vertical ellipsoid for heights above its ellipsoid, or --geoid FILE, a grid of the surface that they are "
     "above";
 
-/// Finds the zero of heights above a surface that PROJ knows the way from.
+/// Finds the zero of heights above a surface that PROJ can convert from.
 Result<void> find_zero_by_proj(const RasterInfo& info, const Datum& datum, const std::string& path,
                                RasterOnGlobe& globe) {
   std::shared_ptr<const PointTransform> to_xy;

@@ -31,7 +31,7 @@ void collect_polygons(const OGRGeometry& geometry, OGRMultiPolygon& polygons) {
   }
 }
 
-/// In lengths of the distance, each valid by itself: what crosses itself is made whole, even-odd. False where GEOS
+/// Converts rings to valid polygons in units of the distance; self-crossings are resolved even-odd. False if GEOS
 /// fails.
 bool to_polygons(std::span<const Line> rings, const std::array<double, 2>& unit, OGRMultiPolygon& polygons) {
   for (std::size_t first = 0, end = 0; first < rings.size(); first = end) {
@@ -48,7 +48,7 @@ bool to_polygons(std::span<const Line> rings, const std::array<double, 2>& unit,
   return true;
 }
 
-/// Coordinates can distinguish the distance from 0; GEOS makes polygons vanish where they cannot.
+/// True if coordinates distinguish the distance from 0; otherwise GEOS makes polygons vanish.
 bool is_distance(double distance, const OGRGeometry& polygons) {
   OGREnvelope box;
   polygons.getEnvelope(&box);
@@ -63,15 +63,16 @@ Place way(const Place& from, const Place& to) { return {to[0] - from[0], to[1] -
 double cross(const Place& u, const Place& v) { return u[0] * v[1] - u[1] * v[0]; }
 double length(const Place& u) { return std::hypot(u[0], u[1]); }
 
-/// A vertex in the place of all from the first to the last.
+/// A vertex that replaces those from the first to the last.
 struct Corner {
   Place at, first, last;
 };
 
-/// Makes the middle two of the last four one, where their neighbours' edges meet, if that is on the side to which the
-/// ring was moved, and near.
+/// Merges the middle two of the last four vertices at the intersection of their neighbours' edges. Only if that is
+/// near, on the side to which the ring was moved.
 bool sharpen(std::vector<Corner>& ring, double distance) {
-  constexpr double kReach = 1.7320508;  // over the distance: a corner of 60 degrees, twice as far away as its arc
+  constexpr double kReach = 1.7320508;  // relative to the distance: a corner of 60 degrees, twice as far away as its
+                                        // arc
   if (ring.size() < 4) return false;
   Corner *const a = &ring[ring.size() - 3], *const b = a + 1;
   const Place in = way((a - 1)->at, a->at), out = way(b->at, (b + 1)->at), edge = way(a->at, b->at);
@@ -86,11 +87,11 @@ bool sharpen(std::vector<Corner>& ring, double distance) {
   return true;
 }
 
-/// Arcs become corners. `distance`: by which it was moved to its left.
+/// Replaces arcs by corners. `distance`: that of the move to the left.
 OGRLinearRing sharpened(const OGRLinearRing& ring, double distance) {
   const int count = ring.getNumPoints() - 1;
   const auto place = [&](int k) { return Place{ring.getX(k % count), ring.getY(k % count)}; };
-  int longest = 0;  // index where it begins: no arc does there
+  int longest = 0;  // index of its start, outside any arc
   for (int k = 1; k < count; ++k) {
     if (length(way(place(k), place(k + 1))) > length(way(place(longest), place(longest + 1)))) longest = k;
   }
@@ -105,7 +106,7 @@ OGRLinearRing sharpened(const OGRLinearRing& ring, double distance) {
   return result;
 }
 
-/// Moved inwards; null where GEOS fails.
+/// The polygons moved inwards; null if GEOS fails.
 OwnedGeometry move_inwards(const OGRGeometry& whole, double distance, double sample) {
   constexpr double kSteps = 256, kShare = 0.125;
   const bool is_pointed = std::abs(distance) < sample;
@@ -122,7 +123,7 @@ OwnedGeometry move_inwards(const OGRGeometry& whole, double distance, double sam
       OGRLinearRing sharp = sharpened(ring, is_left ? distance : -distance);
       polygon.addRing(&sharp);
     }
-    // Across a neck corners may meet.
+    // Corners may meet across a neck.
     pointed.addGeometry(polygon.IsValid() ? &polygon : &round);
   }
   const OGRGeometry& from = is_pointed ? pointed : static_cast<const OGRGeometry&>(*moved);

@@ -1,7 +1,7 @@
-// GDALBuildVRT() knows one nodata value, no unit, no raster whose first row is the southern one, and shows a band of
-// signed bytes as unsigned ones. So the virtual raster is written here. A band of it has the tiles' type, nodata value,
-// scale and offset where these agree. Where they do not it is one of floats, whose nodata is NaN, which no tile holds
-// as a height. A mask holds what no nodata value can.
+// GDALBuildVRT() supports one nodata value and no unit, rejects rasters whose first row is the southern one, and shows
+// signed bytes as unsigned. So the virtual raster is written here. Its bands have the tiles' type, nodata value, scale
+// and offset where these agree. Otherwise they are floats with nodata NaN, which no tile uses as a height. A mask
+// represents what a nodata value cannot.
 #include "io/gdal/join.h"
 
 #include <cpl_conv.h>
@@ -21,10 +21,10 @@ namespace {
 struct JoinedBand {
   GDALDataType type = GDT_Unknown;
   std::optional<double> nodata;
-  bool is_decoded = false;  ///< it holds heights, not values that scale and offset make heights of
+  bool is_decoded = false;  ///< it holds heights, not raw values with scale and offset
 };
 
-constexpr double kHuge = 3.4e38;  // beyond, what is nodata is meant by magnitude: see read_samples.cpp
+constexpr double kHuge = 3.4e38;  // larger nodata is compared by magnitude: see read_samples.cpp
 
 GDALDataType type_of(const BandFacts& band) { return band.is_signed_byte ? GDT_Int16 : band.type; }
 
@@ -66,12 +66,12 @@ JoinedBand describe_joined(std::span<const Tile> tiles, std::size_t k, std::opti
   const bool is_one = is_one_nodata && !joined.is_decoded && !with_nan;
   if (is_one && (!joined.nodata || holds(joined.type, *joined.nodata))) return joined;
   joined.type = floats_for(joined.type);
-  if (is_one) return joined;  // NaN, which no tile holds
+  if (is_one) return joined;  // NaN, in no tile
   joined.nodata = huge && !joined.is_decoded && !with_nan ? *huge : std::numeric_limits<double>::quiet_NaN();
   return joined;
 }
 
-/// True if every cell of the rectangle around all tiles lies in one of them.
+/// True if every cell of the bounding rectangle lies in a tile.
 bool leave_no_gap(std::span<const Tile> tiles) {
   std::set<std::int64_t> xs, ys;
   for (const Tile& tile : tiles) {
@@ -178,13 +178,12 @@ class Writer {
       std::string more;
       const auto nodata = nodata_of(band, asked_);
       const double raw = nodata && band.is_signed_byte && *nodata < 0 ? *nodata + 256 : nodata.value_or(0);
-      // A source has one nodata value: what is asked for becomes NaN first, so that it and the declared NaN hide
-      // nothing.
+      // A source has one nodata value, so the requested value is first converted to NaN, like the declared one.
       const bool is_inner =
           asked_ && !std::isnan(*asked_) && band.nodata && std::isnan(*band.nodata) && tiles_.size() > 1;
       if (is_inner || (!nodata && joined.nodata && GDALDataTypeIsFloating(band.type))) more += "<NODATA>nan</NODATA>";
       if (!is_inner && nodata && holds(band.type, raw)) more += fmt::format("<NODATA>{:.17g}</NODATA>", raw);
-      if (band.is_alpha) more += "<NODATA>0</NODATA>";  // a tile that shows nothing hides nothing
+      if (band.is_alpha) more += "<NODATA>0</NODATA>";  // an empty tile hides nothing
       if (!band.is_alpha && (has_mask(tile) || (tile.has_alpha() && !nodata)))
         more += "<UseMaskBand>true</UseMaskBand>";
       more += write_values(band, joined);
@@ -193,7 +192,7 @@ class Writer {
     return xml + "</VRTRasterBand>";
   }
 
-  /// From what the tile holds to what the virtual raster does.
+  /// Converts the tile's values to those of the virtual raster.
   static std::string write_values(const BandFacts& band, const JoinedBand& joined) {
     const double scale = joined.is_decoded ? band.scale : 1, offset = joined.is_decoded ? band.offset : 0;
     if (band.is_signed_byte) {
@@ -207,7 +206,7 @@ class Writer {
   std::string write_mask() const {
     std::string xml = "<MaskBand><VRTRasterBand dataType=\"Byte\">";
     for (const Tile& tile : tiles_) {
-      // All cells of a tile without a mask are shown, for nodata values are another matter.
+      // Shows all cells of a tile without a mask; nodata values are handled separately.
       xml += has_mask(tile) ? write_source(tile, "mask,1", GDT_Byte, "<NODATA>0</NODATA>")
                             : write_source(tile, "1", tile.bands.front().type,
                                            "<ScaleOffset>255</ScaleOffset><ScaleRatio>0</ScaleRatio>");

@@ -1,4 +1,4 @@
-// The files that a file is made of.
+// The files that make up an input.
 #include <cpl_conv.h>
 #include <cpl_string.h>
 
@@ -15,8 +15,8 @@ bool is_there(const std::string& vsi) {
   return VSIStatL(vsi.c_str(), &status) == 0;
 }
 
-/// The file on the disk that a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif
-/// refers to: whatever the file system and its syntax, the name of that file ends where a part of the name does.
+/// The file on disk in a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif. In any
+/// file system's syntax, that file's name ends where a part of the name ends.
 void add_container(const std::string& name, std::set<std::string>& seen) {
   if (name.rfind("/vsi", 0) != 0 || is_remote(name)) return;
   constexpr const char* kBeginnings = "/{,=";
@@ -62,13 +62,13 @@ void add_files(const std::string& path, std::set<std::string>& seen) {
   } else if (!exists) {
     add_between_colons(vsi, seen);
   }
-  if (exists) seen.insert(vsi);  // also where no driver opens it, such as a script
+  if (exists) seen.insert(vsi);  // also files that no driver opens, such as a script
   const Dataset dataset(
       GDALOpenEx(vsi.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, kOpenOptions, nullptr));
   if (!dataset) return;
   char** files = GDALGetFileList(dataset.get());
   for (char** file = files; file != nullptr && *file != nullptr; ++file) {
-    // GDAL names the sources of a VRT, but not the sources of these.
+    // GDAL lists the sources of a VRT, but not the sources of these.
     add_container(*file, seen);
     if (seen.insert(*file).second && EQUAL(CPLGetExtension(*file), "vrt")) add_files(*file, seen);
   }

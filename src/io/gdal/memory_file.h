@@ -9,7 +9,7 @@
 
 namespace scarp::gdal {
 
-/// A file in memory, with a name that no other has, gone with it.
+/// A file in memory under a unique name, deleted with this object.
 class MemoryFile {
  public:
   /// `extension`: "tif", …
@@ -19,7 +19,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   const char* name() const { return name_.c_str(); }
-  /// A copy of what was written; empty if nothing was.
+  /// A copy of its contents; empty if nothing was written.
   std::vector<std::uint8_t> bytes() const;
 
  private:

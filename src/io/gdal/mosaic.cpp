@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kMostOffGrid = 1e-3;  // share of a cell
 
-/// A command that makes a new file of the raster. Cells outside it hold no value rather than 0.
+/// A command that creates a new file of the raster. Cells outside it become nodata rather than 0.
 std::string gdalwarp(const std::string& options, const Tile& tile) {
   const BandFacts& band = tile.bands.front();
   const bool tells = band.nodata || tile.has_mask(false) || tile.has_alpha() || tile.bands.size() > 1;
@@ -35,7 +35,7 @@ std::string gdalwarp(const std::string& options, const Tile& tile) {
                      file_word(tile.path), new_file(".tif"));
 }
 
-/// A command that describes a copy of the raster: many formats accept no metadata afterwards.
+/// A command that copies the raster with new metadata: many formats accept none afterwards.
 std::string edit_command(const std::string& options, const std::string& path) {
   return fmt::format("{} && gdal_edit.py {} {}", translate_command("", path), options, new_file(".tif"));
 }
@@ -57,7 +57,7 @@ Result<Tile> look_at(Session& session, const std::string& path) {
   return tile;
 }
 
-/// Metres in a unit of heights; 0: another one, or none.
+/// Metres per unit of heights; 0 for other units, or none.
 double metres_in(const std::string& unit) {
   std::string word;
   for (const char c : unit) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -69,7 +69,7 @@ double metres_in(const std::string& unit) {
   return has("us") || has("survey") ? 1200.0 / 3937 : 0.3048;
 }
 
-/// Who names no unit means metres.
+/// An unnamed unit means metres.
 bool same_unit(const std::string& a, const std::string& b) {
   const auto metres = [](const std::string& unit) { return unit.empty() ? 1 : metres_in(unit); };
   return a == b || (metres(a) == metres(b) && metres(a) != 0);
@@ -94,14 +94,14 @@ std::string describe_unit_difference(const Tile& first, const Tile& tile, std::s
   return fmt::format("has heights in {}, and {} in {}: {}", b.unit, first.path, a.unit, way);
 }
 
-/// The zero of heights, by the CRS.
+/// The reference of heights, from the CRS.
 std::string heights_of(const Tile& tile) { return tile.space.is_ellipsoidal ? "the ellipsoid" : tile.space.vertical; }
 
-/// The advice for bringing the raster into the CRS of the first, with its heights.
+/// Advice to convert the raster, with its heights, to the CRS of the first.
 std::string bring_there(const Tile& first, const Tile& tile) {
   const std::string from = heights_of(tile), to = heights_of(first);
   const std::string with_heights = from.empty() || to.empty() ? "" : name_with_heights(first.space.crs);
-  // Without a grid of PROJ, gdalwarp silently does not change heights.
+  // Without PROJ's grid, gdalwarp silently keeps heights unchanged.
   if (from != to && !from.empty() && !to.empty() &&
       (with_heights.empty() || !Passage(tile.space.crs, first.space.crs, true).usable()))
     return "PROJ knows no way between their heights on this machine: install its grids (projsync, or Debian's "
@@ -127,7 +127,7 @@ std::string describe_datum_difference(const Tile& first, const Tile& tile) {
   return fmt::format("has {}, and {} {}: {}", say(b), first.path, say(a), way);
 }
 
-/// A whole turn around the earth in x; 0 where x does not come back.
+/// A whole turn around the earth in units of x; 0 if x is not periodic.
 double turn_of(const Crs& crs) {
   if (!crs) return 0;
   constexpr double kTurn = 2 * std::numbers::pi;
@@ -135,10 +135,10 @@ double turn_of(const Crs& crs) {
   return crs_name(crs) == "EPSG:3857" ? kTurn * OSRGetSemiMajor(crs.get(), nullptr) : 0;
 }
 
-/// How far from a whole number.
+/// Distance from an integer.
 double off_whole(double number) { return std::abs(number - std::round(number)); }
 
-/// "" or the second half of a sentence: how it differs, and the way out.
+/// "" or the second half of a sentence: the difference, and its remedy.
 std::string find_difference(const Tile& first, const Tile& tile) {
   if (!first.crs != !tile.crs || (tile.crs && !same_crs(first.crs, tile.crs))) {
     const auto name = [](const Tile& of) { return of.crs ? short_name(of.crs) : std::string("no CRS"); };
@@ -198,7 +198,7 @@ std::string find_difference(const Tile& first, const Tile& tile) {
                      to_grid);
 }
 
-/// Stacks of rasters keep those apart that store heights in another way: each is interpolated alone.
+/// True if two rasters store heights the same way. Otherwise they are interpolated separately.
 bool hold_alike(const Tile& first, const Tile& tile) {
   return std::equal(first.bands.begin(), first.bands.end(), tile.bands.begin(), tile.bands.end(),
                     [](const BandFacts& a, const BandFacts& b) {
@@ -208,14 +208,14 @@ bool hold_alike(const Tile& first, const Tile& tile) {
                     });
 }
 
-/// The widest gap on a circle between arcs, each with its beginning on [0, turn) and its length.
+/// The widest gap on a circle between arcs, each given by its start on [0, turn) and its length.
 struct Gap {
   double end = 0, width = 0;
 };
 Gap find_gap(std::vector<std::pair<double, double>> arcs, double turn) {
   std::sort(arcs.begin(), arcs.end());
   Gap gap;
-  double before = -HUGE_VAL;  // east end of the arcs before, a turn back
+  double before = -HUGE_VAL;  // east end of the previous arcs, a turn back
   for (const auto& [from, length] : arcs) before = std::max(before, from + length - turn);
   for (const auto& [from, length] : arcs) {
     if (from - before > gap.width) gap = {from, from - before};
@@ -224,8 +224,8 @@ Gap find_gap(std::vector<std::pair<double, double>> arcs, double turn) {
   return gap;
 }
 
-/// Finds the cells of each tile, counted from the first one's. Where x comes back after a turn around the earth, tiles
-/// on both sides of its end are put side by side. True if one was moved.
+/// Finds the cells of each tile relative to the first one. If x is periodic, tiles on both sides of its end are placed
+/// next to each other. True if one was moved.
 Result<bool> place_tiles(std::vector<Tile>& tiles) {
   constexpr double kCloser = 0.75;
   const std::array<double, 6>& gt = tiles.front().gt;
@@ -244,7 +244,7 @@ Result<bool> place_tiles(std::vector<Tile>& tiles) {
   }
   const Gap gap = turn > 0 ? find_gap(std::move(arcs), turn) : Gap{};
   if (gap.width <= 0 || turn - gap.width > kCloser * (high - low)) return false;
-  const double west = gt[0] + gap.end * gt[1], around = turn * gt[1];  // begins within half a turn of x = 0
+  const double west = gt[0] + gap.end * gt[1], around = turn * gt[1];  // starts within half a turn of x = 0
   const double begin = gap.end - turn * std::floor((west + around / 2) / around + kMostOffGrid / turn);
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     Tile& tile = tiles[k];
@@ -284,7 +284,7 @@ Tile part_of(const Tile& tile, int from, int to) {
   return part;
 }
 
-/// Replaces rasters that hold nothing between their two sides by these.
+/// Splits rasters that are empty between their two sides.
 void split_at_gaps(std::vector<Tile>& tiles) {
   std::vector<Tile> parts;
   for (Tile& tile : tiles) {
@@ -299,10 +299,11 @@ void split_at_gaps(std::vector<Tile>& tiles) {
 }
 
 constexpr const char *kMadeKey = "SCARP_ROLE", *kMade = "derived";
-/// Metadata of sets of tiles in MBTiles, which GDAL opens as rasters.
+/// Metadata of tile sets in MBTiles, which GDAL opens as rasters.
 constexpr const char *kGeneratorKey = "generator", *kScarp = "scarp ";
 
-/// Removes rasters that Scarp made of the others, in the order of names; their names, without folders.
+/// Removes rasters that Scarp derived from the others, keeping the order of names; returns their names, without
+/// folders.
 std::vector<std::string> take_derived(const std::vector<bool>& is_derived, std::vector<std::string>& rasters) {
   std::vector<std::string> kept, left;
   for (std::size_t k = 0; k < rasters.size(); ++k) (is_derived[k] ? left : kept).push_back(rasters[k]);

@@ -26,7 +26,7 @@ namespace {
 
 struct Scheme {
   std::string_view url, vsi;
-  bool keeps_url;  // /vsicurl/ expects the whole URL, the object stores the part after "s3://"
+  bool keeps_url;  // /vsicurl/ expects the whole URL, the object stores only the part after "s3://"
 };
 constexpr std::array<Scheme, 6> kSchemes{{{"http://", "/vsicurl/", true},
                                           {"https://", "/vsicurl/", true},
@@ -61,7 +61,7 @@ std::vector<std::string> list_zip(const std::string& vsi) {
   return names;
 }
 
-/// The subdataset names that a container (netCDF, HDF, GeoPackage, …) offers.
+/// The names of the subdatasets in a container (netCDF, HDF, GeoPackage, …).
 std::vector<std::string> find_subdatasets(GDALDatasetH dataset) {
   std::vector<std::string> names;
   for (const std::string& entry : list_of(GDALGetMetadata(dataset, "SUBDATASETS"))) {
@@ -104,8 +104,7 @@ bool is_hdf4(const std::string& vsi) {
   return vsi.starts_with("HDF4_SDS:") || vsi.starts_with("HDF4_EOS:") || read_head(vsi, 4) == "\x0e\x03\x13\x01";
 }
 
-/// Before 3.10.1 GDAL reads an interlaced PNG of 16 bits with the two bytes of each sample in the wrong order,
-/// silently.
+/// Before 3.10.1 GDAL silently swaps the two bytes of each sample in an interlaced 16-bit PNG.
 bool is_misread_png(GDALDatasetH dataset) {
   constexpr int kMended = 3100100;
   constexpr std::size_t kDepth = 24, kInterlace = 28;
@@ -138,7 +137,7 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
   VSIFCloseL(file);
   const std::string kind = describe_kind(path, read_head(vsi), status.st_size);
   if (!kind.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
-  // A driver that knows the file and still fails (a truncated TIFF) has the better words.
+  // A driver that recognises the file but fails (a truncated TIFF) has the better message.
   if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_RASTER); driver && gave_reason) {
     if (EQUAL(GDALGetDriverShortName(driver), "XYZ")) {
       return fail(ErrorKind::kInput,
@@ -177,7 +176,7 @@ std::string read_head(const std::string& vsi, std::size_t bytes) {
 
 tl::unexpected<Error> refuse_remote(const std::string& path, const std::string& vsi, const std::string& reason) {
   VSIStatBufL status{};
-  VSICurlPartialClearCache(vsi.c_str());  // it remembers that there is none, not why
+  VSICurlPartialClearCache(vsi.c_str());  // it caches the failure, but not its reason
   VSIErrorReset();
   const bool is_there = VSIStatExL(vsi.c_str(), &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_SET_ERROR_FLAG) == 0;
   const std::string why = is_there ? "" : VSIGetLastErrorMsg();

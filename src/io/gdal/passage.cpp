@@ -1,4 +1,4 @@
-// The way from one CRS to another, for many threads.
+// Thread-safe conversion between two CRSs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,8 +57,7 @@ Passage::Handle Passage::take() const {
     idle_.pop_back();
     return handle;
   }
-  // Left to itself GDAL chooses among PROJ's operations by the mean of the points of a call; PROJ does so point by
-  // point.
+  // By default GDAL chooses among PROJ's operations by the mean of a call's points; PROJ chooses point by point.
   Session session;
   session.set_option("OGR_CT_OP_SELECTION", "PROJ");
   OGRCoordinateTransformationOptionsH options = OCTNewCoordinateTransformationOptions();

@@ -1,4 +1,4 @@
-// The position of the plane of a local grid on the globe: the plane that touches it at the raster's centre.
+// The position of the plane of a local grid on the globe: the tangent plane at the raster's centre.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace scarp {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
-/// Cells to either side of the centre whose places give the projection's turn and scale there.
+/// Cells to either side of the centre for measuring the projection's turn and scale there.
 constexpr double kReach = 16;
-/// Places of the raster that are examined, each way.
+/// Raster positions examined each way.
 constexpr int kPlaces = 17;
 
 using Point = std::array<double, 3>;
@@ -25,7 +25,7 @@ Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[
 Point operator*(double factor, const Point& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
 double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Places of the raster, earth-centred.
+/// Positions of the raster, earth-centred.
 class Places {
  public:
   Places(const RasterOnGlobe& globe, const LocalRaster& raster) : globe_(globe), raster_(raster) {}
@@ -33,7 +33,7 @@ class Places {
   struct At {
     Point place{}, up{}, east{}, north{};
   };
-  /// Cells east and north of the sample at the centre, and a height of its own. Not finite where there is none.
+  /// Cells east and north of the centre sample, and a height above the zero. Not finite if there is no position.
   At at(double east, double north, double height) const {
     const std::array<double, 6>& a = globe_.place.affine;
     const double col = static_cast<double>(raster_.centre_col()) + east,
@@ -74,7 +74,7 @@ Result<PlaneOnGlobe> find_plane_on_globe(const RasterInfo& info, const LocalRast
   const Places::At centre = places.at(0, 0, 0);
   const Point x = (0.5 / (kReach * raster.cell_x)) * (places.at(kReach, 0, 0).place - places.at(-kReach, 0, 0).place);
   const Point y = (0.5 / (kReach * raster.cell_y)) * (places.at(0, kReach, 0).place - places.at(0, -kReach, 0).place);
-  // Along the ground: what the zero of the heights rises there is no turn of the plane.
+  // Along the ground: the slope of the heights' zero there does not turn the plane.
   const auto along = [&](const Point& way) { return way - inner(way, centre.up) * centre.up; };
   const Point east = along(x), north = along(y);
   PlaneOnGlobe plane;

@@ -38,7 +38,7 @@ Palette palette_of(GDALRasterBandH band) {
 
 struct ChannelBands {
   std::vector<BandSense> bands;
-  std::vector<Palette> palettes;  ///< by band; empty where the values speak for themselves
+  std::vector<Palette> palettes;  ///< by band; empty if values are colours
   std::size_t channels = 0;
   bool is_8bit = true, is_color = false;
 };
@@ -83,7 +83,7 @@ Result<ChannelBands> choose_bands(GDALDatasetH dataset, const std::string& path,
   return chosen;
 }
 
-/// Replaces the numbers of colours by the colours.
+/// Replaces palette indices by colours.
 Result<void> apply_palette(const Palette& palette, OwnedHeightField& field, std::vector<std::vector<float>>& bands) {
   const std::size_t first = bands.size();
   for (int k = 0; k < 3; ++k) bands.emplace_back(field.samples.size(), kNoChannel);

@@ -1,4 +1,4 @@
-// An image, warped onto the place of a raster.
+// An image, warped to the position of a raster.
 #include <fmt/format.h>
 #include <gdal_alg.h>
 
@@ -17,7 +17,7 @@ namespace scarp {
 namespace gdal {
 namespace {
 
-/// How many of the image's pixels lie along the raster's sides; nothing if it has no place there.
+/// Number of the image's pixels along the raster's sides; nothing without a position there.
 std::optional<std::array<double, 2>> count_pixels(GDALDatasetH image, const Transform6& place, const Crs& crs) {
   const Dataset square = make_target(place, crs, 1, 1);
   if (!square) return {};
@@ -40,7 +40,7 @@ std::array<int, 2> choose_size(const std::array<double, 2>& pixels, int size) {
   return {side(pixels[0]), side(pixels[1])};
 }
 
-/// White where nothing is.
+/// White where the image is transparent.
 void lay_on_white(WarpedPixels warped, Drape& drape) {
   const std::size_t pixels = warped.alpha.size();
   std::size_t covered = 0;
@@ -56,7 +56,7 @@ Result<Drape> read(const std::string& path, const RasterInfo& raster, int cols, 
   Session session(is_remote(path));
   SCARP_TRY(auto&& image, open_raster(session, path));
   SCARP_TRY(const auto& geo, read_georeference(image.get(), path));
-  // An image with as many pixels as the raster has samples is most likely made from it, and has lost its place.
+  // An image with as many pixels as the raster has samples was probably made from it, and lost its georeference.
   const bool is_twin = !geo.located && geo.cols == cols && geo.rows == rows;
   if (geo.located != raster.has_georeference && !is_twin) {
     return fail(

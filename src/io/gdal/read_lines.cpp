@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// An open file and the layer that was asked for.
+/// An open file and the requested layer.
 struct OpenedLayer {
   Dataset dataset;
   std::string path, layer;  ///< layer: empty if none was named
@@ -33,8 +33,8 @@ bool exists(const std::string& path) {
   return VSIStatL(vsi_path(path).c_str(), &status) == 0;
 }
 
-/// "file:layer" is distinguished from a name with a colon in it ("C:\lines.shp", "PG:dbname=…", a URL) by what can be
-/// opened.
+/// "file:layer" is distinguished from a name that contains a colon ("C:\lines.shp", "PG:dbname=…", a URL) by trying to
+/// open it.
 Result<OpenedLayer> open(Session& session, const std::string& path) {
   constexpr const char* kWhat = "lines";
   constexpr const char* kExpected = "no vector data that GDAL can read";
@@ -146,7 +146,7 @@ class LineCollector {
       OGRGeometryH part = OGR_G_GetGeometryRef(geometry, i);
       const LineRole role = i == 0 ? LineRole::kOuter : LineRole::kHole;
       SCARP_RETURN_IF_ERROR(is_polygon ? add_line(part, role) : add_geometry(part));
-      // if the outer ring has no extent, its holes have none either
+      // if the outer ring is degenerate, its holes are, too
       if (is_polygon && (set_.lines.empty() || set_.lines.back().polygon != set_.polygons)) return {};
     }
     if (is_polygon && OGR_G_GetGeometryCount(geometry) > 0) ++set_.polygons;
@@ -201,8 +201,8 @@ class LineCollector {
   bool ignore_z_;
   LineSet& set_;
   std::string prefix_, name_;
-  std::optional<double> height_;  ///< height of the current feature, if an attribute holds it
-  std::uint64_t filled_ = 0;      ///< vertices that were given heights
+  std::optional<double> height_;  ///< height of the current feature, if from an attribute
+  std::uint64_t filled_ = 0;      ///< number of vertices with filled-in heights
   std::string first_filled_;
   std::uint64_t points_ = 0, without_geometry_ = 0, without_extent_ = 0;
 };
@@ -214,7 +214,7 @@ Result<void> transform(const Crs& from, const Crs& to, LineSet& set) {
                                                short_name(to), short_name(from)));
   };
   if (!way) return refuse(set.path + ": nothing has a place");
-  constexpr std::size_t kBatch = 1 << 16;  // vertices; lines are not broken
+  constexpr std::size_t kBatch = 1 << 16;  // vertices; a batch ends only between lines
   std::vector<double> x, y;
   for (std::size_t first = 0, last = 0; first < set.lines.size(); first = last) {
     x.clear();
@@ -253,7 +253,7 @@ Result<void> place(const Crs& crs, const std::string& wanted, LineSet& set) {
   return transform(crs, to, set);
 }
 
-/// Heights in units of so many metres, where theirs is known.
+/// Converts heights of a known unit to units of `unit_in_metres`.
 void convert_heights(OGRLayerH layer, std::optional<int> height_field, double unit_in_metres, LineSet& set) {
   HeightUnit unit = space_crs_of(declared_layer_crs(layer)).unit;
   const char* field =

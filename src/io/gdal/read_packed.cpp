@@ -3,16 +3,15 @@
 //   terrarium:  R·256 + G + B/256 − 32768            steps of 1/256 m: exact in float32
 //   mapbox:     −10000 + (R·65536 + G·256 + B)·0.1   steps of 0.1 m: rounded to float32, the rounding recorded
 //
-// Both make a height of one whole number, 24 bits in three colours. Where a colour reaches its end it begins anew, and
-// the one before it counts one more: colours that are interpolated, or changed a little by lossy compression, jump
-// there. Two tests find that:
+// Both compute a height from one integer, 24 bits in three colours. Where a colour reaches its end it wraps around, and
+// the next higher one increases by one. Colours that are interpolated, or changed slightly by lossy compression, jump
+// there. Two tests detect this:
 //
-//   - Lossy compression changes a colour by one, and causes spikes of about one step of it. Spikes of land change the
-//     colour no more often than their size implies.
-//   - Interpolation sweeps through a colour where it begins anew. A sample between two that are close together, on
-//     either side of such a height, is then off both in 40 % of cases or more, some below and some above. Land does
-//     not know at which heights colours begin anew: it is as rough at heights a quarter, a half and three quarters of a
-//     step above.
+//   - Lossy compression changes a colour by one, and causes spikes of about one step of it. Spikes of real land cross
+//     colour steps no more often than their size implies.
+//   - Interpolation sweeps through a colour where it wraps around. A sample between two close ones, on either side of
+//     such a height, then differs from both in 40 % of cases or more, some below and some above. Real land is
+//     independent of the wraps: it is as rough at heights a quarter, a half and three quarters of a step above.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +34,7 @@ double decode_height(Decode decode, const std::uint8_t* rgb) {
 
 Decode other_than(Decode decode) { return decode == Decode::kTerrarium ? Decode::kMapbox : Decode::kTerrarium; }
 
-/// Land and the bottom of the sea.
+/// Land and the sea floor.
 bool is_on_earth(double height) { return height >= -11500 && height <= 9500; }
 
 constexpr std::uint32_t kNoNumber = ~std::uint32_t{0};
@@ -45,8 +44,8 @@ std::uint32_t number_of(const std::uint8_t* rgb) {
   return static_cast<std::uint32_t>(rgb[0]) << 16 | static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
 }
 
-/// Counts the middle one of three neighbours where it lies off both others, which are close together. On land as it is,
-/// spikes of that size change the colour in somewhat more than half of all cases.
+/// Counts the middle one of three neighbours if it differs from both others, which are close to each other. On
+/// unmodified land, spikes of that size cross a colour step in somewhat more than half of all cases.
 void count_torn(std::uint32_t a, std::uint32_t b, std::uint32_t c, Findings::Colours& colours) {
   const auto [low, high] = std::minmax(a, c);
   const std::uint32_t off = b < low ? low - b : b > high ? b - high : 0;
@@ -59,13 +58,12 @@ void count_torn(std::uint32_t a, std::uint32_t b, std::uint32_t c, Findings::Col
   }
 }
 
-/// All rows of a tile, and some of a large raster, where as many samples are proof enough.
+/// All rows of a tile; for a large raster only some, with as many samples in all.
 std::int64_t every_row(int cols, int rows) { return 1 + std::int64_t{cols} * rows / (1 << 18); }
 
-constexpr std::array<std::size_t, 2> kLags{1, 4};  // the second one finds what was enlarged more than three times
+constexpr std::array<std::size_t, 2> kLags{1, 4};  // the second one detects enlargement by more than three
 
-/// Counts the middle one of three samples, of which the others are close together, at each quarter of a colour between
-/// those.
+/// For three samples whose outer two are close: counts the middle one at each quarter of a colour step between these.
 void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t lag, std::size_t first_colour,
                  Findings::Colours& colours) {
   const auto [low, high] = std::minmax(a, c);
@@ -88,10 +86,10 @@ void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t 
   }
 }
 
-/// Steps of the middle colour are 1 m in terrarium, and heights in whole metres do nothing else.
+/// Steps of the middle colour are 1 m in terrarium, the only change of heights in whole metres.
 std::size_t first_colour(Decode decode) { return decode == Decode::kTerrarium ? 1 : 0; }
 
-/// True if there are more samples off where a colour begins anew than land has there.
+/// True if more samples differ at a colour's wraps than on real land.
 bool are_swept(const Findings::Colours& colours, std::size_t lag, std::size_t k) {
   constexpr std::uint64_t kLeast = 24;
   constexpr double kLeastShare = 0.35, kTimesOthers = 1.5, kLeastBoth = 0.16;
@@ -102,13 +100,13 @@ bool are_swept(const Findings::Colours& colours, std::size_t lag, std::size_t k)
   double others = 0;
   for (std::size_t k = 1; k < lines.size(); ++k) others = std::max(others, share(lines[k]));
   if (lines[0].off < kLeast || share(lines[0]) < std::max(kLeastShare, kTimesOthers * others)) return false;
-  // Spikes above a plain, or noise around it, are off towards the plain.
+  // Spikes above a plain, or noise around it, only differ towards the plain.
   std::uint64_t both = 0;
   for (const auto& [below, above] : colours.sides[lag][k]) both += 2 * std::min(below, above);
   return static_cast<double>(both) >= kLeastBoth * static_cast<double>(lines[0].crossed);
 }
 
-/// A colour that stands for nodata: every band's declared value.
+/// The nodata colour: every band's declared value.
 std::optional<std::array<std::uint8_t, 3>> find_nodata_colour(GDALDatasetH dataset) {
   std::array<std::uint8_t, 3> colour{};
   for (int k = 0; k < 3; ++k) {
@@ -211,7 +209,7 @@ class PackedReader : public WindowReader {
   std::vector<std::uint8_t> pixels_, mask_;
   std::uint32_t before_ = kNoNumber, here_ = kNoNumber;  // the last two in the row
   std::vector<std::uint32_t> row_;
-  std::int64_t every_;  // one of so many rows is examined as a whole
+  std::int64_t every_;  // every how many rows one is examined as a whole
 };
 
 }  // namespace

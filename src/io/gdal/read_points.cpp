@@ -36,7 +36,7 @@ bool holds_polygons(OGRLayerH layer) {
          OGR_GT_IsSubClassOf(wkbFlatten(OGR_L_GetGeomType(layer)), wkbMultiSurface) != 0;
 }
 
-/// The way out for contours that are polygons.
+/// The remedy for contours that are polygons.
 std::string make_lines(const std::string& path) {
   return fmt::format("if their rings are contours, make lines of them first (ogr2ogr -nlt MULTILINESTRING {} {})",
                      new_file(".gpkg"), file_word(path));
@@ -59,10 +59,10 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
   return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, layer_names(dataset)));
 }
 
-/// The meaning of a layer's third coordinates. Its type may be silent on them; its features are not.
+/// The meaning of a layer's third coordinates, from its features if its type does not declare it.
 struct ThirdCoordinates {
-  std::optional<double> first;  ///< none: there are no third coordinates
-  bool differ = false;          ///< NaN is like NaN
+  std::optional<double> first;  ///< none: no third coordinates
+  bool differ = false;          ///< NaN equals NaN
 
   void add(OGRGeometryH geometry) {
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry) && !differ; ++i) add(OGR_G_GetGeometryRef(geometry, i));
@@ -99,7 +99,7 @@ std::string list_of_fields(OGRLayerH layer, bool heights_only, int without = -1)
   return list;
 }
 
-/// The attribute whose name shows most clearly that it holds heights.
+/// The attribute whose name is most specific to heights.
 std::optional<int> find_named_height(OGRLayerH layer) {
   OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
   std::optional<int> best;
@@ -113,7 +113,7 @@ std::optional<int> find_named_height(OGRLayerH layer) {
   return best;
 }
 
-/// Finds the heights: an attribute, or the third coordinate. The result is noted in `points`.
+/// Finds the heights: an attribute, or the third coordinate. The choice is stored in `points`.
 Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& wanted, PointSet& points) {
   const std::string& path = points.path;
   const auto name_of = [&](int index) {
@@ -191,7 +191,7 @@ class PointCollector {
     return OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, *height_field_));
   }
 
-  /// The attribute; NaN where it holds no number and --nodata omits such points.
+  /// The attribute; NaN if it is no number and --nodata omits such points.
   Result<double> read_height(OGRFeatureH feature) const {
     const bool is_set = OGR_F_IsFieldSetAndNotNull(feature, *height_field_) != 0;
     const char* text = is_set ? OGR_F_GetFieldAsString(feature, *height_field_) : "";
@@ -235,7 +235,7 @@ class PointCollector {
     return add_line(geometry, height);
   }
 
-  /// The vertices of a line, each place once in a row; a ring ends with its first point.
+  /// Adds the vertices of a line, without repetitions; a ring ends with its first point.
   Result<void> add_line(OGRGeometryH geometry, std::optional<double> height) {
     PointLine line;
     const auto first = static_cast<std::uint32_t>(points_.size());
@@ -291,7 +291,8 @@ class PointCollector {
   std::uint64_t without_geometry_ = 0, without_extent_ = 0;
 };
 
-/// Degrees to metres by the two constants of the ellipsoid at the middle of the points; see grid/local_frame.cpp.
+/// Converts degrees to metres by the two constants of the ellipsoid at the middle of the points; see
+/// grid/local_frame.cpp.
 Result<void> make_local(const Crs& crs, PointSet& points) {
   const auto [x, y] = middle_of(points);
   const std::string way = fmt::format("ogr2ogr -a_srs EPSG:CODE {} {}", new_file(".gpkg"), file_word(points.path));

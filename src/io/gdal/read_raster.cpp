@@ -27,7 +27,7 @@ namespace scarp {
 namespace gdal {
 namespace {
 
-/// A raster that is open and understood, its samples not yet read.
+/// An open and interpreted raster, its samples not yet read.
 struct UnreadRaster {
   Dataset dataset;
   Georeference georeference;
@@ -35,7 +35,7 @@ struct UnreadRaster {
   RasterInfo info;
 };
 
-/// With the range, where that is known.
+/// Includes the range, if known.
 void warn_of_depths(const UnreadRaster& unread, const ReadOptions& options, RasterInfo& info) {
   const SpaceCrs& crs = unread.georeference.in_space;
   const std::string reason =
@@ -94,7 +94,7 @@ void add_gdal_warnings(const Session& session, RasterInfo& info) {
   for (const std::string& warning : session.warnings()) info.warnings.push_back("GDAL: " + warning);
 }
 
-/// A raster and all that is known before its samples are read.
+/// A raster with all that is known before reading samples.
 struct OpenedRaster {
   UnreadRaster unread;
   OwnedHeightField field;
@@ -103,7 +103,7 @@ struct OpenedRaster {
     return options.decode == Decode::kNone ? make_band_reader(unread.band)
                                            : make_packed_reader(unread.dataset.get(), options);
   }
-  /// Opens a file again whose blocks are decoded each on its own; empty for others.
+  /// Reopens a file whose blocks can be decoded independently; empty for others.
   OpenAgain again(const ReadOptions& options) const {
     const char* name = GDALGetDescription(unread.dataset.get());
     if (field.info.format != "GTiff" || std::string_view(name).starts_with("/vsi")) return {};
@@ -135,7 +135,7 @@ struct OpenedRaster {
   }
 };
 
-/// `options` become those that the samples are read with.
+/// Changes `options` to those for reading the samples.
 Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions& options) {
   SCARP_TRY(auto&& unread, open_unread(session, path, options));
   const Georeference& geo = unread.georeference;
@@ -143,7 +143,7 @@ Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions
   SCARP_RETURN_IF_ERROR(check_raster_sides(path, cols, rows));
   SCARP_TRY(auto&& frame, choose_frame(geo, options, unread.info));
   SCARP_TRY(options, settle_heights(options, frame, unread.info, geo.in_space.unit));
-  // The band's values are decoded with the file's scale and this one at once, so that every way of reading knows it.
+  // Applied to the band's scale, so that all ways of reading include it.
   unread.band.scale *= options.z_scale;
   unread.band.offset = options.z_scale * unread.band.offset + options.z_offset;
   if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, unread.info);  // else x and y are the caller's
@@ -156,7 +156,7 @@ Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions
   return opened;
 }
 
-/// Heights that a float32 does not hold are no missing ones.
+/// Rejects heights beyond float32 instead of treating them as missing.
 Result<void> refuse_beyond(const Findings& findings, const std::string& path, const ReadOptions& options) {
   if (!findings.beyond || options.as_values) return {};
   return fail(
@@ -190,7 +190,7 @@ Result<OwnedHeightField> read(const std::string& path, ReadOptions options) {
   return read_samples(session, std::move(opened), options);
 }
 
-/// Samples that stay in their file.
+/// Samples that remain in their file.
 class FileSource : public SampleSource {
  public:
   FileSource(UnreadRaster unread, std::unique_ptr<WindowReader> reader, std::string path)
@@ -234,10 +234,10 @@ Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& 
   return refuse_beyond(reader.findings(), info.path, options);
 }
 
-/// Keeps the samples in their file.
+/// Leaves the samples in their file.
 Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, const ReadOptions& options) {
-  // Bands of rows are read one after the other: a file in blocks is decoded once if a row of its blocks, and what the
-  // next one begins with, is still there.
+  // Bands of rows are read in sequence. A file in blocks is decoded once if the cache holds a row of blocks and the
+  // start of the next.
   widen_block_cache(options.run.memory.limit);
   OwnedHeightField& field = opened.field;
   field.info.has_range = false;

@@ -1,12 +1,12 @@
 // Samples of one band.
 //
-// Problem: bands come in a dozen types, scaled or not, with nodata declared in more than one way; memory for one copy
-// of the samples only; and a damaged file must never appear as flat ground.
+// Problem: bands have a dozen types, with or without scale, and nodata declared in several ways. Memory suffices for
+// only one copy of the samples. A damaged file must never appear as flat ground.
 //
-// Idea: types whose every value is a float32 (8 and 16 bits, float32) are read by GDAL straight into the samples. All
-// others go through a window in double (64-bit integers: in their own type), where nodata is compared, scale and offset
-// are applied, and the distance to the nearest float32 is recorded: what the mesh promises about these samples it then
-// promises about the file with that much in reserve.
+// Idea: types whose every value is a float32 (8 and 16 bits, float32) are read by GDAL directly into the samples. All
+// others are read in windows of doubles (64-bit integers: of their own type). There nodata is compared, scale and
+// offset are applied, and the distance to the nearest float32 is recorded. With that reserve, a bound on the samples
+// also holds for the file.
 #include "io/gdal/read_samples.h"
 
 #include <cpl_string.h>
@@ -32,10 +32,10 @@ constexpr std::size_t kCodes = 65536;
 constexpr float kNodataSample = std::numeric_limits<float>::quiet_NaN();
 constexpr double kLargest = std::numeric_limits<float>::max();
 
-/// "−3.40282e+38" and its like stand for the lowest float however few digits survived, and no terrain is that high.
+/// "−3.40282e+38" and the like mean the lowest float, however few digits remain; no terrain is that high.
 constexpr double kNearLargest = 3.4e38;
 
-/// GDAL's rule, made safe: equal once the declared value has the band's type.
+/// GDAL's rule, made robust: equal after conversion of the declared value to the band's type.
 template <class Raw>
 class NodataTest {
  public:
@@ -56,11 +56,11 @@ class NodataTest {
  private:
   bool has_value_;
   Raw value_;
-  Raw least_{}, most_{};  // beyond, what is large is nodata, too
+  Raw least_{}, most_{};  // large values beyond these are nodata, too
 };
 
-/// Nodata and what is not finite becomes kNodataSample. Returns how many were infinite. Without a branch, so that
-/// compilers make vectors of it.
+/// Converts nodata and non-finite values to kNodataSample. Returns the number of infinities. Branchless, for
+/// vectorisation.
 std::uint32_t mark_nodata(std::span<float> heights, const NodataTest<float>& is_nodata) {
   std::uint32_t infinities = 0;
   for (float& z : heights) {
@@ -73,7 +73,7 @@ std::uint32_t mark_nodata(std::span<float> heights, const NodataTest<float>& is_
 
 float to_float32(double value) { return std::abs(value) <= kLargest ? static_cast<float>(value) : kNodataSample; }
 
-/// |raw − rounded|, without error of its own.
+/// |raw − rounded|, exactly.
 double distance(double raw, float rounded) { return std::abs(raw - static_cast<double>(rounded)); }
 template <class Integer>
 requires std::is_integral_v<Integer>
@@ -82,9 +82,9 @@ double distance(Integer raw, float rounded) {
   return static_cast<double>(difference < 0 ? -difference : difference);
 }
 
-/// How far GDAL's mean may lie from the exact one: it adds float32 values and keeps a float32, whatever type is asked
-/// for. The sum of whole cells is exact. There, if mean · cells is whole, then so is mean · cells · counted; that
-/// differs from sum · cells by less than 1, so it is that, and the mean is exact.
+/// Bound of the error of GDAL's mean: it adds float32 values and stores a float32, for any requested type. Sums of
+/// integer cells are exact. If mean · cells is an integer, so is mean · cells · counted. It differs from sum · cells by
+/// less than 1, so they are equal, and the mean is exact.
 double rounding_of_mean(double mean, const Means& means) {
   if (means.cells == 1 || !std::isfinite(mean) || mean == 0) return 0;
   const double half_step = std::ldexp(1.0, std::ilogb(mean) - 24), cells = means.cells;
@@ -115,7 +115,7 @@ class BandReader : public WindowReader {
     return done && apply_mask(window);
   }
 
-  /// The height that a value of the band stands for.
+  /// The height of a raw band value.
   float height_of(double raw) { return convert(raw, NodataTest<double>(nodata_in_double())); }
 
  private:
@@ -142,7 +142,7 @@ class BandReader : public WindowReader {
     return true;
   }
 
-  /// The declared value as the band would hold it; nothing where the band cannot hold it.
+  /// The declared value in the band's type; nothing if the type cannot represent it.
   std::optional<float> narrowed_nodata() const {
     if (!sense_.nodata) return {};
     const double nodata = *sense_.nodata;
@@ -220,7 +220,7 @@ class BandReader : public WindowReader {
   const BandSense sense_;
   float* out_ = nullptr;
   std::ptrdiff_t stride_ = 0;
-  std::vector<unsigned char> buffer_;  // buffer of whatever type the window is read in
+  std::vector<unsigned char> buffer_;  // window buffer, of the type that is read
   std::vector<std::uint8_t> mask_;
 };
 
@@ -262,7 +262,7 @@ Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowRead
   parallel_in_order(
       order.count(), static_cast<int>(more.size() + 1),
       [&](std::size_t i, std::size_t worker) {
-        // GDAL keeps its messages by thread
+        // GDAL stores messages per thread
         Session here(session);
         WindowReader& reads = worker == 0 ? reader : *more[worker - 1].reader;
         stacks[i].status = for_each_slice(order.stack(i), order.rows_at_once(), [&](const Window& window) {

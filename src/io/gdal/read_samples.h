@@ -1,4 +1,4 @@
-// From bands to float32 samples.
+// Conversion of bands to float32 samples.
 #pragma once
 
 #include <gdal.h>
@@ -23,10 +23,10 @@
 
 namespace scarp::gdal {
 
-/// The band to read and what its values mean.
+/// The band to read and the meaning of its values.
 struct BandSense {
   GDALRasterBandH band = nullptr;
-  GDALRasterBandH mask = nullptr;  ///< bytes, 0 = nodata; null if there is none
+  GDALRasterBandH mask = nullptr;  ///< bytes, 0 = nodata; null if none
   GDALDataType type = GDT_Unknown;
   bool signed_byte = false;                  ///< GDT_Byte that holds −128 … 127
   std::optional<double> nodata;              ///< compared with raw values, before scale and offset
@@ -34,45 +34,47 @@ struct BandSense {
   std::optional<std::uint64_t> nodata_uint64;
   double scale = 1, offset = 0;  ///< height = scale·raw + offset
   Means means;
-  std::string depths;  ///< the sign that the values count downwards; else empty
+  std::string depths;  ///< the reason to assume depths, counted downwards; else empty
 };
 
 /// kInput if the band does not exist, or is complex.
 Result<BandSense> find_band_sense(GDALDatasetH dataset, const std::string& path, const ReadOptions& options,
                                   RasterInfo& info);
 
-/// Adds what seems odd about a band of heights, or of values: that it is a colour or the number of one.
+/// Warns of bands unsuitable as heights, or as values: colours, or indices of colours.
 void warn_of_colours(GDALDatasetH dataset, const BandSense& sense, bool as_values, RasterInfo& info);
 
 /// The findings of reading.
 struct Findings {
-  std::uint64_t infinities = 0;  ///< infinities and values beyond float32, which became nodata
+  std::uint64_t infinities = 0;  ///< infinities and values beyond float32, converted to nodata
   double rounding = 0;           ///< largest |value − float32 sample|
   struct Beyond {
     double value = 0;
     int col = 0, row = 0;
   };
-  std::optional<Beyond> beyond;  ///< the first value that is finite, and beyond float32
+  std::optional<Beyond> beyond;  ///< the first finite value beyond float32
   /// Statistics of colours that are read as heights.
   struct Colours {
-    std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< but for black; by the other encoding
-    /// Samples off both neighbours: where the colour that counts 2^8 or 2^16 changes, and where it does not.
+    std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< black excluded; on_earth_otherwise: by the
+                                                                    ///< other encoding
+    /// Samples that differ from both neighbours: where the colour with the value 2^8 or 2^16 changes, and elsewhere.
     std::array<std::uint64_t, 2> torn{}, whole{};
-    std::array<std::uint32_t, 2> most{};  ///< how far off the torn ones are
-    /// Pairs of neighbours on either side of a height where a colour begins anew, and those with a sample off both
-    /// between them; by lag, by colour, and by quarters of what the colour counts that the height is moved up by.
+    std::array<std::uint32_t, 2> most{};  ///< largest difference of torn samples
+    /// Pairs of neighbours on either side of a height where a colour wraps around, and those of them with a differing
+    /// sample between. By lag, by colour, and by the quarter of the colour's value by which that height is shifted.
     struct Line {
       std::uint64_t crossed = 0, off = 0;
     };
     std::array<std::array<std::array<Line, 4>, 2>, 2> lines{};
-    std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< farthest of those off at the height itself
-    /// Number of those at the height itself: below both, and above both; by the height's last three bits.
+    std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< largest difference at the wrapping height itself
+    /// Number of samples at the wrapping height: below both neighbours, and above both; by the last three bits of the
+    /// number of wraps.
     std::array<std::array<std::array<std::array<std::uint64_t, 2>, 8>, 2>, 2> sides{};
 
     void add(const Colours& further);
   } colours;
 
-  /// Adds the findings of windows further on.
+  /// Adds the findings of later windows.
   void add(const Findings& further) {
     infinities += further.infinities;
     colours.add(further.colours);
@@ -81,13 +83,13 @@ struct Findings {
   }
 };
 
-/// Reads windows of heights, nodata as NaN. Not for several threads at once.
+/// Reads windows of heights, nodata as NaN. Not thread-safe.
 class WindowReader {
  public:
   virtual ~WindowReader() = default;
   /// Writes the window to `out`, `stride` floats from row to row. False if GDAL fails.
   virtual bool read(const Window& window, float* out, std::ptrdiff_t stride) = 0;
-  /// Findings of all windows since the last call of take_findings().
+  /// Findings of all windows since the last take_findings().
   const Findings& findings() const { return findings_; }
   Findings take_findings() { return std::exchange(findings_, {}); }
 
@@ -97,7 +99,7 @@ class WindowReader {
 
 /// The reader of one band.
 std::unique_ptr<WindowReader> make_band_reader(const BandSense& sense);
-/// The reader of heights packed into bands of colour.
+/// The reader of heights packed into colour bands.
 std::unique_ptr<WindowReader> make_packed_reader(GDALDatasetH dataset, const ReadOptions& options);
 
 /// The open file and reader of one thread.
@@ -105,36 +107,36 @@ struct ReadHandle {
   Dataset dataset;
   std::unique_ptr<WindowReader> reader;
 };
-/// Opens a raster once more.
+/// Opens the raster again.
 using OpenAgain = std::function<std::optional<ReadHandle>()>;
 
-/// Reads the raster of `band` into field.samples (already allocated) by windows of a few MB that follow the file's own
-/// blocks; on several threads if `open_again` is not empty. Sets field.sample_rounding. kInput as soon as GDAL reports
-/// any failure, kCancelled if the callback asks for it.
+/// Reads the raster of `band` into field.samples (already allocated) in windows of a few MB aligned with the file's
+/// blocks; on several threads if `open_again` is not empty. Sets field.sample_rounding. Fails with kInput as soon as
+/// GDAL reports a failure, and with kCancelled if the callback requests it.
 Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const OpenAgain& open_again,
                               const ReadOptions& options, OwnedHeightField& field);
 
-/// The same for several bands of one raster, each into the field of its number; windows are read for all bands before
-/// the next, so that interleaved files are decoded once.
+/// The same for several bands of one raster, each into its own field. Each window is read for all bands before the
+/// next, so that interleaved files are decoded once.
 Result<void> read_bands(Session& session, std::span<const BandSense> bands, const ReadOptions& options,
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities);
 
-/// True if every sample that the band can hold is a float32: no rounding is to be found.
+/// True if all possible values of the band are float32, so that nothing is rounded.
 bool is_float32(const BandSense& sense);
-/// True if the band's samples can be kept as 16-bit codes.
+/// True if the band's samples can be stored as 16-bit codes.
 bool has_codes(const BandSense& sense);
 /// Reads such a band as codes into field.source. Sets field.sample_rounding and the range of field.info; counts
-/// infinities. Fails as read_windows(), and with kInput if the machine refuses the memory.
+/// infinities. Fails as read_windows(), and with kInput if memory cannot be allocated.
 Result<void> read_codes(Session& session, const BandSense& sense, const ReadOptions& options, OwnedHeightField& field,
                         std::uint64_t& infinities);
 
-/// Adds what speaks against heights that were read from colours.
-/// `loss`: of find_loss().
+/// Warns of heights that were probably damaged as colours.
+/// `loss`: result of find_loss().
 void doubt_colours(const Findings& findings, Decode decode, const std::string& loss, RasterInfo& info);
 
 /// kInput unless the dataset has 3 or 4 bands of unsigned bytes.
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path);
-/// The compression with a loss that the file has, such as "JPEG"; else empty.
+/// The file's lossy compression, such as "JPEG"; else empty.
 std::string find_loss(GDALDatasetH dataset);
 
 }  // namespace scarp::gdal

@@ -21,10 +21,10 @@ void CPL_STDCALL collect(CPLErr severity, CPLErrorNum number, const char* messag
   if (severity == CE_Warning) session->note(false, false, message);
 }
 
-/// libhdf4 ends the program on damaged files. The others read XML with Xerces, which expands entities without end.
+/// libhdf4 ends the program on damaged files. The others read XML with Xerces, which expands entities without limit.
 constexpr std::array kUnsafeDrivers{"HDF4", "HDF4Image", "NAS", "GMLAS", "Interlis 2"};
 
-/// A host that has registered drivers itself keeps all of them.
+/// If the host has registered drivers itself, all of them are kept.
 void register_drivers() {
   const bool are_ours = GDALGetDriverCount() == 0;
   GDALAllRegister();
@@ -37,7 +37,7 @@ void register_drivers() {
   }
 }
 
-/// HDF5 prints its own errors. It comes with GDAL, or not at all, so it is asked for by name.
+/// HDF5 prints its own errors. It is loaded with GDAL, or not at all, so its functions are found by name.
 struct Hdf5 {
   using Get = int (*)(std::int64_t, Hdf5Errors::Print*, void**);
   using Set = int (*)(std::int64_t, Hdf5Errors::Print, void*);
@@ -59,7 +59,7 @@ void start_gdal_once() {
   });
 }
 
-/// One line without a full stop at its end.
+/// One line without a final full stop.
 std::string tidy(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
@@ -88,9 +88,9 @@ void widen_block_cache(std::uint64_t bytes) {
 void Session::begin() {
   CPLPushErrorHandlerEx(collect, this);
   start_gdal_once();
-  set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");   // it would lie next to the input
-  set_option("GML_PARSER", "EXPAT");                    // limits what entities expand to
-  set_default("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");  // else what a truncated JPEG lacks is grey
+  set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");   // it would be written next to the input
+  set_option("GML_PARSER", "EXPAT");                    // limits the expansion of entities
+  set_default("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");  // otherwise missing parts of a truncated JPEG are grey
 }
 
 Session::Session(const Session&) { begin(); }
@@ -99,7 +99,7 @@ Session::Session(bool remote) {
   hdf5_errors_.emplace();
   begin();
   if (!remote) return;
-  set_default("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");  // no requests for side files that are not there
+  set_default("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");  // no requests for missing side files
   set_default("CPL_VSIL_CURL_USE_HEAD", "NO");
   set_default("GDAL_HTTP_CONNECTTIMEOUT", "20");
   set_default("GDAL_HTTP_LOW_SPEED_TIME", "60");

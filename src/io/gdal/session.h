@@ -1,4 +1,4 @@
-// GDAL's global state, kept at bay.
+// Isolation of GDAL's global state.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace scarp::gdal {
 
-/// Grows GDAL's block cache, which all files of the process share, by at least this beyond its 8 MB; not if
+/// Grows GDAL's block cache, which all files of the process share, to at least this much above its 8 MB; not if
 /// GDAL_CACHEMAX is set.
 void widen_block_cache(std::uint64_t bytes);
 
@@ -28,29 +28,29 @@ class Hdf5Errors {
   bool is_silenced_ = false;
 };
 
-/// While a Session lives, messages of GDAL, PROJ and HDF5 in this thread are collected instead of printed, and nothing
-/// is written next to inputs. For remote files, options that make range requests cheap and finite are set for this
-/// thread wherever the user has not set them. The first Session of a process registers GDAL's drivers, but for those
-/// that hostile files crash or hang (unless drivers are registered already), and limits GDAL's block cache to 8 MB
-/// unless GDAL_CACHEMAX is set. Sessions may be nested; one must end in the thread that began it.
+/// While a Session lives, messages of GDAL, PROJ and HDF5 in this thread are collected instead of printed, and no files
+/// are written next to inputs. For remote files, options for cheap and finite range requests are set for this thread
+/// unless the user has set them. The first Session of a process registers GDAL's drivers, except those that hostile
+/// files crash or hang (unless drivers are registered already). It limits GDAL's block cache to 8 MB unless
+/// GDAL_CACHEMAX is set. Sessions may be nested; each must end in the thread that began it.
 class Session {
  public:
   explicit Session(bool remote = false);
-  /// In another thread, or nested, for work on a local file in parallel to the first one; HDF5 is not changed.
+  /// In another thread, or nested, for parallel work on a local file; does not change HDF5.
   explicit Session(const Session& first);
   ~Session();
   Session& operator=(const Session&) = delete;
 
   bool failed() const { return !failures_.empty(); }
-  /// GDAL's own words for what failed since clear(), for the end of a sentence; "no reason given" if there are none.
+  /// GDAL's error messages since clear(), as the end of a sentence; "no reason given" if none.
   std::string reason() const;
-  /// True if memory was what failed.
+  /// True if memory ran out.
   bool out_of_memory() const { return out_of_memory_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// Forgets failures, keeps warnings.
+  /// Clears failures, keeps warnings.
   void clear() { failures_.clear(); }
 
-  /// Sets one of GDAL's options for this thread until the Session ends.
+  /// Sets a GDAL option for this thread until the Session ends.
   void set_option(const char* key, const char* value);
 
   /// Called by GDAL's error handler.

@@ -60,7 +60,7 @@ Result<std::string> make_text_grid(const std::string& name, const std::string& p
   const auto bytes = read_file(name);
   if (!bytes) return std::string();
   ReadPointsOptions options;
-  options.nodata = std::numeric_limits<double>::quiet_NaN();  // a node without a number is missing
+  options.nodata = std::numeric_limits<double>::quiet_NaN();  // a node without a number is nodata
   options.heights_in = HeightsIn::kFile;
   std::optional<PointGrid> grid;
   std::string unit;

@@ -1,4 +1,4 @@
-// Rasters that are written as text of columns, a node on each line.
+// Rasters stored as columns of text, one node per line.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace scarp::gdal {
 
-/// The item of a raster's metadata with the number of nodes of its text.
+/// Metadata key of a raster: the number of nodes in its text.
 inline constexpr const char* kTextGridKey = "SCARP_NODES";
 
-/// The item with warnings about its columns, a sentence a line.
+/// Metadata key: warnings about its columns, one sentence per line.
 inline constexpr const char* kTextWarningsKey = "SCARP_WARNINGS";
 
-/// Empty for a file that is no text of columns, or whose points lie scattered; else the name of a GeoTIFF of the same
-/// nodes, made on the first call and kept for the process. GDAL's driver for XYZ accepts only rows in order, and its
-/// nodata value depends on the file. Fails with kOutput where the copy has no room.
+/// The name of a GeoTIFF of the text's nodes, created on the first call and kept for the process. Empty for a file that
+/// is not text in columns, or whose points are scattered. GDAL's XYZ driver accepts only sorted rows, and its nodata
+/// value depends on the file. Fails with kOutput if there is no space for the copy.
 Result<std::string> find_text_grid(const std::string& path);
 
 }  // namespace scarp::gdal

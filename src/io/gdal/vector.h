@@ -25,22 +25,22 @@ struct DestroyGeometry {
 using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
 /// Opens `path` for reading: a file, a URL, a /vsi… name. Fails with kInput in one sentence. `what` is wanted there
-/// ("points"), `expected` is what a file may be at all ("vector data that GDAL can read").
+/// ("points"); `expected` describes all supported files ("vector data that GDAL can read").
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected);
 
-/// The attribute `name` of a layer. kInput if there is none, with a list of those that exist.
+/// The index of the attribute `name` of a layer. kInput if it does not exist, with a list of those that do.
 Result<int> find_field(OGRLayerH layer, const std::string& path, const std::string& name);
 
-/// The names of all layers, with commas.
+/// The names of all layers, separated by commas.
 std::string layer_names(GDALDatasetH dataset);
 
-/// The CRS that the layer declares, with a vertical datum; null if it has none.
+/// The layer's declared CRS, with a vertical datum; null if none.
 Crs declared_layer_crs(OGRLayerH layer);
-/// The CRS of a layer; none where the file declares it undefined (GeoPackage's srs_id 0 and -1).
+/// The CRS of a layer; null if the file declares it undefined (GeoPackage's srs_id 0 and -1).
 Crs layer_crs(OGRLayerH layer);
 
-/// Calls add(feature) for the features of a layer, until it fails. Fails with kCancelled where `progress` asks for it,
-/// and with kInput where the layer cannot be read to its end.
+/// Calls add(feature) for the features of a layer, until it fails. Fails with kCancelled if `progress` requests it, and
+/// with kInput if the layer cannot be read completely.
 Result<void> each_feature(Session& session, OGRLayerH layer, const std::string& path, const ProgressCallback& progress,
                           const std::function<Result<void>(OGRFeatureH)>& add);
 

@@ -20,13 +20,13 @@ struct FreeOptions {
   void operator()(GDALWarpAppOptions* options) const { GDALWarpAppOptionsFree(options); }
 };
 
-/// A window of whole cells, of which k × k become one.
+/// A window of cells, aggregated by k × k.
 struct Part {
   int col = 0, row = 0, cols = 0, rows = 0;
   int across = 1, down = 1;
 };
 
-constexpr double kSameCell = 1e-6;  // numbers that are meant to be the border of a cell
+constexpr double kSameCell = 1e-6;  // tolerance for coordinates given as the border of a cell
 
 Result<void> cut(const std::array<double, 4>& extent, const std::array<double, 6>& gt, const std::string& path,
                  Part& part) {
@@ -72,7 +72,7 @@ Result<void> coarsen(double resolution, const std::array<double, 6>& gt, const s
                   path, part.cols, part.rows, std::abs(gt[1]), std::abs(gt[5]), resolution));
 }
 
-/// Bytes that are heights, and all other whole numbers, have means in between.
+/// The type of means: fractional for bytes that are heights and for all other integers.
 const char* mean_type(GDALDataType type, bool keeps_type) {
   if (keeps_type && type == GDT_Byte) return "Byte";
   const bool is_wide = type == GDT_Float64 || type == GDT_Int32 || type == GDT_UInt32;
@@ -87,7 +87,7 @@ Result<Dataset> finish_view(Session& session, GDALDatasetH whole, GDALDatasetH m
   return open_virtual(session, made, path);
 }
 
-/// A window of cells; as means of type `type` where that is not empty.
+/// A window of cells; with a non-empty `type`, means of that type.
 Result<Dataset> open_window(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
                             const std::string& type) {
   const int cols = part.cols / part.across, rows = part.rows / part.down;
@@ -108,15 +108,15 @@ Result<Dataset> open_window(Session& session, GDALDatasetH whole, const std::str
     GDALRasterBandH said = GDALGetRasterBand(whole, k), band = GDALGetRasterBand(made.get(), k);
     int has_nodata = 0;
     const double nodata = GDALGetRasterNoDataValue(said, &has_nodata);
-    // a nodata value that the type cannot hold was replaced by one that it can
+    // a nodata value that the type cannot represent was replaced by a possible one
     if (has_nodata != 0 && can_join(GDALGetRasterDataType(said))) GDALSetRasterNoDataValue(band, nodata);
   }
   return finish_view(session, whole, failed == 0 ? made.get() : nullptr, path);
 }
 
-/// Means of the cells that hold a height: resampling of a virtual raster averages nodata too, warping does not. Where
-/// no cell holds one the mean is NaN, since any other value may be a mean. Warping uses columns and rows as
-/// coordinates, which are exact and begin at the top.
+/// Means of the valid cells. Resampling of a virtual raster would average nodata too; warping does not. The mean of no
+/// cell is NaN, since any other value may be a mean. Warping uses columns and rows as coordinates, which are exact and
+/// begin at the top.
 Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
                            std::optional<double> nodata, const std::string& type) {
   const int cols = part.cols / part.across, rows = part.rows / part.down;
@@ -164,7 +164,7 @@ Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::stri
   return finish_view(session, whole, made.get(), path);
 }
 
-/// The value of a cell that has no part in a mean: the value that was asked for, or declared.
+/// The value of cells excluded from means: the requested or declared nodata.
 std::optional<double> find_nodata(GDALRasterBandH band, std::optional<double> asked) {
   int has_nodata = 0;
   const double declared = GDALGetRasterNoDataValue(band, &has_nodata);

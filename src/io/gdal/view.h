@@ -1,4 +1,4 @@
-// Several rasters, a part or a coarser version of one, as one raster.
+// A mosaic, a part, or a coarser version of rasters, as one raster.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,18 @@
 
 namespace scarp::gdal {
 
-/// The cells whose mean a sample is.
+/// The cells averaged into a sample.
 struct Means {
-  int cells = 1;                 ///< at most: nodata does not count
-  bool are_whole = false;        ///< the cells hold whole numbers of 16 bits
-  bool have_holes = false;       ///< cells may hold no height; a mean of none is NaN, whatever stood for it
-  std::optional<double> nodata;  ///< value that stood for nodata
+  int cells = 1;                 ///< at most, since nodata is skipped
+  bool are_whole = false;        ///< cells are 16-bit integers
+  bool have_holes = false;       ///< cells may be nodata; a mean of none is NaN, whatever its original value
+  std::optional<double> nodata;  ///< original nodata value
 };
 
-/// Opens what `view` makes of `path`, a virtual raster in memory where that is more than the one raster as it is. A
-/// folder is a mosaic of its rasters. `words` describes the result, like RasterInfo::view. `keeps_type`: bytes stay
-/// bytes where samples are averaged, as colours are. `nodata`: holds instead of the value that is declared; neither has
-/// a part in means. Fails as open_raster() and as ReadOptions::view describes.
+/// Opens `path` as `view` describes: a virtual raster in memory unless it is the unmodified raster. A folder is a
+/// mosaic of its rasters. `words` describes the result, like RasterInfo::view. `keeps_type`: bytes stay bytes where
+/// samples are averaged, as for colours. `nodata` replaces the declared value; neither contributes to means. Fails as
+/// open_raster() and as described at ReadOptions::view.
 Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
                           std::string& words, Means* means = nullptr, std::optional<double> nodata = std::nullopt);
 

@@ -11,7 +11,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// A list of words for GDAL's utilities.
+/// A list of arguments for GDAL's utilities.
 class Words {
  public:
   Words() = default;
@@ -28,7 +28,7 @@ class Words {
   char** words_ = nullptr;
 };
 
-/// The bands that are red, green and blue, and alpha where there is one.
+/// The red, green and blue bands, and alpha if present.
 Result<std::vector<int>> choose_bands(GDALDatasetH image, const std::string& path) {
   std::vector<int> colors;
   int alpha = 0;

@@ -1,4 +1,4 @@
-// Images of 8 bits, warped onto a place.
+// 8-bit images, warped to a target georeference.
 #pragma once
 
 #include <array>
@@ -16,18 +16,18 @@ namespace scarp::gdal {
 
 using Transform6 = std::array<double, 6>;
 
-/// Side of the square on which image and raster lie where none has a place; pixels of size 1 would mean no place to
-/// GDAL.
+/// Side of the square for image and raster if neither has a position; pixels of size 1 would mean no position to GDAL.
 constexpr double kNowhere = 0.7;
 
-/// The image with bands red, green, blue, and alpha where it has one, colours in place of a palette's numbers;
-/// `located`: else it lies on the square. Fails with kInput for what has not 8 bits.
+/// The image with bands red, green, blue, and alpha if present; palette indices are replaced by colours. `located`:
+/// false places it on the square. Fails with kInput unless it has 8 bits.
 Result<Dataset> arrange_bands(Session& session, GDALDatasetH image, const std::string& path, bool located);
 
-/// A picture in memory on a place: red, green, blue, alpha. `place`: of a picture of one pixel.
+/// An in-memory picture with a georeference: red, green, blue, alpha. `place`: transform of one pixel that covers the
+/// picture.
 Dataset make_target(const Transform6& place, const Crs& crs, int width, int height);
 
-/// The image onto the target, bilinearly. Fails with kInput, and with kCancelled.
+/// Warps the image to the target, bilinearly. Fails with kInput, and with kCancelled.
 Result<void> warp(Session& session, GDALDatasetH image, GDALDatasetH target, const std::string& path,
                   const ProgressCallback& progress);
 

@@ -18,7 +18,7 @@ WindowOrder::WindowOrder(GDALRasterBandH band, int cols, int rows) : cols_(cols)
   across_ = (static_cast<std::size_t>(cols) - 1) / static_cast<std::size_t>(size_.cols) + 1;
   most_at_once_ = count();
   if (size_.rows >= block_rows) return;
-  // A block that slices are read from has to stay.
+  // A block being read in slices must remain cached.
   const auto sample = static_cast<GIntBig>(GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band)));
   const GIntBig block = sample * block_cols * block_rows;
   most_at_once_ = static_cast<std::size_t>(std::max<GIntBig>(1, GDALGetCacheMax64() / std::max<GIntBig>(1, block)));

@@ -1,4 +1,4 @@
-// Going through a raster window by window.
+// Reading a raster window by window.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,18 +20,19 @@ struct Window {
 
 constexpr int kWindowSamples = 1 << 18;  // 2 MB of doubles
 
-/// How a raster is read: each of the file's blocks once. A window is whole blocks, as many as kWindowSamples hold, and
-/// full rows where blocks are full rows. Larger blocks are read in slices, one after the other: windows of one stack.
+/// The order of reading a raster, in which each of the file's blocks is read once. A window is whole blocks, as many as
+/// fit kWindowSamples, and full rows where blocks are full rows. Larger blocks are read in successive slices: windows
+/// of one stack.
 class WindowOrder {
  public:
   WindowOrder(GDALRasterBandH band, int cols, int rows);
 
-  /// Stacks, rows of them from the top.
+  /// Number of stacks; rows of stacks start at the top.
   std::size_t count() const { return across_ * ((static_cast<std::size_t>(rows_) - 1) / stack_rows() + 1); }
   Window stack(std::size_t i) const;
-  /// Rows of a window; more than the stack has if that is one window.
+  /// Rows of a window; more than the stack has if it is a single window.
   int rows_at_once() const { return size_.rows; }
-  /// Stacks that the cache of blocks holds at once.
+  /// Number of stacks that fit the block cache at once.
   std::size_t most_at_once() const { return most_at_once_; }
 
  private:
@@ -42,7 +43,7 @@ class WindowOrder {
   std::size_t across_ = 1, most_at_once_ = 1;
 };
 
-/// The first row of a window that could not be read, found by reading it again row by row; for a message.
+/// The first unreadable row of a window, found by reading it row by row; for an error message.
 template <class Read>
 std::string name_damaged_rows(Session& session, const Window& window, Read read) {
   for (int row = window.row; row < window.row + window.rows; ++row) {
@@ -52,8 +53,8 @@ std::string name_damaged_rows(Session& session, const Window& window, Read read)
   return fmt::format("rows {} to {}", window.row, window.row + window.rows - 1);
 }
 
-/// Calls read(window) -> bool once. Fails with kInput if it returns false or GDAL has reported a failure meanwhile (a
-/// driver may report one and still hand out zeros); `path` is named.
+/// Calls read(window) -> bool once. Fails with kInput, naming `path`, if it returns false or GDAL has reported a
+/// failure (a driver may report one and still return zeros).
 template <class Read>
 Result<void> read_or_explain(Session& session, const Window& window, const std::string& path, Read read) {
   session.clear();
@@ -77,7 +78,7 @@ struct Extent {
 class ReadProgress {
  public:
   ReadProgress(const Extent& raster, const ProgressCallback& progress) : raster_(raster), progress_(progress) {}
-  /// The samples of another window are read. Fails with kCancelled if the callback asks for it.
+  /// Counts the samples of another window as read. Fails with kCancelled if the callback requests it.
   Result<void> add(const Window& window);
 
  private:
@@ -98,8 +99,8 @@ Result<void> for_each_slice(const Window& stack, int rows_at_once, Use use) {
   return {};
 }
 
-/// Calls read(window) -> bool for all windows, stack by stack. Fails as read_or_explain(), with kCancelled if the
-/// callback asks for it.
+/// Calls read(window) -> bool for all windows, stack by stack. Fails as read_or_explain(), and with kCancelled if the
+/// callback requests it.
 template <class Read>
 Result<void> for_each_window(Session& session, GDALRasterBandH band, const Extent& raster,
                              const ProgressCallback& progress, Read read) {

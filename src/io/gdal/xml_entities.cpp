@@ -1,4 +1,4 @@
-// XML that would grow while it is read.
+// Detection of XML that would expand while it is read.
 #include <cpl_vsi.h>
 
 #include <array>
@@ -18,7 +18,7 @@ struct CloseFile {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
-/// The first characters, without the zeros of UTF-16 and UTF-32, and without what is not ASCII at the very start.
+/// The first characters, without the zeros of UTF-16 and UTF-32, and without non-ASCII bytes at the start.
 std::string read_start(const std::string& vsi, std::size_t most) {
   VSIStatBufL status{};
   if (VSIStatL(vsi.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return "";

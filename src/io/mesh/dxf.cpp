@@ -1,8 +1,8 @@
 // DXF of AutoCAD's release 12, which every CAD program reads: pairs of lines, a number that defines the next line. A
-// triangle is a 3DFACE, whose fourth corner is the third once more. Corners name places, which are welded on reading.
+// triangle is a 3DFACE, whose fourth corner repeats the third. Corners are positions only, and are welded on reading.
 //
-// Lines of group 999 are comments; the mesh's metadata stand there, in parts where it is longer than the 255 bytes that
-// a line of release 12 may have.
+// Lines of group 999 are comments. They hold the mesh's metadata, split at the 255 bytes that a line of release 12 may
+// have.
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ void append_comment(const std::string& text, std::string& lines) {
   }
 }
 
-/// The largest or smallest corner of the box around the mesh.
+/// The largest or smallest corner of the mesh's bounding box.
 std::array<double, 3> corner_of_box(const Mesh& mesh, bool largest) {
   std::array<double, 3> corner = mesh.vertex(mesh.triangles[0]);
   for (const std::uint32_t v : mesh.triangles) {
@@ -140,9 +140,9 @@ class DxfReader {
   TextCursor cursor_;
   bool begins_section_ = false, in_entities_ = false, in_face_ = false, has_ended_ = false;
   std::array<std::array<double, 3>, 4> corners_{};  // corners of the current face
-  unsigned seen_ = 0;                               // its coordinates, three bits a corner
+  unsigned seen_ = 0;                               // coordinates read so far, three bits a corner
   std::vector<double> places_;
-  std::string comment_;  // the one at hand, as far as it was read
+  std::string comment_;  // current comment, as read so far
   std::optional<std::array<double, 3>> origin_;
 };
 

@@ -1,4 +1,4 @@
-// Numbers in byte arrays, whatever the machine's byte order.
+// Numbers in byte arrays, independent of the machine's byte order.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ T load_number(const std::uint8_t* at, std::endian order = std::endian::little) {
   return value;
 }
 
-/// Writes `value` in little-endian order and moves `at` behind it.
+/// Writes `value` in little-endian order and advances `at`.
 template <class T>
 void store_number(std::uint8_t*& at, T value) {
   std::uint8_t bytes[sizeof(T)];

@@ -20,7 +20,7 @@ MeshReader decode_glb, decode_obj, decode_ply, decode_stl, decode_tin, decode_2d
 
 namespace {
 
-/// A writer that has no options.
+/// Wraps a writer without options.
 template <PlainWriter* encode>
 Result<std::vector<std::uint8_t>> without_options(const Mesh& mesh, const EncodeOptions& /*options*/) {
   return encode(mesh);
@@ -221,7 +221,7 @@ bool has_ending(const MeshFormatTraits& traits, std::string_view ending) {
   return false;
 }
 
-/// The ending of a path, or the whole of a word, in small letters; empty for a path without one.
+/// The extension of a path, or a whole word, in lower case; empty for a path without extension.
 std::string ending_of(const std::string& name_or_path) {
   const std::size_t start = name_or_path.find_last_of("./");
   if (start == std::string::npos) return lowered(name_or_path);

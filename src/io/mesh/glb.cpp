@@ -1,8 +1,8 @@
 // GLB: glTF 2.0 in one file. A JSON chunk describes one binary chunk of arrays by vertex and indices.
 //
-// glTF is y up and right-handed: (x, y, z) of ours becomes (x, z, −y). That is a rotation, so winding stays as it is.
-// Positions are float32 offsets, or numbers of a grid; the origin is the translation of the only node, where JSON keeps
-// every bit of its doubles. Each part of the mesh is a primitive with indices of 16 bits.
+// glTF has y up and is right-handed: (x, y, z) becomes (x, z, −y). That is a rotation, so the winding does not change.
+// Positions are float32 offsets, or numbers of a grid. The origin is the translation of the only node, since JSON keeps
+// every bit of a double. Each part of the mesh is a primitive with 16-bit indices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,8 +26,7 @@
 namespace scarp {
 namespace {
 
-/// A PNG of one white pixel: places in an image mean something only where there is a texture, and this one stands in
-/// for the user's.
+/// A PNG of one white pixel: texture coordinates require a texture, and this one is a placeholder for the user's.
 constexpr std::uint8_t kWhitePng[] = {
     0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
     0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00,
@@ -50,7 +49,7 @@ std::vector<MeshPart> list_parts(const Mesh& mesh, const GlbOptions& options) {
   return parts;
 }
 
-/// The JSON of a part, and its compressed arrays where they are.
+/// The JSON of a part, and its compressed arrays if any.
 struct PreparedPart {
   std::array<float, 3> low, high;                  ///< range of its positions
   std::vector<std::vector<std::uint8_t>> streams;  ///< streams of its attributes
@@ -184,7 +183,7 @@ class GlbWriter {
     }
   }
 
-  /// Returns the number of a texture that shows it.
+  /// Adds a texture of the image and returns its number.
   std::size_t add_texture(const std::uint8_t* bytes, std::size_t size, const std::string& mime_type) {
     const std::size_t view =
         glb_.add_view(size, 0, 0, [bytes, size](std::uint8_t* at) { std::memcpy(at, bytes, size); });
@@ -211,7 +210,7 @@ class GlbWriter {
       json_["textures"] = Json::array();
     }
     if (has_images()) {
-      // Beyond the border of the image there is nothing: its pixels end at the mesh's.
+      // Clamped: the image ends where the mesh ends.
       constexpr int kLinear = 9729, kLinearMipmaps = 9987, kClamp = 33071;
       json_["samplers"] =
           Json::array({{{"magFilter", kLinear}, {"minFilter", kLinearMipmaps}, {"wrapS", kClamp}, {"wrapT", kClamp}}});
@@ -225,7 +224,7 @@ class GlbWriter {
       const GlbImage& image = options_.normal_map;
       normal_texture = add_texture(image.bytes.data(), image.bytes.size(), image.mime_type);
     }
-    // Colours of vertices and textures are multiplied with the material's.
+    // Colours of vertices and textures are multiplied by the material's.
     const bool is_plain = mesh_.colors.empty() && !has_base;
     const Json base = is_plain ? Json{0.47, 0.42, 0.33, 1.0} : Json{1.0, 1.0, 1.0, 1.0};
     Json material = {

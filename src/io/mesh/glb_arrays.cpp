@@ -18,7 +18,7 @@ double load_component(const std::uint8_t* at, bool is_normalized, double largest
   return is_normalized ? std::max(number / largest, -1.0) : number;
 }
 
-/// The word's place among the choices; -1 if it is none of them, or no word.
+/// The index of the word among the choices; -1 for other values.
 int find_word(const Json* word, std::initializer_list<std::string_view> choices) {
   if (word == nullptr || !word->is_string()) return -1;
   const auto found = std::find(choices.begin(), choices.end(), word->get_ref<const std::string&>());

@@ -1,7 +1,7 @@
-// The arrays of a GLB file that may be hostile: accessors, views, and views that are compressed.
+// The arrays of a possibly hostile GLB file: accessors, views, and compressed views.
 //
-// Nothing in the file is believed: every index is checked against the array it names, every accessor against its view,
-// every view against the binary chunk or what a stream decodes to.
+// Everything in the file is verified: every index against the array it refers to, every accessor against its view,
+// every view against the binary chunk or a decoded stream.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct GlbItems {
   const std::uint8_t* data = nullptr;
   std::uint64_t count = 0, stride = 0;
   int component_type = 0;
-  bool is_normalized = false;  ///< integers stand for fractions of their largest value
+  bool is_normalized = false;  ///< integers represent fractions of their largest value
 
   std::uint64_t component_size() const;
   /// Component k of item i.
@@ -29,26 +29,26 @@ struct GlbItems {
   std::uint64_t index(std::uint64_t i) const;
 };
 
-/// 0 for a type that is none of glTF's.
+/// 0 for a type unknown to glTF.
 std::uint64_t size_of_component(std::uint64_t component_type);
 
 class GlbArrays {
  public:
-  std::string complaint;  ///< the first
+  std::string complaint;  ///< the first complaint
 
  protected:
   bool refuse(std::string why);
   static const Json* member(const Json& object, const char* key);
-  /// True if a primitive is declared to hang from a tile's edges, and is no part of the surface.
+  /// True for a primitive declared as a skirt below a tile's edges, not part of the surface.
   static bool is_skirt(const Json& primitive);
-  /// The non-negative integer `key` of `object`, or `missing` where there is none.
+  /// The non-negative integer `key` of `object`, or `missing` if absent.
   bool read_count(const Json& object, const char* key, std::uint64_t missing, std::uint64_t& value);
   /// Item `index` of the top-level array `array`.
   const Json* item(const char* array, std::uint64_t index);
-  /// The items of an accessor of the type, such as "VEC3".
+  /// The items of an accessor of a type such as "VEC3".
   bool find_items(std::uint64_t accessor, std::string_view type, GlbItems& items);
 
-  /// Bytes, and the stride that the view gives; 0 where it gives none.
+  /// Bytes, and the stride of the view; 0 if not given.
   struct View {
     std::span<const std::uint8_t> bytes;
     std::uint64_t stride = 0;

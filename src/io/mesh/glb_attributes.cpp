@@ -26,7 +26,7 @@ struct Interval {
 
 double as_float32(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// The coarsest of cell, cell / 2 … cell / 256 whose multiples all coordinates are; 0 if none is.
+/// The coarsest of cell, cell / 2 … cell / 256 of which all coordinates are multiples; 0 if none is.
 double find_step(const Mesh& mesh, std::size_t axis, double cell) {
   constexpr double kFinest = 256;
   constexpr double kRounding = 0x1p-20;  // rounding of a double, far from the origin
@@ -41,7 +41,7 @@ double find_step(const Mesh& mesh, std::size_t axis, double cell) {
   return unit * static_cast<double>(std::uint64_t{1} << std::countr_zero(bits));
 }
 
-/// The largest power of two whose multiples all heights are.
+/// The largest power of two of which all heights are multiples.
 double find_height_step(const Mesh& mesh) {
   int exponent = std::numeric_limits<int>::max();
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3) {
@@ -54,14 +54,14 @@ double find_height_step(const Mesh& mesh) {
   return exponent == std::numeric_limits<int>::max() ? 1 : std::ldexp(1.0, exponent);
 }
 
-/// Twelve significant bits: the others are 0, and costs nothing once compressed.
+/// Keeps twelve significant bits: the others are 0, which compresses to nothing.
 float round_significand(double value) {
   int power = 0;
   const double digits = std::frexp(value, &power);
   return static_cast<float>(std::ldexp(std::nearbyint(std::ldexp(digits, 12)), power - 12));
 }
 
-/// The direction that is (x, y, z) once the grid's scale has been undone, as normals are transformed.
+/// The direction that becomes `normal` when the grid's scale transforms it as a normal.
 std::array<double, 3> to_grid(const std::array<float, 3>& normal, const GlbGrid& grid) {
   std::array<double, 3> n{};
   double squares = 0;
@@ -87,7 +87,7 @@ GlbAttribute floats(std::string name, std::size_t width, std::function<float(std
           }};
 }
 
-/// Fractions of 65535, padded to whole words.
+/// Fractions of 65535, padded to multiples of 4 bytes.
 GlbAttribute shares(std::string name, std::size_t width, std::function<double(std::size_t, std::size_t)> value) {
   const std::size_t padded = (width + 1) / 2 * 2;
   return {std::move(name),

@@ -1,4 +1,4 @@
-// Arrays of a GLB file by vertex: float32, or smaller numbers where it is compressed.
+// Arrays of a GLB file by vertex: float32, or smaller numbers if compressed.
 #pragma once
 
 #include <array>
@@ -24,18 +24,18 @@ struct GlbAttribute {
   std::function<void(std::size_t vertex, std::uint8_t*& at)> store;  ///< writes `stride` bytes
 };
 
-/// How numbers in the file become positions: origin + shift + scale · number, in glTF's axes.
+/// Conversion of numbers in the file to positions: origin + shift + scale · number, in glTF's axes.
 struct GlbGrid {
   std::array<double, 3> scale{1, 1, 1}, shift{0, 0, 0};
-  bool is_short = false;  ///< numbers of 16 bits, else float32
+  bool is_short = false;  ///< 16-bit numbers, else float32
 
   bool is_plain() const { return scale == std::array{1.0, 1.0, 1.0} && shift == std::array{0.0, 0.0, 0.0}; }
   std::array<double, 3> number(const double* offsets) const;
 };
 
-/// The coarsest grid of the cell that holds every position. A plain one where there is none.
+/// The coarsest grid, for cells of this size, that represents every position exactly; else a plain one.
 GlbGrid find_grid(const Mesh& mesh, const std::array<double, 2>& cell);
-/// True if numbers of the grid hold x and y exactly.
+/// True if the grid represents x and y exactly.
 bool holds_positions(const GlbGrid& grid, const Mesh& mesh);
 
 /// (x, y, z) → (x, z, −y); 0 − y rather than −y, so that 0 stays 0.
@@ -44,12 +44,12 @@ std::array<T, 3> to_y_up(T x, T y, T z) {
   return {x, z, T{0} - y};
 }
 
-/// True if the channels are the colours once more: three as red, green and blue, or one as grey.
+/// True if the channels repeat the colours: three as red, green and blue, or one as grey.
 bool colors_say_channels(const Mesh& mesh);
-/// The value for a channel without a value, as declared in the primitive's extras: JSON and glTF have no NaN.
+/// Represents a missing channel value, as declared in the primitive's extras: JSON and glTF have no NaN.
 inline constexpr float kNoChannelValue = std::numeric_limits<float>::lowest();
 
-/// POSITION first. The mesh, the grid and the options stay alive.
+/// POSITION first. The mesh, the grid and the options must outlive it.
 std::vector<GlbAttribute> list_glb_attributes(const Mesh& mesh, const GlbGrid& grid, const GlbOptions& options);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// A GLB file in the making: accessors, views, and the pieces of its binary chunk, written once all sizes are known.
+// Assembles a GLB file: accessors, views, and the pieces of its binary chunk, written when all sizes are known.
 #pragma once
 
 #include <cstddef>
@@ -18,18 +18,18 @@ class GlbBuilder {
  public:
   using Write = std::function<void(std::uint8_t* at)>;
 
-  /// All but accessors, views and buffers.
+  /// Everything except accessors, views and buffers.
   Json json = Json::object();
 
   std::size_t accessor_count() const { return accessors_.size(); }
   Json& add_accessor(std::size_t view, int component, std::uint64_t count, const char* type);
-  /// A view of `size` bytes that stand in the binary chunk as they are. Returns its number. A target or a stride of 0
-  /// is not written.
+  /// Adds a view of `size` uncompressed bytes in the binary chunk. Returns its number. A target or a stride of 0 is not
+  /// written.
   std::size_t add_view(std::uint64_t size, int target, std::size_t stride, Write write);
-  /// A view of compressed items: readers that undo it put them into the second buffer, which no file holds.
+  /// Adds a view of compressed items. Readers decompress them into the second buffer, which is not in the file.
   std::size_t add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count, std::size_t stride,
                          const char* mode, const char* filter = nullptr);
-  /// The file. Fails with kOutput for 4 GiB and more. The sources of the pieces must still be alive.
+  /// Builds the file. Fails with kOutput from 4 GiB on. The sources of the pieces must still exist.
   Result<std::vector<std::uint8_t>> assemble(int threads);
 
  private:
@@ -37,7 +37,7 @@ class GlbBuilder {
     std::uint64_t offset;
     Write write;
   };
-  /// Returns its place in the binary chunk, a multiple of 4.
+  /// Returns its offset in the binary chunk, a multiple of 4.
   std::uint64_t add_piece(std::uint64_t size, Write write);
 
   std::vector<Piece> pieces_;

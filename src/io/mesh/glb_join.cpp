@@ -1,4 +1,4 @@
-// Several GLB files as one. Each keeps its arrays, accessors, images and materials, which only get other numbers.
+// Several GLB files as one. Arrays, accessors, images and materials of each are kept and renumbered.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 
-/// A file as encode_mesh() made it.
+/// A file written by encode_mesh().
 struct Part {
   Json json;
   std::span<const std::uint8_t> binary;
@@ -38,7 +38,7 @@ void shift(Json& object, const char* key, std::size_t by) {
   if (object.contains(key)) object[key] = object[key].get<std::size_t>() + by;
 }
 
-/// In materials, and their extensions, "index" names a texture.
+/// In materials and their extensions, "index" refers to a texture.
 void shift_textures(Json& value, std::size_t by) {
   if (value.is_object() && value.contains("index")) shift(value, "index", by);
   if (!value.is_structured()) return;

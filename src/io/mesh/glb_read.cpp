@@ -1,7 +1,7 @@
-// Reading GLB: the part of glTF 2.0 that can carry a terrain, from any writer.
+// Reading GLB: the part of glTF 2.0 that can represent a terrain, from any writer.
 //
-// Nothing in the file is believed (glb_arrays.h): the node tree is checked against loops. Features that we cannot
-// honour (Draco, sparse accessors, lines, external buffers) are refused by name rather than read wrongly.
+// The file may be hostile (glb_arrays.h): the node tree is checked for loops. Unsupported features (Draco, sparse
+// accessors, lines, external buffers) are rejected by name rather than misread.
 
 #include <fmt/format.h>
 
@@ -94,8 +94,7 @@ class GlbReader : public GlbArrays {
     return true;
   }
 
-  /// Visits the nodes of the default scene, the first scene, or all nodes; then, if there are no nodes, the meshes as
-  /// they are.
+  /// Visits the nodes of the default scene, the first scene, or all nodes; without nodes, all meshes.
   bool read_scene() {
     const Json* nodes = member(json_, "nodes");
     if (!nodes || !nodes->is_array() || nodes->empty()) {
@@ -199,8 +198,7 @@ class GlbReader : public GlbArrays {
     const Json* found = item("meshes", index);
     const Json* primitives = found ? member(*found, "primitives") : nullptr;
     if (!primitives || !primitives->is_array()) return refuse(fmt::format("its mesh {} is malformed", index));
-    std::map<std::uint64_t, std::uint32_t> first_vertices;  // first vertex of each position accessor that is already
-                                                            // here
+    std::map<std::uint64_t, std::uint32_t> first_vertices;  // first vertex of each position accessor already read
     for (const Json& primitive : *primitives) {
       if (is_skirt(primitive)) continue;
       std::uint64_t mode = 0;
@@ -236,7 +234,7 @@ class GlbReader : public GlbArrays {
   }
 
   bool append_positions(const GlbItems& items, const Transform& transform) {
-    // Instances may multiply the contents of a file; a terrain has none, a bomb has millions.
+    // Instances may multiply the contents of a file; terrains use none, malicious files millions.
     const std::uint64_t most = std::max<std::uint64_t>(std::uint64_t{1} << 24, 16 * bytes_.size() / 12);
     if (items.count > most || mesh.vertex_count() + items.count > most)
       return refuse("it repeats its meshes too often");
@@ -275,7 +273,7 @@ class GlbReader : public GlbArrays {
     return true;
   }
 
-  /// The items of an attribute of numbers: float32, or integers that stand for 0 … 1.
+  /// The items of a numeric attribute: float32, or integers that represent 0 … 1.
   bool find_attribute(const Json& attributes, const char* name, std::string_view type, std::uint64_t count,
                       GlbItems& items) {
     std::uint64_t accessor = 0;
@@ -284,7 +282,7 @@ class GlbReader : public GlbArrays {
     return refuse(fmt::format("its accessor {} of {} is malformed", accessor, name));
   }
 
-  /// Integers stand for 0 … 1 in colours and texture coordinates, whether the file declares it or not.
+  /// Integers represent 0 … 1 in colours and texture coordinates, whether or not the file declares it.
   static double load_component(GlbItems items, std::uint64_t v, std::uint64_t k) {
     items.is_normalized = true;
     return items.number(v, k);
@@ -321,7 +319,7 @@ class GlbReader : public GlbArrays {
     return true;
   }
 
-  /// Our own "_CHANNEL_n"; where extras announce channels that are not there, they are the colours.
+  /// Scarp's own "_CHANNEL_n". If extras announce channels that are absent, the colours are used.
   bool append_channels(const Json& primitive, const Json& attributes, std::uint64_t count) {
     std::vector<GlbItems> channels;
     while (channels.size() < kMaxChannels) {
@@ -329,7 +327,7 @@ class GlbReader : public GlbArrays {
       if (!member(attributes, name.c_str())) break;
       channels.emplace_back();
       if (!find_attribute(attributes, name.c_str(), "SCALAR", count, channels.back())) return false;
-      if (channels.back().component_type != kFloatComponent) return true;  // somebody else's
+      if (channels.back().component_type != kFloatComponent) return true;  // another program's
     }
     const Json* extras = member(primitive, "extras");
     const Json* announced = extras ? member(*extras, "channels") : nullptr;
@@ -340,7 +338,7 @@ class GlbReader : public GlbArrays {
     if (width == 0) return true;
     if (mesh.channel_count == 0 && mesh.channels.empty()) mesh.channel_count = static_cast<int>(width);
     if (static_cast<std::size_t>(mesh.channel_count) != width) {
-      mesh.channel_count = -1;  // parts that differ
+      mesh.channel_count = -1;  // parts with different channels
       return true;
     }
     if (mesh.channels.size() + width * count > most_numbers()) return refuse("it repeats its meshes too often");

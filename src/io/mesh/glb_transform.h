@@ -1,4 +1,4 @@
-// How a glTF node moves what hangs on it.
+// The transform of a glTF node.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct Transform {
     for (std::size_t r = 0; r < 3; ++r) q[r] = linear[0][r] * p[0] + linear[1][r] * p[1] + linear[2][r] * p[2];
     return q;
   }
-  /// A unit normal: by the inverse transpose, whose columns are cross products of the columns.
+  /// Transforms a unit normal by the inverse transpose, whose columns are cross products of the columns.
   std::array<double, 3> apply_normal(const double n[3]) const {
     std::array<double, 3> q{};
     for (std::size_t c = 0; c < 3; ++c) {

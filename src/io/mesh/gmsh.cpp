@@ -1,6 +1,6 @@
-// MSH 4.1 of Gmsh, as text: nodes and elements in blocks, each on an entity. The triangles of a material are a surface,
-// a node string is a curve, and both belong to a physical group, by whose name solvers find them. Nodes keep the order
-// of the mesh's vertices, and elements have the numbers of its triangles. Metadata stand in a section $Comments.
+// MSH 4.1 of Gmsh, as text: nodes and elements in blocks, each on an entity. The triangles of a material are a surface
+// and a node string is a curve. Both belong to a physical group, whose name solvers use. Nodes keep the order of the
+// mesh's vertices, and elements have the numbers of its triangles. A section $Comments holds metadata.
 //
 // The reader also accepts version 2, which other programs write: sections with one list each.
 
@@ -29,7 +29,7 @@ namespace {
 
 enum GmshElement : std::int64_t { kGmshLine = 1, kGmshTriangle = 2, kGmshQuadrangle = 3, kGmshPoint = 15 };
 
-/// Nodes of an element with straight edges and no inside; 0 for all others.
+/// Nodes of an element with straight edges and no inner nodes; 0 for all others.
 int corners_of_gmsh(std::int64_t type) {
   switch (type) {
     case kGmshPoint:
@@ -54,13 +54,13 @@ struct PhysicalGroup {
 /// A surface with triangles, or a curve with the nodes of a line.
 struct GmshEntity {
   int dimension;
-  std::uint32_t tag;    ///< from 1, of its dimension
+  std::uint32_t tag;    ///< from 1, per dimension
   std::uint32_t group;  ///< tag of its physical group
   std::vector<std::uint32_t> parts;
   std::size_t element_count() const { return dimension == 2 ? parts.size() : parts.size() - 1; }
 };
 
-/// The text between the quotes of a name. Gmsh cuts long ones.
+/// The text in quotes of a name. Gmsh truncates long ones.
 std::string gmsh_name(std::string name) {
   constexpr std::size_t kMost = 120;
   for (char& c : name) {
@@ -119,7 +119,7 @@ class GmshWriter {
     }
   }
 
-  /// The parts of one line are of one group.
+  /// The parts of one line share a group.
   void add_curves(const std::vector<NodeString>& strings) {
     std::map<std::string, std::uint32_t> groups;
     std::uint32_t tag = 0;
@@ -135,7 +135,8 @@ class GmshWriter {
     std::vector<std::uint8_t> comments;
     TextComments::write(mesh_, comments);
     put("$Comments\n");
-    for (const std::uint8_t byte : comments) {  // Gmsh reads 255 bytes of a line at a time, and a section at each '$'
+    for (const std::uint8_t byte : comments) {  // Gmsh reads lines in chunks of 255 bytes, and starts a section at each
+                                                // '$'
       if (byte == '$') {
         put("%24");
       } else {
@@ -145,7 +146,7 @@ class GmshWriter {
     put("$EndComments\n");
   }
 
-  /// The six numbers of an entity's box.
+  /// The six numbers of an entity's bounding box.
   std::string box_of(const GmshEntity& entity) const {
     std::array<double, 3> low, high;
     low.fill(std::numeric_limits<double>::infinity());
@@ -176,7 +177,7 @@ class GmshWriter {
     put("$EndEntities\n");
   }
 
-  /// All on the first surface, so that they keep their order.
+  /// All on the first surface, to keep their order.
   void write_nodes() {
     const std::size_t count = mesh_.vertex_count();
     put("$Nodes\n1 {0} 1 {0}\n2 1 0 {0}\n", count);
@@ -192,7 +193,7 @@ class GmshWriter {
     std::size_t count = 0;
     for (const GmshEntity& entity : entities_) count += entity.element_count();
     put("$Elements\n{} {} 1 {}\n", entities_.size(), count, count);
-    std::size_t number = mesh_.triangle_count();  // lines are numbered behind the triangles
+    std::size_t number = mesh_.triangle_count();  // lines are numbered after the triangles
     for (const GmshEntity& entity : entities_) {
       const bool is_curve = entity.dimension == 1;
       put("{} {} {} {}\n", entity.dimension, entity.tag, static_cast<int>(is_curve ? kGmshLine : kGmshTriangle),
@@ -215,7 +216,7 @@ class GmshWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Its functions return the complaint, empty if there is none.
+/// Functions return a complaint, or an empty string.
 class GmshReader {
  public:
   explicit GmshReader(std::span<const std::uint8_t> bytes) : cursor_(bytes) {}
@@ -267,7 +268,7 @@ class GmshReader {
     return cursor_.word_anywhere() == "$End" + name ? "" : fmt::format("$End{} is missing", name);
   }
 
-  /// A section that holds nothing of the mesh, or its metadata.
+  /// Skips a section without mesh data, or reads its metadata.
   std::string skip_section(const std::string& name) {
     while (!cursor_.at_end()) {
       std::string_view line = cursor_.rest_of_line();
@@ -332,7 +333,7 @@ class GmshReader {
     return read == announced ? "" : fmt::format("it announces {} nodes and has {}", announced, read);
   }
 
-  /// The nodes of an element; triangles and quadrangles are kept.
+  /// Reads the nodes of an element; stores triangles and quadrangles.
   std::string read_corners(std::int64_t type) {
     std::int64_t ids[4] = {};
     const int size = corners_of_gmsh(type);
@@ -377,7 +378,7 @@ class GmshReader {
 
   TextCursor cursor_;
   IdTable nodes_;
-  std::vector<std::int64_t> corners_;  // numbers of nodes, three a triangle
+  std::vector<std::int64_t> corners_;  // node numbers, three per triangle
   TextComments comments_;
   int version_ = 0;
   bool has_nodes_ = false, has_elements_ = false;

@@ -1,4 +1,4 @@
-// Compares the grids of two rasters.
+// Comparison of the grids of two rasters.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Corners this near to each other, in cells, are one: less than any resampling could show.
+/// Corners closer than this, in cells, count as equal: below any effect of resampling.
 constexpr double kNearCorner = 0.01;
 
 struct Corner {

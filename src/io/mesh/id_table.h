@@ -1,4 +1,4 @@
-// Vertices that a file gives numbers of its own.
+// Vertices numbered by the file.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace scarp {
 
-/// Maps the numbers of vertices to their indices. Numbers that rise by one, which is what programs write, cost 8 bytes
-/// each and are found at once; any others are sorted by finish().
+/// Maps the numbers of vertices to their indices. Consecutive numbers, as programs usually write them, cost 8 bytes
+/// each and are found directly; others are sorted by finish().
 class IdTable {
  public:
-  /// The next vertex, counting from `first`, has this number.
+  /// Adds the number of the next vertex, counting from `first`.
   void add(std::int64_t number) { numbers_.push_back(number); }
 
-  /// To be called between the last add() and the first find(). A number that two vertices have, if there is one.
+  /// Call it between the last add() and the first find(). Returns a number used by two vertices, if any.
   std::optional<std::int64_t> finish(std::uint32_t first) {
     first_ = first;
     is_row_ = true;
@@ -33,7 +33,7 @@ class IdTable {
     return {};
   }
 
-  /// The vertex that has the number; nothing if none has.
+  /// The vertex with the number; nothing if none.
   std::optional<std::uint32_t> find(std::int64_t number) const {
     if (numbers_.empty()) return {};
     if (is_row_) {

@@ -1,9 +1,8 @@
 // LandXML 1.2, the exchange format of civil engineering: one TIN surface. Points are northing, easting, elevation, and
-// have numbers; faces name three of them. The mesh's metadata stand in a Feature, LandXML's own place for it.
+// are numbered; faces refer to three of them. A Feature, LandXML's extension element, holds the mesh's metadata.
 //
-// A LandXML file has one unit for all lengths, heights included, and knows no degrees: what does not fit is refused
-// rather than written as something else. The date that the schema demands would make equal meshes differ, and is always
-// the same.
+// A LandXML file has one unit for all lengths, including heights, and no degrees: incompatible meshes are rejected
+// rather than converted. The date required by the schema is constant, so that equal meshes give equal files.
 
 #include <fmt/format.h>
 
@@ -25,7 +24,7 @@ namespace {
 constexpr std::string_view kOriginLabel = "scarp.origin", kFeature = "scarp";
 
 struct LengthUnit {
-  const char* name;  // LandXML's
+  const char* name;  // in LandXML
   double metres;
   bool is_metric;
 };
@@ -48,7 +47,7 @@ std::string value_of(const Mesh& mesh, const char* key) {
 
 tl::unexpected<Error> refuse_to_write(std::string why) { return fail(ErrorKind::kOutput, std::move(why)); }
 
-/// The unit of all lengths, and the CRS if there is one.
+/// The unit of all lengths, and the CRS if any.
 struct Reference {
   const LengthUnit* unit = &kUnits[0];
   std::optional<CrsDescription> crs;
@@ -105,7 +104,7 @@ std::string property(std::string_view label, const std::string& value) {
   return fmt::format("        <Property label=\"{}\" value=\"{}\"/>\n", with_entities(label), with_entities(value));
 }
 
-/// Reads surfaces one by one: each has its own numbers of points.
+/// Reads surfaces separately: each numbers its own points.
 class LandXmlReader {
  public:
   explicit LandXmlReader(std::span<const std::uint8_t> bytes) : xml_(bytes) {}
@@ -240,7 +239,7 @@ class LandXmlReader {
 
   XmlReader xml_;
   IdTable points_;                     // points of the current surface
-  std::vector<std::int64_t> corners_;  // numbers of points, three a triangle
+  std::vector<std::int64_t> corners_;  // point numbers, three per triangle
   std::size_t first_point_ = 0;
   std::string number_, content_;  // number and content of the current point or face
   bool in_surface_ = false, in_points_ = false, in_faces_ = false, in_point_ = false, in_face_ = false;

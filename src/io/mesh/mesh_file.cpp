@@ -50,8 +50,7 @@ std::string unescape(std::string_view line) {
   return text;
 }
 
-/// The up axis of a mesh as its reader returned it. Scarp's own files declare what is y up, and do not declare what is
-/// z up.
+/// The up axis of a mesh as returned by its reader. Scarp's own files declare y up, but not z up.
 char find_up(const MeshFormatTraits& traits, std::span<const std::uint8_t> bytes, const Mesh& mesh) {
   if (!traits.has_choice_of_up) return traits.up;
   if (mesh.metadata.contains("up")) return is_y_up(mesh) ? 'y' : 'z';
@@ -60,7 +59,7 @@ char find_up(const MeshFormatTraits& traits, std::span<const std::uint8_t> bytes
   return is_own || (traits.format == MeshFormat::kStl && begins_with(bytes, "scarp ")) ? 'z' : '\0';
 }
 
-/// "GLB, OBJ or PLY" of the formats that are read, or ".glb, .obj or .ply" of all.
+/// "GLB, OBJ or PLY" for the formats that can be read, or ".glb, .obj or .ply" for all.
 std::string list_formats(bool by_ending) {
   std::vector<std::string> words;
   for (const MeshFormatTraits* traits : mesh_formats()) {
@@ -71,7 +70,7 @@ std::string list_formats(bool by_ending) {
   return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
 }
 
-/// Why the format cannot hold this many vertices and triangles; empty if it can.
+/// The reason why the format cannot store this many vertices and triangles; empty if it can.
 std::string find_beyond_int32(const Mesh& mesh, const MeshFormatTraits& traits) {
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
   const std::size_t count = std::max(mesh.vertex_count(), mesh.triangle_count());
@@ -80,7 +79,7 @@ std::string find_beyond_int32(const Mesh& mesh, const MeshFormatTraits& traits) 
                      kMost, count);
 }
 
-/// The fault of the zones, which may be null; empty if there is none.
+/// The fault of the zones, which may be null; empty if none.
 std::string find_unwritable_zones(const Mesh& mesh, const MeshZones* zones, const MeshFormatTraits& traits) {
   if (zones == nullptr) return {};
   if (!traits.holds_zones) return fmt::format("{} has no place for materials and node strings", traits.title);
@@ -112,7 +111,7 @@ std::string find_unwritable(const Mesh& mesh, bool as_float) {
     return fmt::format("the mesh has {} channels, and a mesh file holds at most {}", mesh.channel_count, kMaxChannels);
   }
   if (count > std::numeric_limits<std::uint32_t>::max()) return "the mesh has more vertices than 32 bits can number";
-  // Without branches first, which compilers make vectors of.
+  // Branchless first pass, for vectorisation.
   std::uint32_t largest = 0;
   for (const std::uint32_t v : mesh.triangles) largest = std::max(largest, v);
   for (std::size_t i = 0; largest >= count && i < mesh.triangles.size(); ++i) {

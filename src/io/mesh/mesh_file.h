@@ -14,8 +14,8 @@
 
 namespace scarp {
 
-/// The sentence that refuses a mesh no format can hold: no triangles, arrays whose sizes disagree, an index out of
-/// range, a position that is not finite (or, with `as_float`, beyond float32). Empty if all is well.
+/// The error message for a mesh that no format can store: no triangles, arrays whose sizes disagree, an index out of
+/// range, a position that is not finite (or, with `as_float`, beyond float32). Empty if valid.
 std::string find_unwritable(const Mesh& mesh, bool as_float);
 
 /// Metadata as one line of text: "KEY: VALUE". Bytes below 32, '%', '\' and, in keys, ':' become %XX, so that no reader
@@ -24,39 +24,38 @@ std::string metadata_line(const std::string& key, const std::string& value);
 /// The reverse of metadata_line(). Returns false if there is no separator.
 bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata);
 
-/// The same in printable ASCII, for formats that declare an encoding, whatever bytes the name of a file has.
+/// The same in printable ASCII, for formats that declare an encoding, whatever bytes a file name has.
 std::string ascii_metadata_line(const std::string& key, const std::string& value);
-/// Key or value alone: all bytes but printable ASCII, '%' and '\\' become %XX; and the reverse.
+/// Key or value alone: all bytes except printable ASCII, '%' and '\\' become %XX; and the inverse.
 std::string ascii_text(const std::string& text);
 std::string undo_ascii_text(std::string_view text);
 
-/// "x y z", each the shortest text that reads back to the same double.
+/// "x y z", each the shortest text that parses to the same double.
 std::string origin_text(const std::array<double, 3>& origin);
 /// Three finite numbers, or nothing.
 std::optional<std::array<double, 3>> parse_origin(std::string_view text);
 
-/// "x east, y north, z up", or what they are in a mesh that is y up.
+/// "x east, y north, z up", or the equivalent for a mesh with y up.
 const char* axes_text(const Mesh& mesh);
 
-/// Expresses absolute positions relative to `origin`, if then vertex(v) is exactly what it was for every v; else does
-/// not change them.
+/// Expresses absolute positions relative to `origin`, if this keeps vertex(v) exact for every v; otherwise changes
+/// nothing.
 void set_origin(Mesh& mesh, const std::array<double, 3>& origin);
 
-/// Appends the polygon as a fan from its first corner; empty, or what is wrong with it: thousands of triangles around
-/// one corner cost the judge the square of their number.
+/// Appends the polygon as a fan from its first corner. Returns an error message, or an empty string. Thousands of
+/// triangles around one corner are rejected, since the judge needs the square of that time.
 std::string append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles);
 
-/// Readers collect what vertices carry as they find it: drops normals, uvs, colours and channels that not every vertex
-/// has.
+/// Drops normals, uvs, colours and channels that not every vertex has. Readers collect these attributes as they occur.
 void drop_partial_attributes(Mesh& mesh);
 
-/// The last check of every reader: at least one triangle, all indices in range, all positions finite.
-/// Returns the sentence, empty if all is well.
+/// The final check of every reader: at least one triangle, all indices in range, all positions finite.
+/// Returns an error message, empty if valid.
 std::string find_unreadable(const Mesh& mesh);
 
-/// True if the bytes have the length that a binary STL file's own count asks for.
+/// True if the length matches the triangle count of a binary STL file.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
-/// True if the text begins as a DXF file does: with a comment or a section.
+/// True for text that begins like a DXF file: with a comment or a section.
 bool is_dxf(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

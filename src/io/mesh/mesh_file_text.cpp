@@ -46,7 +46,7 @@ bool parse_plain(std::string_view word, double& value) {
 bool parse_number(std::string_view word, double& value) {
   if (word.empty()) return false;
   if (parse_plain(word, value)) return true;
-  // strtod alone would read "1.5" as 1 where the program has set a locale with a decimal comma.
+  // Plain strtod would parse "1.5" as 1 if the program has set a locale with a decimal comma.
   static const locale_t c_locale = newlocale(LC_ALL_MASK, "C", static_cast<locale_t>(nullptr));
   const std::string text(word);
   char* end = nullptr;

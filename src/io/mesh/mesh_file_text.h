@@ -1,4 +1,4 @@
-// Words and numbers in text that may be anything.
+// Words and numbers in arbitrary text.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace scarp {
 
-/// The whole word as a number, correctly rounded and independent of the locale ("nan" and "inf" are numbers too).
-/// Returns false if the word is none.
+/// Parses the whole word as a number, correctly rounded and independent of the locale, including "nan" and "inf".
+/// Returns false if it is no number.
 bool parse_number(std::string_view word, double& value);
-/// The whole word as a decimal integer. Returns false if it is none or beyond 64 bits.
+/// Parses the whole word as a decimal integer. Returns false if it is none or beyond 64 bits.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// True if the bytes begin with those of the text.
 bool begins_with(std::span<const std::uint8_t> bytes, std::string_view text);
-/// Text in quotes, fit for a sentence: characters that cannot be printed become '?', and long text is cut.
+/// Text in quotes for an error message: unprintable characters become '?', and long text is truncated.
 std::string in_quotes(std::string_view text);
-/// The text with its ASCII letters small, whatever the locale.
+/// The text with its ASCII letters in lower case, independent of the locale.
 std::string lowered(std::string_view text);
 
 /// Walks over text word by word, line by line. Lines end with LF, CR or both.

@@ -15,15 +15,15 @@ namespace scarp {
 namespace {
 
 constexpr std::size_t kMostVertices = 65535;
-/// Triangles that a thread works on at a time where several halve one share.
+/// Triangles per task when several threads halve one share.
 constexpr std::size_t kTogether = 1 << 16;
 
-/// Places of vertices in the part that is being made: a hash table, open addressing.
+/// Indices of vertices in the current part: an open-addressing hash table.
 class Places {
  public:
   Places() { slots_.resize(kSlots, {kFree, 0}); }
 
-  /// The index of the vertex, which is the next one if it is new; it is then added to `vertices`.
+  /// The index of the vertex. A new one is appended to `vertices`.
   std::uint32_t find(std::uint32_t vertex, std::vector<std::uint32_t>& vertices) {
     std::size_t i = vertex * 0x9e3779b1u >> kShift;
     while (slots_[i].vertex != vertex && slots_[i].vertex != kFree) i = (i + 1) & (kSlots - 1);
@@ -35,7 +35,7 @@ class Places {
   }
 
  private:
-  static constexpr std::size_t kSlots = std::size_t{1} << 17;  // nearly twice as many as there can be vertices
+  static constexpr std::size_t kSlots = std::size_t{1} << 17;  // nearly twice the largest number of vertices
   static constexpr unsigned kShift = 32 - std::countr_zero(kSlots);
   static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
   struct Slot {
@@ -44,7 +44,7 @@ class Places {
   std::vector<Slot> slots_;
 };
 
-/// Triangles that stay together until they become a part, or two halves.
+/// Triangles that become a part, or are halved.
 struct Share {
   std::size_t first = 0, count = 0;
   std::optional<MeshPart> part = {};
@@ -56,7 +56,7 @@ class Splitter {
     std::iota(ids_.begin(), ids_.end(), 0);
   }
 
-  /// Halves all shares that are too large, again and again.
+  /// Halves shares until none is too large.
   std::vector<MeshPart> split() {
     std::vector<Share> shares{{0, ids_.size()}};
     const auto is_made = [](const Share& share) { return share.part.has_value(); };
@@ -145,7 +145,7 @@ class Splitter {
     return whole;
   }
 
-  /// Moves those on one side of the median to the front, in their order. Returns their number.
+  /// Moves those on one side of the median to the front, in order. Returns their number.
   std::size_t halve(const Share& share, int threads) {
     const std::span<std::uint32_t> triangles = triangles_of(share);
     const std::array<Extent, 2> extents = extents_of(triangles, threads);
@@ -164,7 +164,7 @@ class Splitter {
     });
     std::partial_sum(fronts.begin(), fronts.end(), fronts.begin());
     const std::size_t middle = fronts.back();
-    if (middle == 0) return count / 2;  // all centres lie behind each other
+    if (middle == 0) return count / 2;  // no centre is below the median
     std::vector<std::uint32_t> sides(count);
     parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
       std::size_t front = fronts[first / kTogether], back = middle + first - front;
@@ -174,7 +174,7 @@ class Splitter {
     return middle;
   }
 
-  /// The one that half of the centres come before. Buckets keep their order, so only those of one are sorted.
+  /// The median. Buckets are ordered, so only one is searched.
   static double median_of(std::span<const double> centres, const Extent& extent, int threads) {
     constexpr std::size_t kBuckets = 1024;
     const double scale = extent.high > extent.low ? (kBuckets - 1) / (extent.high - extent.low) : 0;

@@ -1,4 +1,4 @@
-// A mesh in parts that indices of 16 bits can number.
+// A mesh in parts that 16-bit indices can number.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace scarp {
 
-/// Some of the triangles, with the vertices they use.
+/// Some of the triangles, with their vertices.
 struct MeshPart {
   std::vector<std::uint32_t> vertices;  ///< ids in the mesh
-  std::vector<std::uint16_t> corners;   ///< places in `vertices`
+  std::vector<std::uint16_t> corners;   ///< indices into `vertices`
 };
 
-/// Every triangle is in one part, in the order that it has in the mesh; a vertex on the line between parts is in each
-/// of them. A mesh of few vertices is one part, as it stands. No part has more than 65,535 vertices, since a corner of
-/// 65,535 would restart a primitive. Parts are halves of halves, along x or y. Cost: O(triangles · log parts).
+/// Every triangle is in one part, in the order of the mesh; a vertex between parts is in each of them. A mesh of few
+/// vertices is one unchanged part. No part has more than 65,535 vertices, since index 65,535 would restart a primitive.
+/// Parts are recursive halves along x or y. Cost: O(triangles · log parts).
 std::vector<MeshPart> split_mesh(const Mesh& mesh, int threads);
 
 }  // namespace scarp

@@ -13,7 +13,7 @@ namespace scarp {
 
 namespace {
 
-/// A stream's first byte names codec and version.
+/// A stream's first byte identifies codec and version.
 constexpr std::uint8_t kLaterAttributes = 0xA1;
 
 const char* find_impossible(const MeshoptStream& stream) {
@@ -28,7 +28,7 @@ const char* find_impossible(const MeshoptStream& stream) {
                                               : stream.filter == MeshoptFilter::kQuaternion ? stride == 8
                                                                                             : true));
   if (!filter_fits) return "has a filter that its mode or stride does not allow";
-  // Sixteen bytes of attributes need two bits or more, an index or a triangle a byte.
+  // Sixteen bytes of attributes need at least two bits, an index or a triangle a byte.
   constexpr std::uint64_t kPerByte = 64, kSlack = 1 << 16;
   const std::uint64_t most = kPerByte * stream.bytes.size() + kSlack;
   if (stream.bytes.empty() || stream.count > most || stream.count * stride > most)

@@ -25,18 +25,18 @@ struct MeshoptStream {
   std::uint64_t count = 0, stride = 0;
 };
 
-/// Puts triangles, and vertices by first use, into the order that needs the fewest bytes when encoded; vertices without
-/// triangles come last. Same triangles, same winding.
+/// Sorts triangles, and vertices by first use, for the smallest encoding; unused vertices come last. Same triangles,
+/// same winding.
 void order_for_codec(std::vector<std::uint32_t>& vertices, std::vector<std::uint16_t>& corners);
 
-/// Items of `stride` bytes, a multiple of 4 up to 256. Version 0 of the codec, which every decoder reads. Empty in a
-/// build without the codec.
+/// Encodes items of `stride` bytes, a multiple of 4 up to 256, in version 0 of the codec, which every decoder reads.
+/// Empty in a build without the codec.
 std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t> items, std::size_t stride);
-/// Corners of triangles, which may be turned: the same winding begins at another corner.
+/// Encodes corners of triangles, which may be rotated: the same winding with another first corner.
 std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t> corners, std::size_t vertices);
 
-/// The sentence that refuses the stream, or nothing. `items` then holds count · stride bytes. Believes nothing, and
-/// allocates no more than so many bytes can hold.
+/// An error message, or null. `items` then holds count · stride bytes. Handles hostile streams, and allocates no more
+/// than these bytes can encode.
 const char* decode_meshopt(const MeshoptStream& stream, std::vector<std::uint8_t>& items);
 
 }  // namespace scarp

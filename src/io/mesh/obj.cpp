@@ -1,7 +1,7 @@
-// OBJ: text. Positions are absolute, each number the shortest text that reads back to the same double.
+// OBJ: text. Positions are absolute, each number the shortest text that parses to the same double.
 //
-// Text that was cut off may still be text: the file therefore announces its counts at the top and ends with a mark, and
-// the reader insists on both where it finds the announcement.
+// Truncated text may still be valid. So the file announces its counts at the top and ends with a mark, and the reader
+// requires both if it finds the announcement.
 
 #include <fmt/format.h>
 
@@ -23,13 +23,13 @@ struct ObjReader {
   TextCursor cursor;
   Mesh mesh;
   std::vector<float> normals, uvs;     // in file order
-  bool normals_match = true;           // every corner's normal has its vertex's number
-  bool uvs_match = true;               // and so has its place in the image
+  bool normals_match = true;           // every corner's normal has its vertex's index
+  bool uvs_match = true;               // likewise texture coordinates
   std::vector<double> colors;          // colours of the vertices that have them
   std::vector<std::uint32_t> corners;  // corners of the current face
   TextComments comments;
 
-  /// Reads "7", "7/1", "7//3" or "7/1/3". Numbers are 1-based; negative ones count back from the newest.
+  /// Reads "7", "7/1", "7//3" or "7/1/3". Indices are 1-based; negative ones count back from the newest.
   bool read_corner(std::string_view word) {
     const std::size_t slash = word.find('/');
     std::int64_t number = 0, normal = 0;
@@ -74,7 +74,7 @@ struct ObjReader {
       mesh.colors.push_back(static_cast<std::uint8_t>((bytes ? part : part * 255) + 0.5));
   }
 
-  /// Returns the complaint about this line; empty if there is none.
+  /// Returns a complaint about this line, or an empty string.
   std::string read_line() {
     const std::string_view word = cursor.word();
     if (word == "v") {
@@ -92,7 +92,7 @@ struct ObjReader {
         return "a place in an image needs finite numbers";
       }
       uvs.push_back(static_cast<float>(u));
-      uvs.push_back(static_cast<float>(1 - v));  // OBJ's images begin at the bottom
+      uvs.push_back(static_cast<float>(1 - v));  // OBJ's images start at the bottom
     } else if (word == "vn") {
       for (int k = 0; k < 3; ++k) {
         double value = 0;
@@ -132,7 +132,7 @@ struct ObjReader {
     if (normals_match && normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
     if (uvs_match && uvs.size() == 2 * mesh.vertex_count()) mesh.uvs = std::move(uvs);
     take_colors();
-    // Positions must be sound before they are moved; the caller repeats this check for every format.
+    // Only valid positions can be moved; the caller repeats this check for every format.
     if (comments.origin && find_unreadable(mesh).empty()) set_origin(mesh, *comments.origin);
     return {};
   }

@@ -1,9 +1,9 @@
-// PLY: a text header that describes the rest. We write binary little-endian numbers at absolute positions: floats where
-// they are exact, which more programs read, else doubles. We read text and both byte orders, any numeric types,
-// properties in any order, elements we do not know, and polygons.
+// PLY: a text header that describes the rest. Written are binary little-endian numbers at absolute positions: floats,
+// which more programs read, if exact, otherwise doubles. Readable are text and both byte orders, any numeric types,
+// properties in any order, unknown elements, and polygons.
 //
-// The reader walks each element's items property by property. Values of interest have a slot in a small table; all
-// others are stepped over.
+// The reader parses each element's items property by property. Values of interest have a slot in a small table; others
+// are skipped.
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ std::optional<Type> find_type(std::string_view name) {
   return {};
 }
 
-/// Positions of a vertex's values while it is read: x y z, nx ny nz, red green blue, s t, channels.
+/// Positions of a vertex's values in the table: x y z, nx ny nz, red green blue, s t, channels.
 constexpr int kPosition = 0, kNormal = 3, kColor = 6, kUv = 9, kChannel = 11, kOther = -1;
 constexpr int kSlots = kChannel + kMaxChannels;
 
@@ -79,7 +79,7 @@ int find_slot(std::string_view property) {
   return channel && number >= 1 && number <= kMaxChannels ? kChannel + static_cast<int>(number) - 1 : kOther;
 }
 
-/// 0 … 1 or whole numbers up to the type's largest, as a byte.
+/// Converts 0 … 1, or integers up to the type's largest, to a byte.
 std::uint8_t to_color(double value, Type type) {
   if (type == Type::kFloat || type == Type::kDouble) value *= 255;
   if (type == Type::kUint16) value /= 257;
@@ -97,7 +97,7 @@ class PlyReader {
 
   Mesh mesh;
 
-  /// Returns the complaint; empty if there is none.
+  /// Returns a complaint, or an empty string.
   std::string read() {
     if (std::string why = read_header(); !why.empty()) return why;
     for (const Element& element : elements_) {
@@ -179,7 +179,7 @@ class PlyReader {
 
   std::size_t remaining() const { return is_text_ ? cursor_.remaining() : static_cast<std::size_t>(end_ - at_); }
 
-  /// The next value of the body. Returns false at the end of the file, or where text is not a number.
+  /// The next value of the body. Returns false at the end of the file, or if text is not a number.
   bool read_value(Type type, double& value) {
     if (is_text_) return parse_number(cursor_.word_anywhere(), value);
     const std::size_t size = kTypeSizes[static_cast<int>(type)];
@@ -215,8 +215,8 @@ class PlyReader {
   }
 
   std::string read_element(const Element& element) {
-    if (element.properties.empty()) return {};  // its items have no bytes, whatever their count
-    std::size_t least = 0;                      // least bytes of an item; a digit and a space in text
+    if (element.properties.empty()) return {};  // its items have no bytes, for any count
+    std::size_t least = 0;                      // smallest size of an item; a digit and a space in text
     std::bitset<kSlots> slots;
     for (const Property& property : element.properties) {
       least += is_text_ ? 2 : kTypeSizes[static_cast<int>(property.count_type.value_or(property.type))];
@@ -254,7 +254,7 @@ class PlyReader {
     return {};
   }
 
-  /// The vertex that values_ describes. Returns what is not finite, or null.
+  /// Adds the vertex in values_. Returns the name of a non-finite value, or null.
   const char* add_vertex() {
     mesh.positions.insert(mesh.positions.end(), &values_[kPosition], &values_[kPosition + 3]);
     for (int k = kNormal; has_normals_ && k < kNormal + 3; ++k) {
@@ -264,7 +264,7 @@ class PlyReader {
     for (int k = kColor; has_colors_ && k < kColor + 3; ++k) mesh.colors.push_back(to_color(values_[k], types_[k]));
     if (has_uvs_) {
       mesh.uvs.push_back(to_float(values_[kUv]));
-      mesh.uvs.push_back(to_float(1 - values_[kUv + 1]));  // PLY's images begin at the bottom
+      mesh.uvs.push_back(to_float(1 - values_[kUv + 1]));  // PLY's images start at the bottom
       if (std::isnan(mesh.uvs.back() + mesh.uvs[mesh.uvs.size() - 2])) return "place in the image";
     }
     for (int k = 0; k < mesh.channel_count; ++k) mesh.channels.push_back(to_float(values_[kChannel + k]));
@@ -315,7 +315,7 @@ class PlyReader {
   std::optional<std::array<double, 3>> origin_;
 };
 
-/// True if float32 loses nothing of any position.
+/// True if all positions are exact as float32.
 bool are_float32(const Mesh& mesh) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     for (const double coordinate : mesh.vertex(v)) {

@@ -14,7 +14,7 @@ bool looks_like_text(std::span<const std::uint8_t> bytes) {
   return std::none_of(head.begin(), head.end(), [](std::uint8_t byte) { return byte < 32 && (byte < 9 || byte > 13); });
 }
 
-/// "<" and the name of the root element; empty if the bytes are no XML.
+/// "<" and the name of the root element; empty if the bytes are not XML.
 std::string root_of_xml(std::span<const std::uint8_t> bytes) {
   const bool may_be = begins_with(bytes, "<") || begins_with(bytes, "\xEF\xBB\xBF<");
   if (!may_be) return {};

@@ -2,8 +2,8 @@
 // material, "ND" a node, "NS" a string of nodes. Triangles come first, as SMS writes them, so the reader resolves their
 // corners at the end.
 //
-// The format has neither metadata nor an end mark. Both stand in lines that begin with '#', which its readers pass
-// over; where the file announces its counts, the reader insists on them and on the mark.
+// The format has neither metadata nor an end mark. Both are stored in lines that begin with '#', which its readers
+// skip. If the file announces its counts, the reader requires them and the mark.
 
 #include <fmt/format.h>
 
@@ -26,10 +26,10 @@ struct Sms2dmReader {
   TextCursor cursor;
   Mesh mesh;
   IdTable nodes;
-  std::vector<std::int64_t> corners;  // numbers of nodes, three a triangle
+  std::vector<std::int64_t> corners;  // node numbers, three per triangle
   TextComments comments;
 
-  /// Returns the complaint; empty if there is none.
+  /// Returns a complaint, or an empty string.
   std::string read_node() {
     std::int64_t number = 0;
     if (!parse_integer(cursor.word(), number)) return "a node needs a whole number as its name";

@@ -5,7 +5,7 @@
 namespace scarp {
 namespace {
 
-/// x^2.4 = x² · (x^⅕)² by Newton's method in the four operations that IEEE 754 rounds alike everywhere.
+/// x^2.4 = x² · (x^⅕)² by Newton's method, using only operations that IEEE 754 rounds identically everywhere.
 constexpr double power_2_4(double x) {
   double root = 1;
   for (int round = 0; round < 60; ++round) root = (4 * root + x / (root * root * root * root)) / 5;
@@ -20,7 +20,7 @@ constexpr auto make_linear() {
   return linear;
 }
 
-/// The limits between one byte's colours and the next one's.
+/// The limits between the colours of successive bytes.
 constexpr auto make_ends() {
   std::array<double, 255> ends{};
   for (int b = 0; b < 255; ++b) ends[static_cast<std::size_t>(b)] = linear_of((b + 0.5) / 255);

@@ -1,4 +1,4 @@
-// Colours as bytes, and as the linear light that glTF wants.
+// Colours as bytes, and as the linear light of glTF.
 #pragma once
 
 #include <array>
@@ -9,8 +9,7 @@ namespace scarp {
 /// Linear light (0 … 1) of each sRGB byte (IEC 61966-2-1), the same on every machine.
 extern const std::array<float, 256> kLinearOfSrgb;
 
-/// The byte whose colour is nearest, as sRGB sees it; kLinearOfSrgb[b] gives b. Values outside of 0 … 1 and NaN give
-/// the nearest end.
+/// The byte of the nearest colour in sRGB; kLinearOfSrgb[b] gives b. Values outside 0 … 1 and NaN give the nearest end.
 std::uint8_t srgb_of_linear(double linear);
 
 }  // namespace scarp

@@ -1,9 +1,9 @@
-// STL: triangles without vertices' names. Binary on writing; binary and text on reading.
+// STL: triangles without shared vertices. Written as binary; read as binary and text.
 //
-// The format has three float32 per corner and no origin, so we write offsets and keep the origin in the 80 bytes of
-// the header, which begin with "scarp" (a header that begins with "solid" would be read as text); or the placement of a
-// solid that has one, as text or, where that is too long, as its six doubles. On reading, corners at exactly one place
-// become one vertex, so that the topology is known again.
+// The format has three float32 per corner and no origin. So offsets are written, and the origin is stored in the
+// 80-byte header, which begins with "scarp" (a header that begins with "solid" would be read as text). A solid's
+// placement is stored instead if it has one, as text or, if that is too long, as its six doubles. On reading, corners
+// at exactly one position become one vertex, which restores the topology.
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ std::string placement_header(const std::string& placement) {
   return std::string(kPlacedBytes) + std::string(bytes.begin(), bytes.end());
 }
 
-/// The text after placement_header()'s words; nothing if there are none.
+/// The text after placement_header()'s words; nothing if absent.
 std::optional<std::string> parse_placement(std::string_view header) {
   if (header.starts_with(kPlaced)) {
     header.remove_prefix(kPlaced.size());
@@ -51,7 +51,7 @@ std::optional<std::string> parse_placement(std::string_view header) {
   return text;
 }
 
-/// Decimal where it fits into the header, which is nearly always; else the bits of the three doubles.
+/// Decimal if it fits the header, as it nearly always does; else the bits of the three doubles.
 std::string place_text(const Mesh& mesh) {
   const std::array<double, 3>& origin = mesh.origin;
   if (const auto placed = mesh.metadata.find(kPlacementKey); placed != mesh.metadata.end()) {
@@ -65,7 +65,7 @@ std::string place_text(const Mesh& mesh) {
 
 std::string header_text(const Mesh& mesh) { return place_text(mesh) + (is_y_up(mesh) ? std::string(kYUp) : ""); }
 
-/// Removes the end, and returns whether it was there.
+/// Removes the suffix and returns true, if present.
 bool take_y_up(std::string_view& header) {
   header = header.substr(0, header.find_last_not_of('\0') + 1);
   if (!header.starts_with("scarp ") || !header.ends_with(kYUp)) return false;

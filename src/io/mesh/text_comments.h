@@ -1,5 +1,5 @@
-// Metadata of text meshes that have no place for it, in comments: counts, origin, metadata, and an end mark, since text
-// that was cut off may still be text.
+// Comments with the metadata of text meshes that have no other place for them: counts, origin, metadata, and an end
+// mark, since truncated text may still be valid.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ struct TextComments {
   static constexpr std::string_view kCounts = "scarp.counts: ", kOrigin = "scarp.origin: ", kEnd = "scarp.end",
                                     kKey = "scarp ";
 
-  /// Reads the text behind a "#".
+  /// Parses the text behind a "#".
   void read(std::string_view text, std::map<std::string, std::string>& metadata) {
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
     if (text.starts_with(kCounts)) {
@@ -45,7 +45,7 @@ struct TextComments {
     }
   }
 
-  /// At the top of a file, but for the end mark.
+  /// Writes all but the end mark, at the top of a file.
   static void write(const Mesh& mesh, std::vector<std::uint8_t>& bytes) {
     auto out = std::back_inserter(bytes);
     fmt::format_to(out, "# {}{} {}\n", kCounts, mesh.vertex_count(), mesh.triangle_count());

@@ -1,10 +1,9 @@
-// 3MF, the format of slicers: an archive with one XML document of solids and two small ones that lead to it (Open
-// Packaging Conventions). Ours is written without the library of the 3MF consortium, which cannot write one mesh twice
-// the same: it numbers objects at random and rounds coordinates to six digits behind the point. The tests read our
-// files with it.
+// 3MF, the format of slicers: an archive with one XML document of solids and two small ones that refer to it (Open
+// Packaging Conventions). It is written without the library of the 3MF consortium, whose output is not reproducible: it
+// numbers objects at random and rounds coordinates to six decimals. The tests read Scarp's files with it.
 //
 // Coordinates are float32 in shortest decimal, and read as float32, as slicers do. The mesh's metadata are one metadata
-// element in a namespace of our own, line by line, because its keys need not be XML names.
+// element in Scarp's namespace, line by line, because its keys may be invalid XML names.
 
 #include <fmt/format.h>
 
@@ -51,7 +50,7 @@ std::string metadata_lines(const Mesh& mesh) {
   return lines;
 }
 
-/// With positions as offsets from `origin`.
+/// Positions are offsets from `origin`.
 void append_object(const Mesh& mesh, std::size_t id, const std::array<double, 3>& origin,
                    std::vector<std::uint8_t>& bytes) {
   auto out = std::back_inserter(bytes);
@@ -100,14 +99,14 @@ tl::unexpected<Error> refuse_to_read(std::string why) { return fail(ErrorKind::k
 using Transform = std::array<double, 12>;
 constexpr Transform kIdentity{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
-/// The objects of a model in its order, and those that it builds, moved to their places.
+/// The objects of a model in order, and those that it builds, transformed to their places.
 class ModelReader {
  public:
   explicit ModelReader(std::span<const std::uint8_t> bytes) : xml_(bytes) {}
 
   Mesh mesh;
 
-  /// Why not; empty if all is well.
+  /// Returns a complaint, or an empty string.
   std::string read() {
     for (;;) {
       switch (xml_.next()) {
@@ -240,7 +239,7 @@ class ModelReader {
   std::string metadata_, why_;
 };
 
-/// The name of the part that the package starts with.
+/// The name of the package's root part.
 std::string find_model_part(const ZipReader& zip) {
   const auto links = zip.extract(zip.find(kLinksPart));
   if (!links) return zip.find(kModelPart);

@@ -1,8 +1,7 @@
 // VTK's XML formats, written: an unstructured grid (.vtu) or polydata (.vtp) of triangles, with double positions.
 //
-// The arrays stand behind the XML as raw little-endian bytes, each behind its own length, and the XML holds the
-// distance of each from the mark '_'. XML has no other place for a mesh's metadata than comments: programs differ in
-// which arrays of text they accept among the data.
+// The arrays follow the XML as raw little-endian bytes, each after its length. The XML holds their offsets from the
+// mark '_'. Metadata are written as comments: programs differ in which text arrays they accept among the data.
 
 #include <fmt/format.h>
 
@@ -15,9 +14,9 @@
 namespace scarp {
 namespace {
 
-constexpr std::uint8_t kTriangleCell = 5;  // VTK's number for this kind of cell
+constexpr std::uint8_t kTriangleCell = 5;  // VTK's number of this cell type
 
-/// Numbers the arrays' places as the XML names them.
+/// Assigns the offsets of arrays in the order of the XML.
 class VtkPlaces {
  public:
   std::string element(const char* type, const std::string& name, std::size_t components, std::uint64_t bytes) {
@@ -33,7 +32,7 @@ class VtkPlaces {
   std::uint64_t next_ = 0;
 };
 
-/// Two hyphens end a comment in XML.
+/// Two hyphens would end a comment in XML.
 std::string comment(std::string text) {
   for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at)) {
     text.replace(at, 2, "-%2D");

@@ -38,7 +38,7 @@ std::uint64_t load_length(const VtkFile& file, const std::uint8_t* at) {
   return file.wide_lengths ? load_number<std::uint64_t>(at, file.order) : load_number<std::uint32_t>(at, file.order);
 }
 
-/// Whole numbers are kept as int64, all others as double, both in little-endian order.
+/// Integers are stored as int64, all others as double, both little-endian.
 bool read_text(std::string_view text, bool as_float, std::vector<std::uint8_t>& bytes) {
   TextCursor cursor(bytes_of(text));
   for (std::string_view word = cursor.word_anywhere(); !word.empty(); word = cursor.word_anywhere()) {
@@ -56,12 +56,12 @@ bool read_text(std::string_view text, bool as_float, std::vector<std::uint8_t>& 
   return true;
 }
 
-/// The length of the array in bytes and the bytes, from letters.
+/// Decodes the array's length in bytes, and the bytes, from base64.
 bool read_letters(const VtkFile& file, std::span<const std::uint8_t> letters, std::vector<std::uint8_t>& bytes) {
   const std::size_t head = file.wide_lengths ? 8 : 4;
   if (!read_base64(letters, head, bytes)) return false;
   const std::uint64_t length = load_length(file, bytes.data());
-  if (length > letters.size() + 3) return false;  // each letter is less than a byte
+  if (length > letters.size() + 3) return false;  // each letter encodes less than a byte
   if (!read_base64(letters, head + length, bytes)) return false;
   bytes.resize(head + length);
   bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(head));

@@ -1,4 +1,4 @@
-// The arrays of VTK's XML files: as text, as base64 or as raw bytes behind the XML; not compressed.
+// The arrays of VTK's XML files: as text, as base64 or as raw bytes behind the XML; uncompressed.
 #pragma once
 
 #include <bit>
@@ -19,11 +19,11 @@ enum class VtkType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kU
 /// "Float64", "UInt8" …; nothing if VTK has no such type of numbers.
 std::optional<VtkType> find_vtk_type(std::string_view name);
 
-/// The attributes of the root element for all arrays, and where those behind the XML begin.
+/// The attributes of the root element for all arrays, and the bytes behind the XML.
 struct VtkFile {
   std::endian order = std::endian::little;
-  bool wide_lengths = false;               ///< 64 bits instead of 32 before each array
-  std::span<const std::uint8_t> appended;  ///< from behind the mark '_'; in base64 where `is_base64`
+  bool wide_lengths = false;               ///< lengths of arrays have 64 bits, not 32
+  std::span<const std::uint8_t> appended;  ///< starts behind the mark '_'; in base64 if `is_base64`
   bool is_base64 = false;
 };
 
@@ -32,22 +32,22 @@ struct VtkArray {
   enum class Format { kText, kBase64, kAppended };
   VtkType type = VtkType::kFloat64;
   Format format = Format::kText;
-  std::uint64_t offset = 0;  ///< from the mark, of a kAppended
-  std::string content;       ///< content of the others
+  std::uint64_t offset = 0;  ///< from the mark; only for kAppended
+  std::string content;       ///< content of other arrays
 };
 
-/// Its numbers, wherever they stand.
+/// The numbers of an array in any encoding.
 class VtkNumbers {
  public:
   VtkNumbers() = default;
-  VtkNumbers(VtkNumbers&&) = default;  // a copy's bytes would be the original's
+  VtkNumbers(VtkNumbers&&) = default;  // not copyable: bytes_ may refer to owned_
   VtkNumbers& operator=(VtkNumbers&&) = default;
 
   std::size_t size() const { return bytes_.size() / width_; }
   bool is_float() const { return type_ == VtkType::kFloat32 || type_ == VtkType::kFloat64; }
   std::size_t bytes() const { return bytes_.size(); }
   double real(std::size_t i) const;
-  /// Whole numbers beyond 63 bits and all that is no whole number become −1.
+  /// The integer, or −1 for integers beyond 63 bits and other numbers.
   std::int64_t whole(std::size_t i) const;
 
  private:
@@ -59,7 +59,7 @@ class VtkNumbers {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// Fails with kInput and half a sentence ("is cut off", …) where the array is damaged. REQUIRES: the file outlives it.
+/// Fails with kInput and half a sentence ("is cut off", …) if the array is damaged. REQUIRES: the file outlives it.
 Result<VtkNumbers> read_vtk_array(const VtkFile& file, const VtkArray& array);
 
 }  // namespace scarp

@@ -1,8 +1,8 @@
-// VTK's XML formats, read: the triangles and polygons of unstructured grids and polydata, whatever the arrays' types,
-// places and byte order; not compressed.
+// VTK's XML formats, read: the triangles and polygons of unstructured grids and polydata, for any array types,
+// encodings and byte order; uncompressed.
 //
-// First the XML is walked through and each piece's arrays are noted, then the arrays are read: those of raw bytes stand
-// behind the XML, in bytes that are no XML.
+// First the XML is read and each piece's arrays are recorded, then the arrays are read: raw bytes follow the XML, and
+// are not XML.
 
 #include <fmt/format.h>
 
@@ -25,10 +25,10 @@ namespace {
 struct VtkPiece {
   std::int64_t points = 0, cells = 0;
   std::map<std::string, VtkArray> arrays;
-  std::string normals, uvs;  // the names of arrays in PointData
+  std::string normals, uvs;  // names of arrays in PointData
 };
 
-/// VTK's numbers for kinds of cells.
+/// VTK's numbers of cell types.
 constexpr int kLastLine = 4, kTriangle = 5, kPolygon = 7, kPixel = 8, kQuad = 9;
 
 class VtkReader {
@@ -37,7 +37,7 @@ class VtkReader {
 
   Mesh mesh;
 
-  /// Returns the complaint; empty if there is none.
+  /// Returns a complaint, or an empty string.
   std::string read() {
     if (std::string why = read_xml(); !why.empty()) return why;
     if (pieces_.empty()) return "it holds no piece of a mesh";
@@ -130,11 +130,11 @@ class VtkReader {
     VtkArray array;
     const std::string type = xml_.attribute("type"), format = xml_.attribute("format");
     const auto found = find_vtk_type(type);
-    if (!found) return {};  // text, or bits: nothing of a mesh is in them
+    if (!found) return {};  // text, or bits: no mesh data
     array.type = *found;
     if (format == "appended") {
       const std::string text = xml_.attribute("offset");
-      std::int64_t offset = 0;  // VTK reserves room for it and writes blanks after it
+      std::int64_t offset = 0;  // VTK reserves room for it and pads it with blanks
       if (!parse_integer(std::string_view(text).substr(0, text.find(' ')), offset) || offset < 0) {
         return "an array does not say where it is";
       }
@@ -151,7 +151,7 @@ class VtkReader {
     return {};
   }
 
-  /// Steps from the mark to the end tag, which stands behind the bytes and is therefore searched for from the end.
+  /// Skips from the mark to the end tag. The tag follows arbitrary bytes, so it is searched from the end.
   std::string skip_appended() {
     file_.is_base64 = xml_.attribute("encoding") == "base64";
     const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
@@ -165,7 +165,7 @@ class VtkReader {
     return {};
   }
 
-  /// The numbers of an array that must be there. Arrays that share bytes are refused: a small file could ask for much.
+  /// The numbers of a required array. Arrays that share bytes are rejected: a small file could request much memory.
   Result<VtkNumbers> load(const VtkPiece& piece, const std::string& key) {
     const auto found = piece.arrays.find(key);
     if (found == piece.arrays.end()) return fail(ErrorKind::kInput, fmt::format("it has no array {}", in_quotes(key)));
@@ -240,7 +240,7 @@ class VtkReader {
                                                                          : std::numeric_limits<float>::quiet_NaN();
   }
 
-  /// Numbers of points, `components` for each. Empty where the piece has none, or has them not for all.
+  /// Numbers of points, `components` for each. Empty if the piece has none, or not for all points.
   Result<VtkNumbers> load_point_data(const VtkPiece& piece, const std::string& name, std::size_t components) {
     const std::string key = "PointData/" + name;
     if (piece.arrays.find(key) == piece.arrays.end()) return VtkNumbers();
@@ -256,7 +256,7 @@ class VtkReader {
     const auto uvs = load_point_data(piece, piece.uvs, 2);
     if (!uvs) return uvs.error().message;
     for (std::size_t i = 0; i < uvs->size(); ++i) {
-      mesh.uvs.push_back(as_float(i % 2 == 0 ? uvs->real(i) : 1 - uvs->real(i)));  // VTK's images begin at the bottom
+      mesh.uvs.push_back(as_float(i % 2 == 0 ? uvs->real(i) : 1 - uvs->real(i)));  // VTK's images start at the bottom
     }
     const auto is_nan = [](float part) { return std::isnan(part); };
     if (std::any_of(mesh.normals.begin(), mesh.normals.end(), is_nan)) return "a normal is not finite";

@@ -1,4 +1,4 @@
-// Corners that name places only become shared vertices.
+// Merges corners at equal positions to shared vertices.
 #pragma once
 
 #include <bit>

@@ -36,7 +36,7 @@ void append_utf8(std::uint32_t code, std::string& text) {
   }
 }
 
-/// The character that "#65" or "#x41" stands for; 0 if it is none.
+/// The character encoded by "#65" or "#x41"; 0 if invalid.
 std::uint32_t character_number(std::string_view entity) {
   const bool hex = entity.starts_with("#x");
   entity.remove_prefix(hex ? 2 : 1);

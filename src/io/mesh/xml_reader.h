@@ -1,4 +1,4 @@
-// XML, event by event, in bytes that may be anything.
+// An event-based XML reader for arbitrary bytes.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace scarp {
 
-/// Walks over XML in UTF-8 or ASCII and insists that what is opened is closed, in order, down to the root. Document
-/// types are refused, and with them all entities but XML's own five and numbers. Names are given without their prefix.
+/// Reads XML in UTF-8 or ASCII and checks that elements are closed in order, down to the root. Document types are
+/// rejected, and with them all entities except XML's own five and numbers. Names are returned without their prefix.
 class XmlReader {
  public:
   enum class Event {
     kStart,    ///< start of an element: name(), attribute()
     kEnd,      ///< end of an element: name(); also of <one/>
-    kText,     ///< text(), its entities as they are
+    kText,     ///< text(), with unresolved entities
     kComment,  ///< text()
     kDone,     ///< the root has ended
     kBroken,   ///< complaint()
@@ -29,12 +29,12 @@ class XmlReader {
 
   Event next();
   std::string_view name() const { return name_; }
-  /// The attribute's value, entities undone; empty if there is none.
+  /// The attribute's value with entities resolved; empty if absent.
   std::string attribute(std::string_view name) const;
   std::string_view text() const { return content_; }
   const std::string& complaint() const { return complaint_; }
 
-  /// The position of the next event, in bytes from the start, for content that is no XML; jump() steps over it.
+  /// The position of the next event, in bytes from the start. For content that is not XML; jump() skips it.
   std::size_t position() const { return at_; }
   void jump(std::size_t position) { at_ = position; }
   /// The 1-based line of position(). Cost: O(position()).
@@ -56,9 +56,9 @@ class XmlReader {
   bool ends_at_once_ = false, has_root_ = false;
 };
 
-/// Text with "&lt;", "&#10;" … undone; what is no entity stays as it is.
+/// Resolves "&lt;", "&#10;" …; unknown entities are unchanged.
 std::string undo_entities(std::string_view text);
-/// Text fit for an attribute in double quotes or for an element.
+/// Escapes text for an attribute in double quotes or an element.
 std::string with_entities(std::string_view text);
 
 }  // namespace scarp

@@ -10,11 +10,11 @@ struct CrsDescription {
   std::string name;            ///< "WGS 84 / UTM zone 11N"
   std::string epsg;            ///< "32611"; empty if EPSG has no number for it
   std::string wkt;             ///< OGC's WKT 1, one line
-  bool is_geographic = false;  ///< degrees
-  double unit_in_metres = 1;   ///< unit of x and y, unless it is geographic
+  bool is_geographic = false;  ///< in degrees
+  double unit_in_metres = 1;   ///< unit of x and y, unless geographic
 };
 
-/// The description of a name as in RasterInfo::crs; nothing if it is unknown, and in a build without GDAL.
+/// The description of a CRS named as in RasterInfo::crs; nothing if it is unknown, and in a build without GDAL.
 std::optional<CrsDescription> describe_crs(const std::string& crs);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// Rasters to bytes: PGM by hand, GeoTIFF by GDAL.
+// Encoding of rasters: PGM here, GeoTIFF by GDAL.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -62,15 +62,15 @@ constexpr NamedLength kLengths[] = {{"m", 1},
                                     {"mi", 1609.344},
                                     {"mile", 1609.344}};
 
-/// Conversions are given by six digits, or more.
+/// Conversion factors have six digits, or more.
 bool is_about(double one, double other) { return std::abs(one / other - 1) < 1e-5; }
 
-/// The unit that is assumed if none is declared.
+/// The unit assumed if none is declared.
 HeightUnit assume_unit(const RasterInfo& info) {
   return info.crs_unit_in_metres > 0 ? HeightUnit{info.crs_unit, info.crs_unit_in_metres} : HeightUnit{"metre", 1};
 }
 
-/// The unit of scaled heights that the factor makes of the file's, where it makes one.
+/// The unit of heights scaled by the factor, if it converts the file's unit to a known one.
 HeightUnit scaled_unit(double factor, const HeightUnit& of_file, const RasterInfo& info) {
   if (!(of_file.metres > 0)) return {};
   if (is_about(factor, of_file.metres)) return {"m", 1};
@@ -169,7 +169,7 @@ double metres_in_file(const RasterInfo& info) {
   if (!info.file_unit.empty()) return find_metres(info.file_unit).value_or(0);
   const double factor = std::abs(info.z_scale);
   if (factor == 1 || !info.unit.empty()) return info.unit_in_metres;
-  // A factor that is a unit of length makes metres of it; any other makes heights of others.
+  // A factor equal to a unit of length converts to metres; others only scale heights.
   const bool is_length =
       std::ranges::any_of(kLengths, [&](const NamedLength& length) { return is_about(factor, length.metres); });
   return is_length ? factor : info.unit_in_metres;

@@ -1,4 +1,4 @@
-// The unit of heights, decided once a raster.
+// The unit of heights, determined once per raster.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,23 @@ namespace scarp {
 
 struct HeightUnit {
   std::string name;   ///< empty: unknown
-  double metres = 0;  ///< 0: no length that is known
+  double metres = 0;  ///< 0: not a known length
 };
 
-/// Metres of a unit of length by one of its names: "m", "Metre", "US survey foot", "cm" …
+/// Metres per unit of length, by one of its names: "m", "Metre", "US survey foot", "cm" …
 std::optional<double> find_metres(const std::string& name);
-/// Any foot: they differ by parts in a hundred thousand.
+/// True for any kind of foot: they differ by parts in a hundred thousand.
 bool is_foot(double metres);
 
-/// The options with which the heights of a raster are read in `frame`: z_scale makes metres of them where they become
-/// metres. info.unit is the file's unit of its values, and becomes the unit of the heights; all else in `info` that is
-/// about them is filled in, and warnings. `vertical`: the unit of its vertical CRS. kUsage as described at HeightsIn.
+/// The options for reading the heights of a raster in `frame`: z_scale converts them to metres if requested. info.unit
+/// is the file's unit of its values, and becomes the unit of the heights. Also sets the other height fields of `info`,
+/// and warnings. `vertical`: the unit of its vertical CRS. kUsage as described at HeightsIn.
 Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& frame, RasterInfo& info,
                                    const HeightUnit& vertical = {});
 
-/// Warns of x and y in one unit and z in another: the promise holds, the shape does not.
+/// Warns if the unit of x and y differs from that of z: the bound holds, but shapes are distorted.
 void warn_of_units(const Frame& frame, RasterInfo& info);
-/// Metres of the unit of the values in the file of a raster, before z_scale; 0 for words that are no known length.
+/// Metres per unit of a raster file's values, before z_scale; 0 for an unknown unit.
 double metres_in_file(const RasterInfo& info);
 
 }  // namespace scarp

@@ -1,5 +1,5 @@
-// PGM. Source: the pgm(5) page of Netpbm, whose reader this one follows: '#' starts a comment that runs to the end of
-// the line and stands for a newline, and exactly one white space byte parts the header from the samples.
+// PGM. Source: the pgm(5) page of Netpbm, whose reader this one follows: '#' starts a comment that extends to the end
+// of the line and counts as a newline, and exactly one white space byte separates the header from the samples.
 #include "io/raster/pgm.h"
 
 #include <fmt/format.h>
@@ -31,8 +31,8 @@ class Text {
     return '\n';
   }
 
-  /// A number after white space, and the one byte that follows it. Nothing at the end, at anything else than digits,
-  /// and for numbers above 2^31 − 1.
+  /// Parses a number after white space, and the byte that follows it. Nothing at the end, for other characters, and for
+  /// numbers above 2^31 − 1.
   std::optional<std::uint32_t> number() {
     int c = next();
     while (is_space(c)) c = next();
@@ -168,7 +168,7 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
   SCARP_TRY(auto&& frame,
             bare_grid_frame(name, "a PGM", static_cast<int>(header.cols), static_cast<int>(header.rows), options));
 
-  // The file itself must be long enough before its header's size is believed. A plain sample needs a digit and a space.
+  // The file must be large enough for its header's size. A plain sample needs a digit and a space.
   const std::uint64_t there = bytes.size() - header.samples_at;
   const std::uint64_t needed =
       header.plain ? header.count() * 2 - (header.count() > 0 ? 1 : 0) : header.count() * (header.maxval > 255 ? 2 : 1);

@@ -1,4 +1,4 @@
-// The inside of a raster that is written row by row.
+// Implementation of a raster file written row by row.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace scarp {
 
 struct RasterFile::Impl {
   StagedFile staged;
-  std::unique_ptr<GeoTiff> tiff;  // gone before its file
+  std::unique_ptr<GeoTiff> tiff;  // destroyed before its file
   int cols = 0, rows = 0;
-  std::vector<float> held = {};  // whole rows that wait
+  std::vector<float> held = {};  // buffered whole rows
   int written = 0;
   std::uint64_t size = 0;  // size of the finished part
 };

@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// read_height_field() for everything that has no reader of our own; may throw std::bad_alloc. In a build without GDAL
-/// it fails with kInput and the reason.
+/// read_height_field() for all formats without a reader here; may throw std::bad_alloc. In a build without GDAL it
+/// fails with kInput and the reason.
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options);
 
 /// open_height_field(), likewise.
@@ -26,19 +26,19 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster);
 /// Rows of a block of such a file.
 inline constexpr int kRowsOfBlock = 256;
 
-/// Such a file that rows are written to, for one thread.
+/// A GeoTIFF written row by row, for one thread.
 class GeoTiff {
  public:
   virtual ~GeoTiff() = default;
-  /// Whole blocks, or the last rows. Fails with kOutput.
+  /// Writes whole blocks, or the last rows. Fails with kOutput.
   virtual Result<void> write(int row, int rows, const float* samples) = 0;
-  /// The file is as it stays. Fails with kOutput.
+  /// Completes the file. Fails with kOutput.
   virtual Result<void> close() = 0;
 };
-/// Over what the file holds; likewise.
+/// Overwrites the file; otherwise like encode_geotiff().
 Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int cols, int rows, const RasterInfo* like);
 
-/// True if two names of CRSs, as in RasterInfo::crs, mean the same. In a build without GDAL: if they are equal.
+/// True if two CRS names, as in RasterInfo::crs, mean the same CRS. In a build without GDAL: if they are equal.
 bool is_same_crs(const std::string& a, const std::string& b);
 
 }  // namespace scarp

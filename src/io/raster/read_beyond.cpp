@@ -1,4 +1,4 @@
-// The continuation of a raster next to a part of it: strips of three rows or columns, one of which lies beyond.
+// The continuation of a raster next to a part of it: strips of three rows or columns, one of them outside.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -9,12 +9,12 @@
 namespace scarp {
 namespace {
 
-/// Cells of the part's grid, which may lie beyond it.
+/// Cells in the part's grid, maybe outside it.
 struct Cells {
   int col = 0, row = 0, cols = 0, rows = 0;
 };
 
-/// Empty where the raster does not have all of the cells.
+/// Empty unless the raster has all of the cells.
 Result<OwnedHeightField> read_cells(const std::string& path, ReadOptions options, const RasterInfo& info,
                                     const Cells& cells) {
   const std::array<double, 6>& gt = info.geotransform;
@@ -22,7 +22,7 @@ Result<OwnedHeightField> read_cells(const std::string& path, ReadOptions options
   const auto [south, north] = std::minmax({gt[3] + gt[5] * cells.row, gt[3] + gt[5] * (cells.row + cells.rows)});
   options.view.extent = {west, south, east, north};
   options.fill_distance = 0;
-  options.as_values = true;  // a strip without a height is no fault
+  options.as_values = true;  // a strip may have no heights
   auto strip = read_height_field(path, options);
   if (strip && (strip->cols != cells.cols || strip->rows != cells.rows)) return OwnedHeightField{};
   return strip;
@@ -32,7 +32,7 @@ Result<OwnedHeightField> read_cells(const std::string& path, ReadOptions options
 
 Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& options, const RasterInfo& info, int cols,
                                 int rows) {
-  constexpr int kWidth = 3;  // the raster has two of them at least, whatever lies beyond
+  constexpr int kWidth = 3;  // at least two of them are in the raster
   BeyondEdges beyond;
   if (!options.view.extent) return beyond;
   struct Strip {

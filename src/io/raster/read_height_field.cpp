@@ -1,4 +1,4 @@
-// One door for all rasters: the file's first bytes decide which reader it goes to.
+// The common reader of rasters: a file's first bytes select its format's reader.
 #include <fmt/format.h>
 
 #include <array>
@@ -24,7 +24,7 @@ namespace {
 
 enum class Reader { kPgm, kStm, kGdal };
 
-/// Names that are no local file, and devices, go to GDAL unopened.
+/// Names that are not local files, and devices, are passed to GDAL unopened.
 Result<Reader> find_reader(const std::string& path, const RasterView& view) {
   if (!view.is_whole()) return Reader::kGdal;
   SCARP_TRY(const auto& name, readable_name(path));
@@ -39,7 +39,7 @@ Result<Reader> find_reader(const std::string& path, const RasterView& view) {
   return Reader::kGdal;
 }
 
-/// kInput if the file and its samples as floats, read as a whole, need more than the limit.
+/// kInput if the file and its samples as floats need more than the limit when read as a whole.
 Result<void> check_whole_file(const std::string& path, const ReadOptions& options) {
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(*readable_name(path), ignored);

@@ -18,7 +18,7 @@ struct Step {
   bool inserts = false;
 };
 
-/// The complaint about the line at which the cursor stands; empty if there is none. The cursor stays within the line.
+/// A complaint about the cursor's line, or an empty string. The cursor stays within the line.
 std::string read_line(TextCursor& cursor, int cols, int rows, std::optional<Step>& step) {
   const auto next = [&] {
     const std::string_view word = cursor.word();
@@ -46,10 +46,10 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::optional<Step
   return {};
 }
 
-/// The steps of the lines so far for each sample.
+/// The steps of previous lines for each sample.
 class Said {
  public:
-  /// The complaint if an earlier line asks for the opposite; empty if none does.
+  /// A complaint if an earlier line requests the opposite, or an empty string.
   std::string add(const Step& step, std::size_t line) {
     const auto key = (static_cast<std::uint64_t>(step.at.row) << 32) | static_cast<std::uint32_t>(step.at.col);
     const auto [found, is_new] = samples_.try_emplace(key, step.inserts, line);

@@ -1,4 +1,4 @@
-// Scripts, once they are in memory.
+// Decoding of scripts in memory.
 #pragma once
 
 #include <cstdint>

@@ -116,7 +116,7 @@ class ReaderOf3tz final : public TileSetReader {
   std::unique_ptr<ByteSource> source_;
   TileFormat format_ = TileFormat::kGlb;
   Bytes directory_;
-  std::vector<ZipRecord> records_;  ///< by name, which lies in the directory
+  std::vector<ZipRecord> records_;  ///< by name; names borrow the directory
   TileLevels levels_;
   std::vector<std::string> files_;
 };

@@ -1,4 +1,5 @@
-// 3D Tiles Archive Format 1.3: a ZIP archive whose last entry lists where the others are, by the MD5 of their names.
+// 3D Tiles Archive Format 1.3: a ZIP archive whose last entry lists the offsets of the others, by the MD5 of their
+// names.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// An archive on its way.
+/// Builds an archive.
 class ArchiveOf3tz {
  public:
   explicit ArchiveOf3tz(StagedFile& file) : output_(file) {}
@@ -37,7 +38,7 @@ class ArchiveOf3tz {
   }
 
   Result<void> finish() {
-    // Sums are compared as two numbers of 64 bits.
+    // Sums are compared as two 64-bit numbers.
     std::sort(index_.begin(), index_.end(), [](const Place& a, const Place& b) { return a.key() < b.key(); });
     Bytes index(24 * index_.size());
     std::uint8_t* at = index.data();

@@ -16,7 +16,7 @@ Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path) {
   const auto refuse = [&](const std::string& why) {
     return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", path, why));
   };
-  // Without O_NONBLOCK, open() would wait for a writer of a pipe.
+  // Without O_NONBLOCK, open() would wait for a pipe's writer.
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return refuse(reason_of(errno));
   struct stat status {};

@@ -1,4 +1,4 @@
-// A file of any size, read here and there by several threads.
+// A file of any size, read at any offset by several threads.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace scarp {
 
 class ByteSource {
  public:
-  /// Fails with kInput for what is no regular file that may be read.
+  /// Fails with kInput unless it is a readable regular file.
   static Result<std::unique_ptr<ByteSource>> open(const std::string& path);
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;
@@ -21,7 +21,7 @@ class ByteSource {
   const std::string& path() const { return path_; }
   std::uint64_t size() const { return size_; }
   bool has(std::uint64_t offset, std::uint64_t length) const { return offset <= size_ && length <= size_ - offset; }
-  /// Fails with kInput for bytes that the file does not have.
+  /// Fails with kInput for bytes beyond the end of the file.
   Result<std::vector<std::uint8_t>> read(std::uint64_t offset, std::uint64_t length) const;
 
  private:

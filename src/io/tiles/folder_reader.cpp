@@ -57,7 +57,7 @@ Result<std::unique_ptr<TileSetReader>> open_folder_set(const std::string& path) 
   const fs::path folder(path);
   for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::recursive_directory_iterator();
        at.increment(error)) {
-    // The target of a link may lie outside the set.
+    // A link may lead outside the set.
     if (at->symlink_status().type() != fs::file_type::regular) continue;
     std::string name = at->path().lexically_relative(folder).generic_string();
     if (const auto id = find_tile_id(TileFormat::kQuantizedMesh, name)) {

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file or folder in the folder that no set of Scarp's tiles has; empty if there is no such thing.
+/// A file or folder that does not belong to a set of Scarp's tiles; empty if none.
 std::string find_foreign(const fs::path& folder) {
   std::error_code error;
   for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::recursive_directory_iterator();
@@ -49,7 +49,7 @@ Result<void> check_ours(const fs::path& folder) {
               fmt::format("{} is not Scarp's, and would be deleted with the tiles: give another name", foreign));
 }
 
-/// 0, or why not.
+/// 0, or an errno.
 int write_whole(const std::string& path, std::span<const std::uint8_t> bytes) {
   std::FILE* file = std::fopen(path.c_str(), "wbx");
   int reason = file == nullptr ? errno : 0;
@@ -79,7 +79,7 @@ class FolderWriter final : public TileSetWriter {
     std::error_code error;
     fs::path old;
     if (replaces_) {
-      // It may hold more by now.
+      // Its contents may have changed.
       SCARP_RETURN_IF_ERROR(check_ours(target_));
       old = folder_.path_of_old();
       fs::rename(target_, old, error);
@@ -99,14 +99,14 @@ class FolderWriter final : public TileSetWriter {
   fs::path target_;
   StagedFolder folder_;
   TileFormat format_;
-  bool replaces_;                  ///< a set of Scarp's
-  std::set<std::string> folders_;  ///< folders that were made
+  bool replaces_;                  ///< an existing set of Scarp's
+  std::set<std::string> folders_;  ///< folders created
 };
 
 }  // namespace
 
 Result<std::unique_ptr<TileSetWriter>> create_folder_set(const std::string& path, TileFormat format, bool overwrite) {
-  // Without the slash at its end.
+  // Without a trailing slash.
   fs::path target = fs::path(path).has_filename() ? fs::path(path) : fs::path(path).parent_path();
   bool replaces = false;
   std::error_code error;

@@ -1,4 +1,4 @@
-// A surface that heights are above, from a file.
+// A reference surface of heights, from a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// No geoid of the earth is farther from the ellipsoid, in metres.
+/// Largest distance in metres between a geoid of the earth and the ellipsoid.
 constexpr double kMostGeoid = 150;
 
 }  // namespace

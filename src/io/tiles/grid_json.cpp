@@ -8,7 +8,7 @@ namespace scarp {
 namespace {
 
 constexpr double kMostSamples = 1 << 30;
-/// Cells of a tile: a square of more is the smallest that holds the raster.
+/// Cells of a tile: a larger square is the smallest that contains the raster.
 constexpr double kMostCells = 256;
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace scarp {
 
 Json describe_grid(const TileGrid& grid);
-/// Nothing for what is no grid, or a local one of no raster.
+/// Nothing for an invalid grid, or a local one without a raster.
 std::optional<TileGrid> parse_grid(const Json& json);
 
 }  // namespace scarp

@@ -10,10 +10,10 @@ namespace {
 /// zlib's windowBits: the largest window, in a gzip file.
 constexpr int kGzipWindow = 15 + 16;
 
-/// zlib's memLevel for a mesh: a table of codes for so many symbols that positions, heights, triangles and normals have
-/// their own.
+/// zlib's memLevel for a mesh: code tables then cover few enough symbols that positions, heights, triangles and normals
+/// each get their own.
 constexpr int kMeshMemory = 5;
-/// Files this small, in bytes, and those that codes reduce below this share, may well repeat themselves.
+/// Files smaller than this, in bytes, or reduced below this share may contain repetitions.
 constexpr std::size_t kSmallMesh = 6000;
 constexpr double kRepeats = 0.46;
 

@@ -1,4 +1,4 @@
-// Members of JSON objects that may be none.
+// Optional members of JSON objects.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Null where there is no such member, or no object.
+/// Null if the member is missing, or `object` is no object.
 inline const Json* find_member(const Json* object, const char* key) {
   if (object == nullptr || !object->is_object()) return nullptr;
   const auto found = object->find(key);
@@ -21,13 +21,13 @@ inline std::optional<double> find_number(const Json* object, const char* key) {
   return found != nullptr && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
-/// A whole number from 0 on.
+/// An integer from 0 on.
 inline std::optional<std::uint64_t> find_count(const Json* object, const char* key) {
   const Json* const found = find_member(object, key);
   return found != nullptr && found->is_number_unsigned() ? std::optional(found->get<std::uint64_t>()) : std::nullopt;
 }
 
-/// Empty where there is none.
+/// Empty if absent.
 inline std::string find_text(const Json* object, const char* key) {
   const Json* const found = find_member(object, key);
   return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();

@@ -11,8 +11,8 @@
 namespace scarp {
 namespace {
 
-/// A database is a program: views in it may make a question endless. So each has an end: it may run many more steps
-/// than an honest file of `size` bytes has work for. One thread at a time asks.
+/// A database can run programs: its views may make a query endless. So each query has a limit, far above the steps that
+/// an honest file of `size` bytes needs. Queries run one at a time.
 class Question {
  public:
   Question(sqlite3* database, std::uint64_t size) : database_(database), left_((kLeastSteps + 20 * size) / kEach) {

@@ -1,5 +1,5 @@
-// MBTiles 1.3 in SQLite. The specification is of the Mercator grid; level, column and row are here those of the
-// geographic grid, as other programs with terrain in MBTiles do it. Other files than tiles are in a table of their own.
+// MBTiles 1.3 in SQLite. The specification assumes the Mercator grid; here level, column and row are those of the
+// geographic grid, as in other programs with terrain in MBTiles. Files other than tiles are in a separate table.
 #include <fmt/format.h>
 
 #include <tuple>
@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// "MPBX", which the specification gives.
+/// "MPBX", given by the specification.
 constexpr const char* kSchema = R"(
 PRAGMA application_id = 0x4d504258;
 PRAGMA journal_mode = OFF;

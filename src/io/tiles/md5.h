@@ -1,4 +1,4 @@
-// MD5 (RFC 1321): a table of names in .3tz archives is sorted by it. It protects nothing.
+// MD5 (RFC 1321), by which the name table of .3tz archives is sorted. Not for security.
 #pragma once
 
 #include <array>

@@ -10,14 +10,14 @@
 namespace scarp {
 namespace {
 
-/// Cells of a tile: the centre does not depend on them.
+/// Cells of a tile; the centre does not depend on them.
 constexpr int kAnyCells = 128;
 
-/// Share of the way from the centre to a corner that a plane may be off the globe without a warning: on the earth
-/// corners 127 km from the centre are as far below it.
+/// Largest distance of a plane from the globe without a warning, relative to the distance from the centre to a corner:
+/// on the earth that is the depth of corners 127 km away.
 constexpr double kWorthSaying = 0.01;
 
-/// Warns where a plane is no picture of so large a part of a globe.
+/// Warns if the raster covers too large a part of a globe for a plane.
 std::vector<std::string> warn_of_distance(const PlaneOnGlobe& on_globe, const RasterOnPlane& plane, int cols, int rows,
                                           const std::string& path) {
   const double way = std::hypot(plane.cell_x * (cols - 1), plane.cell_y * (rows - 1)) / 2;
@@ -29,7 +29,7 @@ std::vector<std::string> warn_of_distance(const PlaneOnGlobe& on_globe, const Ra
                   path, off / 1000, 100 * off / way)};
 }
 
-/// The EPSG code of the UTM zone in which the middle of a raster in degrees lies.
+/// The EPSG code of the UTM zone that contains the middle of a raster in degrees.
 std::string utm_code(const RasterInfo& info, int cols, int rows) {
   const std::array<double, 6>& gt = info.geotransform;
   const double east = gt[0] + (gt[1] * cols + gt[2] * rows) / 2, north = gt[3] + (gt[4] * cols + gt[5] * rows) / 2;

@@ -16,10 +16,10 @@ namespace {
 constexpr std::string_view kMagic = "PMTiles";
 constexpr std::uint8_t kPmtilesVersion = 3;
 
-/// Tiles of all zooms below.
+/// Number of tiles of all lower zooms.
 std::uint64_t first_number(int zoom) { return ((std::uint64_t{1} << (2 * zoom)) - 1) / 3; }
 
-/// One step of the Hilbert curve: turns a quadrant of side `size`.
+/// One step of the Hilbert curve: rotates a quadrant of side `size`.
 void turn(std::uint64_t size, bool right, bool upper, std::uint64_t& x, std::uint64_t& y) {
   if (upper) return;
   if (right) {
@@ -106,7 +106,7 @@ std::optional<std::vector<PmtilesEntry>> decode_pmtiles_directory(std::span<cons
   std::uint64_t count = 0, value = 0;
   if (!read_varint(bytes, count) || count == 0 || count > most || count > bytes.size() / 4) return {};
   std::vector<PmtilesEntry> entries(count);
-  std::uint64_t next = 0;  // the least number that may follow
+  std::uint64_t next = 0;  // the smallest valid next number
   for (PmtilesEntry& entry : entries) {
     const bool is_first = &entry == entries.data();
     const std::uint64_t last = is_first ? 0 : (&entry)[-1].number;
@@ -148,7 +148,7 @@ std::array<std::uint8_t, kPmtilesHeaderSize> encode_pmtiles_header(const Pmtiles
   store_number(at, std::uint8_t{header.is_clustered});
   store_number(at, static_cast<std::uint8_t>(header.inner));
   store_number(at, static_cast<std::uint8_t>(header.tile));
-  store_number(at, std::uint8_t{0});  // the type of the tiles
+  store_number(at, std::uint8_t{0});  // tile type: unknown
   store_number(at, static_cast<std::uint8_t>(header.min_zoom));
   store_number(at, static_cast<std::uint8_t>(header.max_zoom));
   const DegreeBox& box = header.bounds;

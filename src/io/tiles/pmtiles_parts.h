@@ -1,7 +1,7 @@
 // PMTiles, version 3: the numbers of tiles, the header and the directories (the public specification, 3.x).
 //
-// PMTiles has one tile at its top, a pyramid of the geographic grid two. So its level z is kept as zoom z + 1, whose
-// upper half it fills; that of the Mercator grid as zoom z: x as it is, y from the north.
+// PMTiles has one tile at its top, a pyramid of the geographic grid two. So its level z is stored as zoom z + 1, whose
+// upper half it fills; that of the Mercator grid as zoom z: x unchanged, y from the north.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace scarp {
 
-/// The zoom that level 0 is kept as.
+/// The zoom of level 0.
 int pmtiles_zoom_offset(const TileGrid& grid);
-/// Its place on the Hilbert curves of all zooms, one after the other.
+/// Its position on the concatenated Hilbert curves of all zooms.
 std::uint64_t pmtiles_number(TileId id, const TileGrid& grid);
-/// The reverse; nothing where the grid has no such tile.
+/// The inverse; nothing if the grid has no such tile.
 std::optional<TileId> find_pmtiles_id(std::uint64_t number, const TileGrid& grid);
 
 /// Tiles `number` to `number + run - 1`, all with the same bytes; a directory if run is 0.
@@ -27,9 +27,9 @@ struct PmtilesEntry {
   std::uint64_t number = 0, offset = 0;
   std::uint32_t length = 0, run = 1;
 };
-/// Not compressed.
+/// Uncompressed.
 std::vector<std::uint8_t> encode_pmtiles_directory(std::span<const PmtilesEntry> entries);
-/// Nothing for bytes that are no directory: numbers rise, lengths are above 0. At most `most` entries.
+/// Nothing for an invalid directory: numbers must increase, and lengths be above 0. At most `most` entries.
 std::optional<std::vector<PmtilesEntry>> decode_pmtiles_directory(std::span<const std::uint8_t> bytes,
                                                                   std::uint64_t most);
 
@@ -47,12 +47,13 @@ struct PmtilesHeader {
   bool is_clustered = true;
   DegreeBox bounds;
 };
-/// The header of a clustered archive whose tiles have a type that PMTiles does not know.
+/// The header of a clustered archive with a tile type unknown to PMTiles.
 std::array<std::uint8_t, kPmtilesHeaderSize> encode_pmtiles_header(const PmtilesHeader& header);
-/// Fails with kInput, with the end of a sentence, for other files and other versions. The bounds are omitted.
+/// Fails with kInput, with the end of a sentence, for other files and versions. Omits the bounds.
 Result<PmtilesHeader> decode_pmtiles_header(std::span<const std::uint8_t> bytes);
 
-/// Bytes of metadata that a reader unpacks from `packed` bytes: less than gzip can hold, more than text of tiles needs.
+/// Limit for the metadata unpacked from `packed` bytes: below the maximum of gzip, and above the needs of tile
+/// metadata.
 constexpr std::uint64_t most_pmtiles_metadata(std::uint64_t packed) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 30, kRatio = 256;
   return packed > kMost / kRatio ? kMost : (std::uint64_t{1} << 20) + kRatio * packed;

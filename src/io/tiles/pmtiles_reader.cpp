@@ -152,7 +152,7 @@ class PmtilesReader final : public TileSetReader {
     return read_base64(rest, letters.size() / 4 * 3 - padding, bytes) && rest.empty();
   }
 
-  /// Numbers rise through all directories, so none of them is read twice.
+  /// Numbers increase through all directories, so none is read twice.
   Result<void> read_directory(const PmtilesPart& part, int depth) {
     constexpr int kMostDepth = 3;
     const auto damaged = [&] { return refuse("is damaged: a directory of it makes no sense"); };
@@ -184,12 +184,12 @@ class PmtilesReader final : public TileSetReader {
   }
 
   std::unique_ptr<ByteSource> source_;
-  std::uint64_t most_tiles_;  ///< more than a file of its size has, unless its tiles are all alike
+  std::uint64_t most_tiles_;  ///< limit for a file of its size, unless all its tiles are equal
   PmtilesHeader header_;
   TileFormat format_ = TileFormat::kQuantizedMesh;
   TileGrid grid_;
   std::vector<PmtilesEntry> entries_;  ///< entries of tiles
-  std::uint64_t next_ = 0;             ///< the least number that may follow
+  std::uint64_t next_ = 0;             ///< the smallest valid next number
   TileLevels levels_;
   std::map<std::string, Bytes> files_;
 };

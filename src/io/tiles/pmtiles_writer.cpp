@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Readers get the header and the root with one request of 16,384 bytes.
+/// Readers request the header and the root at once, 16,384 bytes.
 constexpr std::size_t kMostRoot = 16384 - kPmtilesHeaderSize;
 /// Limit of all other files.
 constexpr std::size_t kMostFiles = std::size_t{1} << 29;
@@ -26,8 +26,8 @@ struct Directories {
   Bytes root, leaves;
 };
 
-/// All in the root where it has room for that, else in leaf directories of equal numbers of tiles, with as many as it
-/// has room for.
+/// All entries in the root if they fit, otherwise in leaf directories of equal numbers of tiles, as many as fit the
+/// root.
 Result<Directories> make_directories(std::span<const PmtilesEntry> entries) {
   constexpr std::size_t kMostTried = 16384, kLeastLeaf = 4096;
   if (entries.size() <= kMostTried) {
@@ -48,7 +48,7 @@ Result<Directories> make_directories(std::span<const PmtilesEntry> entries) {
   }
 }
 
-/// The other files are members of "files": JSON as its text, others as the base64 of their bytes.
+/// Other files are members of "files": JSON as its text, others as the base64 of their bytes.
 Result<Bytes> make_metadata(const TileSpool& spool, TileFormat format, const SetFacts& facts) {
   using Json = nlohmann::ordered_json;
   Json files = Json::object();

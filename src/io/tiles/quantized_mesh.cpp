@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kWideIndices = 65536;  ///< vertices above which indices have 32 bits
 constexpr std::uint8_t kNormals = 1, kWaterMask = 2;
-/// The finest step of heights: whoever decodes to float32 sees each step then.
+/// The finest step of heights, still visible after decoding to float32.
 constexpr double kLeastStep = 0x1p-10;
 
 class Writer {
@@ -41,7 +41,7 @@ class Writer {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Differences, the sign in the lowest bit.
+/// Writes differences, with the sign in the lowest bit.
 void add_deltas(Writer& writer, const std::vector<std::uint16_t>& values) {
   std::int32_t before = 0;
   for (const std::uint16_t value : values) {
@@ -51,14 +51,14 @@ void add_deltas(Writer& writer, const std::vector<std::uint16_t>& values) {
   }
 }
 
-/// Steps of heights between the header's two.
+/// Heights in steps between the header's two heights.
 struct HeightSteps {
   float low = 0, high = 0;
   std::vector<std::uint16_t> h;
 };
 
-/// The header's heights are 32767 steps apart, the room below; a step is the quantum of the level over a power of two,
-/// so that the tile's step times a whole number is each height that another tile may have on an edge.
+/// The header's heights are 32767 steps apart, with spare room below. A step is the level's quantum divided by a power
+/// of two, so that every possible height of a neighbour's edge is a multiple of it.
 HeightSteps choose_steps(const TerrainTile& tile) {
   const auto [bottom, top] = std::minmax_element(tile.heights.begin(), tile.heights.end());
   HeightSteps steps;
@@ -85,7 +85,7 @@ HeightSteps choose_steps(const TerrainTile& tile) {
 
 template <class Index>
 void add_indices(Writer& writer, const TerrainTile& tile) {
-  // High-water marks: 0 is the first index that was not used before.
+  // High-water marks: 0 is the first unused index.
   std::uint32_t highest = 0;
   writer.add(static_cast<std::uint32_t>(tile.triangles.size() / 3));
   for (const std::uint32_t index : tile.triangles) {
@@ -113,7 +113,7 @@ void add_extension(Writer& writer, std::uint8_t id, std::size_t length) {
   writer.add(static_cast<std::uint32_t>(length));
 }
 
-/// Reads what a file may hold; never beyond its end.
+/// A reader of hostile files; never reads beyond the end.
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -132,7 +132,7 @@ class Reader {
     at_ += sizeof value;
     return value;
   }
-  /// A count of things of `size` bytes each that are still there; 0 and failed() otherwise.
+  /// A count of items of `size` bytes each that still fit; 0 and failed() otherwise.
   std::size_t take_count(std::size_t size) {
     const std::size_t count = take<std::uint32_t>();
     if (count <= left() / size) return count;

@@ -15,7 +15,7 @@ constexpr Archive kArchives[] = {{".pmtiles", write_pmtiles, open_pmtiles},
                                  {".mbtiles", write_mbtiles, open_mbtiles},
                                  {".3tz", write_3tz, open_3tz}};
 
-/// Fails for what is there and is not Scarp's.
+/// Fails if the existing file is not Scarp's.
 Result<void> check_replaced(const Archive& archive, const std::string& path) {
   const auto refuse = [&](const std::string& why) {
     return fail(ErrorKind::kOutput, fmt::format("{} is there and is not Scarp's{}: give another name", path, why));

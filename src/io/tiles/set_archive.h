@@ -1,4 +1,4 @@
-// Sets of tiles in one file: what all such containers share.
+// Tile sets in one file: the common part of all such containers.
 #pragma once
 
 #include <memory>
@@ -11,21 +11,21 @@
 
 namespace scarp {
 
-/// A container: how a spooled set is written to it, and how it is read. write() sorts the spool and writes the whole
-/// file; StagedFile::end() follows. open() fails with kInput.
+/// A container format: writing a spooled set to it, and reading it. write() sorts the spool and writes the whole file;
+/// StagedFile::end() follows. open() fails with kInput.
 struct Archive {
   std::string_view ending;
   Result<void> (*write)(TileSpool& spool, TileFormat format, StagedFile& file);
   Result<std::unique_ptr<TileSetReader>> (*open)(const std::string& path);
 };
 
-/// By the ending of the path, in small or capital letters; null for folders.
+/// By the extension of the path, in any case; null for folders.
 const Archive* find_archive(const std::string& path);
 
 Result<std::unique_ptr<TileSetWriter>> create_archive_set(const Archive& archive, const std::string& path,
                                                           TileFormat format, bool overwrite);
 
-/// Bytes that are collected before they go to a file.
+/// Buffers bytes for a file.
 class ChunkedOutput {
  public:
   explicit ChunkedOutput(StagedFile& file) : file_(&file) {}
@@ -40,7 +40,7 @@ class ChunkedOutput {
   std::uint64_t position_ = 0;
 };
 
-/// The metadata of the set in its container, copied from layer.json where there is one.
+/// The metadata of the set in its container, copied from layer.json if present.
 struct SetFacts {
   std::string name = "terrain", description, attribution;
   DegreeBox bounds{-180, -90, 180, 90};
@@ -55,7 +55,7 @@ Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file
 Result<std::unique_ptr<TileSetReader>> open_pmtiles(const std::string& path);
 Result<void> write_mbtiles(TileSpool& spool, TileFormat format, StagedFile& file);
 Result<std::unique_ptr<TileSetReader>> open_mbtiles(const std::string& path);
-/// The last entry of a .3tz: where the others are.
+/// The last entry of a .3tz, which locates the others.
 inline constexpr std::string_view kIndexOf3tz = "@3dtilesIndex1@";
 Result<void> write_3tz(TileSpool& spool, TileFormat format, StagedFile& file);
 Result<std::unique_ptr<TileSetReader>> open_3tz(const std::string& path);

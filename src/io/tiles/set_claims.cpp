@@ -101,7 +101,7 @@ void read_projection(const Json& layer, SetClaims& claims) {
   claims.grid = grid.value_or(TileGrid{});
 }
 
-/// Reads where clients find a tile's file: they stop if it is not declared.
+/// Reads the URL templates of tiles: clients stop without them.
 void read_addresses(const Json& layer, SetClaims& claims) {
   const Json* const tiles = find_member(&layer, "tiles");
   const bool has_some = tiles != nullptr && tiles->is_array() && !tiles->empty();
@@ -144,7 +144,7 @@ void read_layer(const TileSetReader& set, SetClaims& claims) {
   read_own(find_member(&*layer, "scarp"), claims);
 }
 
-/// Empty unless there are so many numbers.
+/// Empty unless it has exactly `count` numbers.
 std::vector<double> find_numbers(const Json* object, const char* key, std::size_t count) {
   const Json* const found = find_member(object, key);
   if (found == nullptr || !found->is_array() || found->size() != count) return {};

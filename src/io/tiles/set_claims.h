@@ -1,4 +1,4 @@
-// The claims of a set about itself: layer.json of quantized-mesh; tileset.json and subtrees of 3D Tiles.
+// The metadata of a tile set: layer.json of quantized-mesh; tileset.json and subtrees of 3D Tiles.
 #pragma once
 
 #include <array>
@@ -17,37 +17,37 @@ struct ClaimedTiles {
   std::uint32_t x = 0, y = 0, end_x = 0, end_y = 0;
 };
 
-/// A tile that tileset.json itself holds: implicit tiles follow from it, or it has none.
+/// A tile listed in tileset.json itself: the root of implicit tiles, or without any.
 struct ClaimedRoot {
-  std::string volume;           ///< "region" or "box"; empty without one that makes sense
+  std::string volume;           ///< "region" or "box"; empty if absent or invalid
   std::vector<double> numbers;  ///< numbers of the volume: 6 or 12
-  std::string refine;           ///< its own; empty where it is its parent's
+  std::string refine;           ///< its own; empty if inherited
   std::optional<double> geometric_error;
   bool has_transform = false;
-  std::vector<double> transform;  ///< 16; empty where it makes no sense
+  std::vector<double> transform;  ///< 16; empty if invalid
   bool is_implicit = false;
-  std::optional<std::uint64_t> levels;  ///< implicit: that are available
+  std::optional<std::uint64_t> levels;  ///< if implicit: the available levels
 };
 
 struct SetClaims {
-  std::vector<std::string> faults;                ///< sentences: what is missing, cannot be read, or makes no sense
-  std::vector<std::vector<ClaimedTiles>> levels;  ///< tiles that are announced
-  bool announces_all = true;                      ///< false where tiles themselves announce others
-  std::vector<std::optional<double>> node_errors, bounds, source_errors;  ///< by level, where Scarp wrote them
+  std::vector<std::string> faults;                ///< sentences: missing, unreadable or invalid contents
+  std::vector<std::vector<ClaimedTiles>> levels;  ///< announced tiles
+  bool announces_all = true;                      ///< false if tiles themselves announce others
+  std::vector<std::optional<double>> node_errors, bounds, source_errors;  ///< by level, in Scarp's sets
   bool has_water_mask = false;                                            ///< tiles have one
   std::optional<int> cells;
   std::optional<double> background;
   std::optional<Geodetic> ellipsoid;
-  std::string vertical;                   ///< like LayerFacts::vertical, where Scarp wrote it
-  std::string units;                      ///< like LayerFacts::units, where Scarp wrote them
-  TileGrid grid = {};                     ///< grid of the projection that layer.json names, or the one in tileset.json
+  std::string vertical;                   ///< like LayerFacts::vertical, in Scarp's sets
+  std::string units;                      ///< like LayerFacts::units, in Scarp's sets
+  TileGrid grid = {};                     ///< grid of the projection named by layer.json, or the one in tileset.json
   FactsByTile facts;                      ///< facts of 3D Tiles
   std::optional<double> geometric_error;  ///< geometric error of tileset.json as a whole
   std::vector<ClaimedRoot> roots;         ///< roots of tileset.json, parents first
-  std::optional<std::array<double, 2>> off_globe;  ///< offset of a local grid: metres along the ground, and in height
+  std::optional<std::array<double, 2>> off_globe;  ///< offset of a local grid: ground metres, and height
 };
 
-/// Believes nothing: claims that make no sense are among the faults.
+/// Handles hostile files: invalid claims are added to the faults.
 SetClaims read_set_claims(const TileSetReader& set);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// SQLite's handles, which close themselves.
+// SQLite handles that close themselves.
 #pragma once
 
 #include <sqlite3.h>
@@ -18,7 +18,7 @@ struct SqliteCloser {
 using SqliteDatabase = std::unique_ptr<sqlite3, SqliteCloser>;
 using SqliteStatement = std::unique_ptr<sqlite3_stmt, SqliteCloser>;
 
-/// Null if the database refuses it.
+/// Null on failure.
 inline SqliteStatement prepare(sqlite3* database, const char* text) {
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v2(database, text, -1, &statement, nullptr) != SQLITE_OK) return nullptr;

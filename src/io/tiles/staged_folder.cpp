@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kRandomEnd = "XXXXXX", kOldEnd = ".old";
 
-/// The common beginning of the names of all folders that runs on this machine make for a set of that name.
+/// The common prefix of all folders that runs on this machine create for a set of that name.
 std::string beginning_for(const fs::path& target) {
   std::array<char, 256> machine{};
   ::gethostname(machine.data(), machine.size() - 1);
@@ -34,8 +34,8 @@ std::string beginning_for(const fs::path& target) {
 }
 
 struct FolderLock {
-  int fd = -1;            ///< -1: the folder is another process's, or the file system knows no locks
-  bool is_other = false;  ///< another process holds the folder, or has deleted it
+  int fd = -1;            ///< -1: another process's folder, or no locks in the file system
+  bool is_other = false;  ///< another process holds or has deleted the folder
 };
 
 FolderLock lock_folder(const fs::path& folder) {
@@ -70,7 +70,7 @@ void remove_left(const fs::path& beside, const fs::path& target, const std::stri
     fs::remove_all(folder, error);
     ::close(lock.fd);
   }
-  // A set that is replaced is the only one until the new one has its name.
+  // The replaced set is the only one until the new one is renamed.
   if (!old.empty() && fs::exists(target, error)) {
     for (const fs::path& folder : old) fs::remove_all(folder, error);
   }
@@ -88,7 +88,7 @@ Result<StagedFolder> StagedFolder::create_beside(const fs::path& target) {
     if (::mkdtemp(name.data()) == nullptr)
       return fail(ErrorKind::kOutput,
                   fmt::format("no folder can be made in {}: {}", beside.string(), reason_of(errno)));
-    // Who removes what is left may come between the folder and its lock.
+    // Cleanup by another process may happen between creating the folder and locking it.
     const FolderLock lock = lock_folder(name);
     if (lock.is_other) continue;
     fs::permissions(name, fs::perms(0755), error);

@@ -1,4 +1,4 @@
-// A folder on its way: under a temporary name next to the one that it will get.
+// An output folder under a temporary name next to its final one until it is complete.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace scarp {
 
-/// ".scarp-tiles-", a hash of the final name and of this machine's, and a random end. The process holds a lock on it,
-/// which ends with the process however that ends.
+/// Its name is ".scarp-tiles-", a hash of the final name and the machine's name, and a random suffix. The process locks
+/// it; the lock ends with the process in any case.
 class StagedFolder {
  public:
-  /// Deletes those of the same final name first that processes of this machine left when they were killed. `target`:
-  /// the final name. Fails with kOutput where no folder can be made.
+  /// First deletes folders for the same final name left by killed processes of this machine. `target`: the final name.
+  /// Fails with kOutput if no folder can be created.
   static Result<StagedFolder> create_beside(const std::filesystem::path& target);
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder(const StagedFolder&) = delete;
@@ -21,9 +21,9 @@ class StagedFolder {
   ~StagedFolder();
 
   const std::filesystem::path& path() const { return path_; }
-  /// The path where finish() of a set keeps the one that it replaces.
+  /// The path to which finish() of a set moves the set that it replaces.
   std::filesystem::path path_of_old() const;
-  /// It has its final name: it stays.
+  /// It has been renamed and will not be deleted.
   void release() { path_.clear(); }
 
  private:

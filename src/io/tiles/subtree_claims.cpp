@@ -17,7 +17,7 @@ constexpr std::uint32_t kSubtreeMark = 0x74627573;
 constexpr std::size_t kHead = 24;
 constexpr std::uint64_t kMostLevels = 10;
 
-/// A name with {level}, {x} and {y}.
+/// Substitutes {level}, {x} and {y} in a name.
 std::string fill_in(std::string name, std::uint64_t level, std::uint64_t x, std::uint64_t y) {
   for (const auto& [key, value] : {std::pair{"{level}", level}, {"{x}", x}, {"{y}", y}}) {
     const std::size_t at = name.find(key);
@@ -26,14 +26,14 @@ std::string fill_in(std::string name, std::uint64_t level, std::uint64_t x, std:
   return name;
 }
 
-/// Gathers every second bit from the first on.
+/// Collects every second bit, starting with the first.
 std::uint32_t gather_bits(std::uint64_t code) {
   std::uint32_t value = 0;
   for (unsigned bit = 0; bit < 32; ++bit) value |= static_cast<std::uint32_t>((code >> (2 * bit)) & 1) << bit;
   return value;
 }
 
-/// A subtree file: JSON, and bytes that it refers to.
+/// A subtree file: JSON, and the bytes that it refers to.
 class Subtree {
  public:
   /// False for other files.
@@ -51,7 +51,7 @@ class Subtree {
 
   const Json* find(const char* key) const { return find_member(&json_, key); }
 
-  /// `count` bits of an availability; false where it cannot be read, or counts them wrongly.
+  /// `count` bits of an availability; false if unreadable, or miscounted.
   bool read_bits(const Json* availability, std::size_t count, std::vector<bool>& bits) const {
     bits.assign(count, false);
     if (const auto constant = find_count(availability, "constant")) {
@@ -66,7 +66,7 @@ class Subtree {
     return !claimed || *claimed == static_cast<std::uint64_t>(std::count(bits.begin(), bits.end(), true));
   }
 
-  /// The numbers of a property, `width` for each of `count` tiles; empty where they cannot be read.
+  /// The numbers of a property, `width` for each of `count` tiles; empty if unreadable.
   std::vector<double> read_property(const char* name, std::size_t count, std::size_t width) const {
     const Json* const tables = find("propertyTables");
     if (tables == nullptr || !tables->is_array() || tables->empty()) return {};

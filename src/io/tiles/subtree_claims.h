@@ -1,4 +1,4 @@
-// Tiles that implicit tiling announces: subtrees of 3D Tiles 1.1.
+// Tiles announced by implicit tiling: subtrees of 3D Tiles 1.1.
 #pragma once
 
 #include "io/mesh/glb_json.h"
@@ -6,8 +6,7 @@
 
 namespace scarp {
 
-/// Adds the tiles of all subtrees that the tileset leads to, with what is known of each. A part that cannot be read is
-/// among the faults.
+/// Adds the tiles of all subtrees of the tileset, with their known facts. Unreadable parts are added to the faults.
 void read_subtrees(const TileSetReader& set, const Json& tileset, SetClaims& claims);
 
 }  // namespace scarp

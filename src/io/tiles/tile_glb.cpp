@@ -1,4 +1,4 @@
-// A tile as a GLB file: y up, which is (x, z, −y) of the earth's axes, as 3D Tiles turns it back.
+// A tile as a GLB file with y up, i.e. (x, z, −y) of the earth's axes, which 3D Tiles clients rotate back.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -26,7 +26,7 @@ constexpr std::size_t kShortIndices = 65535;
 constexpr std::uint32_t kShort = 65535;
 constexpr double kMostUnlike = 4;
 
-/// Octahedral in signed bytes, as EXT_meshopt_compression's filter undoes it: x, y, what 1 is, and nothing.
+/// Octahedral in signed bytes, for decoding by EXT_meshopt_compression's filter: x, y, the value of 1, and 0.
 std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
   const double size = std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]);
   double x = normal[0] / size, y = normal[1] / size;
@@ -41,7 +41,7 @@ std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
 
 using Steps = std::array<std::uint32_t, 3>;
 
-/// Vertices of the file: which of the tile's each is, for its normal and its place in a texture; and where it lies.
+/// Vertices of the file: index in the tile, for normal and texture coordinates, and position.
 struct GlbVertices {
   std::vector<std::uint32_t> of;
   std::vector<Steps> offsets;
@@ -84,7 +84,7 @@ class TileGlbWriter {
   }
 
  private:
-  /// The order that needs the fewest bytes.
+  /// Sorts for the smallest encoding.
   void order_vertices() {
     std::vector<std::uint32_t>& vertices = surface_.of;
     for (std::uint32_t v = 0; v < tile_.offsets.size(); ++v) vertices.push_back(v);
@@ -99,7 +99,7 @@ class TileGlbWriter {
     for (const std::uint32_t v : vertices) surface_.offsets.push_back(tile_.offsets[v]);
   }
 
-  /// Adds the skirt, as seen from outside the tile.
+  /// Adds the skirt, facing outwards from the tile.
   void add_skirt() {
     const std::array edges{&tile_.west, &tile_.north, &tile_.east, &tile_.south};
     for (std::size_t side = 0; side < edges.size(); ++side) {
@@ -159,7 +159,7 @@ class TileGlbWriter {
                                          0.0, origin[0], origin[1], origin[2], 1.0}}}});
   }
 
-  /// Clients put normals through the inverse of the matrix; on a globe it is the same each way.
+  /// Clients transform normals by the inverse of the matrix; on a globe its scale is uniform.
   std::array<double, 3> normal_before_matrix(std::uint32_t v) const {
     auto [x, y, z] = tile_.normals[v];
     const auto& [east, north, up] = tile_.steps;
@@ -222,7 +222,7 @@ class TileGlbWriter {
   std::size_t add_normals(const GlbVertices& vertices) {
     const std::uint64_t count = vertices.of.size();
     std::size_t view = 0;
-    // Bytes do not hold the positions of a plane whose steps are very unlike each way.
+    // Bytes are too coarse for a plane's normals if its steps differ much by axis.
     const auto [least, most] = std::minmax_element(tile_.steps.begin(), tile_.steps.end());
     const bool is_packed = is_packed_ && *most <= kMostUnlike * *least;
     if (is_packed) {
@@ -247,7 +247,7 @@ class TileGlbWriter {
     return glb_.accessor_count() - 1;
   }
 
-  /// Adds positions of the vertices in the texture, whose outermost pixels lie beyond the tile. From the top.
+  /// Adds texture coordinates of vertices, from the top. The texture's outermost pixels are outside the tile.
   std::size_t add_places(const GlbVertices& vertices) {
     constexpr std::size_t kStride = 4;
     const std::uint64_t count = vertices.of.size();
@@ -324,7 +324,7 @@ class TileGlbWriter {
     return glb_.accessor_count() - 1;
   }
 
-  /// One view of all edges: JSON is dearer than what compression saves.
+  /// One view for all edges: more JSON would cost more than compression saves.
   Json add_edges() {
     const std::pair<const char*, const std::vector<std::uint32_t>*> edges[] = {
         {"left", &tile_.west}, {"bottom", &tile_.south}, {"right", &tile_.east}, {"top", &tile_.north}};
@@ -347,15 +347,15 @@ class TileGlbWriter {
   const EarthTile& tile_;
   const TileGlbOptions& options_;
   bool is_packed_, is_short_ = false, has_short_indices_ = false;
-  Steps size_{};                        ///< the largest offsets
+  Steps size_{};                        ///< largest offsets
   GlbVertices surface_, skirt_;         ///< in the file's order
-  std::vector<std::uint32_t> places_;   ///< places of the tile's vertices in the file
+  std::vector<std::uint32_t> places_;   ///< indices of the tile's vertices in the file
   std::vector<std::uint32_t> corners_;  ///< corners of triangles, in the file's order
   std::vector<std::uint32_t> skirt_corners_;
   GlbBuilder glb_;
 };
 
-/// The numbers of an array of so many.
+/// The numbers of an array of length N.
 template <std::size_t N>
 bool read_numbers(const Json& object, const char* key, std::array<double, N>& numbers) {
   const auto found = object.find(key);

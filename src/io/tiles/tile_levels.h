@@ -1,4 +1,4 @@
-// The tiles that a set holds.
+// The tiles in a set.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// By level: rows and columns, y · 2^32 + x. Sorted once sort() was called.
+/// By level: rows and columns, y · 2^32 + x. Sorted by sort().
 class TileLevels {
  public:
   /// REQUIRES: a tile of the grid.
@@ -19,7 +19,7 @@ class TileLevels {
     levels_[z].push_back(key(id));
     ++count_;
   }
-  /// False if a tile is there twice.
+  /// False if a tile occurs twice.
   bool sort() {
     for (auto& level : levels_) {
       std::sort(level.begin(), level.end());

@@ -1,4 +1,4 @@
-// Names of files in a set of tiles.
+// Names of files in a tile set.
 #pragma once
 
 #include <string_view>
@@ -7,14 +7,14 @@
 
 namespace scarp {
 
-/// True if a set may hold it next to its tiles: a relative path whose parts are neither empty nor hidden, and so never
-/// lead out of a folder.
+/// True for names of additional files in a set: a relative path without empty or hidden parts, so that it never leaves
+/// the folder.
 bool is_plain_name(std::string_view name);
 
-/// True if it is one of the names that Scarp gives to other files than tiles.
+/// True for the names of Scarp's files other than tiles.
 bool is_known_name(std::string_view name);
 
-/// True if these are the bytes of a layer.json or a tileset.json that marks the set as Scarp's.
+/// True for the bytes of a layer.json or a tileset.json that marks the set as Scarp's.
 bool bears_mark(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

@@ -15,7 +15,7 @@ namespace scarp {
 
 namespace {
 
-/// Endings of files that are no set of tiles, besides those of meshes.
+/// Extensions of files that are no tile sets, in addition to mesh formats.
 constexpr const char* kEndingsOfFiles[] = {"terrain", "json", "b3dm", "gltf", "zip", "html",
                                            "tif",     "tiff", "png",  "pgm",  "svg", "eps"};
 

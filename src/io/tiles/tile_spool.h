@@ -1,4 +1,4 @@
-// The tiles and files of a set on their way: in the order in which they came, until a container is written in its own.
+// Tiles and files of a set in the order of arrival, until a container is written in its own order.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-/// Keeps bytes in a file without a name, of which nothing is left however the process ends.
+/// Stores bytes in an unnamed file, which always vanishes with the process.
 class TileSpool {
  public:
   struct Tile {
@@ -26,7 +26,7 @@ class TileSpool {
     std::uint64_t offset = 0, length = 0;
   };
 
-  /// In the folder of `path`, where the set will need as much room. Fails with kOutput.
+  /// Creates it in the folder of `path`, where the set will need as much space. Fails with kOutput.
   static Result<std::unique_ptr<TileSpool>> create_beside(const std::string& path);
   TileSpool(const TileSpool&) = delete;
   TileSpool& operator=(const TileSpool&) = delete;
@@ -35,7 +35,7 @@ class TileSpool {
   Result<void> add(TileId id, std::span<const std::uint8_t> bytes);
   Result<void> add(const std::string& name, std::span<const std::uint8_t> bytes);
 
-  /// In the order in which they came, or in that of the last sort.
+  /// In the order of arrival, or of the last sort.
   const std::vector<Tile>& tiles() const { return tiles_; }
   template <class Less>
   void sort_tiles(Less less) {
@@ -44,7 +44,7 @@ class TileSpool {
   const std::vector<File>& files() const { return files_; }
   /// By name.
   void sort_files();
-  /// True if all tiles, and if none, begin as gzip files do.
+  /// True if all tiles, or none, begin like gzip files.
   bool all_gzip() const { return gzip_tiles_ == tiles_.size(); }
   bool no_gzip() const { return gzip_tiles_ == 0; }
 

@@ -31,7 +31,7 @@ std::uint32_t interleave(std::uint32_t x, std::uint32_t y) {
   return code;
 }
 
-/// Bits, the first in the lowest place of the first byte.
+/// A bit array, lowest bit of each byte first.
 class Bits {
  public:
   explicit Bits(std::size_t size) : bytes_((size + 7) / 8) {}
@@ -47,7 +47,7 @@ class Bits {
   std::size_t count_ = 0;
 };
 
-/// A binary chunk whose views begin at multiples of 8.
+/// A binary chunk whose views start at multiples of 8.
 class Views {
  public:
   std::size_t add(const std::vector<std::uint8_t>& bytes) {
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> join_subtree(std::string json, const std::vector<std::
   return bytes;
 }
 
-/// The subtree below a tile: which of its tiles are there, and what is known of them.
+/// The subtree below a tile: its existing tiles, and their facts.
 std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles, bool is_flat) {
   constexpr std::size_t kTiles = ((std::size_t{1} << (2 * kSubtreeLevels)) - 1) / 3;
   constexpr std::size_t kChildren = std::size_t{1} << (2 * kSubtreeLevels);
@@ -139,7 +139,7 @@ std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles, 
 std::string content_name(std::uint32_t root) { return fmt::format("{}/{{level}}/{{x}}/{{y}}.glb", root); }
 std::string subtree_name(std::uint32_t root) { return fmt::format("subtrees/{}/{{level}}/{{x}}/{{y}}.subtree", root); }
 
-/// Heights of a local grid are not those that the semantics mean, above the ellipsoid.
+/// The heights' semantics, above the ellipsoid, do not fit a local grid.
 Json describe_classes(bool is_flat) {
   const auto number = [&](const char* type, const char* semantic) {
     Json json{{"type", type}, {"componentType", "FLOAT64"}, {"required", true}};
@@ -230,7 +230,7 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
       {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
       {"levels", std::move(levels)}};
   if (!facts.vertical.empty()) asset["extras"]["scarp"]["vertical"] = facts.vertical;
-  // Who draws nothing misses the whole planet, or the whole plane.
+  // The error of drawing nothing: the size of the planet, or of the plane.
   const double nothing = std::max(is_flat ? plan.grid.tile_width(0, a) : a, 2 * root_error);
   Json root;
   if (is_flat) {
@@ -240,7 +240,7 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
   } else {
     root = {
         {"boundingVolume", region(-kPi, kPi)},
-        {"geometricError", nothing},  // it has no triangles
+        {"geometricError", nothing},  // without triangles
         {"refine", "REPLACE"},
         {"children",
          {describe_root(0, region(-kPi, 0), root_error, plan), describe_root(1, region(0, kPi), root_error, plan)}}};
