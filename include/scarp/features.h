@@ -49,8 +49,8 @@ struct WaterOptions {
   double percentile = 5;
   /// Samples around a lake are raised to at least this height above its level, in z units, above 0.
   double freeboard = 0.01;
-  /// As SimplifyOptions::run: the memory limit of the process in bytes (0: none), and the bytes already in use. Lakes
-  /// that do not fit fail with kUsage. DEFAULT: no limit.
+  /// The memory limit of the process in bytes (0: none), and the bytes already in use, as in SimplifyOptions::run.
+  /// Lakes that do not fit fail with kUsage. DEFAULT: no limit.
   Run run = {};  ///< memory; progress: of the pass "water"
 };
 
@@ -79,7 +79,7 @@ Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const L
 struct FlatOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of shores: map_affine()
   std::uint64_t min_samples = 100;                 ///< at least 3
-  /// As WaterOptions::run. The limit includes the memory of the shores as breaklines. DEFAULT: no limit.
+  /// Like WaterOptions::run. The limit includes the memory of the shores as breaklines. DEFAULT: no limit.
   Run run = {};  ///< memory; progress: of the pass "flats"
 };
 
