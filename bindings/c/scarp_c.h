@@ -97,7 +97,7 @@ typedef struct scarp_points {
   const double *x, *y, *z;
   uint64_t count;
   uint64_t stride;  /* doubles from one x to the next, at least 1; 3 for interleaved x, y, z. DEFAULT: 1. */
-  const char* crs;  /* as for a field; degrees become metres from the middle of the points. DEFAULT: NULL */
+  const char* crs;  /* like a field's; degrees become metres from the middle of the points. DEFAULT: NULL */
   const char* name; /* DEFAULT: NULL, "points" */
 } scarp_points;
 

@@ -1,1 +1,1 @@
-"""Other packages' interfaces, by Scarp."""
+"""Interfaces of other packages, implemented by Scarp."""
