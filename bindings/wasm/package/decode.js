@@ -1,4 +1,4 @@
-// Heights of the pixels of terrain tiles.
+// Decodes heights from pixels of terrain tiles.
 import { ScarpError } from './error.js';
 import { FARTHEST, checkArray, checkSide } from './heights.js';
 
@@ -8,8 +8,8 @@ const ENCODINGS = {
   mapbox: { rScaler: 6553.6, gScaler: 25.6, bScaler: 0.1, offset: -10000 },
 };
 
-/// `rgba`: four bytes a pixel, as a canvas' ImageData has them. Float32Array, the first row in the north. A pixel that
-/// is wholly transparent has no height: NaN.
+/// `rgba`: four bytes a pixel, as in a canvas' ImageData. Returns a Float32Array, the first row in the north, with NaN
+/// for fully transparent pixels.
 export function decodeTile(rgba, width, height, encoding = 'terrarium') {
   const { rScaler, gScaler, bScaler, offset } =
     typeof encoding === 'object' && encoding ? encoding : (ENCODINGS[encoding] ?? {});

@@ -1,4 +1,4 @@
-// The package in its usual form: next to its .wasm file and its worker.
+// The package in its usual form, with a .wasm file and a worker next to it.
 import { defaults } from './ready.js';
 
 defaults.source ??= () => new URL('./scarp.wasm', import.meta.url);
