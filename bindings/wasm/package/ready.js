@@ -28,7 +28,7 @@ function locate() {
 export async function ready(source, options = {}) {
   const { warm } = takeOptions(options, 'ready');
   await start(source ?? locate());
-  // The pauses let compilers, which run in parallel, finish.
+  // The pauses are for compilers, which run in parallel.
   for (let round = 0; warm && round < 3; ++round) {
     defaults.warm();
     await new Promise(done => setTimeout(done, 30));

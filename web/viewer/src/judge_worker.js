@@ -1,4 +1,4 @@
-// In the background: the errors of one mesh.
+// Computes the errors of one mesh in the background.
 import { judge } from './errors.js';
 import { Field } from './field.js';
 

@@ -1,4 +1,5 @@
-// The engine, in the background: greedy meshes from one kept refinement, others by an effort. Answers are judged here.
+// The engine in the background: greedy meshes from a continued refinement, others with an effort. It judges its
+// results.
 import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
@@ -21,10 +22,10 @@ function warmUp() {
   simplifySync(z, side, side, { maxError: 1, effort: 'fast' });
 }
 
-// Factor of an error: the refiner's doubles would continue where an exact decision ends.
+// Factor for an error: because of rounding, the refiner would continue where an exact decision ends.
 const AT_THE_BOUND = 1 + 1e-12;
 
-/** Finer meshes continue from the last; for a coarser one it begins again. */
+/** Finer meshes continue from the last one; a coarser one begins anew. */
 function refine(error) {
   if (!refiner || refiner.maxError < error) {
     refiner?.free();
