@@ -164,7 +164,7 @@ scarp_status scarp_options_set(scarp_options* options, const char* name, const c
 void scarp_options_clear(scarp_options* options);
 
 /* Simplifies a field in memory, like `scarp simplify` for a raster with these samples. Float32 samples are not copied,
- * except for scarp_field::nodata. */
+ * unless scarp_field::nodata requires it. */
 scarp_status scarp_simplify(const scarp_field* field, const scarp_options* options, scarp_mesh** out);
 /* The same for a file of a raster or points, with all its metadata, exactly as the program does. */
 scarp_status scarp_simplify_file(const char* path, const scarp_options* options, scarp_mesh** out);

@@ -43,7 +43,7 @@ struct Lake {
 
 /// Options of flatten_lakes() and find_lakes().
 struct WaterOptions {
-  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of the lines: map_affine()
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of the lines: map_affine()
   /// The level is this percentile of the heights along the shore, 0 … 100. Most of a shore is too high, because most of
   /// its cells hold more land than water.
   double percentile = 5;
@@ -65,9 +65,9 @@ struct WaterOptions {
 ///
 /// With the shores as breaklines and vertices on samples, a mesh is level within each lake. REQUIRES: the affine map
 /// can be inverted. Fails with kUsage for options out of range, with kCancelled, and as the field's source does; for a
-/// field with a source also with kInput for shores with too large coordinates. Memory: as breaklines. Cost: O(samples
-/// in and around the lakes, and n log n for shores along n samples). Of a source, the rows of shores are read first,
-/// then the rows of lakes, once.
+/// field with a source also with kInput for shores whose coordinates are too large. Memory: as breaklines. Cost:
+/// O(samples in and around the lakes, and n log n for shores along n samples). Of a source, the rows of shores are read
+/// first, then the rows of lakes, once.
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options);
 
@@ -77,7 +77,7 @@ Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const L
                                      const WaterOptions& options);
 
 struct FlatOptions {
-  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of shores: map_affine()
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of shores: map_affine()
   std::uint64_t min_samples = 100;                 ///< at least 3
   /// Like WaterOptions::run. The limit includes the memory of the shores as breaklines. DEFAULT: no limit.
   Run run = {};  ///< memory; progress: of the pass "flats"
@@ -102,7 +102,7 @@ struct River {
 };
 
 struct RiverOptions {
-  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of the lines: map_affine()
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of the lines: map_affine()
   /// Max height difference between a course and the exact one, in z units, at least 0. DEFAULT: 0, two vertices a
   /// sample.
   double tolerance = 0;
@@ -135,7 +135,7 @@ struct CliffOptions {
   /// Max error of the future mesh, at least 0 and finite. Samples along a line differ from it in height by at most 0.9
   /// of this. Refinement ensures the error bound in any case, but lines farther from the samples are of little use.
   double max_error = 0;
-  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of lines: map_affine()
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< lines that no wall may cross or touch
   /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions. Walls that do
   /// not fit fail with kMemory. DEFAULT: no limit.
@@ -181,9 +181,9 @@ struct RidgeOptions {
   /// Heights below the max error are of little use.
   double height = 0;
   /// Max error of the future mesh, at least 0 and finite. Like soft lines, ridges follow the raster to within half of
-  /// it.
+  /// this error.
   double max_error = 0;
-  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of lines: map_affine()
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< no ridge is searched for near these lines
   bool are_kept = false;                           ///< the final mesh holds all lines at every effort
   /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions. Ridges that do
@@ -231,15 +231,15 @@ struct Features {
   LineConstraints breaklines = {};
   /// Lakes of flatten_lakes() or find_flats() for the field: their shores become lines, rivers flow into them.
   std::vector<Lake> lakes = {};
-  std::vector<Line> rivers = {};                    ///< horizontal courses, for carve_rivers()
+  std::vector<Line> rivers = {};                    ///< courses in x and y, for carve_rivers()
   std::optional<WallGoals> walls = std::nullopt;    ///< DEFAULT: none
   std::optional<RidgeGoals> ridges = std::nullopt;  ///< DEFAULT: none
   /// Samples that become vertices before the first scan, in this order, and are never removed. Samples outside of the
   /// valid data are skipped. DEFAULT: none.
   std::vector<SampleAt> points = {};
   /// Polygons to which the surface, the domain of guarantee (2), is cut. Their rings become edges of the mesh, moved by
-  /// at most 1/512 sample (3/512 where lines cross). The edges follow the heights of the raster between its samples to
-  /// within half of max_error, and within all of it less than a sample from their vertices. Samples outside are not
+  /// at most 1/512 sample (3/512 where lines cross). The edges follow the raster's heights between its samples to
+  /// within half of max_error (less than a sample from their vertices, within max_error). Samples outside are not
   /// judged. simplify() fails with kInput where no surface lies in the polygons. DEFAULT: none.
   Cutline cutline = {};
 

@@ -138,11 +138,12 @@ Result<Frame> frame_of_degrees(const std::array<double, 6>& affine, int cols, in
 
 /// The position of a raster on the globe.
 struct RasterPlace {
-  /// From samples to x and y of the CRS, as Frame::affine.
+  /// Map from samples to x and y of the CRS, as Frame::affine.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
-  /// From longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
+  /// Map from longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
   std::shared_ptr<const PointTransform> from_degrees = nullptr;
-  /// The inverse. Null if from_degrees is; without it no samples are shown.
+  /// The inverse map. Null if from_degrees is null; if only this is null, NodeSource::visit_samples() passes no
+  /// samples.
   std::shared_ptr<const PointTransform> to_degrees = nullptr;
 };
 
@@ -218,9 +219,9 @@ struct UndeclaredNodata {
 
 /// Signs that heights packed into colours are wrong: the colours were changed after packing, or are not packed heights.
 struct PackedDoubts {
-  /// Number of samples whose two neighbours in the row are close together, but that differ from both by an eighth to
-  /// one and a half times the weight of the next colour, where that colour changes. 0 unless typical of interpolation
-  /// or lossy compression. Of a large raster, some rows are searched for interpolation.
+  /// Number of odd samples: their two neighbours in the row are close together, but differ from them by an eighth to
+  /// one and a half times the weight of the next colour, which changes there. 0 unless typical of interpolation or
+  /// lossy compression. In a large raster, only some rows are searched for interpolation.
   std::uint64_t torn = 0;
   double torn_by = 0;      ///< largest such difference
   std::string seems = {};  ///< another encoding, if most heights are impossible on earth as read, and plausible by it
@@ -230,7 +231,8 @@ struct PackedDoubts {
 struct VoidCount {
   std::uint64_t filled = 0;  ///< samples
   std::uint64_t left = 0;    ///< samples of larger voids and of voids at the raster's edge
-  /// Over the remaining voids: the highest of their lowest neighbouring heights, and the lowest of their highest ones.
+  /// Over the remaining voids: `least` is the highest of their lowest neighbouring heights, `most` the lowest of their
+  /// highest ones.
   double least = 0, most = 0;
 };
 
@@ -254,7 +256,7 @@ struct RasterInfo {
   double scale = 1, offset = 0;      ///< declared by the file: value = scale · (stored value) + offset
   double z_scale = 1, z_offset = 0;  ///< height = z_scale · value + z_offset, by ReadOptions and the conversion to
                                      ///< metres
-  std::optional<double> nodata;      ///< the nodata value used, among the file's values
+  std::optional<double> nodata;      ///< the nodata value used, as a value of the file
   std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
   bool has_georeference = false;
   double cell_x = 1, cell_y = 1;      ///< size of a cell in the units of the file's CRS
@@ -262,7 +264,7 @@ struct RasterInfo {
   bool has_range = true;              ///< false: the raster has not been read yet, so valid, min and max are unknown
   std::uint64_t valid = 0;            ///< samples that are heights
   double min = 0, max = 0;            ///< range of the valid samples
-  std::vector<UndeclaredNodata> undeclared_nodata;  ///< if has_range
+  std::vector<UndeclaredNodata> undeclared_nodata;  ///< set if has_range
   std::vector<std::string> warnings;                ///< sentences for the user: infinities read as nodata, …
   VoidCount voids = {};                             ///< set if has_range, or for samples in memory
   std::string view = {};       ///< the selection of ReadOptions::view from the files, in words; empty for one unchanged
@@ -326,8 +328,8 @@ HeightRange height_range(const HeightField& field, int threads = 1);
 /// The others must differ, and at most HeightRange::kEnds − 1 such heights are found at one end. Cost: O(1).
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale = 1, double offset = 0);
 
-/// The map from samples to the coordinates of lines: those of the raster's file, or x = col, y = rows − 1 − row without
-/// any.
+/// The map from samples to the coordinates of lines: those of the raster's file or, if it has none, x = col, y = rows −
+/// 1 − row.
 std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 
 /// Fills nodata by interpolation: each nodata sample within `max_distance` samples (Euclidean, along the eight compass
@@ -381,7 +383,7 @@ struct PointSet {
   std::vector<std::string> warnings;
   std::string columns;               ///< one line for reports: the use of each column, or the origin of the heights
   std::uint64_t without_height = 0;  ///< number of points omitted by ReadPointsOptions::nodata
-  bool is_geographic = false;        ///< for lent points: x and y are degrees, without a CRS that GDAL knows
+  bool is_geographic = false;        ///< for lent points: x and y are degrees, in no CRS known to GDAL
 
   std::size_t size() const { return x.size(); }
 };

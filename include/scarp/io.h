@@ -29,7 +29,7 @@ namespace scarp {
 /// The frame of a mesh if no CRS is chosen.
 enum class DefaultFrame {
   kLocal,   ///< around the raster's centre: for viewers, which need short numbers
-  kMetric,  ///< local for degrees, else the raster's own CRS: for files that hold doubles and a shape in space
+  kMetric,  ///< local for degrees, else the raster's own CRS: for files of shapes in space, in double
   kSource,  ///< the raster's own CRS, even degrees: for files drawn on maps
 };
 
@@ -55,13 +55,13 @@ struct MeshFormatTraits {
   const char* contents;         ///< parts of a file, in a few words
   const char* read_by;          ///< programs that read it
 
-  // The place of a mesh.
+  // The position of a mesh.
   DefaultFrame frame = DefaultFrame::kMetric;  ///< frame of x and y unless a CRS is requested
   HeightsIn heights = HeightsIn::kFrame;
   char up = 'z';                     ///< the axis that points up, 'y' or 'z'
   bool has_choice_of_up = false;     ///< --up selects the axis; `up` is the one that most readers expect
   bool is_float32 = false;           ///< positions are offsets from the origin, rounded to float32; else doubles
-  bool has_lengths_only = false;     ///< refuses degrees
+  bool has_lengths_only = false;     ///< rejects degrees
   bool has_projection_file = false;  ///< cannot hold a CRS that all its readers use; a .prj file holds it
 
   // Contents of a file in addition to triangles.
@@ -189,8 +189,8 @@ std::optional<std::string> projection_text(const std::string& crs);
 /// limit, they are read as by read_height_field(). If its 16-bit samples (2 bytes each: Byte, Int16 and UInt16 without
 /// a mask other than nodata) fit, they are read unchanged, and the field has a source. Otherwise the raster is
 /// streamed: the source reads one window at a time from the file through GDAL's block cache, whose size is the memory
-/// limit and 8 MB (unless GDAL_CACHEMAX is set). If two rows of blocks fit the cache, the file is decoded once or twice
-/// a pass, else again for every few rows.
+/// limit plus 8 MB (unless GDAL_CACHEMAX is set). If two rows of blocks fit the cache, the file is decoded once or
+/// twice a pass, else again for every few rows.
 ///
 /// A streamed raster has no range in its info unless options.with_range is set. Its infinities are nodata without a
 /// warning, and a file without any height is no error. Samples that may not fit float32 (32-bit and larger integers,
@@ -343,7 +343,7 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
 /// kOutput, also if `path` exists and `overwrite` is false.
 Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format = {},
                         bool overwrite = true);
-/// decode_mesh() of a file.
+/// Reads a file by decode_mesh().
 Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes = nullptr);
 
 /// Writes bytes to a temporary name next to `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
@@ -408,8 +408,8 @@ Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& o
 /// True if `path` names points rather than a raster, by its ending in upper or lower case: .csv .tsv .xyz .geojson
 /// .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg unless it holds a
 /// raster. Text with columns is a raster if its points are the nodes of one, in any order, possibly with some missing.
-/// Then no point is off the lattice or a duplicate, two of three have neighbours in both directions, and they are at
-/// least a twentieth of all nodes.
+/// No point may then be off the lattice or a duplicate, two of three must have neighbours in both directions, and they
+/// must be at least a twentieth of all nodes.
 bool is_point_file(const std::string& path);
 
 /// For signal handlers: the current temporary names of write_file() and write_files(), for unlink(), in kPendingOutputs

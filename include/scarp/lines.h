@@ -84,7 +84,7 @@ enum class LineConflict {
 /// Breaklines: lines that become chains of edges of the mesh.
 struct LineConstraints {
   std::vector<Line> lines;  ///< from read_lines(); of polygons, the rings. EMPTY: no constraints
-  /// From samples to the coordinates of the lines, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
+  /// Map from samples to the coordinates of the lines, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
   LineConflict conflict = LineConflict::kError;
 };
@@ -95,7 +95,7 @@ struct Cutline {
   /// Rings of polygons, from read_lines() or close_rings(); their heights are ignored. EMPTY: no cut. Functions with a
   /// cutline fail with kInput for a vertex more than 2^41 samples away, and name it.
   std::vector<Line> rings;
-  /// From samples to the coordinates of the rings, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
+  /// Map from samples to the coordinates of the rings, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
 };
 
@@ -152,10 +152,10 @@ Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOp
 /// The union of polygons, with its outline moved inwards by `distance`, outwards if negative. Corners that move away
 /// become round, with arcs as chords of 90 / 8 degrees. `sample`, the side of a sample, prevents edges far below a
 /// sample, which need many tiny triangles: vertices that the outline does not need within a 256th of it and an eighth
-/// of the distance are removed, and for distances below it corners remain pointed, at most twice as far away. `unit`:
-/// lengths of the coordinates' units along x and y in the unit of the distance, above 0. The result may be empty:
-/// polygons narrower than twice the distance vanish. By GDAL and GEOS, in double arithmetic. Fails with kUsage in a
-/// build without one of them, with kInput if GEOS fails.
+/// of the distance are removed. For distances below it, corners remain pointed, at most twice as far away. `unit`: the
+/// lengths of one unit of x and of y, in the unit of `distance`, above 0. The result may be empty: polygons narrower
+/// than twice the distance vanish. By GDAL and GEOS, in double arithmetic. Fails with kUsage in a build without one of
+/// them, with kInput if GEOS fails.
 Result<std::vector<Line>> inset_polygons(std::span<const Line> rings, double distance,
                                          const std::array<double, 2>& unit = {1, 1}, double sample = 0);
 

@@ -199,7 +199,7 @@ struct BeyondEdges {
 ///
 /// One thread refines such a mesh. It needs the samples in memory and two copies of them, 8 bytes a sample; see Order.
 struct Border {
-  bool is_locked = false;  ///< DEFAULT: false: edges are simplified with the surface.
+  bool is_locked = false;  ///< DEFAULT: false, edges are simplified with the surface.
   /// Max error of the line, at most that of the goals. DEFAULT: that of the goals, or of the samples' tolerances or
   /// weights. A search for a budget does not change the line.
   std::optional<double> max_error = std::nullopt;
@@ -211,11 +211,11 @@ struct Border {
 };
 
 /// The vertices of an edge, ascending. Returns the fewest vertices of a line from sample to sample that passes every
-/// sample within 511/512 of `tolerance` (or of its element of `tolerances`, if given; +infinity: none). The rest is for
-/// the rounding of positions. NaN is nodata: the first and the last sample of each run of heights are vertices. Among
-/// lines with equally few vertices, the one whose last vertices come first is returned. No segment spans more than 8192
-/// steps, so the cost is at worst O(samples · 8192), and mostly a few steps a sample. The result is the same on every
-/// machine.
+/// sample within 511/512 of `tolerance` (or of its element of `tolerances`, if given; +infinity: none). The remaining
+/// 1/512 allows for the rounding of positions. NaN is nodata: the first and the last sample of each run of heights are
+/// vertices. Among lines with equally few vertices, the one whose last vertices come first is returned. No segment
+/// spans more than 8192 steps, so the cost is at worst O(samples · 8192), and mostly a few steps a sample. The result
+/// is the same on every machine.
 std::vector<std::int32_t> simplify_edge(std::span<const float> heights, double tolerance,
                                         std::span<const double> tolerances = {});
 
@@ -228,8 +228,8 @@ std::vector<std::int32_t> simplify_edge(std::span<const float> heights, double t
 /// The importance of a sample (the paper's section 3). Among the samples that break their bound, the one with the
 /// largest importance is inserted. Bounds and reports use the true errors.
 ///
-/// importance = |error| (if `global`) · feature (if any, damped). Features are measured on the raster; only the last
-/// depends on the mesh:
+/// importance = |error| (if `global`) · feature (if any, damped). Features depend on the raster only, except the last,
+/// which depends on the mesh:
 ///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
 ///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
 ///   kDistance          from the nearest corner of the sample's triangle, in samples: attenuates errors near vertices

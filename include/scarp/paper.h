@@ -1,4 +1,4 @@
-// Repeat the greedy insertion of the 1995 paper, with its strategies.
+// Reproduce the greedy insertion of the 1995 paper, with its strategies.
 //
 // Example:
 //     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));

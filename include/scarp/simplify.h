@@ -103,11 +103,11 @@ struct Simplified {
 /// Effort: after refinement, kNormal removes each vertex that the bound does not need. It considers all triangulations
 /// of the ring around the vertex and uses the one with the least squared error. The cheapest vertices are removed
 /// first. Once in between, vertices move to better samples. The remaining vertices are samples with their own heights,
-/// and no single one can be removed. kHigh also removes vertices where that breaks the bound: it flips edges and moves
-/// vertices nearby, or undoes the removal. Free vertices satisfy max_error at their lattice positions. Where float32
-/// cannot hold these exactly, the engine aims 0.2 % below max_error. If rounding still breaks the bound, the run is
-/// repeated with vertices on samples, unless kFree was requested. With channels, vertices remain on samples, with their
-/// values, and every effort bounds the norm.
+/// and no single one can be removed. kHigh also tries removals that break the bound: it repairs them by flipping edges
+/// and moving vertices nearby, or undoes them. Free vertices satisfy max_error at their lattice positions. Where
+/// float32 cannot hold these exactly, the engine aims 0.2 % below max_error. If rounding still breaks the bound, the
+/// run is repeated with vertices on samples, unless kFree was requested. With channels, vertices remain on samples,
+/// with their values, and every effort bounds the norm.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within

@@ -135,10 +135,10 @@ struct TileGrid {
   /// Length of a tile's side in the units of its vertices' u and v. On local grids, nodes lie at whole units.
   std::int32_t side_units() const { return is_flat() ? static_cast<std::int32_t>(LocalRaster::kPlaces) : 32767; }
 
-  /// Degrees to add to a tile's bounds for all its copies that a source may cover: full turns, where the last column of
+  /// Full turns, in degrees, to add to a tile's bounds for all its copies that a source may cover; the last column of
   /// tiles is next to the first.
   std::span<const double> turns() const;
-  /// True if the first and the last row of nodes are a pole each: a single point.
+  /// True if the first and the last row of nodes are each a pole: a single point.
   bool has_poles() const { return kind == GridKind::kGeographic; }
   /// True if rows of nodes are evenly spaced in degrees.
   bool has_even_rows() const { return kind != GridKind::kMercator; }
@@ -262,8 +262,8 @@ Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, c
 /// one. Beyond the raster its outermost samples are repeated for tiles that read them. Borrows the field's samples.
 std::unique_ptr<NodeSource> make_local_nodes(const HeightField& field);
 
-/// The nodes of `source`, raised by the height of their zero, which is exact at positions at most 1/32° apart and
-/// interpolated in between. Its read() fails with kInput for a height whose zero is unknown. Borrows the source.
+/// The nodes of `source`, raised by the height of `zero`, which is exact at positions at most 1/32° apart and
+/// interpolated in between. Its read() fails with kInput for a node where `zero` is unknown. Borrows the source.
 std::unique_ptr<NodeSource> make_raised_source(const NodeSource& source, std::shared_ptr<const HeightZero> zero);
 
 /// A source of a stack.
@@ -313,8 +313,8 @@ struct PyramidSettings {
   /// Blocks that do not touch this box are treated as nodata. Tiles of other blocks are those of the whole pyramid.
   /// DEFAULT: all.
   std::optional<DegreeBox> only = {};
-  /// Largest size of a stored tile. For larger tiles, the max error of the interior is doubled until the tile fits or
-  /// only its border remains, which does not change. DEFAULT: 0, any.
+  /// Largest size of a stored tile. For larger tiles, the max error of the interior (not of the border) is doubled
+  /// until the tile fits or only its border remains. DEFAULT: 0, any.
   std::uint64_t max_tile_bytes = 0;
   /// True if max errors also hold at the source's samples, each at its own position. The finest level then has nodes
   /// half as far apart, since triangles cannot follow samples far from the surface between nodes. REQUIRES then: a
@@ -416,7 +416,7 @@ class TileSink {
 struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest among its tiles
-  double source_error = 0;           ///< the same; NaN if that of a tile is
+  double source_error = 0;           ///< the largest among its tiles; NaN if any of them is
   /// Tiles whose node_error (or source_error if the plan binds samples) exceeds their max error. Causes: rounded
   /// positions cannot follow a cliff, nodes cannot follow a sample, or, above the block level, reduced nodes allow no
   /// smaller proven error.
@@ -427,7 +427,7 @@ struct LevelSummary {
 };
 
 struct PyramidReport {
-  bool has_heights = false;                       ///< some node has a height
+  bool has_heights = false;                       ///< true if some node has a height
   std::vector<LevelSummary> levels;               ///< 0 … the finest
   std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
 };
@@ -491,7 +491,7 @@ std::vector<std::string> list_conflicts(const PyramidSettings& settings);
 
 /// Fails with kUsage for settings out of range.
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings = {});
-/// Plans for a stack of at least one source. The finest level that any source needs sets the finest level, and the
+/// Plans for a stack of at least one source. The finest level that any source needs is that of the plan, and sets the
 /// spacing of nodes everywhere.
 Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings = {});
 

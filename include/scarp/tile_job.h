@@ -66,7 +66,7 @@ struct Datum {
 /// The position of a raster on the globe.
 struct RasterOnGlobe {
   RasterPlace place;
-  std::shared_ptr<const PointTransform> to_degrees;  ///< null if place.from_degrees is
+  std::shared_ptr<const PointTransform> to_degrees;  ///< null if place.from_degrees is null
   std::string degrees;                               ///< the CRS of longitude and latitude, as RasterInfo::crs
   Geodetic ellipsoid;
   std::string body;                        ///< name of the celestial body, from the CRS; empty for WGS 84
@@ -97,7 +97,7 @@ TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
 /// Writes tiles of a format to a set.
 class TileSetSink : public TileSink {
  public:
-  /// Borrows both. DEFAULT encoder: that of the format.
+  /// Borrows `writer` and `plan`. DEFAULT encoder: that of the format.
   TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan, TileEncoder encoder = {});
 
   Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
@@ -119,7 +119,7 @@ class TileSetSink : public TileSink {
   std::uint64_t hash_ = 0;
 };
 
-/// The sink of a format. Borrows both. DEFAULT encoder: that of the format.
+/// The sink of a format. Borrows `writer` and `plan`. DEFAULT encoder: that of the format.
 std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,
                                             TileEncoder encoder = {});
 
@@ -152,7 +152,7 @@ class GlobeRaster {
   /// Its grid of tiles, with `cells` cells a side of a tile of the finest level.
   TileGrid grid(int cells) const;
   const std::optional<RasterOnPlane>& plane() const;  ///< nothing without a local grid
-  const RasterInfo& info() const;                     ///< facts about the first raster
+  const RasterInfo& info() const;                     ///< metadata of the first raster
   const RasterOnGlobe& place() const;                 ///< position of the first raster
   VoidCount voids() const;                            ///< RasterInfo::voids of all rasters together
   std::string heights_above() const;                  ///< distinct RasterOnGlobe::vertical of all rasters
@@ -166,7 +166,7 @@ class GlobeRaster {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The data that detects a changed file.
+/// The data by which a changed file is detected.
 struct FileStamp {
   std::string path;  ///< absolute, if it names a file
   std::uint64_t size = 0;
@@ -213,7 +213,7 @@ struct TileJob {
   std::vector<std::uint32_t> mosaics;  ///< the number of consecutive rasters in each mosaic
   std::vector<FileStamp> files;        ///< other files that they use, such as the sources of a VRT, and the files of
                                        ///< water
-  ReadOptions reading;  ///< band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
+  ReadOptions reading;  ///< reads band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
   Datum datum;
   FileStamp geoid;    ///< stamp of datum.geoid, if given
   WaterFiles waters;  ///< sources of plan.waters
@@ -332,7 +332,7 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
 /// The cost of making the blocks of a set.
 struct PartsCost {
   double core_seconds = 0;   ///< total of all blocks and of the levels above
-  std::uint64_t memory = 0;  ///< the largest of a process, including its raster
+  std::uint64_t memory = 0;  ///< peak memory of a process, including its raster
   std::uint64_t parts = 0;   ///< bytes of the parts' records
 };
 

@@ -176,7 +176,7 @@ const char* name_of(TileFaultKind kind);
 /// The position of a local grid's raster on the globe.
 struct CheckedPlace {
   /// Longitude and latitude in degrees, and the zero of the heights in metres above the ellipsoid, of a position in
-  /// cells east and north of the south-western sample; not finite without an image.
+  /// cells east and north of the south-western sample; not finite where undefined.
   std::function<std::array<double, 3>(double east, double north)> find;
   Geodetic ellipsoid = {};
 };

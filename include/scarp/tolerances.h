@@ -29,7 +29,7 @@
 
 namespace scarp {
 
-// Regions of interest: tolerances of samples that are small in a region, and grow with the distance from it.
+// Regions of interest: tolerances are small in a region, and grow with the distance from it.
 
 struct Region {
   /// Lines from read_lines(). A polygon contains its rings and all points in its outer ring but not in its holes
@@ -41,7 +41,7 @@ struct Region {
 /// The grid of the samples, and the tolerance beyond the regions.
 struct RegionGrid {
   int cols = 0, rows = 0;
-  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of the lines: map_affine()
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of the lines: map_affine()
   double cell_x = 1, cell_y = 1;                   ///< distances between samples, in the unit of `falloff`
   double falloff = 0;                              ///< distance at which the tolerance reaches `beyond`; 0: at once
   std::optional<double> beyond = {};               ///< tolerance elsewhere; nothing: no bound. REQUIRED if falloff > 0.
@@ -91,7 +91,8 @@ struct ToleranceOptions {
   /// True: returns a source that computes tolerances or weights on reading, for heights with a source. False: returns
   /// values, for heights in memory. DEFAULT: false.
   bool in_windows = false;
-  Run run = {};  ///< threads: those that will read windows; progress: of the pass "read", if a whole raster is read
+  Run run = {};  ///< threads: the number that will read windows; progress: of the pass "read", if a whole raster is
+                 ///< read
 };
 
 /// A tolerance for each sample, in z units, at least 0; +infinity: none.

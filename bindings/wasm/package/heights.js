@@ -38,7 +38,7 @@ const WAYS = {
   SharedArrayBuffer: 'give a typed array over it',
 };
 
-/// Returns a typed array unchanged, or the numbers of an array. `voidOf`: the value for null, which is NaN in JSON.
+/// Returns a typed array unchanged, or the numbers of an array. `voidOf`: the value that replaces null, JSON's NaN.
 export function checkArray(name, values, voidOf = undefined) {
   if (Array.isArray(values)) {
     const odd = values.findIndex(value => typeof value !== 'number' && !(value === null && voidOf !== undefined));

@@ -1,5 +1,5 @@
 // Antialiasing: draws four samples a pixel off the canvas, then copies them. Without a graphics processor, many small
-// triangles would need three times as long, and are drawn without it.
+// triangles would need three times as long, and are not antialiased.
 import * as THREE from 'three';
 
 const MANY = 200_000;

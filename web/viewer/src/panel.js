@@ -42,7 +42,7 @@ function fillMap(terrain, scale, showsErrors) {
   mapped = showsErrors ? { terrain, scale } : {};
 }
 
-/** Limits of the page. */
+/** Notes on the limits of the page. */
 function fillNotes({ field, notes, knowsMetres, isOfTiles }, hasEngine) {
   const words = [...notes];
   if (isOfTiles)
