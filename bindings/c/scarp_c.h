@@ -232,14 +232,14 @@ void scarp_refiner_free(scarp_refiner* refiner);
 
 /* Reads a raster by the options ("band", "nodata", "crs", "z_scale" ...). */
 scarp_status scarp_raster_read(const char* path, const scarp_options* options, scarp_raster** out);
-/* Sets a field that borrows the raster. REQUIRES: scarp_field_init() was called. */
+/* Fills `field`, which borrows the raster's samples. REQUIRES: scarp_field_init() was called. */
 void scarp_raster_field(const scarp_raster* raster, scarp_field* field);
 void scarp_raster_free(scarp_raster* raster);
 
-/* Makes all tiles of a raster, by the options of `scarp tile` ("zoom", "vertical", "max_error", "of", "only" ...), in a
- * folder, or in one file if `output` ends in .pmtiles, .mbtiles or .3tz. The set gets its name at the end; a failed
- * call writes nothing. `overwrite`, other than 0: replaces a set made by Scarp. `out`, if not NULL: the report of the
- * set, as JSON. Needs GDAL. */
+/* Makes all tiles of a raster, by the options of `scarp tile` ("zoom", "vertical", "max_error", "of", "only" ...).
+ * `output` is one file if it ends in .pmtiles, .mbtiles or .3tz, else a folder. The set gets its name at the end; a
+ * failed call writes nothing. `overwrite`, other than 0: replaces a set made by Scarp. `out`, if not NULL: the report
+ * of the set, as JSON. Needs GDAL. */
 scarp_status scarp_tile(const scarp_field* field, const scarp_options* options, const char* output, int32_t overwrite,
                         scarp_bytes** out);
 /* The same from files: at each position the first file with a height counts. */

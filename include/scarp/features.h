@@ -221,8 +221,8 @@ struct RidgeGoals {
 };
 
 /// The features of a mesh. simplify() fits them to the max error of the mesh by fit_features(). Features need a max
-/// error, tolerances or a budget. With a budget, simplify() searches for an error at every effort, fits the features to
-/// the error of each run, and fails with kUsage for a budget too small for lines and outline.
+/// error, tolerances or a budget. With a budget, simplify() searches for an error at every effort, and fits the
+/// features to the error of each run. It fails with kUsage for a budget too small for lines and outline.
 struct Features {
   /// Lines that do not depend on the error. Their affine map applies to all lines here. A hard line keeps its heights,
   /// a soft one follows the raster. Where a hard line passes through a sample of another height, the sample is set to

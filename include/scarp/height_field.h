@@ -180,8 +180,7 @@ std::unique_ptr<SampleSource> make_coded_source(std::vector<std::uint16_t> codes
 /// A height field that borrows its samples.
 ///
 /// Samples are row-major, `cols` to a row without padding, the first row at the top (north) of the raster. Sample (col,
-/// row) stands for the height at its pixel's centre. NaN, the infinities and samples equal to `nodata` are never
-/// heights.
+/// row) is the height at its pixel's centre. NaN, the infinities and samples equal to `nodata` are never heights.
 struct HeightField {
   const float* samples = nullptr;              ///< cols·rows values, owned by the caller, who keeps them alive
   int cols = 0;                                ///< at least 2
@@ -332,11 +331,10 @@ std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, d
 /// 1 − row.
 std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 
-/// Fills nodata by interpolation: each nodata sample within `max_distance` samples (Euclidean, along the eight compass
-/// directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by inverse
-/// squared distance. Samples farther away remain nodata. Returns the number of samples filled. REQUIRES: max_distance >
-/// 0; the samples are in memory (those of a source do not change). Cost: O(cols·rows), 16 extra bytes for each nodata
-/// sample.
+/// Fills nodata by interpolation: each nodata sample within `max_distance` samples of a valid one (Euclidean, along the
+/// eight compass directions) is filled. Its height is the mean of the nearest valid samples in those directions,
+/// weighted by inverse squared distance. Returns the number of samples filled. REQUIRES: max_distance > 0; the samples
+/// are in memory (those of a source do not change). Cost: O(cols·rows), 16 extra bytes for each nodata sample.
 std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance);
 
 /// Sets every nodata sample to the height `value`. Returns the number of samples filled. REQUIRES: as fill_nodata().
@@ -383,7 +381,7 @@ struct PointSet {
   std::vector<std::string> warnings;
   std::string columns;               ///< one line for reports: the use of each column, or the origin of the heights
   std::uint64_t without_height = 0;  ///< number of points omitted by ReadPointsOptions::nodata
-  bool is_geographic = false;        ///< for lent points: x and y are degrees, in no CRS known to GDAL
+  bool is_geographic = false;        ///< for lent points: x and y are degrees, without a CRS known to GDAL
 
   std::size_t size() const { return x.size(); }
 };

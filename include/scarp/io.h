@@ -195,7 +195,8 @@ std::optional<std::string> projection_text(const std::string& crs);
 /// A streamed raster has no range in its info unless options.with_range is set. Its infinities are nodata without a
 /// warning, and a file without any height is no error. Samples that may not fit float32 (32-bit and larger integers,
 /// float64, scaled ones) are always read once to find sample_rounding. The samples are those of read_height_field().
-/// Fails as it does, also for a PGM or STM larger than the memory limit, since these are read as a whole.
+/// Fails as read_height_field() does, also for a PGM or STM larger than the memory limit, since these are read as a
+/// whole.
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options = {});
 
 /// The bands of an image as channels.
@@ -321,10 +322,10 @@ Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat forma
 /// placed (place_mesh()), else the metre. Fails with kOutput for a mesh that is no closed 2-manifold after rounding
 /// (measure_solid()).
 Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
-/// Joins GLB files, levels of detail of one object, the finest first, to one file (MSFT_lod) with nodes NAME_LOD0,
-/// NAME_LOD1 … The scene holds the first node, which refers to the others. Level k, from 0, is shown while it covers at
-/// least ratio^(−2 (k + 1)) of the screen, the last level always. REQUIRES: encode_mesh() made the files; `ratio` above
-/// 1. Fails with kOutput above 4 GiB.
+/// Joins GLB files, levels of detail of one object with the finest first, to one file by MSFT_lod. Its nodes are
+/// NAME_LOD0, NAME_LOD1 …; the scene holds the first node, which refers to the others. Level k, from 0, is shown while
+/// it covers at least ratio^(−2 (k + 1)) of the screen, the last level always. REQUIRES: encode_mesh() made the files;
+/// `ratio` above 1. Fails with kOutput above 4 GiB.
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
 /// Joins GLB files side by side to one file: the scene holds all nodes, and the metadata is that of the first file.
 /// REQUIRES: encode_mesh() or encode_glb() made the files. Fails with kOutput above 4 GiB.
@@ -408,8 +409,8 @@ Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& o
 /// True if `path` names points rather than a raster, by its ending in upper or lower case: .csv .tsv .xyz .geojson
 /// .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg unless it holds a
 /// raster. Text with columns is a raster if its points are the nodes of one, in any order, possibly with some missing.
-/// No point may then be off the lattice or a duplicate, two of three must have neighbours in both directions, and they
-/// must be at least a twentieth of all nodes.
+/// No point may then be off the lattice or a duplicate. Two of three points must have neighbours in both directions,
+/// and a twentieth of all nodes must be points.
 bool is_point_file(const std::string& path);
 
 /// For signal handlers: the current temporary names of write_file() and write_files(), for unlink(), in kPendingOutputs

@@ -83,7 +83,7 @@ enum class LineConflict {
 
 /// Breaklines: lines that become chains of edges of the mesh.
 struct LineConstraints {
-  std::vector<Line> lines;  ///< from read_lines(); of polygons, the rings. EMPTY: no constraints
+  std::vector<Line> lines;  ///< from read_lines(); includes rings of polygons. EMPTY: no constraints
   /// Map from samples to the coordinates of the lines, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
   LineConflict conflict = LineConflict::kError;

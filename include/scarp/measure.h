@@ -87,7 +87,8 @@ struct Measurement {
   // Topology and shape; zero without MeasureOptions::topology.
   double min_angle = 0;                       ///< degrees, smallest angle of any triangle seen from above (the centre)
   std::array<double, 3> angle_percentiles{};  ///< P1, P5, P50 of the triangles' smallest angles, degrees
-  std::uint64_t down_facing = 0;  ///< triangles clockwise from above, on the map or in space (flipped, in an open mesh)
+  std::uint64_t down_facing = 0;  ///< triangles clockwise from above, on the map or in space; in an open mesh they are
+                                  ///< flipped
   std::uint64_t degenerate = 0;   ///< triangles without area in 3-D
   std::uint64_t misoriented_edges = 0;   ///< edges whose two triangles run along them in the same direction
   std::uint64_t non_manifold_edges = 0;  ///< edges with more than two triangles

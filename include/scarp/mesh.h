@@ -23,9 +23,9 @@ namespace scarp {
 
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
 ///
-/// Meshes of simplify() have an origin with z = 0, so that z is the height of the sample, except in frames in space,
-/// where "up" is away from the earth. Their x and y are float32 values unless the options request double. Meshes read
-/// from files keep the file's precision, so that measuring rounds nothing.
+/// Meshes of simplify() have an origin with z = 0, so that z is the height of the sample. In frames in space "up" is
+/// away from the earth instead. Their x and y are float32 values unless the options request double. Meshes read from
+/// files keep the file's precision, so that measuring rounds nothing.
 struct Mesh {
   std::array<double, 3> origin{0, 0, 0};
   std::vector<double> positions;         ///< 3 per vertex: x, y, z offsets from origin
@@ -90,8 +90,8 @@ bool undo_placement(Mesh& mesh);
 /// Closes a terrain into a solid as add_base() does, for readers that identify vertices by float32 positions. Positions
 /// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all except the first move away
 /// from it by a few units in the last place. Attributes and normals are removed. Fails with kUsage if the base is not
-/// below the lowest vertex (names its height), with kPromise if the result is no closed 2-manifold because rounding
-/// merged vertices of a mesh too fine for its size. REQUIRES: as add_base(). Cost: O(n log n).
+/// below the lowest vertex (names its height), and with kPromise if rounding merges vertices, because the mesh is too
+/// fine for its size, so that the result is no closed 2-manifold. REQUIRES: as add_base(). Cost: O(n log n).
 Result<Mesh> build_solid(Mesh terrain, double base);
 
 /// Properties of a solid for readers that round positions to float32 and merge equal positions, as STL readers do.
@@ -129,8 +129,8 @@ struct Contour {
 /// mesh with z up. The mesh follows the raster to within its max error, so a contour lies where the raster is in
 /// `height` ± max error.
 ///
-/// A point on the edge from a to b, a the lower end, is a + (b − a) · (height − z of a) / (z of b − z of a) in double,
-/// the same for both triangles of the edge. A vertex exactly at the height counts as above it, and its point is the
+/// A point on the edge from a, the lower end, to b is a + (b − a) · (height − z of a) / (z of b − z of a) in double. It
+/// is the same for both triangles of the edge. A vertex exactly at the height counts as above it, and its point is the
 /// vertex itself. So a plateau at the height has a line along its border where the ground around it is lower, a hollow
 /// none, a ridge one line around it. A single vertex or edge at the height with lower ground around it is omitted. No
 /// line branches, and lines touch only at vertices. Each is closed, or ends on the border of the mesh or at an edge

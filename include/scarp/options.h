@@ -48,8 +48,8 @@ struct Goals {
   /// every sample. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
   /// Upper bounds. If one of them ends the run, the result is the mesh with the smallest max error among those with at
-  /// least 95 % of the budget (max error is not monotone in the number of points). With more than fast effort it is the
-  /// mesh found by the search for an error (see "Budgets" at simplify()). DEFAULT: none.
+  /// least 95 % of the budget. (The max error is not monotone in the number of points.) With more than fast effort it
+  /// is the mesh found by the search for an error (see "Budgets" at simplify()). DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
   /// kRms fails with kUsage without a budget. DEFAULT: kMax.
@@ -89,9 +89,9 @@ struct ShapeGoals {
   double min_angle = 0;
   /// In the units of the mesh's x and y; at least an eighth of a sample. DEFAULT: none.
   std::optional<double> max_edge = std::nullopt;
-  /// Growth rate of edge lengths, above 0. No edge is longer than 2·(s + grade·d), where s is the length of the
-  /// shortest edge at any vertex, and d the distance along edges from that vertex to the far end of the edge. s counts
-  /// as at least half a sample (of its longer side). DEFAULT: none.
+  /// Growth rate of edge lengths, above 0. No edge is longer than 2·(s + grade·d) for any vertex: s is the length of
+  /// the shortest edge at the vertex, d the distance along edges from it to the far end of the long edge. s counts as
+  /// at least half a sample (of its longer side). DEFAULT: none.
   std::optional<double> grade = std::nullopt;
   /// Shortest edge, in the units of the mesh's x and y, above 0, at most half of max_edge: the time step of a flow
   /// solver follows the shortest edge. All other goals have priority: shorter edges that they need remain, and are

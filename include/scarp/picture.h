@@ -97,7 +97,7 @@ std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 // The normals of a raster as an image.
 
 /// Unit normals of the field's surface, in its frame, as a tangent-space normal map (GlbOptions::normal_map): red x,
-/// green y, blue z, each (n + 1) / 2 of 255. The picture covers the raster; its longer side has `side` pixels, but at
+/// green y, blue z, each as 255 (n + 1) / 2. The picture covers the raster; its longer side has `side` pixels, but at
 /// most one for each sample. A pixel is the mean of the normals of its samples. Nodata is (0, 0, 1). Streamed samples
 /// are read once, from the top. Fails as the field's source does, and with kUsage for a side below 1 and a frame in
 /// space.

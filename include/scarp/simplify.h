@@ -124,10 +124,10 @@ struct Simplified {
 /// `ignored` samples have no bound.
 ///
 /// Budgets are upper bounds. With more than fast effort, a search finds the max error whose mesh uses 99 % of the
-/// budget (97 % where that would be slow), mostly in two or three runs of that effort after a greedy one. It uses less
-/// where the triangle count jumps because many samples share an error. The objective is never larger than in the greedy
-/// mesh for the same budget. A max_error that fits the budget ends the run, as does an error of 0 (kExact). Fast effort
-/// also searches with lines or shapes, in the dominant order, and where the field has a source.
+/// budget (97 % where that would be slow). It mostly needs two or three runs of that effort after a greedy one. It uses
+/// less where the triangle count jumps because many samples share an error. The objective is never larger than in the
+/// greedy mesh for the same budget. A max_error that fits the budget ends the run, as does an error of 0 (kExact). Fast
+/// effort also searches with lines or shapes, in the dominant order, and where the field has a source.
 ///
 /// Objective::kRms does not search. A refined mesh of four times the triangles is reduced to the budget by removing the
 /// vertices that raise the squared error least. Then vertices are moved, removed and inserted while the squared error

@@ -220,8 +220,8 @@ struct ZeroGrid {
 };
 
 /// Interpolates bilinearly between the four nodes around a position; up to half a cell outside, the outer nodes count.
-/// Unknown where one of the four is. A grid in degrees around the whole globe continues after its last column. Fails
-/// with kUsage for a wrong number of heights, and as make_node_source().
+/// Unknown where one of the four nodes is unknown. A grid in degrees around the whole globe continues after its last
+/// column. Fails with kUsage for a wrong number of heights, and as make_node_source().
 Result<std::shared_ptr<const HeightZero>> make_grid_zero(ZeroGrid grid);
 
 // Heights by position, from which tiles are made.
@@ -491,8 +491,8 @@ std::vector<std::string> list_conflicts(const PyramidSettings& settings);
 
 /// Fails with kUsage for settings out of range.
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings = {});
-/// Plans for a stack of at least one source. The finest level that any source needs is that of the plan, and sets the
-/// spacing of nodes everywhere.
+/// Plans for a stack of at least one source. The plan's finest level, and the spacing of nodes everywhere, is the
+/// finest that any source needs.
 Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings = {});
 
 /// Replaces the plan's lines, for its levels and covered area.

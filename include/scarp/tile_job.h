@@ -279,8 +279,8 @@ struct Shard {
 };
 
 /// The blocks made so far: files in a folder. Each process appends to its own file; a truncated record is ignored. A
-/// record holds a block, with the files' stamps and the hash of the nodes from which it was made, or states that a
-/// block of these nodes is also valid for other stamps.
+/// record holds a block with the files' stamps and the hash of its nodes, or states that a block of these nodes is also
+/// valid for other stamps.
 class TileParts {
  public:
   /// Reads all parts in the folder, which need not exist. Fails with kInput for parts of other settings and unreadable

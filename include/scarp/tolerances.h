@@ -112,9 +112,9 @@ struct OwnedTolerances {
 /// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call becomes its owner. The
 /// regions are not needed after the call. With in_windows the call reads the whole raster once. Fails with kUsage
 /// without raster and regions, for a raster of another size than the grid, and for one with a source if values are
-/// requested. Fails with kInput, naming the raster's file, for a negative value, and if no sample has a value and
-/// neither regions nor a tolerance beyond them bound any. Fails as the raster's source does, and with kCancelled.
-/// REQUIRES: for regions, the grid as in region_tolerances(). Cost: O(samples) for the raster; for regions that of
+/// requested. Fails with kInput, naming the raster's file, for a negative value, and if no sample has a bound from the
+/// raster, a region or the tolerance beyond them. Fails as the raster's source does, and with kCancelled. REQUIRES: for
+/// regions, the grid as in region_tolerances(). Cost: O(samples) for the raster; for regions that of
 /// region_tolerances() or make_region_bounds().
 Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
                                         const RegionGrid& grid, const ToleranceOptions& options = {});

@@ -2,7 +2,7 @@
 import { ScarpError } from './error.js';
 import { FARTHEST, checkArray, checkSide } from './heights.js';
 
-/// Metres: scaler · value, summed, plus the offset.
+/// Metres: the sum of scaler · value, plus the offset.
 const ENCODINGS = {
   terrarium: { rScaler: 256, gScaler: 1, bScaler: 1 / 256, offset: -32768 },
   mapbox: { rScaler: 6553.6, gScaler: 25.6, bScaler: 0.1, offset: -10000 },

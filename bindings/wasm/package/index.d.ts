@@ -63,8 +63,8 @@ export class ScarpError extends Error {
  * nothing, even with another source.
  * @param source The bytes of scarp.wasm, their URL or Response, or a compiled module. Default: the file next to the
  * script.
- * @param options warm: also simplifies small rasters, in a quarter of a second, so that engines optimise the library
- * before the first call, which otherwise needs up to seven times as long as later ones. Workers of a pool always do so.
+ * @param options warm: also simplifies small rasters, in a quarter of a second, so that engines optimise the library.
+ * The first call otherwise needs up to seven times as long as later ones. Workers of a pool always do so.
  */
 export function ready(
   source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled,

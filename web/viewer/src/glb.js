@@ -245,7 +245,7 @@ class Reader {
     return { positions, indices, normals, uvs, sheets };
   }
 
-  /** Level 0 is the scene; level k its replacement by MSFT_lod. */
+  /** Level 0 is the scene; level k replaces it by MSFT_lod. */
   levels() {
     const scene = this.json.scenes?.[this.json.scene ?? 0]?.nodes ?? (this.json.nodes ?? []).map((_, k) => k);
     const deepest = Math.max(0, ...scene.map(k => this.json.nodes?.[k]?.extensions?.MSFT_lod?.ids?.length ?? 0));

@@ -133,7 +133,7 @@ for _name, (_result, _arguments) in _FUNCTIONS.items():
     _function.argtypes = _arguments
 
 
-# In Python, `frame` is that of the mesh; `crs` is the transform's.
+# In Python the option is called `frame`, since `crs` is the transform's.
 lib.scarp_name_option(b"crs", b"frame")
 
 

@@ -298,7 +298,7 @@ def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, 
 
 
 def _field_of(np: Any, samples: Any) -> tuple[Any, Any]:
-    """A field of samples without a position, and their owner."""
+    """A field of samples without a position, and the owner of the samples."""
     field = _abi.new_field()
     if np is None:
         field.rows, field.cols, field.samples, keep = _from_buffer(samples)
