@@ -110,9 +110,9 @@ struct RiverOptions {
 
 /// Gives each line of `lines` heights that never rise downstream. Each line flows from the end with the higher raster
 /// to the other end. The height of a point is the lowest of the raster's surface there and upstream. Rivers that share
-/// a vertex share its lowest height, so that a confluence is no step. Within `lakes`, the result of flatten_lakes() or
-/// find_flats() for this field, and less than a sample from them, rivers have the lake's level, even where that is a
-/// rise.
+/// a vertex share its lowest height, so that a confluence is no step. In `lakes`, and less than a sample from them,
+/// rivers have the lake's level, even where that is a rise. `lakes`: from flatten_lakes() or find_flats() for this
+/// field.
 ///
 /// Parts outside the raster and in nodata have no heights. Rings, and lines without any height, are omitted. The raster
 /// does not change: hard breaklines below it become gorges a sample wide. Heights are float32. Fails with kUsage for a

@@ -1,4 +1,4 @@
-// The package in its usual form, with a .wasm file and a worker next to it.
+// The package in its usual form, with separate .wasm file and worker.
 import { defaults } from './ready.js';
 
 defaults.source ??= () => new URL('./scarp.wasm', import.meta.url);

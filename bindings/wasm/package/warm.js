@@ -1,4 +1,4 @@
-// Warms up the library, so that the caller's first raster is not slow.
+// Warms up, so that the caller's first raster is fast.
 import { hills, SIDE } from './hills.js';
 import { simplifySync } from './simplify.js';
 

@@ -36,8 +36,7 @@ export async function begin(page, read) {
   }
 }
 
-/** An initially empty page shows its first file with the settings of its address, unless these are for a raster of
- * other dimensions. */
+/** An initially empty page shows its first file with the address's settings, unless these name other dimensions. */
 function stateOfFirst(page, { field }) {
   const state = page.document ? {} : readFragment();
   const [cols, rows] = state.samples ?? [];

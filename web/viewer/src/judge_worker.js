@@ -1,4 +1,4 @@
-// Computes the errors of one mesh in the background.
+// Computes one mesh's errors in the background.
 import { judge } from './errors.js';
 import { Field } from './field.js';
 

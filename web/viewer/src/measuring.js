@@ -56,7 +56,7 @@ export class Measuring {
     this.showProfile(false);
   }
 
-  /** Measures at a pixel of the picture. */
+  /** Measures at a pixel. */
   click(x, y, page) {
     const hit = this.scene.pick(x, y);
     if (!hit) return;

@@ -1,5 +1,4 @@
-// The engine in the background: greedy meshes from a continued refinement, others with an effort. It judges its
-// results.
+// The engine in the background: greedy meshes from a continued refinement, others by effort. Results are judged here.
 import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
@@ -22,7 +21,7 @@ function warmUp() {
   simplifySync(z, side, side, { maxError: 1, effort: 'fast' });
 }
 
-// Factor for an error: because of rounding, the refiner would continue where an exact decision ends.
+// Factor for an error: with rounding, the refiner would continue where an exact decision ends.
 const AT_THE_BOUND = 1 + 1e-12;
 
 /** Finer meshes continue from the last one; a coarser one begins anew. */

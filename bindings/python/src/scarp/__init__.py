@@ -80,7 +80,7 @@ def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance:
 
 def _by_name(source: _inputs.Input, frame: str, band: int, nodata: Optional[float], mask: Any, tolerance: Any,
              max_error: float | str | None, named: dict[str, Any]) -> None:
-    """Adds the options without a member in the struct to those by name."""
+    """Adds options that have no member in the struct to those by name."""
     if frame != "auto":
         named["crs"] = frame
     if source.path is not None:

@@ -1,1 +1,1 @@
-"""Interfaces of other packages, implemented by Scarp."""
+"""Other packages' interfaces, for Scarp."""
