@@ -1,9 +1,8 @@
 """Builds the wheel and the sdist of Scarp for Python: PEP 517 and 660, without dependencies and without a network.
 
-The library is compiled by CMake from the checkout (or the sdist) that this file lies in, without GDAL, unless
-SCARP_C_LIBRARY, or `--config-settings library=FILE`, names one that is there. `--config-settings gdal=on` compiles it
-with GDAL. Libraries that a machine need not have are put next to it, in the package, and so is the page of Mesh.view(),
-if SCARP_VIEWER_PAGE names it.
+CMake compiles the library from the checkout (or the sdist) of this file, without GDAL, unless SCARP_C_LIBRARY, or
+`--config-settings library=FILE`, names an existing one. `--config-settings gdal=on` compiles it with GDAL. The package
+also contains libraries that many machines lack, and the page of Mesh.view(), if SCARP_VIEWER_PAGE names it.
 """
 import base64
 import csv
@@ -21,7 +20,7 @@ import tempfile
 import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-# Libraries that Scarp links and few machines have. All else belongs to the system.
+# Libraries linked by Scarp that few machines have. All others belong to the system.
 BUNDLED = ("libfmt", "libhwy", "libmeshoptimizer", "libsqlite3")
 SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "src", "include", "bindings/c", "data/egm96.bin")
 LIBRARY = {"win32": "scarp_c.dll", "darwin": "libscarp_c.dylib"}.get(sys.platform, "libscarp_c.so")
@@ -29,7 +28,7 @@ OLDEST_TIME = (1980, 1, 1, 0, 0, 0)
 
 
 def _root():
-    """The folder of Scarp's sources: that of the checkout, or the one inside an sdist."""
+    """The folder of Scarp's sources, in the checkout or in an sdist."""
     for folder in (os.path.join(HERE, "source"), os.path.join(HERE, "..", "..")):
         if os.path.exists(os.path.join(folder, "include", "scarp", "version.h")):
             return os.path.abspath(folder)
@@ -42,7 +41,7 @@ def _version():
 
 
 def _package_files():
-    """Path in the package and path here."""
+    """Paths in the package and in the checkout."""
     files = []
     for folder, _, names in os.walk(os.path.join(HERE, "src")):
         for name in names:
@@ -71,7 +70,7 @@ def _compile(settings):
 
 
 def _companions(library):
-    """The libraries to put next to it, by the names that it searches for."""
+    """The libraries to place next to it, by the names that it needs."""
     if not sys.platform.startswith("linux"):
         return []
     found = []
@@ -98,7 +97,7 @@ def _tag():
 
 
 class _Wheel:
-    """A wheel whose bytes depend on what is in it alone."""
+    """A wheel whose bytes depend on its contents only."""
 
     def __init__(self, folder):
         self.name = "scarp-%s-%s.whl" % (_version(), _tag())
@@ -130,7 +129,7 @@ class _Wheel:
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
-    """Without this pip compiles the library twice."""
+    """Keeps pip from compiling the library twice."""
     info = "scarp-%s.dist-info" % _version()
     os.makedirs(os.path.join(metadata_directory, info), exist_ok=True)
     with open(os.path.join(metadata_directory, info, "METADATA"), "w") as file:
@@ -159,7 +158,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
-    """The package stays here, and the library is put into it."""
+    """The package remains in the checkout, and the library is added to it."""
     library, build = _compile(config_settings or {})
     try:
         package = os.path.join(HERE, "src", "scarp")

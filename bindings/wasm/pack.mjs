@@ -1,4 +1,4 @@
-// Packs the npm package: pack.mjs BUILD DIST, of the modules in BUILD/bin. Prints the path of DIST/scarp-VERSION.tgz.
+// Packs the npm package: pack.mjs BUILD DIST, from the modules in BUILD/bin. Prints the path of DIST/scarp-VERSION.tgz.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -9,8 +9,8 @@ const root = path.resolve(here, '../..');
 const version = /project\(scarp VERSION ([\d.]+)/.exec(fs.readFileSync(`${root}/CMakeLists.txt`, 'utf8'))[1];
 const staged = path.join(build, 'npm');
 
-/// The worker and what it imports in one script: each file a function, after those that it needs,
-/// without comments and indentation: no text of these files spans lines.
+/// The worker and its imports in one script. Each file becomes a function, after those that it needs, without comments
+/// and indentation (no string in these files spans lines).
 function joinWorker() {
   const files = [
     'number.js',
@@ -47,8 +47,8 @@ for (const [from, to] of [
   [`${root}/LICENSE`, 'LICENSE'],
 ])
   fs.copyFileSync(from, path.join(staged, to));
-// The dev server of vite packs scripts of node_modules anew, elsewhere, without the files next to them; .jsx stays in
-// its place.
+// vite's dev server repacks scripts of node_modules into another folder, without the files next to them; .jsx is not
+// moved.
 for (const entry of ['index', 'full', 'lite', 'delatin', 'martini', 'loaders']) {
   const hasDefault = fs.readFileSync(`${staged}/${entry}.js`, 'utf8').includes('export default');
   fs.writeFileSync(
@@ -67,7 +67,7 @@ const imports = [
 ];
 for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
   const bytes = fs.readFileSync(`${build}/bin/${name}`);
-  // The linker makes an import of a name that it does not find.
+  // The linker turns an undefined name into an import.
   const unknown = WebAssembly.Module.imports(new WebAssembly.Module(bytes))
     .map(entry => entry.name)
     .filter(entry => !imports.includes(entry));

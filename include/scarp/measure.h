@@ -1,5 +1,5 @@
-// Judge any mesh against its raster, by brute force and without knowing how it was made: its errors at all samples, its
-// holes, overlaps and angles.
+// Judge any mesh against its raster by brute force, regardless of its origin: its errors at all samples, its holes,
+// overlaps and angles.
 //
 // Example:
 //     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
@@ -30,8 +30,8 @@ struct Cutline;
 
 struct MeasureOptions {
   /// A sample farther than this from every triangle (in samples, horizontally) is uncovered. A nearer sample is
-  /// compared with the plane of the nearest triangle (with the nearest point of a triangle thinner than this). Absorbs
-  /// the rounding of positions in the file. DEFAULT: 1/256.
+  /// compared with the plane of the nearest triangle, or with the nearest point if the triangle is thinner than this.
+  /// Absorbs the rounding of positions in the file. DEFAULT: 1/256.
   double coverage_tolerance = 1.0 / 256;
   /// Also check angles, orientation, overlaps, open edges and T-junctions. DEFAULT: true.
   bool topology = true;
@@ -40,14 +40,13 @@ struct MeasureOptions {
   /// Empty, or cols·rows per-sample tolerances (+infinity: none). `Measurement::over_tolerance` counts the samples
   /// whose error is above their tolerance; they are offenders. Borrowed. DEFAULT: empty.
   std::span<const float> tolerance = {};
-  /// The same, read in windows, in place of the above. Borrowed. DEFAULT: none.
+  /// The same, read in windows, in place of `tolerance`. Borrowed. DEFAULT: none.
   const SampleSource* tolerance_source = nullptr;
   /// The cutline of the mesh. Samples in a polygon, farther than 1/64 sample from its rings, must be covered. Samples
-  /// nearer to the rings, on either side, are judged where they are covered. All others are not judged. Edges along the
-  /// rings are no gaps. The rings count as given, not as rounded in the mesh. Borrowed. DEFAULT: null, the whole
-  /// domain.
+  /// nearer to the rings, on either side, are judged if covered. All others are not judged. Edges along the rings are
+  /// no gaps. The rings are used as given, not as rounded in the mesh. Borrowed. DEFAULT: null, the whole domain.
   const Cutline* cutline = nullptr;
-  /// For scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. Where its
+  /// For scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. If its
   /// border is one loop, no open edge is a gap. DEFAULT: false.
   bool inlets = false;
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
@@ -62,16 +61,17 @@ struct Offender {
   double error = 0;  ///< mesh − sample; +infinity for a valid sample that no triangle covers
 };
 
-/// Each sample is counted once; a sample on a shared edge counts with the larger error of its triangles.
-/// Errors are vertical, mesh − sample, in z units. In a frame in space they are ways along a sample's vertical to the
-/// triangle that it meets; where it meets none, to the nearest point of the triangle that covers the sample on the map.
+/// Each sample is counted once; a sample on a shared edge counts with the larger error of its triangles. Errors are
+/// vertical, mesh − sample, in z units. In a frame in space they are distances along the sample's vertical to the
+/// triangle that it meets. If it meets none, they are distances to the nearest point of the triangle that covers the
+/// sample on the map.
 struct Measurement {
   std::uint64_t vertices = 0, triangles = 0;
 
   std::uint64_t samples = 0;                         ///< valid samples judged (covered)
   std::uint64_t uncovered = 0;                       ///< valid samples of valid cells that no triangle covers
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< (col, row) of the first of them, row by row; (−1, −1): none
-  std::uint64_t stray = 0;    ///< valid samples outside every valid cell (no three valid corners): outside the domain
+  std::uint64_t stray = 0;    ///< valid samples outside the domain: in no cell with three valid corners
   std::uint64_t cut_off = 0;  ///< valid samples beyond MeasureOptions::cutline, not judged
   HeightRange heights;        ///< range of all valid samples: judged, uncovered, stray and cut off
   std::uint64_t nodata_cells_covered =
@@ -79,68 +79,68 @@ struct Measurement {
 
   std::uint64_t over_tolerance = 0;                  ///< covered samples above MeasureOptions::tolerance
   double max_error = 0;                              ///< largest |error|
-  std::array<std::int32_t, 2> max_error_at{-1, -1};  ///< its sample (col, row); lowest row, then column, among equals
+  std::array<std::int32_t, 2> max_error_at{-1, -1};  ///< its sample (col, row); ties: lowest row, then lowest column
   double rmse = 0, mean_error = 0, mean_abs_error = 0;
   /// |error| below which 50, 95, 99, 99.9 % of the samples lie; from a histogram, rounded up by at most 0.05 %.
   double p50 = 0, p95 = 0, p99 = 0, p999 = 0;
 
-  // Topology and shape; zero where MeasureOptions::topology is off.
+  // Topology and shape; zero without MeasureOptions::topology.
   double min_angle = 0;                       ///< degrees, smallest angle of any triangle seen from above (the centre)
   std::array<double, 3> angle_percentiles{};  ///< P1, P5, P50 of the triangles' smallest angles, degrees
-  std::uint64_t down_facing = 0;  ///< triangles clockwise from above (in an open mesh: flipped), on the map or in space
+  std::uint64_t down_facing = 0;  ///< triangles clockwise from above, on the map or in space; in an open mesh they are
+                                  ///< flipped
   std::uint64_t degenerate = 0;   ///< triangles without area in 3-D
   std::uint64_t misoriented_edges = 0;   ///< edges whose two triangles run along them in the same direction
   std::uint64_t non_manifold_edges = 0;  ///< edges with more than two triangles
   std::uint64_t open_edges = 0;          ///< edges with one triangle
   std::uint64_t border_loops = 0;        ///< closed loops that the open edges form
   std::uint64_t t_junctions = 0;         ///< vertices inside an open edge of another triangle
-  /// Open edges of an open mesh that border on surface of the domain: the mesh has a hole there. Lattice lines cut each
-  /// edge into pieces; the test point lies next to the middle of each piece, 1/64 sample outside the edge (4
-  /// coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are
-  /// omitted. A part of the domain that touches the rest at corners only has no such edge; if it is missing as a whole,
-  /// it is not counted here.
+  /// Open edges of an open mesh with surface of the domain on their outer side: the mesh has a hole there. Lattice
+  /// lines cut each edge into pieces. The test point lies next to the middle of each piece, 1/64 sample outside the
+  /// edge (4 coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are
+  /// omitted. A missing part of the domain that touches the rest only at corners has no such edge, and is not counted
+  /// here.
   std::uint64_t gaps = 0;
   std::uint64_t overlaps =
       0;                ///< pairs of triangles whose interiors overlap seen from above (up-facing only if closed)
   bool closed = false;  ///< no open edges: a solid; heights are judged on its up-facing triangles
 
   std::vector<Offender>
-      offenders;  ///< see MeasureOptions::collect_above: the worst of each triangle, all uncovered ones
+      offenders;  ///< the worst sample of each triangle, and all uncovered ones; see MeasureOptions::collect_above
 
-  /// The mesh is a single-valued terrain (or closed solid) without cracks: no flipped, overlapping, degenerate
-  /// triangles, no T-junctions, no holes within the domain, no non-manifold edges.
+  /// True if the mesh is a single-valued terrain (or closed solid) without cracks: no flipped, overlapping or
+  /// degenerate triangles, no T-junctions, no holes within the domain, no non-manifold edges.
   bool is_sound() const {
     return degenerate == 0 && misoriented_edges == 0 && non_manifold_edges == 0 && t_junctions == 0 && gaps == 0 &&
            overlaps == 0 && (closed || down_facing == 0);
   }
 };
 
-/// Heights of the mesh at the samples of the field's grid, row-major: the approximation resampled (Terra's `dem`). NaN
-/// where the sample is nodata or uncovered. At samples that two triangles share, the one with the larger error counts,
-/// as in measure(). Same failures and cost as measure(), and 8 bytes a sample.
+/// Resamples the mesh: its heights at the samples of the field's grid, row-major (Terra's `dem`). NaN where the sample
+/// is nodata or uncovered. At samples on two triangles, the one with the larger error counts, as in measure(). Same
+/// failures and cost as measure(), and 8 bytes a sample.
 Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads = 1);
-/// The same row by row, from the top; the span is valid during the call only. Memory: as measure().
+/// The same row by row, from the top; the span is valid during the callback only. Memory: as measure().
 Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
                            const std::function<void(int row, std::span<const float> heights)>& on_row, int threads = 1);
 
 /// Judges `mesh` against every valid sample of `field`, in the field's frame. Shares no scan code with simplify().
 /// Fails with kInput if the mesh has an index out of range, a position that is not finite or beyond 1e100 (in its own
-/// coordinates or, in affine frames, in cells), or no triangles; with kCancelled if the callback asks for it; as the
-/// field's source does. A field with a source is read in bands of rows; two bands a thread are in memory. Cost:
-/// O(samples + triangles).
+/// coordinates or, in affine frames, in cells), or no triangles; with kCancelled; as the field's source does. A field
+/// with a source is read in bands of rows, with two bands in memory for each thread. Cost: O(samples + triangles).
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 
-/// Fills the topology and shape in `result`, which measure() made of the same mesh without them; no sample's error is
-/// examined. Such is Simplified::measurement. The members cutline, coverage_tolerance and run of `options` count. Fails
-/// as measure(). Cost: O(triangles).
+/// Fills the topology and shape in `result`, a measurement of the same mesh without them, such as
+/// Simplified::measurement. Errors of samples are not measured. Reads the members cutline, coverage_tolerance and run
+/// of `options`. Fails as measure(). Cost: O(triangles).
 Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                               Measurement& result);
 
-/// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,
-/// max_error_at is {index of the point, 0}, and so are offenders; on_row is called once, with all points. Duplicates
-/// are given up by the same policy first. coverage_tolerance counts mean distances between points, √(area / points).
-/// Gaps are open edges within the convex hull, but see MeasureOptions::inlets. Same failures and cost as measure();
-/// kUsage for MeasureOptions::tolerance; kInput for points that simplify_points() cannot keep apart.
+/// Judges a mesh against points by brute force. Measurement::samples counts points; max_error_at and offenders are
+/// {index of the point, 0}; on_row is called once, with all points. Duplicates are first removed by the given policy.
+/// The unit of coverage_tolerance is the mean distance between points, √(area / points). Gaps are open edges within the
+/// convex hull (see MeasureOptions::inlets). Same failures and cost as measure(); kUsage for MeasureOptions::tolerance;
+/// kInput for points that simplify_points() cannot distinguish.
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 

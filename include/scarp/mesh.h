@@ -1,4 +1,4 @@
-// Use the triangles that simplify() makes as arrays: order them for a GPU, turn them y up, close them into a solid.
+// Use meshes as arrays of triangles: order them for a GPU, turn them y up, close them into a solid.
 //
 // Example:
 //     scarp::Mesh mesh;
@@ -23,9 +23,9 @@ namespace scarp {
 
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
 ///
-/// Meshes made by simplify() have an origin with z = 0, so z is the sample itself, but for frames in space, where "up"
-/// is away from the earth. Their x and y are exactly float32 values unless the options ask for double. Meshes read from
-/// files keep the file's precision, so that measuring them rounds nothing.
+/// Meshes of simplify() have an origin with z = 0, so that z is the height of the sample. In frames in space "up" is
+/// away from the earth instead. Their x and y are float32 values unless the options request double. Meshes read from
+/// files keep the file's precision, so that measuring rounds nothing.
 struct Mesh {
   std::array<double, 3> origin{0, 0, 0};
   std::vector<double> positions;         ///< 3 per vertex: x, y, z offsets from origin
@@ -34,8 +34,8 @@ struct Mesh {
   std::vector<float>
       uvs;  ///< empty, or 2 per vertex: position in the raster's image, (0, 0) top left, (1, 1) bottom right
   std::vector<std::uint8_t> colors;  ///< empty, or red, green, blue per vertex, sRGB as in an image
-  int channel_count = 0;             ///< further values per vertex
-  std::vector<float> channels;       ///< channel_count per vertex, as they are in HeightField::channels
+  int channel_count = 0;             ///< number of additional values per vertex
+  std::vector<float> channels;       ///< channel_count per vertex, in the order of HeightField::channels
   /// Description of the mesh, for file headers: "generator", "command", "frame", "crs", … Written to every format that
   /// has a field for it, and read back.
   std::map<std::string, std::string> metadata;
@@ -48,27 +48,27 @@ struct Mesh {
   }
 };
 
-/// Sorts triangles by place and for the vertex cache, and vertices by first use (meshoptimizer). Same triangles, same
-/// corners, same winding; deterministic, and the same for any number of threads (0: one for each core). Unused vertices
-/// are dropped. Without meshoptimizer triangles stay where they are. Cost: O(triangles).
+/// Sorts triangles by position and for the vertex cache, and vertices by first use (meshoptimizer). Triangles keep
+/// their corners and winding. Deterministic for any number of threads (0: one for each core). Unused vertices are
+/// removed. Without meshoptimizer the order of triangles does not change. Cost: O(triangles).
 void optimize_order(Mesh& mesh, int threads = 1);
 
-/// Turns the mesh y up: (x, y, z) becomes (x, z, −y), normals too, and metadata["up"] is "y". undo_y_up() turns a mesh
-/// that is_y_up() back; its metadata["up"] is then "z". Both are exact. All functions but these and the writers expect
-/// meshes that are z up.
+/// Turns the mesh y up: (x, y, z) becomes (x, z, −y), also for normals, and metadata["up"] becomes "y". undo_y_up()
+/// reverses this if is_y_up(); metadata["up"] is then "z". Both are exact. All other functions except writers expect
+/// meshes with z up.
 void turn_y_up(Mesh& mesh);
 void undo_y_up(Mesh& mesh);
 bool is_y_up(const Mesh& mesh);
 
 /// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
-/// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices between their neighbours on a
-/// line along x or y have no vertex below them: a part with n border vertices, of which c have one, and h holes gets
-/// n + c triangles for its walls and c + 2h − 2 for its base. Vertices where two parts of the domain meet in a single
-/// point are duplicated, one for each part. The solid is then closed by its indices; formats with positions only (STL)
-/// show four walls along that vertical edge (build_solid() separates them).
-/// Normals are dropped; uvs, colours and channels of a new vertex are those of the vertex above it.
-/// REQUIRES: every edge has one or two triangles, all counter-clockwise from above; base below every vertex.
-/// Returns false (mesh unchanged) if the base is not below every vertex, in float32 offsets too. Cost: O(n log n).
+/// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices inside a straight border along
+/// x or y get no vertex below them. A part with n border vertices, c vertices below them, and h holes gets n + c
+/// triangles for its walls and c + 2h − 2 for its base. Where two parts of the domain meet in a single point, the
+/// vertex is duplicated, one for each part. The solid is then closed by its indices; formats with positions only (STL)
+/// show four walls along that vertical edge (build_solid() separates them). Normals are removed; uvs, colours and
+/// channels of a new vertex are those of the vertex above it. REQUIRES: every edge has one or two triangles, all
+/// counter-clockwise from above; base below every vertex. Returns false (mesh unchanged) if the base is not below every
+/// vertex, in float32 offsets too. Cost: O(n log n).
 bool add_base(Mesh& mesh, double base);
 
 // From a terrain to a printable solid: closed, and placed in millimetres.
@@ -79,70 +79,67 @@ struct Placement {
   std::array<double, 3> scale{1, 1, 1};
 };
 
-/// Places the mesh: origin becomes 0, positions are rounded to float32, metadata["placement"] holds the numbers.
-/// Normals are dropped. STL, and every format with metadata, stores the numbers.
+/// Places the mesh: origin becomes 0, positions are rounded to float32, metadata["placement"] holds the placement,
+/// which STL and every format with metadata store. Normals are removed.
 void place_mesh(Mesh& mesh, const Placement& placement);
 
-/// The inverse, by metadata["placement"]: maps the rounded positions back to the raster's frame. Returns false, and
-/// does not change the mesh, if it was not placed.
+/// Maps the rounded positions back to the raster's frame, by metadata["placement"]. Returns false, without change, for
+/// a mesh that was not placed.
 bool undo_placement(Mesh& mesh);
 
 /// Closes a terrain into a solid as add_base() does, for readers that identify vertices by float32 positions. Positions
-/// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all but the first move back from
-/// it by a few units in the last place. Attributes and normals are dropped.
-/// Fails with kUsage if the base is not below the lowest vertex (names its height), with kPromise if the result is no
-/// closed 2-manifold: rounding has merged vertices, and the mesh is too fine for its size.
-/// REQUIRES: as add_base(). Cost: O(n log n).
+/// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all except the first move away
+/// from it by a few units in the last place. Attributes and normals are removed. Fails with kUsage if the base is not
+/// below the lowest vertex (names its height), and with kPromise if rounding merges vertices, because the mesh is too
+/// fine for its size, so that the result is no closed 2-manifold. REQUIRES: as add_base(). Cost: O(n log n).
 Result<Mesh> build_solid(Mesh terrain, double base);
 
-/// Facts for a reader that rounds positions to float32 and merges vertices at the same position, as STL readers do.
+/// Properties of a solid for readers that round positions to float32 and merge equal positions, as STL readers do.
 struct SolidFacts {
   std::uint64_t triangles = 0;
-  std::uint64_t degenerate = 0;    ///< triangles without area
-  std::uint64_t faulty_edges = 0;  ///< edges without exactly two triangles that run along them in opposite directions
+  std::uint64_t degenerate = 0;        ///< triangles without area
+  std::uint64_t faulty_edges = 0;      ///< edges that do not have exactly two triangles in opposite directions
   std::uint64_t pinched_vertices = 0;  ///< vertices with more than one fan of triangles
   std::uint64_t parts = 0;             ///< parts not connected by edges
   std::uint64_t inside_out = 0;        ///< parts whose volume is not positive
   double volume = 0;
   std::array<double, 3> low{}, high{};  ///< box of all vertices, the mesh's origin included
 
-  /// Closed, each edge and each vertex as on a surface, facing outward.
+  /// True if the mesh is a closed 2-manifold that faces outward.
   bool is_solid() const {
     return triangles > 0 && degenerate == 0 && faulty_edges == 0 && pinched_vertices == 0 && inside_out == 0;
   }
   /// "2 degenerate triangles, 4 faulty edges"; empty if it is a solid.
   std::string list_faults() const;
 };
-/// Exact but for volume and size. Cost: O(n log n).
+/// Measures a solid; exact except for volume and box. Cost: O(n log n).
 SolidFacts measure_solid(const Mesh& mesh);
 
 // Contour lines of a mesh.
 
-/// A line at one height on a mesh. Each point lies on an edge of the mesh, and neighbours on edges of one triangle, so
-/// the line follows the surface. The ground rises on its left.
+/// A line at one height on a mesh. Each point lies on an edge of the mesh, and neighbouring points lie on the same
+/// triangle, so the line follows the surface. The ground rises on its left.
 struct Contour {
   double height = 0;                          ///< a multiple of the interval
-  bool is_closed = false;                     ///< the last point joins the first, which is not repeated
-  std::vector<std::array<double, 2>> points;  ///< absolute x and y; two at least, three of a closed line, no two
-                                              ///< neighbours equal
+  bool is_closed = false;                     ///< the last point connects to the first, which is not repeated
+  std::vector<std::array<double, 2>> points;  ///< absolute x and y; at least two (closed: three), neighbours differ
 };
 
-/// The contours at all multiples of `interval` between the lowest and the highest vertex of a mesh that is z up, in the
-/// unit of its heights. Within the max error of the mesh its heights are those of the raster, so a contour lies in the
-/// raster's band of heights `height` ± max error.
+/// The contours at all multiples of `interval`, in the unit of heights, between the lowest and the highest vertex of a
+/// mesh with z up. The mesh follows the raster to within its max error, so a contour lies where the raster is in
+/// `height` ± max error.
 ///
-/// A point on the edge from a to b, a the lower end, is a + (b − a) · (height − z of a) / (z of b − z of a) in double;
-/// both triangles of the edge have the same. A vertex exactly at the height counts as above it, and its point is the
-/// vertex itself: a plateau at the height has a line along its border where the ground around it is lower, a hollow at
-/// the height has none, a ridge at the height has one line around it. A single vertex or edge at the height with lower
-/// ground around it is omitted. So no line branches, lines touch at vertices at most, and each is closed or ends on the
-/// border of the mesh, or at an edge that does not have exactly two triangles in opposite directions.
+/// A point on the edge from a, the lower end, to b is a + (b − a) · (height − z of a) / (z of b − z of a) in double. It
+/// is the same for both triangles of the edge. A vertex exactly at the height counts as above it, and its point is the
+/// vertex itself. So a plateau at the height has a line along its border where the ground around it is lower, a hollow
+/// none, a ridge one line around it. A single vertex or edge at the height with lower ground around it is omitted. No
+/// line branches, and lines touch only at vertices. Each is closed, or ends on the border of the mesh or at an edge
+/// without exactly two triangles in opposite directions.
 ///
-/// The order is by height, then by the first triangle that a line crosses; a line that is not closed begins where the
-/// ground rises on its left, a closed one in its first triangle. Deterministic. Fails with kUsage if the interval is
-/// not above 0 and finite, or so small that there are more than 1,000,000 heights. REQUIRES: indices in range, finite
-/// positions, fewer than 2^32 / 3 triangles. Cost: O(n log n + length of the lines), 20 bytes a triangle and 16 a
-/// segment while it runs.
+/// Lines are ordered by height, then by the first triangle that they cross. An open line begins where the ground rises
+/// on its left, a closed one in its first triangle. Deterministic. Fails with kUsage if the interval is not above 0 and
+/// finite, or so small that there are more than 1,000,000 heights. REQUIRES: indices in range, finite positions, fewer
+/// than 2^32 / 3 triangles. Cost: O(n log n + length of the lines). Memory: 20 bytes a triangle and 16 a segment.
 Result<std::vector<Contour>> find_contours(const Mesh& mesh, double interval);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// Repeat the greedy insertion of the 1995 paper, with its strategies.
+// Reproduce the greedy insertion of the 1995 paper, with its strategies.
 //
 // Example:
 //     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
@@ -23,26 +23,26 @@
 
 namespace scarp {
 
-/// The goals, and the strategy to reach them. Strategies only insert vertices, in the greedy order: efforts above fast,
-/// lines and shapes belong to simplify().
+/// The goals, and the strategy to reach them. Strategies only insert vertices, in the greedy order; for efforts above
+/// fast, lines and shapes use simplify().
 struct PaperOptions {
   Goals goals = {};
   Tolerances tolerances = {};
-  std::vector<SampleAt> points = {};  ///< like Features::points: Terra's scripts
+  std::vector<SampleAt> points = {};  ///< see Features::points; for Terra's scripts
   Domain domain = {};
   Output output = {};
   Strategy strategy = {};
   Run run = {};
 };
 
-/// Inserts the worst samples of samples in memory (Garland & Heckbert 1995, Algorithms I to III, parallel insertion and
-/// data-dependent triangulation). The promise, the meaning of a budget, and the proof are those of simplify() with fast
-/// effort in the greedy order; with the default strategy so is every byte of the mesh.
+/// Inserts the worst samples of a field in memory (Garland & Heckbert 1995, Algorithms I to III, parallel insertion and
+/// data-dependent triangulation). Guarantees, budgets and proof are those of simplify() with fast effort in the greedy
+/// order; with the default strategy the mesh is the same, byte for byte.
 ///
 /// Fails as simplify() does; with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy
-/// out of range: an importance of nothing, one pass with batches or without a feature of the raster, a fraction of a
-/// batch not in (0, 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order;
-/// Algorithms I and II as Algorithm lists them; data-dependent edges need about ten times as long.
+/// out of range: no importance, one pass with batches or without a feature of the raster, a batch fraction not in (0,
+/// 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order; Algorithms I and II
+/// as listed at Algorithm; about ten times as long with data-dependent edges.
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options);
 
 }  // namespace scarp

@@ -25,31 +25,31 @@ namespace scarp {
 
 enum class MarkKind { kLake, kWater, kBreakline, kRidge, kWall, kCutline };
 
-/// A line to be marked on a picture. Rings of lakes are filled, even-odd.
+/// A line marked on a picture. Rings of lakes are filled, even-odd.
 struct Mark {
   MarkKind kind = MarkKind::kBreakline;
   std::vector<std::array<double, 2>> points;  ///< columns and rows of samples
 };
 
 struct PreviewOptions {
-  int max_side = 1400;  ///< pixels that the picture is wide or high, at most
-  /// Metres that a cell is wide and high. DEFAULT: its lengths in the field's frame, and no scale bar.
+  int max_side = 1400;  ///< largest width or height of the picture, in pixels
+  /// Width and height of a cell in metres. DEFAULT: those in the field's frame, without a scale bar.
   std::array<double, 2> cell{0, 0};
   std::string unit = {};  ///< unit of heights, for the legend
   std::vector<Mark> marks = {};
 };
 
-/// Hillshade of the field with the mesh's edges and the marks over it, in the shape that it has on the ground. Edges of
-/// triangles fade as these come down to a few pixels. Nodata samples are white. Tints show heights; below 0 they are
-/// blue, but in fields without a georeference. A picture of 300 pixels and more has a legend below. Streamed samples
-/// are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with kUsage
-/// for a frame in space, and as the field's source does.
+/// Draws a hillshade of the field with the mesh's edges and the marks, in the proportions on the ground. Edges of
+/// triangles of only a few pixels fade. Nodata is white. Tints show heights; below 0 they are blue, except in fields
+/// without a georeference. Pictures of 300 pixels and more have a legend below. Streamed samples are read once, from
+/// the top. Memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with kUsage for a frame in space,
+/// and as the field's source does.
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options = {});
 
 struct ErrorMapOptions {
   double limit = 0;                  ///< end of the scale; <= 0: the largest |error|
-  int max_side = 1400;               ///< pixels that the picture is wide or high, at most
-  std::array<double, 2> cell{0, 0};  ///< lengths of a cell along x and y. DEFAULT: 0, a square
+  int max_side = 1400;               ///< largest width or height of the picture, in pixels
+  std::array<double, 2> cell{0, 0};  ///< width and height of a cell. DEFAULT: 0, a square
   std::string unit = {};             ///< unit of errors
   std::string title = {};            ///< above the map
 };
@@ -57,7 +57,7 @@ struct ErrorMapOptions {
 /// Map of signed errors (row-major, cols·rows, NaN = nodata or uncovered) in diverging colours, blue below and red
 /// above the samples, with a scale from −limit to +limit in z units.
 Picture draw_error_map(std::span<const float> errors, int cols, int rows, const ErrorMapOptions& options = {});
-/// The same map of errors that come row by row. Memory: 7 bytes a pixel. REQUIRES: at least 1×1 samples.
+/// The same map from errors added row by row. Memory: 7 bytes a pixel. REQUIRES: at least 1×1 samples.
 class ErrorMap {
  public:
   ErrorMap(int cols, int rows, ErrorMapOptions options = {});
@@ -68,37 +68,37 @@ class ErrorMap {
   int cols_, rows_, width_, height_;
   ErrorMapOptions options_;
   std::array<int, 2> size_;    // size of the map in the picture
-  std::vector<float> errors_;  // error of the largest size in each pixel; NaN where there is none
+  std::vector<float> errors_;  // error of largest absolute value in each pixel; NaN: none
   double largest_ = 0;
 };
 
-/// The approximation as an image of one pixel a sample, Gouraud-shaded: the mesh's colours, interpolated in each
-/// triangle; without colours its hillshade. White outside the mesh. The mesh lies in the field's frame.
-/// REQUIRES: that is no frame in space.
+/// Draws the mesh with one pixel for each sample, Gouraud-shaded: its colours interpolated in each triangle, or its
+/// hillshade without colours. White outside the mesh. REQUIRES: the mesh lies in the field's frame, which is no frame
+/// in space.
 Picture draw_gouraud(const HeightField& field, const Mesh& mesh);
 
-/// Channels as a picture: three as red, green, blue, else the first as grey; 8-bit values as they are, others stretched
-/// over their range.
+/// Channels as a picture: three as red, green, blue, else the first as grey. 8-bit values do not change, others are
+/// stretched over their range.
 Picture draw_channels(const OwnedChannels& channels);
 
-/// Colours of a mesh from its channels, as draw_channels() would paint their samples: fills mesh.colors.
+/// Fills mesh.colors from the mesh's channels, with the colours of draw_channels().
 void color_by_channels(Mesh& mesh, const OwnedChannels& channels);
 
 /// Peak signal-to-noise ratio in dB over all pixels and colours; +infinity if equal. REQUIRES: equal sizes.
 double find_psnr(const Picture& a, const Picture& b);
 
-/// Pictures side by side, tops aligned, a white gap between them.
+/// Pictures side by side, aligned at the top, with white gaps of `gap` pixels.
 Picture place_side_by_side(std::span<const Picture> pictures, int gap = 8);
 
-/// The mesh seen from above as lines, to scale, north up: every edge once. Text; deterministic.
+/// The edges of the mesh seen from above, to scale, north up, each once. Text; deterministic.
 std::vector<std::uint8_t> encode_svg(const Mesh& mesh);
 std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 
 // The normals of a raster as an image.
 
 /// Unit normals of the field's surface, in its frame, as a tangent-space normal map (GlbOptions::normal_map): red x,
-/// green y, blue z, each (n + 1) / 2 of 255. The picture covers the raster; its longer side has `side` pixels, but no
-/// more than samples. A pixel is the mean of the normals of the samples below it. Nodata is (0, 0, 1). Streamed samples
+/// green y, blue z, each as 255 (n + 1) / 2. The picture covers the raster; its longer side has `side` pixels, but at
+/// most one for each sample. A pixel is the mean of the normals of its samples. Nodata is (0, 0, 1). Streamed samples
 /// are read once, from the top. Fails as the field's source does, and with kUsage for a side below 1 and a frame in
 /// space.
 Result<Picture> draw_normal_map(const HeightField& field, int side);

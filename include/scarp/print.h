@@ -1,4 +1,5 @@
-// Print a terrain: simplified, placed in millimetres, cut into print tiles, closed, and proven as it will be written.
+// Prepare a terrain for printing: simplified, placed in millimetres, cut into print tiles, closed, with a proof for the
+// positions as written.
 //
 // Example:
 //     SCARP_TRY(auto&& dem, scarp::read_height_field("dem.tif"));
@@ -26,37 +27,37 @@ struct PrintOptions {
   /// Height of the underside, in z units, below the lowest vertex. Not together with a thickness. DEFAULT: 2 % of the
   /// longest side below the lowest vertex.
   std::optional<double> base = std::nullopt;
-  /// Distance from the underside up to the lowest vertex, above 0: in z units, or in print units. At most one of them.
+  /// Distance from the underside to the lowest vertex, above 0: in z units, or in print units. At most one of the two.
   std::optional<double> thickness = std::nullopt, printed_thickness = std::nullopt;
   /// The longest side in millimetres, above 0. DEFAULT: none, the coordinates are those of the frame.
   std::optional<double> size = std::nullopt;
   double exaggerate = 1;  ///< factor of heights, above 0
-  /// The max error on the print, in print units, above 0; with Goals::max_error, the stricter one counts. DEFAULT:
+  /// The max error of the print, in print units, above 0. With Goals::max_error, the stricter one counts. DEFAULT:
   /// none.
   std::optional<double> max_error = std::nullopt;
   int columns = 1, rows = 1;  ///< number of print tiles, at least 1
-  bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two tiles share
-  double gap = 0;             ///< between print tiles, in print units, at least 0
+  bool dovetail = false;      ///< a trapezoid tab in the middle of each common edge of two tiles
+  double gap = 0;             ///< distance between print tiles, in print units, at least 0
 
   bool is_split() const { return columns > 1 || rows > 1; }
   /// True if the coordinates of the print differ from those of the frame.
   bool is_placed() const { return size.has_value() || exaggerate != 1; }
 };
 
-/// A print tile: a piece of a print that is a solid of its own.
+/// A print tile: a piece of a print, and a separate solid.
 struct PrintTile {
   int row = 1, column = 1;  ///< counted from 1, from the top left
-  Mesh mesh;                ///< closed; positions as they are to be written
-  SolidFacts facts;         ///< facts about `mesh`
+  Mesh mesh;                ///< closed; positions as written
+  SolidFacts facts;         ///< properties of `mesh`
 };
 
-/// A print, and facts about it.
+/// A print and its properties.
 struct Print {
   double base = 0;               ///< height of the underside, in z units
-  Placement placement;           ///< placement of all print tiles; used where PrintOptions::is_placed()
+  Placement placement;           ///< placement of all print tiles; used if PrintOptions::is_placed()
   std::vector<PrintTile> tiles;  ///< row by row; tiles without a triangle are omitted
   int empty_tiles = 0;           ///< number of tiles omitted
-  double max_error = 0;          ///< max error of the tops as they are to be written, against the samples, in z units
+  double max_error = 0;          ///< max error of the tops, as written, against the samples, in z units
   std::uint64_t uncovered = 0;   ///< valid samples in gaps
   HeightRange heights;           ///< range of the samples
 
@@ -65,27 +66,28 @@ struct Print {
 };
 
 struct PrintedTerrain {
-  Simplified simplified;  ///< the terrain that the print was made of, in the frame of the field
+  Simplified simplified;  ///< the terrain from which the print was made, in the frame of the field
   Print print;
 };
 
-/// Print units for one z unit, before there is a mesh: of the samples that have heights. Reads a field that is not in
-/// memory once. Fails where a read does, and with kInput if no sample has a height.
+/// Print units for one z unit, estimated without a mesh from the samples with heights. Reads a field that is not in
+/// memory once. Fails if a read fails, and with kInput if no sample has a height.
 Result<double> estimate_print_scale(const HeightField& field, const PrintOptions& print);
 
-/// Simplifies a field for a print. Rounding the placed positions to float32 moves them. So the mesh is made with 1/1024
-/// of the max error in reserve; if that is not enough, it is made again with a smaller max error, up to three times.
-/// The bound then holds for the print tiles as they are to be written. Cuts between tiles are edges of the mesh. If a
-/// budget ends the run, the mesh of the budget is kept, whatever the error of the print.
+/// Simplifies a field for a print. Rounding moves the placed positions, so the mesh is made with 1/1024 of the max
+/// error in reserve. If that is not enough, it is remade with a smaller max error, up to three times. The bound then
+/// holds for the print tiles as written. Cuts between tiles are edges of the mesh. If a budget ends the run, its mesh
+/// is the result, regardless of the error of the print.
 ///
 /// `options`: as for simplify(). float32_positions is ignored; cuts are added to its breaklines. `field` receives the
-/// heights of hard lines, as by apply_edits(); Simplified::edits lists them. Nothing is kept of the arguments.
+/// heights of hard lines, as by apply_edits(); Simplified::edits lists them. The arguments are not needed after the
+/// call.
 ///
-/// Fails with kUsage for options out of range or that cannot be combined (the sentence begins with the option's name,
-/// such as "base=300 is not …"; with "print tiles: " if the print cannot be cut so), and for several tiles in a frame
-/// that is not affine, and for a frame in space; with kPromise if samples have no top above them and no gap accounts
-/// for it, and if float32 cannot hold the error; as simplify(), build_solid() and measure() do. Cost: up to four runs
-/// of simplify(), one or two as a rule, each with a measure() of the print.
+/// Fails with kUsage for options in conflict or out of range (the sentence begins with the option's name, such as
+/// "base=300 is not …", or with "print tiles: " if the print cannot be cut so), for several tiles in a non-affine
+/// frame, and for a frame in space. Fails with kPromise if samples outside of gaps have no top above them, and if
+/// float32 cannot hold the error. Fails as simplify(), build_solid() and measure() do. Cost: usually one or two runs of
+/// simplify(), at most four, each with a measure() of the print.
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
 
 }  // namespace scarp

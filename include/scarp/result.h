@@ -1,4 +1,4 @@
-// Handle failures: a call that can fail returns a Result, which holds its value or an Error of one sentence. Examine it
+// Handle failures: a call that can fail returns a Result, which holds its value or an Error of one sentence. Check it
 // by `if (!result)`, or forward the error by the macros below.
 //
 // Example:
@@ -20,24 +20,23 @@ namespace scarp {
 
 /// Kinds of failure, in the terms a caller can act on. The command line maps each kind to an exit code.
 enum class ErrorKind {
-  kUsage,      ///< options that cannot be combined or lie outside their range (exit 1)
+  kUsage,      ///< options that conflict or are out of range (exit 1)
   kMemory,     ///< Run::memory is too little for the mesh (exit 1)
-  kInput,      ///< a raster or mesh that cannot be read or holds nothing usable (exit 2)
-  kPromise,    ///< the error bound asked for cannot be met (exit 3)
+  kInput,      ///< a raster or mesh that cannot be read or used (exit 2)
+  kPromise,    ///< the requested error bound cannot be met (exit 3)
   kOutput,     ///< a file that cannot be written (exit 4)
-  kCancelled,  ///< the progress callback or a signal asked to stop (exit 5)
+  kCancelled,  ///< cancelled by the progress callback or a signal (exit 5)
   kInternal,   ///< a broken invariant: a bug in Scarp (exit 70)
 };
 
-/// One sentence that names the culprit (file, pixel, option) and the way out.
+/// An error of one sentence, which names its cause (file, pixel, option) and the remedy.
 struct Error {
   ErrorKind kind = ErrorKind::kInternal;
   std::string message;
 };
 
-/// A value or an Error. Nothing in the library throws for bad data, prints, or aborts. Where memory runs out, a
-/// function that returns a Result returns an Error; one that does not (drawing, filling, a Refiner's steps) throws
-/// std::bad_alloc.
+/// A value or an Error. The library never prints, aborts, or throws because of bad data. If memory runs out, functions
+/// that return a Result return an Error; others (drawing, filling, a Refiner's steps) throw std::bad_alloc.
 template <class T>
 using Result = tl::expected<T, Error>;
 
@@ -46,8 +45,8 @@ inline tl::unexpected<Error> fail(ErrorKind kind, std::string message) {
   return tl::unexpected<Error>(Error{kind, std::move(message)});
 }
 
-/// The return value of the macros below: an Error that becomes a Result of any type, by a call, since they stand in a
-/// thousand places.
+/// The return value of the macros below: an Error that converts to a Result of any type. The conversion is not inlined,
+/// since the macros are used a thousand times.
 template <class E>
 struct ForwardedError {
   E&& error;
@@ -65,10 +64,11 @@ ForwardedError<E> forward_error(E&& error) {
 
 }  // namespace scarp
 
-/// `SCARP_TRY(const auto& mesh, read_mesh(path));` names the value of a Result, or returns its Error from the function
-/// or lambda around it, which returns a Result of any type. The Result lives until the end of the block; `auto&& mesh`
-/// is to be changed or moved. A target without `&`, as in `SCARP_TRY(job.mesh, read_mesh(path));`, gets the value
-/// moved, or copied where the expression names a Result. The macro is two statements: a branch needs braces around it.
+/// `SCARP_TRY(const auto& mesh, read_mesh(path));` names the value of a Result, or returns its Error from the enclosing
+/// function or lambda, which returns a Result of any type. The Result lives until the end of the block; declare `auto&&
+/// mesh` to change or move the value. The value is moved to a target without `&`, as in `SCARP_TRY(job.mesh,
+/// read_mesh(path));`, or copied if the expression names a Result. The macro is several statements: in a branch it
+/// needs braces.
 #define SCARP_TRY(target, ...) SCARP_TRY_AS(SCARP_TRY_NAME(__COUNTER__), target, __VA_ARGS__)
 
 /// `SCARP_RETURN_IF_ERROR(write_mesh(path, mesh));` returns the Error of a Result whose value is not needed.

@@ -1,5 +1,5 @@
-// Choose threads and memory for a call, follow its progress, cancel it or end it early. Nothing here is part of the
-// result, but for an early end.
+// Set threads and memory of a call, follow its progress, cancel it or end it early. None of this changes the result,
+// except an early end.
 //
 // Example:
 //     scarp::Run run;  // SimplifyOptions::run, MeasureOptions::run, …
@@ -24,39 +24,39 @@ namespace scarp {
 /// A snapshot of a running pass.
 struct Progress {
   std::string_view pass;  ///< "read", "refine", "fit", "search", "measure" or "topology"; valid during the call only
-  double fraction = 0;    ///< 0..1 of this pass; an estimate that never decreases within a pass
-  std::uint64_t vertices = 0;  ///< vertices so far; 0 where the pass does not count them
-  double max_error = 0;        ///< current max error in z units; 0 where the pass does not know it
+  double fraction = 0;    ///< 0..1 of this pass; an estimate, never decreases within a pass
+  std::uint64_t vertices = 0;  ///< vertices so far; 0 if the pass does not count them
+  double max_error = 0;        ///< current max error in z units; 0 if the pass does not know it
 };
 
-/// Called from the thread that called the library, a few times a second at most.
-/// Return false to cancel: the call then ends with ErrorKind::kCancelled and no result.
+/// Called on the thread that called the library, at most a few times a second. Return false to cancel: the call then
+/// fails with ErrorKind::kCancelled.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 /// Bytes of memory.
 struct Memory {
-  /// Bytes that the whole process is to stay under; 0: no limit. Strips, threads and the blocks of the file are chosen
-  /// to fit. A run that cannot fit is refused: before the work begins, or as soon as the mesh outgrows the limit. The
-  /// memory of a call is estimated, not counted. DEFAULT: 0.
+  /// Memory limit of the whole process; 0: no limit. Strips, threads and the blocks of the file are chosen to fit. A
+  /// run that cannot fit fails before the work begins, or as soon as the mesh outgrows the limit. The memory of a call
+  /// is estimated, not counted. DEFAULT: 0.
   std::uint64_t limit = 0;
-  /// The part of the limit that others use: the program, the samples or the cache of their file. DEFAULT: 0.
+  /// The part of the limit already in use: by the program, by samples or the cache of their file. DEFAULT: 0.
   std::uint64_t taken = 0;
-  /// Bytes a vertex that the caller will use in addition to the mesh, to write it. Read by simplify() alone. DEFAULT:
-  /// 80, more than GLB needs.
+  /// Bytes for each vertex that the caller will need, in addition to the mesh, to write it. Used by simplify() only.
+  /// DEFAULT: 80, more than GLB needs.
   std::uint64_t per_vertex = 80;
 };
 
-/// The same for all calls; each function lists the members it reads, unless it reads all.
+/// Settings of any call. Each function lists the members that it reads, unless it reads all.
 struct Run {
-  int threads = 0;  ///< 0: all cores, or one where others would come too late. Never changes the result. DEFAULT: 0.
+  int threads = 0;  ///< 0: all cores, or one for work too short to share. Never changes the result. DEFAULT: 0.
   Memory memory = {};
   ProgressCallback progress = {};
-  /// Read by simplify() with more than fast effort: asked often, on any thread; once true, true for good. Then vertices
-  /// are no longer removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. With a
-  /// budget the search then ends with the best mesh so far. DEFAULT: never.
+  /// Polled by simplify() with more than fast effort, often, from any thread; must stay true once true. Then removal
+  /// ends, and the result is the mesh so far, which keeps the bound but depends on the time. A search for a budget ends
+  /// with the best mesh so far. DEFAULT: never.
   std::function<bool()> is_time_up = {};
-  /// Polled in the same way, for a caller who stops waiting. It is a cancel request, not a deadline: max effort does
-  /// not use up the time. Not asked with a budget. DEFAULT: never.
+  /// Polled in the same way, for a caller that stops waiting. It is a request to end, not a deadline: max effort does
+  /// not use up the time. Not polled with a budget. DEFAULT: never.
   std::function<bool()> is_enough = {};
 };
 
@@ -64,7 +64,7 @@ struct Run {
 struct Work {
   std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
   std::uint64_t triangles_scanned = 0;  ///< triangles scanned
-  std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or scanned (kLocal)
+  std::uint64_t queue_moves = 0;        ///< queue entries moved (kHeap) or scanned (kLocal)
   std::uint64_t passes = 0;             ///< passes over the mesh: insertions, or batches
 };
 

@@ -1,4 +1,4 @@
-// Examine which version of the library a program is linked with.
+// Find the version of the library with which a program is linked.
 //
 // Example:
 //     std::printf("compiled for Scarp %s, linked with %s\n", SCARP_VERSION, scarp::version());
@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// "MAJOR.MINOR.PATCH" of the library that is linked.
+/// "MAJOR.MINOR.PATCH" of the linked library.
 const char* version();
 
 }  // namespace scarp

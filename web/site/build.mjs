@@ -1,6 +1,5 @@
-// The static site: the documents as pages around the viewer. build.mjs SOURCE SITE MADE: SOURCE is the project's
-// folder, MADE has the documents that are written by scripts; try.html is there already. Fails where a link leads
-// nowhere.
+// Builds the static site: the documents as pages around the viewer. build.mjs SOURCE SITE MADE: SOURCE is the project's
+// folder, MADE has the generated documents; SITE has try.html. Fails for broken links.
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, normalize, relative } from 'node:path';
 import { Marked } from 'marked';
@@ -32,7 +31,7 @@ const wanted = [];
 const copied = new Set();
 const missing = [];
 
-/** The address on the site of a link of `page`. */
+/** The site's address for a link of `page`. */
 function follow(page, href) {
   if (/^[a-z]+:/.test(href)) return href;
   const [path, anchor] = href.split('#');

@@ -1,4 +1,4 @@
-// Builds the viewer into one HTML file: build.mjs PAGE.html [NPM_PACKAGE], the latter the folder of the package
+// Builds the viewer as one HTML file: build.mjs PAGE.html [NPM_PACKAGE]. NPM_PACKAGE is the folder of the package
 // `scarp`, whose engine then refines live in the page.
 import { readFileSync, existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';

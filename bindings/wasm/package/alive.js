@@ -1,8 +1,9 @@
-// A browser that lacks memory ends a worker without an event. Its locks are free then, and a waiter for one gets it.
-// Node reports each end, and needs none.
+// A browser short of memory ends a worker without an event, but releases its locks, so a waiter acquires them. Node
+// reports each end, and needs no lock.
 const locks = globalThis.process?.versions?.node ? undefined : globalThis.navigator?.locks;
 
-/// In the worker: holds a lock until it ends. The lock's name; null where there are none, as in a page without HTTPS.
+/// In the worker: holds a lock until the worker ends. Returns the lock's name; null without locks, as in a page without
+/// HTTPS.
 export function holdLock() {
   if (!locks) return Promise.resolve(null);
   const name = `scarp ${Math.random()} ${performance.now()}`;
@@ -16,7 +17,7 @@ export function holdLock() {
   });
 }
 
-/// Calls `ended` when the worker is gone that holds the lock.
+/// Calls `ended` when the worker that holds the lock has ended.
 export function watchLock(name, ended) {
   locks.request(name, ended).catch(() => {});
 }

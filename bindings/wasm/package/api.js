@@ -15,5 +15,5 @@ export { decodeTile } from './decode.js';
 export { createPool } from './pool.js';
 export { ready } from './ready.js';
 
-/// Like simplifySync(), in a worker of a pool that all calls share.
+/// Like simplifySync(), in a worker of a common pool.
 export const simplify = async (z, width, height, options) => pool().simplify(z, width, height, options);

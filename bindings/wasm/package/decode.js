@@ -1,15 +1,15 @@
-// Heights of the pixels of terrain tiles.
+// Decodes heights from pixels of terrain tiles.
 import { ScarpError } from './error.js';
 import { FARTHEST, checkArray, checkSide } from './heights.js';
 
-/// Metres: scaler · value, summed, plus the offset.
+/// Metres: the sum of scaler · value, plus the offset.
 const ENCODINGS = {
   terrarium: { rScaler: 256, gScaler: 1, bScaler: 1 / 256, offset: -32768 },
   mapbox: { rScaler: 6553.6, gScaler: 25.6, bScaler: 0.1, offset: -10000 },
 };
 
-/// `rgba`: four bytes a pixel, as a canvas' ImageData has them. Float32Array, the first row in the north. A pixel that
-/// is wholly transparent has no height: NaN.
+/// `rgba`: four bytes a pixel, as in a canvas' ImageData. Returns a Float32Array, the first row in the north, with NaN
+/// for fully transparent pixels.
 export function decodeTile(rgba, width, height, encoding = 'terrarium') {
   const { rScaler, gScaler, bScaler, offset } =
     typeof encoding === 'object' && encoding ? encoding : (ENCODINGS[encoding] ?? {});

@@ -1,7 +1,7 @@
 import type { Heights } from './index.js';
 export { ready } from './index.js';
 
-/** In place of delatin. Needs ready(). */
+/** Replaces delatin. Needs ready(). */
 export default class Delatin {
   constructor(data: Heights, width: number, height?: number);
   readonly width: number;
@@ -11,7 +11,7 @@ export default class Delatin {
   getMaxError(): number;
   getRMSD(): number;
   heightAt(x: number, y: number): number;
-  /** x, y of each vertex: columns and rows from the top. The same arrays until run() or refine() inserts. */
+  /** x, y of each vertex: columns and rows from the top. The same array until vertices are inserted. */
   readonly coords: number[];
   readonly triangles: number[];
   free(): void;

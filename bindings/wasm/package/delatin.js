@@ -1,11 +1,11 @@
-// In place of delatin: the same names, a few times as fast, and no bound that is broken. Needs ready().
+// Replaces delatin: the same names, a few times as fast, and no broken bound. Needs ready().
 import { Refiner } from './index.js';
 
 export { ready } from './index.js';
 
 export default class Delatin {
   #refiner;
-  #mesh = null; // coords and triangles, until it grows
+  #mesh = null; // coords and triangles, until vertices are inserted
   #data;
 
   /// `data`: any array of numbers.
@@ -49,7 +49,7 @@ export default class Delatin {
     return this.#made.triangles;
   }
 
-  /// Root of the mean square error.
+  /// Root mean square error.
   getRMSD() {
     const { coords, triangles, width, height } = this;
     const squares = new Float64Array(width * height);

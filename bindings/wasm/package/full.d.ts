@@ -2,25 +2,24 @@ import type { AsyncOptions, Bytes, Heights, Mesh, Numbers, PointOptions } from '
 
 export * from './index.js';
 
-/** @param points x, y, z in turn */
+/** @param points interleaved x, y, z */
 export function simplifyPointsSync(points: Heights, options: PointOptions): Mesh;
 export function simplifyPoints(points: Heights, options: PointOptions & AsyncOptions): Promise<Mesh>;
 
 export interface TilerOptions {
-  /** West, south, east, north of the raster, its outer pixels included: degrees of the globe, or metres of web
-   * Mercator. */
+  /** West, south, east, north of the raster with its outer pixels, in degrees or in metres of Web Mercator. */
   bounds: Numbers;
   crs?: 'degrees' | 'mercator';
   nodata?: number | null;
-  /** Nodes' cells a side of the finest tiles: a power of two, 16 to 256. */
+  /** Cells between nodes along a side of the finest tiles: a power of two, 16 to 256. */
   cells?: number;
   maxZoom?: number;
   /** Max error of the finest level, in metres. */
   maxError?: number;
-  /** A level's max error is the error that clients assume over this. */
+  /** A level's max error is the error that clients assume, divided by this. */
   quality?: number;
   effort?: 'fast' | 'normal' | 'high';
-  /** Height where there is none. */
+  /** Height for nodes without a height. */
   background?: number;
 }
 export interface Tile {
@@ -28,13 +27,13 @@ export interface Tile {
   bytes: Bytes;
   triangleCount: number;
   vertexCount: number;
-  /** Largest errors in metres: at the tile's nodes; with the sag of flat triangles; at the source's samples. NaN: not
-   * known. */
+  /** Largest errors in metres: at the tile's nodes; with the sag of flat triangles; at the source's samples. NaN:
+   * unknown. */
   nodeError: number;
   bound: number;
   sourceError: number;
 }
-/** The file layer.json, as JSON.stringify() accepts it. */
+/** The contents of layer.json, for JSON.stringify(). */
 export interface LayerJson {
   tilejson: string;
   name: string;
@@ -49,15 +48,15 @@ export interface LayerJson {
   minzoom: number;
   maxzoom: number;
   extensions: string[];
-  /** Rectangles of tiles, level by level. */
+  /** Rectangles of tiles for each level. */
   available: { startX: number; startY: number; endX: number; endY: number }[][];
 }
 export interface Tiler extends Disposable {}
-/** Terrain tiles for globes, made as they are asked for, of heights in metres above the ellipsoid. */
+/** Terrain tiles for globes, made on request from heights in metres above the ellipsoid. */
 export class Tiler {
   constructor(z: Heights, width: number, height: number, options: TilerOptions);
   readonly maxZoom: number;
-  /** Tile z/x/y of the geographic grid (EPSG:4326, TMS): y from the south. */
+  /** Makes tile z/x/y of the geographic grid (EPSG:4326, TMS): y from the south. */
   tile(z: number, x: number, y: number): Tile;
   /** Columns and rows of a level's tiles. */
   list(z: number): [number, number][];

@@ -1,4 +1,4 @@
-// Scattered points and terrain tiles, too.
+// The package with scattered points and terrain tiles.
 import { defaults } from './ready.js';
 import { pool } from './pool.js';
 
@@ -9,5 +9,5 @@ export * from './api.js';
 export { simplifyPointsSync } from './simplify.js';
 export { Tiler } from './tiles.js';
 
-/// Like simplifyPointsSync(), in a worker of a pool that all calls share.
+/// Like simplifyPointsSync(), in a worker of a common pool.
 export const simplifyPoints = async (points, options) => pool().simplifyPoints(points, options);

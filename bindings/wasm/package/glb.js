@@ -11,7 +11,7 @@ const ARRAY_BUFFER = 34962;
 const INDEX_BUFFER = 34963;
 const pad4 = size => Math.ceil(size / 4) * 4;
 
-/// (x, y, z) becomes (x, z, -y): a rotation, so winding stays as it is.
+/// (x, y, z) becomes (x, z, -y): a rotation, which keeps the winding.
 function yUp(array) {
   const turned = new Float32Array(array.length);
   for (let k = 0; k < array.length; k += 3) {
@@ -117,12 +117,12 @@ class Builder {
   }
 }
 
-/// The most that a number of a grid may be: whole numbers of float32 end there.
+/// Largest numbers of a grid: of 16 bits, and of consecutive whole numbers in float32.
 const MOST_SHORT = 65535;
 const MOST_WHOLE = 2 ** 24;
 
-/// The largest step of which an axis' offsets are multiples, at most `most`; null without one. `slack`: what a double
-/// may have rounded.
+/// The largest step, at most `most`, of which all offsets of an axis are multiples; null without one. `slack`:
+/// tolerance for rounding in double.
 function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   for (let step = unit; step >= finest; step /= 2) {
     let isOnGrid = true;
@@ -136,8 +136,8 @@ function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   return null;
 }
 
-/// Positions as 16-bit numbers, y up, that keep their values; of float64 positions, where that is too narrow, as whole
-/// numbers in float32. null where there is no such grid.
+/// Positions, unchanged, as 16-bit numbers with y up, or, for float64 positions beyond these, as whole numbers in
+/// float32. null if there is no such grid.
 function findGrid({ positions, cell = [0, 0], origin }) {
   const { min, max } = bounds(positions);
   const areDoubles = kindOf(positions) !== 'Float32Array';
@@ -175,14 +175,14 @@ function packNormals(normals, scale) {
   return packed;
 }
 
-/// In another order of vertices.
+/// The same array in another order of vertices.
 function gather(array, width, from) {
   const moved = new array.constructor(from.length * width);
   from.forEach((v, to) => moved.set(array.subarray(v * width, (v + 1) * width), to * width));
   return moved;
 }
 
-/// The attributes and indices, compressed. Positions of float32 or on a lattice keep their values; normals and texture
+/// The compressed attributes and indices. Positions in float32 or on a lattice keep their values; normals and texture
 /// coordinates in 0 … 1 are rounded.
 function addCompressed(glb, mesh) {
   const { positions, indices, normals, uvs } = mesh;
@@ -212,8 +212,8 @@ function addPlain(glb, { positions, indices, normals, uvs }) {
   return { attributes, indices: glb.add(corners, 1, INDEX_BUFFER), shift: [0, 0, 0], scale: [1, 1, 1] };
 }
 
-/// The bytes of a GLB file, whose node's translation is the mesh's origin. `compress`: meshoptimizer's codec, which
-/// loaders of three.js, Babylon.js and CesiumJS know; positions on a lattice (simplify's option) have 16 bits each.
+/// The bytes of a GLB file, whose node's translation is the mesh's origin. `compress`: meshoptimizer's codec, supported
+/// by three.js, Babylon.js and CesiumJS; positions on a lattice (simplify's option) have 16 bits each.
 export function encodeGlb(mesh, options = {}) {
   const { compress = false } = takeOptions(options, 'glb');
   const checked = checkMesh(mesh);

@@ -3,10 +3,11 @@ import { ScarpError } from './error.js';
 import { article, kindOf, show } from './options.js';
 
 export const FARTHEST = '3.4028235e38';
-/// Arrays by their names, which are the same in every realm: those of a frame or of jsdom are no instances of ours.
+/// Arrays are identified by name, which is the same in every realm: those of a frame or of jsdom are no instances of
+/// ours.
 const EXACT = ['Float32Array', 'Int16Array', 'Uint16Array', 'Int8Array', 'Uint8Array', 'Uint8ClampedArray'];
 const isFloat32 = values => kindOf(values) === 'Float32Array';
-/// Samples of four bytes that a module's memory holds.
+/// Max number of four-byte samples in a module's memory.
 const MOST_SAMPLES = 2 ** 30;
 
 export function refuse(message) {
@@ -28,7 +29,7 @@ export function checkLength(name, values, count, grid) {
   );
 }
 
-/// The way out with arrays that hold no numbers.
+/// The remedy for arrays that hold no numbers.
 const WAYS = {
   BigInt64Array: 'its BigInts are numbers in Float64Array.from(array, Number)',
   BigUint64Array: 'its BigInts are numbers in Float64Array.from(array, Number)',
@@ -37,7 +38,7 @@ const WAYS = {
   SharedArrayBuffer: 'give a typed array over it',
 };
 
-/// A typed array as it is; of an array the numbers. `voidOf`: what null stands for, as NaN is in JSON.
+/// Returns a typed array unchanged, or the numbers of an array. `voidOf`: the value that replaces null, JSON's NaN.
 export function checkArray(name, values, voidOf = undefined) {
   if (Array.isArray(values)) {
     const odd = values.findIndex(value => typeof value !== 'number' && !(value === null && voidOf !== undefined));
@@ -54,14 +55,14 @@ export function checkArray(name, values, voidOf = undefined) {
   return values;
 }
 
-/// The nodata that float32 values may have: NaN, which is none, of one that no such value is.
+/// The nodata value in float32: NaN, meaning none, if no float32 value equals it.
 function roundNodata(values, nodata = NaN) {
   const near = Math.fround(nodata);
   return near === nodata || (isFloat32(values) && near !== 0) ? near : NaN;
 }
 
-/// Float32 of the values, their nodata, and the largest rounding among those that are heights. Rounded values have NaN
-/// for nodata, which they are compared with as they were given.
+/// The values in float32, their nodata value, and the largest rounding of a height. Values to round are compared with
+/// nodata as given, and become NaN.
 function round(values, nodata) {
   if (EXACT.includes(kindOf(values)))
     return {
@@ -83,7 +84,7 @@ function round(values, nodata) {
   return { samples, nodata: NaN, rounding };
 }
 
-/// Refuses numbers that float32 makes infinite.
+/// Rejects numbers that become infinite in float32.
 export function checkFloat32(name, values, nodata = undefined) {
   const far = values.findIndex(
     value => Number.isFinite(value) && !Number.isFinite(Math.fround(value)) && value !== nodata,
@@ -95,8 +96,8 @@ export function checkFloat32(name, values, nodata = undefined) {
     );
 }
 
-/// Checks heights without a copy of those that are float32. `z`: a typed array, or another array of numbers; `given`:
-/// the same, without null.
+/// Checks heights; does not copy float32. `z`: a typed array, or another array of numbers; `given`: the same, without
+/// null.
 export function checkHeights(z, width, height, nodata) {
   checkSide('width', width);
   checkSide('height', height);
@@ -117,7 +118,7 @@ export function putDoubles(blocks, ...numbers) {
   return blocks.put(Float64Array.from(numbers.flat()));
 }
 
-/// A value for each sample, in float32; undefined without any. Rounded so that no bound grows: tolerances towards 0,
+/// A value for each sample, in float32; undefined without values. Rounded so that no bound grows: tolerances towards 0,
 /// weights away from it.
 export function takeBeside(name, values, width, height) {
   if (values === undefined) return undefined;

@@ -1,9 +1,9 @@
 declare global {
-  /** Empty before TypeScript 5.2, or without its library of disposables. */
+  /** Empty before TypeScript 5.2, or without its library for disposables. */
   interface Disposable {}
 }
 
-/** Numbers as the package accepts them, of any realm. */
+/** Accepted arrays of numbers, of any realm. */
 export type Numbers =
   | Float32Array
   | Float64Array
@@ -16,16 +16,16 @@ export type Numbers =
   | Uint32Array
   | readonly number[];
 /**
- * Heights: numbers of up to 24 bits and float32 exactly. Others (float64, large int32) are rounded to float32, and
- * every maxError counts the largest rounding. A height beyond float32's range (3.4e38) is refused. null in an array is
- * no height, as NaN is.
+ * Heights. Numbers of up to 24 bits and float32 are exact. Others (float64, large int32) are rounded to float32, and
+ * every maxError includes the largest rounding. Heights beyond float32's range (3.4e38) fail. null in an array is
+ * nodata, like NaN.
  */
 export type Heights = Numbers | readonly (number | null)[];
 
-/** A compiled WebAssembly.Module, which has no distinguishing member. */
+/** A compiled WebAssembly.Module, a type without members. */
 export type Compiled = object;
-/** The parts that the package uses of a Response, a URL, an AbortSignal and a Worker, which not every program has types
- * for. */
+/** The parts of a Response, a URL, an AbortSignal and a Worker that the package uses, for programs that lack
+ * their types. */
 export interface ResponseLike {
   readonly ok: boolean;
   readonly status: number;
@@ -45,28 +45,27 @@ export interface WorkerLike {
   terminate(): unknown;
 }
 
-/** Arrays that the package makes: never in shared memory, which TypeScript distinguishes from 5.7 on. */
+/** Arrays made by the package, never in shared memory, which TypeScript 5.7 and later distinguish. */
 export type Bytes = ReturnType<typeof Uint8Array.of>;
 export type Floats = ReturnType<typeof Float32Array.of>;
 export type Doubles = ReturnType<typeof Float64Array.of>;
 export type Corners = ReturnType<typeof Uint32Array.of> | ReturnType<typeof Uint16Array.of>;
 
 export type ErrorCode = 'usage' | 'memory' | 'input' | 'promise' | 'output' | 'cancelled' | 'internal' | 'unsupported';
-/** One sentence that names the culprit and the way out. */
+/** An error of one sentence, which names the cause and the remedy. */
 export class ScarpError extends Error {
   constructor(code: ErrorCode, message: string, options?: { cause?: unknown });
   readonly code: ErrorCode;
 }
 
 /**
- * Loads the library, once. The asynchronous functions call it themselves. The first source that succeeds stays: later
- * calls change nothing, whatever theirs is.
+ * Loads the library once. Asynchronous functions call it themselves. After the first success, later calls change
+ * nothing, even with another source.
  * @param source The bytes of scarp.wasm, their URL or Response, or a compiled module. Default: the file next to the
  * script.
- * @param options warm: runs small rasters, too, in a quarter of a second, so that engines have optimised the library
- * before the first call, which otherwise needs up to seven times as long as later ones. Workers of a pool do so by
- * themselves.
- * */
+ * @param options warm: also simplifies small rasters, in a quarter of a second, so that engines optimise the library.
+ * The first call otherwise needs up to seven times as long as later ones. Workers of a pool always do so.
+ */
 export function ready(
   source?: ArrayBuffer | ArrayBufferView | string | UrlLike | ResponseLike | Compiled,
   options?: { warm?: boolean },
@@ -74,12 +73,12 @@ export function ready(
 export function isReady(): boolean;
 export function version(): string;
 
-/** The position of samples. Without a transform x is the column, and y counts rows from the last one up. */
+/** The position of samples. Without a transform x is the column, and y counts rows upwards from the last one. */
 export interface Place {
-  /** A value that is no height, compared with the heights as they are given; with Float32Array its nearest float32. NaN
-   * and infinities never are. */
+  /** The nodata value, compared with the given heights; for Float32Array its nearest float32. NaN and infinities are
+   * always nodata. */
   nodata?: number | null;
-  /** GDAL's geotransform, of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
+  /** GDAL's geotransform of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
   transform?: Numbers | null;
   /** The transform is in degrees of WGS 84: the mesh is in metres around the raster's centre. */
   degrees?: boolean;
@@ -93,7 +92,7 @@ export interface Progress {
   maxError: number;
 }
 
-/** At least one; the first that is reached ends the run. */
+/** At least one goal; the first one reached ends the run. */
 export interface Goals {
   /** Largest vertical error at any sample, in the units of the heights. */
   maxError?: number;
@@ -106,36 +105,36 @@ export interface Options extends Goals, Place {
   effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
   vertices?: 'auto' | 'samples' | 'free';
   order?: 'auto' | 'greedy' | 'dominant';
-  /** The quantity that a budget minimises: the largest error, or the root of the mean square. */
+  /** The quantity that a budget minimises: the largest or the RMS error. */
   objective?: 'max' | 'rms';
-  /** Floor of triangles' height over longest edge, 0 to 0.5. */
+  /** Lower bound for the height of triangles over their longest edge, 0 to 0.5. */
   minShape?: number;
-  /** How far the outline of valid data may move outwards, in samples. */
+  /** Max distance by which the outline of valid data may move outwards, in samples. */
   outlineTolerance?: number;
   normals?: boolean;
   uvs?: boolean;
   /**
-   * Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16
-   * bits. Positions are float64, as with doubles: WebGL wants Float32Array.from(mesh.positions), which rounds them.
+   * Rounds heights to multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can store positions in
+   * 16 bits. Positions are float64, as with doubles: WebGL needs Float32Array.from(mesh.positions), which rounds them.
    */
   lattice?: boolean;
-  /** Positions are float64. A GLB without compress rounds them to float32: judge that file, or omit doubles and
+  /** Makes positions float64. A GLB without compress rounds them to float32: measure that file, or omit doubles and
    * lattice. */
   doubles?: boolean;
-  /** Edges of the raster depend on their own samples alone: neighbours that share them fit. */
+  /** Edges of the raster depend on their own samples only: neighbours that share them match. */
   lockBorder?: boolean;
-  /** A weight for each sample: weight * |error| is bounded. 0: no bound. Held in float32, rounded up. */
+  /** A weight for each sample: weight * |error| is bounded. 0: no bound. Rounded up to float32. */
   mask?: Numbers | null;
-  /** A bound of its own for each sample; Infinity: none. Held in float32, rounded down. */
+  /** A bound for each sample; Infinity: none. Rounded down to float32. */
   tolerance?: Numbers | null;
-  /** A few times a second at most; false cancels. */
+  /** Called at most a few times a second; return false to cancel. */
   onProgress?: (progress: Progress) => boolean | void;
 }
 
-/** Inputs are copied at the call: the caller may then change them. */
+/** Inputs are copied during the call: the caller may change them afterwards. */
 export interface AsyncOptions {
   signal?: SignalLike | null;
-  /** The buffer of Float32Array heights (of points: Float64Array) is moved at the call, not copied. */
+  /** Moves the buffer of Float32Array heights (of points: Float64Array) instead of copying it. */
   transfer?: boolean;
 }
 
@@ -143,15 +142,15 @@ export interface AsyncOptions {
 export interface Report {
   vertexCount: number;
   triangleCount: number;
-  /** Samples that were judged. */
+  /** Number of samples judged. */
   samples: number;
-  /** Valid samples of the surface that no triangle covers: their errors are not counted, check this before maxError. */
+  /** Valid samples of the surface that no triangle covers. Their errors are not counted: check this before maxError. */
   uncovered: number;
-  /** Valid samples beyond the surface, whose cells all lack three valid corners: no mesh covers them. */
+  /** Valid samples in no cell with three valid corners: no mesh covers them. */
   stray: number;
-  /** Error of the heights as they were given: the largest error at the float32 heights, plus sampleRounding. */
+  /** Largest error for the given heights: that for the float32 heights, plus sampleRounding. */
   maxError: number;
-  /** The most that the heights lost in float32; 0 where they fit. All other errors are of the float32 heights. */
+  /** The largest rounding of a height to float32; 0 if all fit. All other errors refer to the float32 heights. */
   sampleRounding: number;
   /** Column and row. */
   maxErrorAt: [number, number] | null;
@@ -161,28 +160,28 @@ export interface Report {
   p50: number;
   p95: number;
   p99: number;
-  /** Why the run ended. */
+  /** The goal that ended the run. */
   stop?: 'maxError' | 'maxTriangles' | 'maxVertices' | 'exact';
   effort?: 'fast' | 'normal' | 'high' | 'max';
-  /** From measure(): no flipped, overlapping or degenerate triangles, no cracks. A mesh that lies elsewhere can be
+  /** From measure(): no flipped, overlapping or degenerate triangles, no cracks. A mesh away from the samples can be
    * sound: see uncovered. */
   isSound?: boolean;
 }
 
 /** x east, y north, z up; vertex v lies at origin + positions[3v .. 3v + 2]. */
 export class Mesh {
-  /** Float32Array; Float64Array with lattice or doubles, and of a Refiner whose transform float32 does not hold. */
+  /** Float32Array; Float64Array with lattice or doubles, and of a Refiner with a transform beyond float32. */
   positions: Floats | Doubles;
   /** Counter-clockwise from above. */
   indices: Corners;
   normals?: Floats;
   uvs?: Floats;
   origin: [number, number, number];
-  /** Sides of the raster's cell along x and y, of either sign; 0 where it has none. */
+  /** Sides of the raster's cell along x and y, of either sign; 0 without any. */
   cell: [number, number];
   /** The largest error, proven on this mesh. */
   maxError: number;
-  /** Not of a Refiner's mesh. */
+  /** Missing for a Refiner's mesh. */
   rmse?: number;
   report?: Report;
   readonly vertexCount: number;
@@ -191,12 +190,12 @@ export class Mesh {
   transferables(): ArrayBuffer[];
 }
 
-/** Simplifies in this thread. Needs ready(). */
+/** Simplifies on this thread. Needs ready(). */
 export function simplifySync(z: Heights, width: number, height: number, options: Options): Mesh;
-/** Simplifies in a worker of a pool that all calls share. */
+/** Simplifies in a worker of a common pool. */
 export function simplify(z: Heights, width: number, height: number, options: Options & AsyncOptions): Promise<Mesh>;
 
-/** Judges a mesh by brute force, without knowing how it was made. */
+/** Judges a mesh by brute force, regardless of its origin. */
 export function measure(
   z: Heights,
   width: number,
@@ -206,15 +205,15 @@ export function measure(
 ): Report;
 
 export interface PointOptions extends Goals {
-  /** Rule for several points at one place. */
+  /** Rule for several points at one position. */
   duplicates?: 'first' | 'last' | 'highest' | 'lowest' | 'mean';
   doubles?: boolean;
   onProgress?: (progress: Progress) => boolean | void;
 }
 export interface PoolOptions {
-  /** Workers. Default: one less than cores, 4 at most. */
+  /** Number of workers. Default: one less than cores, at most 4. */
   size?: number;
-  /** Makes a worker of the script scarp/worker, where a bundler does not find it. */
+  /** Creates a worker from the script scarp/worker, for bundlers that do not find it. */
   worker?: (() => WorkerLike) | null;
 }
 export interface Pool {
@@ -230,7 +229,7 @@ export interface Refiner extends Disposable {}
 /** A mesh that grows by one vertex at a time, the worst sample first. */
 export class Refiner {
   constructor(z: Heights, width: number, height: number, place?: Place);
-  /** Inserts until maxError holds, or there are maxVertices, or all is exact; returns how many were inserted. */
+  /** Inserts until maxError holds, or there are maxVertices, or all samples are exact. Returns the number inserted. */
   run(goals?: { maxError?: number; maxVertices?: number }): number;
   /** False once every sample is exact. */
   insertWorst(): boolean;
@@ -238,21 +237,20 @@ export class Refiner {
   readonly vertexCount: number;
   readonly triangleCount: number;
   mesh(): Mesh;
-  /** Gives its memory back at once; else the garbage collector does, which runs late: it does not know how much there
-   * is. */
+  /** Frees its memory at once. The garbage collector does so late, since it does not know the size. */
   free(): void;
 }
 
 /**
- * A GLB file (glTF 2.0, y up), whose positions are float32: float64 ones are rounded. compress: by meshoptimizer's
- * codec (EXT_meshopt_compression); positions of simplify() with lattice keep their values, and have 16 bits each.
- * */
+ * Encodes a GLB file (glTF 2.0, y up) with float32 positions: float64 ones are rounded. compress: by meshoptimizer's
+ * codec (EXT_meshopt_compression); positions of simplify() with lattice keep their values, with 16 bits each.
+ */
 export function encodeGlb(
   mesh: { positions: Numbers; indices: Numbers; normals?: Numbers; uvs?: Numbers; origin?: Numbers; cell?: Numbers },
   options?: { compress?: boolean },
 ): Bytes;
 
-/** Heights in metres of a tile's pixels, four bytes each; NaN where a pixel is transparent. */
+/** Decodes heights in metres from a tile's pixels, four bytes each; NaN where a pixel is transparent. */
 export function decodeTile(
   rgba: Uint8ClampedArray | Uint8Array,
   width: number,

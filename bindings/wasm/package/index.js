@@ -1,4 +1,4 @@
-// The package in its usual form: next to its .wasm file and its worker.
+// The package in its usual form, with separate .wasm file and worker.
 import { defaults } from './ready.js';
 
 defaults.source ??= () => new URL('./scarp.wasm', import.meta.url);

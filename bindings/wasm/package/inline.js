@@ -1,10 +1,10 @@
-// The package in one piece, for pages that open from a file and for bundlers that do not follow new URL(): the module
-// and the worker are text within it.
+// The package as one script, for pages opened from a file and for bundlers that do not follow new URL(): it contains
+// the module and the worker as text.
 import { defaults } from './ready.js';
 import { MODULE, WORKER } from './inline-data.js';
 
 const decode = () => Uint8Array.from(atob(MODULE), letter => letter.charCodeAt(0));
-/// Node's workers accept no Blob, and a browser's with a data: address are of no origin.
+/// Node's workers accept no Blob, and a browser's workers with a data: address have no origin.
 const workerAddress = () =>
   globalThis.process?.versions?.node
     ? new URL(`data:text/javascript,${encodeURIComponent(WORKER)}`)

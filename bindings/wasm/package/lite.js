@@ -1,4 +1,4 @@
-// The Refiner alone, behind a module of a third of the size.
+// The Refiner alone, with a module of a third of the size.
 import { defaults } from './ready.js';
 import { hills, SIDE } from './hills.js';
 import { Refiner } from './refiner.js';

@@ -1,5 +1,5 @@
-// In place of loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: heights as they are, without a border of zeros,
-// and an error that is kept. Loads pictures of tiles (terrarium, mapbox or any elevationDecoder) to meshes. It needs no
+// Replaces loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: unchanged heights, without a border of zeros, and a
+// guaranteed max error. Loads images of tiles (terrarium, mapbox or any elevationDecoder) as meshes. It needs no
 // ready().
 import { ScarpError, decodeTile, ready, simplifySync } from './index.js';
 import { show, takeOptions } from './options.js';
@@ -13,8 +13,8 @@ const DEFAULTS = {
   effort: 'fast',
 };
 
-/// Samples stand for their pixels' centres; the mesh reaches to the pixels' outer edges, where the next tile's begins:
-/// the outer samples are its border, moved there. Half a pixel is what the neighbours then differ by.
+/// Samples lie at their pixels' centres. The mesh extends to the pixels' outer edges, where the next tile begins: its
+/// border is the outer samples, moved there. So neighbours differ by half a pixel.
 function attributesOf(mesh, width, height, bounds) {
   const [west, south, east, north] = bounds ?? [0, 0, width, height];
   const {
@@ -33,7 +33,7 @@ function attributesOf(mesh, width, height, bounds) {
   return { POSITION: { value: placed, size: 3 }, TEXCOORD_0: { value: uvs, size: 2 } };
 }
 
-/// The mesh, and walls of that height below its edges.
+/// The mesh with walls of this height below its edges.
 function addSkirts(attributes, triangles, height) {
   const { POSITION, TEXCOORD_0 } = attributes;
   const { tops, indices } = buildSkirts(triangles, POSITION.value.length / 3);
@@ -78,7 +78,7 @@ export function makeTerrainMesh(image, options = {}) {
   };
 }
 
-/// The pixels of a picture, in a page or a worker.
+/// The pixels of an image, in a page or a worker.
 async function decodeImage(bytes) {
   if (typeof createImageBitmap === 'undefined')
     throw new ScarpError(
@@ -104,7 +104,7 @@ export const TerrainLoader = {
   options: { terrain: DEFAULTS },
   async parse(bytes, options = {}) {
     const [image] = await Promise.all([decodeImage(bytes), ready()]);
-    const { tesselator, workerUrl, ...ours } = options.terrain ?? {}; // options of loaders.gl for its own loader
+    const { tesselator, workerUrl, ...ours } = options.terrain ?? {}; // options of loaders.gl's own loader
     return makeTerrainMesh(image, ours);
   },
 };

@@ -2,16 +2,16 @@ import type { Heights } from './index.js';
 export { ready } from './index.js';
 
 export interface Tile {
-  /** Vertices as columns and rows from the top; the error is kept. */
+  /** Vertices as columns and rows from the top, within maxError. */
   getMesh(maxError?: number): { vertices: Uint16Array; triangles: Uint32Array };
-  /** Vertices from numVerticesWithoutSkirts on stand below those of the edges. */
+  /** Vertices from numVerticesWithoutSkirts on lie below those of the edges. */
   getMeshWithSkirts(maxError?: number): {
     vertices: Uint16Array;
     triangles: Uint32Array;
     numVerticesWithoutSkirts: number;
   };
 }
-/** In place of @mapbox/martini. Needs ready(). */
+/** Replaces @mapbox/martini. Needs ready(). */
 export default class Martini {
   constructor(gridSize?: number, options?: { height?: number; effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max' });
   readonly gridSize: number;

@@ -1,4 +1,4 @@
-// In place of @mapbox/martini: the same names, any size, and an error that is kept. Needs ready().
+// Replaces @mapbox/martini: the same names, any size, and a guaranteed max error. Needs ready().
 import { ScarpError, simplifySync } from './index.js';
 import { checkArray, checkLength, checkSide } from './heights.js';
 import { takeOptions } from './options.js';
@@ -31,8 +31,8 @@ class Tile {
     return { vertices, triangles: Uint32Array.from(indices) };
   }
 
-  /// The same with a second vertex below each on the edges, and two triangles for each of their edges: vertices from
-  /// numVerticesWithoutSkirts on are skirts.
+  /// The same with skirts: a second vertex below each one on the edges, two triangles for each of their edges. Vertices
+  /// from numVerticesWithoutSkirts on are skirts.
   getMeshWithSkirts(maxError = 0) {
     const { vertices, triangles } = this.getMesh(maxError);
     const count = vertices.length / 2;
@@ -43,7 +43,7 @@ class Tile {
 }
 
 export default class Martini {
-  /// `gridSize`: samples a side, any; `effort`: as simplifySync() accepts it.
+  /// `gridSize`: any number of samples a side; `effort`: as in simplifySync().
   constructor(gridSize = 257, options = {}) {
     checkSide('gridSize', gridSize);
     const { height = gridSize, effort = 'normal' } = takeOptions(options, 'martini');

@@ -1,4 +1,4 @@
-// Meshes as JavaScript has them: copies, so that nothing has to be freed.
+// Meshes in JavaScript's memory: copies, which need not be freed.
 import { ScarpError } from './error.js';
 import { call, view } from './module.js';
 import { checkArray, checkLength, refuse } from './heights.js';
@@ -8,7 +8,7 @@ const EFFORTS = ['fast', 'normal', 'high', 'max'];
 const REPORT = 17;
 const VIEW = 11;
 
-/// The report from the door's doubles. `rounding`: the loss of heights in float32, which an error may hide.
+/// The report from the door's doubles. `rounding`: the largest rounding of heights to float32, added to the max error.
 export function readReport(numbers, rounding = 0) {
   const [
     stop,
@@ -68,7 +68,7 @@ export class Mesh {
   }
 }
 
-/// A mesh of the caller's: its arrays have the right lengths, and its indices name vertices.
+/// Checks a caller's mesh: the lengths of its arrays, and the range of its indices.
 export function checkMesh(mesh) {
   const { positions, indices, normals, uvs } = mesh ?? {};
   const origin = mesh?.origin ?? [0, 0, 0];
@@ -102,7 +102,7 @@ export function checkMesh(mesh) {
   return { positions, indices, origin, cell, normals, uvs };
 }
 
-/// The mesh of a handle, which is freed. `doubles`: positions are float64, as they are where float32 would move them.
+/// Returns the mesh of a handle, and frees it. `doubles`: positions are float64, as always if float32 would move them.
 export function takeMesh(blocks, handle, { doubles = false, rounding = 0 } = {}) {
   try {
     const out = blocks.allocate(8 * (VIEW + REPORT));

@@ -1,8 +1,8 @@
 // The codec of EXT_meshopt_compression, version 0 for attributes and 1 for triangles: Arseny Kapoulkine's
-// meshoptimizer, whose decoders read what is written here.
+// meshoptimizer, whose decoders read this encoder's output.
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
 
-/// Bytes that grow.
+/// A growing array of bytes.
 class Bytes {
   #bytes = new Uint8Array(1 << 12);
   size = 0;
@@ -23,7 +23,7 @@ const GROUP = 16;
 const TAIL = 32;
 const MOST = 8192;
 
-/// Sixteen bytes by 0, 2, 4 or 8 bits each; what does not fit follows in full.
+/// Writes sixteen bytes with 0, 2, 4 or 8 bits each; bytes that do not fit follow in full.
 function groupSize(group, bits) {
   if (bits === 0) return group.every(byte => byte === 0) ? 0 : Infinity;
   if (bits === 8) return GROUP;
@@ -49,8 +49,8 @@ function writeGroup(out, group, bits) {
   });
 }
 
-/// `items`: bytes, `stride` an item, a multiple of 4. Each byte of an item is a channel of its own, as differences from
-/// item to item.
+/// `items`: bytes, `stride` (a multiple of 4) for each item. Each byte of an item is a separate channel, stored as
+/// differences between items.
 export function encodeAttributes(items, stride) {
   const count = items.length / stride;
   const blockItems = Math.min(Math.floor(MOST / stride) & ~(GROUP - 1), 256);
@@ -93,7 +93,7 @@ const ORDERS = [
 ];
 const PAIRS = [0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0];
 
-/// The last 16 of something, the newest first.
+/// The last 16 values, the newest first.
 class Recent {
   #items = new Array(16).fill(null);
   #at = 0;
@@ -113,7 +113,7 @@ class Recent {
   }
 }
 
-/// A whole number, which needs fewer bytes the nearer it is to 0.
+/// Writes a whole number; numbers near 0 need fewer bytes.
 function writeDelta(out, delta) {
   for (let code = ((delta << 1) ^ (delta >> 31)) >>> 0; ; code >>>= 7) {
     out.push((code & 127) | (code > 127 ? 128 : 0));
@@ -131,7 +131,7 @@ function pack(codes, data) {
   return bytes;
 }
 
-/// Each triangle by an edge of one of the last, and its third corner by what came before.
+/// Encodes each triangle by an edge of a recent triangle, and its third corner by recent vertices.
 export function encodeTriangles(corners) {
   const codes = new Bytes();
   const data = new Bytes();
@@ -194,7 +194,7 @@ export function encodeTriangles(corners) {
   return pack(codes, data);
 }
 
-/// Triangles from neighbour to neighbour, the nearest edges first, and vertices by first use: the order that needs few
+/// Orders triangles from neighbour to neighbour, the nearest edges first, and vertices by first use, which needs few
 /// bytes.
 export function orderForCodec(corners, vertexCount) {
   const count = corners.length / 3;
@@ -224,7 +224,7 @@ export function orderForCodec(corners, vertexCount) {
         if (ids[v] < 0) ids[v] = from.push(v) - 1;
         ordered.push(ids[v]);
       }
-      // On through the edge before the one it came by: then the next is a fan or a strip.
+      // Continue through the edge before the entry edge: then the next triangle forms a fan or a strip.
       for (const k of [turned[0], turned[1], turned[2]]) if (across[k] >= 0) open.push(across[k]);
     }
   }

@@ -1,4 +1,4 @@
-// The WebAssembly module: how it starts, what it imports, its memory and its errors.
+// The WebAssembly module: its start, imports, memory and errors.
 
 import { ScarpError } from './error.js';
 import { printNumber } from './number.js';
@@ -9,13 +9,13 @@ const KINDS = ['usage', 'memory', 'input', 'promise', 'output', 'cancelled', 'in
 let starting = null; // the promise of start()
 let compiled = null;
 let functions = null;
-let tell = null; // asked for progress during a call
-let thrown = null; // by it
+let tell = null; // called with progress during a call
+let thrown = null; // thrown by it
 
 export const isStarted = () => functions !== null;
 export const compiledModule = () => compiled;
 
-/// An array over the module's memory: valid until the next call, which may make it grow.
+/// An array over the module's memory: valid until the next call, which may enlarge the memory.
 export const view = (Kind, address, count) => new Kind(functions.memory.buffer, address, count);
 
 function text(address) {
@@ -23,7 +23,7 @@ function text(address) {
   return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
 }
 
-/// Few: the module opens no file, and its environment is empty.
+/// Few imports: the module opens no file, and its environment is empty.
 const IMPORTS = {
   progress(pass, fraction, vertices, maxError) {
     try {
@@ -54,7 +54,7 @@ const IMPORTS = {
 
 const ADVICE = "serve the package's .wasm file there, or import 'scarp/inline', which holds it";
 
-/// `where` they come from. A server that answers with a page instead of a missing file reports success.
+/// Checks the bytes from `where`: a server that sends a page instead of a missing file reports success.
 function checkBytes(bytes, where) {
   const first = ArrayBuffer.isView(bytes)
     ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
@@ -78,7 +78,7 @@ function refuse(error) {
   );
 }
 
-/// The bytes at an address; of a file in Node, whose fetch() does not know files.
+/// The bytes at an address; in Node also those of a file, which its fetch() cannot read.
 async function fetchBytes(address) {
   let url = address;
   try {
@@ -146,7 +146,7 @@ async function instantiate(source) {
   }
 }
 
-/// Compiles and starts the module, once. `source`: its bytes, their URL or Response, or a module.
+/// Compiles and starts the module once. `source`: its bytes, their URL or Response, or a module.
 export function start(source) {
   starting ??= instantiate(source).catch(error => {
     starting = null;
@@ -155,7 +155,7 @@ export function start(source) {
   return starting;
 }
 
-/// Calls a function of the module. `progress` is asked during the call; false cancels.
+/// Calls a function of the module. `progress` is called meanwhile, and returns false to cancel.
 export function call(name, args, progress) {
   if (!functions) throw new ScarpError('usage', 'the library is not loaded yet: await ready() first');
   if (!functions[name]) {
@@ -181,7 +181,7 @@ export function call(name, args, progress) {
   }
 }
 
-/// The same of a function that reports failure by 0; throws its sentence.
+/// The same for a function that returns 0 on failure; throws its message.
 export function callOrThrow(name, args, progress) {
   const result = call(name, args, progress);
   if (result) return result;
@@ -207,7 +207,7 @@ export class Blocks {
     this.#addresses.push(address);
     return address;
   }
-  /// A copy of an array.
+  /// Copies an array to the module's memory.
   put(array) {
     const address = this.allocate(array.byteLength);
     view(globalThis[kindOf(array)], address, array.length).set(array);
@@ -218,7 +218,7 @@ export class Blocks {
   }
 }
 
-/// Runs `work` with blocks that are freed after it.
+/// Runs `work` with blocks that are freed afterwards.
 export function withBlocks(work) {
   const blocks = new Blocks();
   try {

@@ -1,6 +1,6 @@
 // Prints numbers as {fmt} does, for the module, which contains no such code.
 
-/// toFixed() or toExponential(), but of two that are as close the even one, as C has it.
+/// toFixed() or toExponential(), but ties are rounded to even, as in C.
 function rounded(size, method, places) {
   const [exact, power] = size[method](100).split('e');
   const end = exact.indexOf('.') + 1 + places;
@@ -10,7 +10,7 @@ function rounded(size, method, places) {
   return power === undefined ? kept : `${kept}e${power}`;
 }
 
-/// `digits` as of toExponential(): without zeros at the end, in the shorter notation of the two, as printf's %g.
+/// `digits` as in toExponential(), without trailing zeros, in the shorter of the two notations, like printf's %g.
 function general(digits, upper) {
   const [mantissa, power] = digits.split('e');
   const exponent = Number(power);
@@ -24,10 +24,10 @@ function general(digits, upper) {
   return `${figures.slice(0, exponent + 1)}.${figures.slice(exponent + 1)}`;
 }
 
-/// At least two digits, as C has it.
+/// At least two digits, as in C.
 const withExponent = text => text.replace(/e([+-])(\d)$/, 'e$10$2');
 
-/// The fewest digits that give the float32 back.
+/// The fewest digits that read back as the float32.
 function shortestFloat(size) {
   for (let count = 0; ; ++count) {
     const digits = rounded(size, 'toExponential', count);
@@ -35,7 +35,7 @@ function shortestFloat(size) {
   }
 }
 
-/// Style: 'e', 'f', 'g'. Precision -1: the fewest digits that give the number, or the float32, back.
+/// Style: 'e', 'f', 'g'. Precision -1: the fewest digits that read back as the number, or the float32.
 export function printNumber(value, isFloat, style, precision) {
   if (Number.isNaN(value)) return 'nan';
   const sign = value < 0 || Object.is(value, -0) ? '-' : '';

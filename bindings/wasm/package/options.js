@@ -1,9 +1,9 @@
-// The options of every entry: one table of their kinds, and one check.
+// The options of all entries: one table of their kinds, and one check.
 import { ScarpError } from './error.js';
 
 const EFFORTS = ['auto', 'fast', 'normal', 'high', 'max'];
 
-/// The kind of an object, such as DataView, whichever realm it is of.
+/// The kind of an object, such as DataView, in any realm.
 export const kindOf = value =>
   Object.prototype.toString
     .call(value)
@@ -26,9 +26,9 @@ const whole = (least, most = Number.MAX_SAFE_INTEGER) => ({
 });
 const choice = (...list) => ({ fits: value => list.includes(value), is: `one of ${list.join(', ')}`, list });
 const kind = (fits, is) => ({ fits, is });
-/// null stands for none, as files without it have it.
+/// null means none, as in metadata of files.
 const orNull = ({ fits, ...told }) => ({ fits: value => value === null || fits(value), ...told });
-/// An array of items that fit; a sentence names the first that does not.
+/// An array of valid items; the error names the first invalid one.
 const items = (fits, item, is, count = undefined) => {
   const findOdd = value =>
     isArray(value) && value.length === (count ?? value.length)
@@ -92,7 +92,7 @@ const TABLE = {
 const PLACE = ['nodata', 'transform', 'degrees'];
 const GOALS = ['maxError', 'maxTriangles', 'maxVertices'];
 const RUN = ['onProgress', 'signal'];
-/// The options that each entry accepts.
+/// The options accepted by each entry.
 const SIMPLIFY = [
   ...GOALS,
   'effort',
@@ -127,9 +127,9 @@ export const ENTRIES = {
   martini: ['height', 'effort'],
   terrain: ['bounds', 'meshMaxError', 'elevationDecoder', 'skirtHeight', 'effort'],
 };
-/// The narrower choices of some entries.
+/// Choices restricted by some entries.
 const NARROWER = { tiler: { effort: choice('fast', 'normal', 'high') } };
-/// The goals that an entry requires.
+/// The goals required by an entry.
 const GOAL = 'give a goal, such as { maxError: 1 }';
 const NEEDS = {
   simplify: GOAL,
@@ -144,7 +144,7 @@ export const choose = (name, value) => TABLE[name].list.indexOf(value);
 
 export const article = noun => `${/^[aeiou]/i.test(noun) ? 'an' : 'a'} ${noun}`;
 
-/// A value as a sentence shows it.
+/// A value as text for a message.
 export function show(value) {
   if (typeof value === 'string') return `'${value.slice(0, 40)}'`;
   if (typeof value === 'bigint') return `the BigInt ${value}`;
@@ -153,7 +153,7 @@ export function show(value) {
   return typeof value === 'object' && value ? article(kindOf(value)) : String(value);
 }
 
-/// Letters to change, insert or remove between two words.
+/// Number of letters to change, insert or remove between two words.
 function distance(a, b) {
   let row = Array.from({ length: b.length + 1 }, (_, k) => k);
   for (let i = 1; i <= a.length; ++i) {
@@ -172,7 +172,7 @@ function findNear(name, known) {
   return share <= 0.4 ? near : known.find(one => plain(one).startsWith(plain(name)) && plain(name).length > 2);
 }
 
-/// The options of an entry that are given, checked.
+/// Checks and returns the given options of an entry.
 export function takeOptions(options, entry) {
   if (options === null || typeof options !== 'object' || isArray(options))
     throw new ScarpError(
@@ -212,7 +212,7 @@ export function takeOptions(options, entry) {
   return taken;
 }
 
-/// Sentences of the library in the package's words.
+/// Messages of the library with the package's names.
 const WORDS = [
   [/\binf\b/g, 'Infinity'],
   [/write OBJ or PLY, whose positions are double/, 'take doubles: true'],

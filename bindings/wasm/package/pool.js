@@ -1,4 +1,4 @@
-// Workers that simplify: one raster a worker, which is faster than many threads in one raster.
+// Workers that simplify one raster each, which is faster than several threads for one raster.
 import { watchLock } from './alive.js';
 import { ScarpError } from './error.js';
 import { compiledModule } from './module.js';
@@ -8,7 +8,7 @@ import { checkHeights, refuse, takeBeside } from './heights.js';
 import { kindOf, show, takeOptions } from './options.js';
 import { checkPoints, checkSignal } from './simplify.js';
 
-/// Sentences for what no worker can be made of: a page with Trusted Types, and a script without an address.
+/// Messages where no worker can be created: in a page with Trusted Types, and for a script without an address.
 function makeHere(make) {
   try {
     return make();
@@ -23,7 +23,7 @@ function makeHere(make) {
   }
 }
 
-/// Node has its workers elsewhere. Bundlers find `new Worker()` of the global name alone, which is there during the
+/// Node's workers are in a module. Bundlers recognise only `new Worker()` with the global name, which is set during the
 /// call.
 async function makeInNode(make) {
   const name = 'node:worker_threads';
@@ -38,7 +38,7 @@ async function makeInNode(make) {
   }
 }
 
-/// A worker of the browser or of Node, behind the same two functions.
+/// A worker of the browser or of Node, with the same two functions.
 async function openWorker(make, onMessage, onFailure) {
   const worker = typeof Worker === 'undefined' ? await makeInNode(make) : makeHere(make);
   if (typeof worker?.postMessage !== 'function')
@@ -61,7 +61,7 @@ const WORKER_ADVICE =
 const mayShare = () => typeof SharedArrayBuffer !== 'undefined' && globalThis.crossOriginIsolated !== false;
 const cancelled = signal => new ScarpError('cancelled', 'the call was cancelled', { cause: signal?.reason });
 
-/// One worker, and the job that it has.
+/// One worker and its job.
 class Hand {
   isBusy = false;
   #isOver = false;
@@ -76,7 +76,7 @@ class Hand {
     this.#make = make;
   }
 
-  /// Sends a message, and hears of progress until the answer is there.
+  /// Sends a message, and receives progress until the answer arrives.
   #exchange(message, moved, onProgress) {
     return new Promise((resolve, reject) => {
       const id = ++this.#serial;
@@ -166,7 +166,7 @@ class Hand {
   }
 }
 
-/// The values for a worker: a copy, or the array itself in a buffer that is the caller's no more.
+/// The values for a worker: a copy, or the array itself, whose buffer is moved away from the caller.
 function take(array, isMoved) {
   if (!isMoved) return array.slice();
   if (kindOf(array.buffer) === 'SharedArrayBuffer')
@@ -209,7 +209,7 @@ class Pool {
     this.#next();
   }
 
-  /// `given`: the arguments, which no one else changes; buffers of `moved` are moved to the worker.
+  /// `given`: the arguments, which no other code changes; buffers of `moved` are moved to the worker.
   #add(work, given, moved, { signal, onProgress, transfer, ...options }) {
     return new Promise((resolve, reject) => {
       checkSignal(signal);
@@ -248,8 +248,8 @@ class Pool {
     if (this.#isOver) throw new ScarpError('usage', 'the pool was terminated');
   }
 
-  /// Like simplifySync(), in a worker. Inputs are copied now, so that the caller may then change them; `transfer`: the
-  /// heights' buffer is moved, and not copied.
+  /// Like simplifySync(), in a worker. Inputs are copied during the call, so the caller may change them afterwards;
+  /// `transfer`: the heights' buffer is moved, not copied.
   async simplify(z, width, height, options = {}) {
     const taken = takeOptions(options, 'simplify');
     const { given, samples, rounding, nodata } = checkHeights(z, width, height, taken.nodata);
@@ -260,7 +260,7 @@ class Pool {
       if (beside) taken[name] = beside;
     }
     if (taken.transform) taken.transform = Array.from(taken.transform);
-    // Float64 goes as it is: the worker counts what float32 rounds, and finds nodata.
+    // Float64 is sent unchanged: the worker rounds it to float32, and finds nodata.
     if (!rounding) taken.nodata = nodata;
     const own = samples === z ? take(z, taken.transfer) : rounding ? Float64Array.from(given) : samples;
     return this.#add('simplify', [own, width, height], [own.buffer], taken);
@@ -275,7 +275,7 @@ class Pool {
     return this.#add('simplifyPoints', [own], [own.buffer], taken);
   }
 
-  /// Ends the workers; what they had is rejected.
+  /// Ends the workers, and rejects their jobs.
   terminate() {
     this.#isOver = true;
     const error = new ScarpError('cancelled', 'the pool was terminated');
@@ -287,5 +287,5 @@ class Pool {
 export const createPool = options => new Pool(options);
 
 let common = null;
-/// The pool of those who make none.
+/// The pool of calls without their own.
 export const pool = () => (common ??= createPool());

@@ -5,7 +5,7 @@ import { takeOptions } from './options.js';
 
 export const defaults = { source: null, worker: null, warm: null, workerAdvice: null };
 
-/// Bundles of formats other than esm have no import.meta.url.
+/// Bundles in formats other than esm have no import.meta.url.
 export function explainAddress(cause) {
   if (!(cause instanceof TypeError && /URL/.test(cause.message))) return cause;
   return new ScarpError(
@@ -24,11 +24,11 @@ function locate() {
   }
 }
 
-/// Loads the library, once. `source`: the module's bytes, their URL or Response, or a WebAssembly.Module.
+/// Loads the library once. `source`: the module's bytes, their URL or Response, or a WebAssembly.Module.
 export async function ready(source, options = {}) {
   const { warm } = takeOptions(options, 'ready');
   await start(source ?? locate());
-  // The pauses are for compilers, which work in parallel to this thread.
+  // The pauses are for compilers, which run in parallel.
   for (let round = 0; warm && round < 3; ++round) {
     defaults.warm();
     await new Promise(done => setTimeout(done, 30));

@@ -12,7 +12,7 @@ const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
 
 export class Refiner {
   #held;
-  #rounding; // rounding of the heights, which each error counts
+  #rounding; // largest rounding of the heights, added to each error
 
   constructor(z, width, height, options = {}) {
     const place = takeOptions(options, 'place');
@@ -39,7 +39,7 @@ export class Refiner {
     return inserted;
   }
 
-  /// Inserts until the largest error is at most maxError, or there are maxVertices. Returns how many were inserted.
+  /// Inserts until the largest error is at most maxError, or there are maxVertices. Returns the number inserted.
   run(goals = {}) {
     const { maxError, maxVertices = 0 } = takeOptions(goals, 'refine');
     const rounding = this.#rounding;
@@ -50,7 +50,7 @@ export class Refiner {
           `${rounding}; ask for that or more, or subtract a base from the heights`,
       );
     }
-    // A little less, so that the sum is not rounded above.
+    // Slightly less, so that the sum is not rounded above it.
     const bound = rounding > 0 ? Math.max(0, maxError * (1 - 2 ** -52) - rounding) : maxError;
     return this.#insert(maxError === undefined ? 0 : bound, maxVertices, Infinity);
   }
@@ -67,7 +67,7 @@ export class Refiner {
   get triangleCount() {
     return call('scarp_refiner_triangles', [this.#handle]);
   }
-  /// Has no report: only the refiner has measured it, which knows its largest error.
+  /// Has no report: the refiner knows only its largest error.
   mesh() {
     const mesh = withBlocks(blocks =>
       takeMesh(blocks, callOrThrow('scarp_refiner_mesh', [this.#handle]), { rounding: this.#rounding }),

@@ -1,14 +1,14 @@
-// Rasters to meshes, and their measurement.
+// Simplifies rasters to meshes, and measures meshes.
 import { ScarpError } from './error.js';
 import { callOrThrow, view, withBlocks } from './module.js';
 import { checkArray, putDoubles, putField, refuse, takeBeside } from './heights.js';
 import { REPORT_DOUBLES, checkMesh, readReport, takeMesh } from './mesh.js';
 import { choose, takeOptions } from './options.js';
 
-/// Goals as the door has them.
+/// Goals as numbers for the door.
 const listGoals = ({ maxError = NaN, maxTriangles = 0, maxVertices = 0 }) => [maxError, maxTriangles, maxVertices];
 
-/// The checks during a call: the caller's function, and a flag that another thread sets.
+/// The checks during a call: the caller's function, and a flag set by another thread.
 export function watch(onProgress, flag) {
   if (!onProgress && !flag) return undefined;
   return snapshot => (flag && Atomics.load(flag, 0) ? false : onProgress?.(snapshot));
@@ -19,7 +19,7 @@ export function checkSignal(signal) {
     throw new ScarpError('cancelled', 'the call was cancelled before it began', { cause: signal.reason });
 }
 
-/// Simplifies here and now. `flag`: an Int32Array over shared memory, whose first number cancels.
+/// Simplifies synchronously. `flag`: an Int32Array over shared memory, whose first number cancels.
 export function simplifySync(z, width, height, options = {}, flag = undefined) {
   const taken = takeOptions(options, 'simplifySync');
   checkSignal(taken.signal);
@@ -68,7 +68,7 @@ export function simplifySync(z, width, height, options = {}, flag = undefined) {
   });
 }
 
-/// Judges a mesh by brute force, without knowing how it was made.
+/// Judges a mesh by brute force, regardless of its origin.
 export function measure(z, width, height, mesh, options = {}) {
   const place = takeOptions(options, 'place');
   const { positions, indices, origin } = checkMesh(mesh);
@@ -88,7 +88,7 @@ export function measure(z, width, height, mesh, options = {}) {
   });
 }
 
-/// Scattered points, checked.
+/// Checks scattered points.
 export function checkPoints(points) {
   const given = checkArray('the points', points);
   if (given.length === 0 || given.length % 3)
@@ -96,7 +96,7 @@ export function checkPoints(points) {
   return given;
 }
 
-/// Scattered points: x, y, z in turn.
+/// Scattered points: interleaved x, y, z.
 export function simplifyPointsSync(points, options = {}, flag = undefined) {
   const taken = takeOptions(options, 'simplifyPointsSync');
   checkSignal(taken.signal);

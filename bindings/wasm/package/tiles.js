@@ -1,4 +1,4 @@
-// Terrain tiles for globes: quantized-mesh, made of one raster as they are asked for.
+// Terrain tiles for globes: quantized-mesh, made on request from one raster.
 import { ScarpError } from './error.js';
 import { Blocks, call, callOrThrow, view, withBlocks } from './module.js';
 import { putDoubles, putField } from './heights.js';
@@ -10,13 +10,12 @@ const forgotten = new FinalizationRegistry(({ handle, blocks }) => {
   blocks.free();
 });
 
-/// From the corners of the raster's outer pixels, west, south, east, north, to a geotransform.
+/// The geotransform from the outer edges of the raster's pixels: west, south, east, north.
 function placeBounds([west, south, east, north], width, height) {
   return [west, (east - west) / width, 0, north, 0, (south - north) / height];
 }
 
-/// `degrees`: the bounds in degrees, whatever their CRS. The centres of pixels lie on the globe, and their edges may
-/// lie beyond.
+/// `degrees`: the bounds in degrees, for any CRS. Centres of pixels must lie on the globe; their edges may lie beyond.
 function checkBounds(bounds, degrees, width, height) {
   const refuse = why => {
     throw new ScarpError('usage', `bounds is ${bounds ? `[${bounds.join(', ')}]` : 'not given'}, ${why}`);
@@ -32,7 +31,7 @@ function checkBounds(bounds, degrees, width, height) {
     refuse("and latitudes go from -90 to 90: take crs: 'mercator' if they are its metres");
 }
 
-/// West, south, east, north in degrees, of web Mercator's metres.
+/// West, south, east, north in degrees, from metres of Web Mercator.
 function degreesOf([west, south, east, north]) {
   const radius = 6378137;
   const degrees = 180 / Math.PI;
@@ -40,7 +39,7 @@ function degreesOf([west, south, east, north]) {
   return [(west / radius) * degrees, latitude(south), (east / radius) * degrees, latitude(north)];
 }
 
-/// Rectangles of tiles, which come row by row: a run grows where the row before has the same one.
+/// Rectangles of tiles given row by row: a run that repeats in the next row extends its rectangle.
 function findRanges(tiles) {
   const ranges = [];
   let open = [];
@@ -67,7 +66,7 @@ export class Tiler {
   #held;
   #bounds;
 
-  /// The tiler of heights in metres above the ellipsoid.
+  /// The tiler for heights in metres above the ellipsoid.
   constructor(z, width, height, options = {}) {
     const {
       bounds,
@@ -133,14 +132,14 @@ export class Tiler {
       );
     return this.#take('scarp_tiler_tile', [z, x, y]);
   }
-  /// Columns and rows of the tiles of a level: those that have heights, and those that clients need to reach them.
+  /// Columns and rows of the tiles of a level: those with heights, and those that clients need to reach them.
   list(z) {
     if (!Number.isInteger(z) || z < 0 || z > this.maxZoom)
       throw new ScarpError('usage', `there is no level ${z}: levels go from 0 to ${this.maxZoom}`);
     const numbers = new Uint32Array(this.#take('scarp_tiler_list', [z]).bytes.buffer);
     return Array.from({ length: numbers.length / 2 }, (_, k) => [numbers[2 * k], numbers[2 * k + 1]]);
   }
-  /// The file that clients read first, before the tiles: layer.json. `tiles`: templates of the tiles' addresses.
+  /// The file that clients read first: layer.json. `tiles`: templates of the tiles' addresses.
   layerJson(options = {}) {
     const { name = 'terrain', attribution = '', tiles = ['{z}/{x}/{y}.terrain'] } = takeOptions(options, 'layerJson');
     const { maxZoom } = this;

@@ -1,4 +1,4 @@
-// So that the first raster of the caller's is not slow.
+// Warms up, so that the caller's first raster is fast.
 import { hills, SIDE } from './hills.js';
 import { simplifySync } from './simplify.js';
 

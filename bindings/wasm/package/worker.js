@@ -1,4 +1,4 @@
-// A worker of the pool: simplifies one raster after the other, and reports progress.
+// A worker of the pool: simplifies rasters sequentially, and reports progress.
 import { holdLock } from './alive.js';
 import { start } from './module.js';
 import { simplifyPointsSync, simplifySync } from './simplify.js';

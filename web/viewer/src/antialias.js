@@ -1,5 +1,5 @@
-// Smooth edges in the picture: drawn with four samples a pixel off the canvas, then copied. A machine without a
-// graphics processor needs three times as long for many small triangles then, and draws these as they are.
+// Antialiasing: draws four samples a pixel off the canvas, then copies them. Without a graphics processor, many small
+// triangles would need three times as long, and are not antialiased.
 import * as THREE from 'three';
 
 const MANY = 200_000;
@@ -48,7 +48,7 @@ export class Antialias {
       area =>
       (...sides) => {
         area.set(...sides.map(side => Math.round(side * ratio)));
-        renderer.setRenderTarget(target); // also applies the settings made before
+        renderer.setRenderTarget(target); // also applies earlier settings
       };
     return { setViewport: place(target.viewport), setScissor: place(target.scissor) };
   }

@@ -1,6 +1,6 @@
-// The command line that makes the mesh that is shown.
+// The command line that makes the displayed mesh.
 
-/** One word for a POSIX shell, and no option. A character that no line shows becomes a question mark. */
+/** One word for a POSIX shell that is no option. Control characters become question marks. */
 function quote(name) {
   const word = (name.startsWith('-') ? `./${name}` : name).replace(/\p{Cc}/gu, '?');
   return /^[A-Za-z0-9._/-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
@@ -9,7 +9,7 @@ function quote(name) {
 const COMMANDS = { greedy: 'classic', high: 'simplify' };
 const EFFORTS = { greedy: '--effort fast --order greedy', high: '--effort high' };
 
-/** How the raster was read for the file that the page began with: only words that no shell reads. */
+/** The options with which the page's first raster was read: only words without a meaning in a shell. */
 function optionsOf({ command = '' }) {
   const found = String(command).matchAll(
     / --(?:band|te|resolution|decode|nodata|z-scale|z-offset|cell-size|crs)(?: [A-Za-z0-9.:+,=-]+)+?(?= --| -[a-z] |$)/g,
@@ -17,7 +17,7 @@ function optionsOf({ command = '' }) {
   return [...found].map(([words]) => words).join('');
 }
 
-/** Null for the mesh of a file. The page's meshes hold float32, as a GLB does, and the program's own OBJ does not. */
+/** Null for the mesh of a file. The page's meshes are float32, like a GLB, but unlike the program's OBJ. */
 export function commandOf({ field, goal, name, extras }, format) {
   if (!goal) return null;
   const asked = goal.maxTriangles ? `-t ${goal.maxTriangles}` : `-e ${goal.maxError}`;
@@ -26,7 +26,7 @@ export function commandOf({ field, goal, name, extras }, format) {
   return `scarp ${COMMANDS[name]} ${files} ${asked} ${EFFORTS[name]}${decode}${optionsOf(extras)}`;
 }
 
-/** Notes on what the command does not express. */
+/** Notes on settings that the command cannot express. */
 export function commandNotes({ field }, format) {
   if (!field) return '';
   return [

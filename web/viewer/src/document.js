@@ -1,4 +1,4 @@
-// The contents of the page: levels of a mesh and, where it is known, their raster.
+// The contents of the page: levels of a mesh and, if known, their raster.
 import { Field, placeMesh } from './field.js';
 import { readGlb } from './glb.js';
 import { Sentence } from './sentence.js';
@@ -29,7 +29,7 @@ export async function readInline(data) {
   };
 }
 
-/** `metres` a unit of x, y, z; null: from the first file's metadata. */
+/** `metres` for each unit of x, y, z; null: from the first file's metadata. */
 export async function makeDocument(files, field, metres = null, unit = null) {
   const parts = [];
   const notes = [];
@@ -63,7 +63,7 @@ export async function makeDocument(files, field, metres = null, unit = null) {
   };
 }
 
-/** The raster itself, with the mesh that the engine has made of it. */
+/** The raster itself, with the engine's mesh of it. */
 export function documentOfRaster(
   { field, frame: { metres, extras, knowsMetres }, unit, notes },
   { mesh, judged, goal },
@@ -84,8 +84,7 @@ export function documentOfRaster(
   };
 }
 
-/** A mesh of the engine, which is in the field's frame; `known` of it: {judged, goal, extras}. Under the image of
- * `shown`, if there is one. */
+/** A mesh of the engine, in the field's frame; `known`: {judged, goal, extras}. With the image of `shown`, if any. */
 export function terrainOfEngine(name, { positions, indices, origin }, known, field, place, shown = null) {
   const placed = placeMesh({ positions, origin });
   const inImage = shown?.placing;
@@ -105,7 +104,7 @@ export function terrainOfEngine(name, { positions, indices, origin }, known, fie
   );
 }
 
-/** True if a mesh lies where the raster does, so that one can judge the other. */
+/** True if a mesh lies at the raster's position, so that it can be judged. */
 export function fits(field, document) {
   const corners = [field.toPlace(0, 0), field.toPlace(field.cols - 1, field.rows - 1)];
   const { low, high } = document.place;

@@ -1,11 +1,11 @@
-// The mesh that is shown, as the program writes it: GLB and OBJ y up, STL z up; x and y are offsets from `origin`,
-// heights are whole.
+// The displayed mesh as the program writes it: GLB and OBJ y up, STL z up; x and y are offsets from `origin`, heights
+// are absolute.
 
 function originOf({ field, place }) {
   return field ? field.toPlace(field.cols >> 1, field.rows >> 1) : place.center.map(Math.round);
 }
 
-/** x, y, z in turn: offsets in float32. */
+/** Interleaved x, y, z: offsets in float32. */
 function offsets(terrain, [ox, oy]) {
   const from = [ox, oy, 0];
   return Float32Array.from(terrain.positions, (value, k) => value - from[k % 3]);
@@ -80,7 +80,7 @@ function encodeStl(terrain) {
   return [bytes.buffer];
 }
 
-/** Escapes text as the program does in a comment: characters that could end the line become their numbers. */
+/** Escapes text for a comment as the program does: characters that could end the line become their numbers. */
 const comment = value =>
   (typeof value === 'string' ? value : JSON.stringify(value)).replace(
     /[%\p{Cc}]/gu,

@@ -1,15 +1,15 @@
-// Files dropped on the page or chosen: a GLB replaces the mesh, and is judged if it lies where the raster does; a
-// raster is simplified here. Nothing is sent from the page.
+// Files dropped on the page or selected: a GLB replaces the mesh, and is judged if it lies at the raster's position; a
+// raster is simplified in the page. Nothing is sent from the page.
 import { documentOfRaster, fits, makeDocument } from './document.js';
 import { readFragment } from './fragment.js';
 import { Sentence } from './sentence.js';
 
 const MOST_BYTES = 2 ** 30;
 const RASTERS = /\.(tiff?|hgt|png)$/i;
-const FIRST_SHARE = 0.02; // max error of the first mesh, of the relief
+const FIRST_SHARE = 0.02; // max error of the first mesh, as a share of the relief
 
-/** The document of a raster: {document, decode}, the latter to read it again; null if another opening has begun
- * meanwhile. */
+/** The document of a raster: {document, decode}; decode() rereads it. Null if another file has been
+ * opened meanwhile. */
 async function readDocument(page, file, isLast, decoding) {
   if (!HAS_ENGINE)
     throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
@@ -20,7 +20,7 @@ async function readDocument(page, file, isLast, decoding) {
   return { document, decode: other => begin(page, last => readDocument(page, file, last, other)) };
 }
 
-/** The last opening wins: results and messages of earlier ones are dropped. */
+/** The last opened file counts: results and messages of earlier ones are discarded. */
 export async function begin(page, read) {
   const turn = (page.turn = (page.turn ?? 0) + 1);
   const isLast = () => turn === page.turn;
@@ -36,7 +36,7 @@ export async function begin(page, read) {
   }
 }
 
-/** A page that began empty shows its first file by its address, unless that names a raster of other dimensions. */
+/** An initially empty page shows its first file with the address's settings, unless these name other dimensions. */
 function stateOfFirst(page, { field }) {
   const state = page.document ? {} : readFragment();
   const [cols, rows] = state.samples ?? [];
@@ -64,7 +64,7 @@ async function readFiles(page, files, isLast) {
   };
 }
 
-/** `page.load` is for who brings files in another way. */
+/** `page.load` serves other sources of files. */
 export function acceptDrops(page) {
   page.load = files => begin(page, isLast => readFiles(page, files, isLast));
   const decoding = document.getElementById('decoding');

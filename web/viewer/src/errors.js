@@ -1,9 +1,9 @@
 // The error of every sample, mesh minus sample, by brute force over the triangles.
-const EDGE = 1e-9; // share of a triangle: rounding moves a sample on an edge by less
+const EDGE = 1e-9; // share of a triangle: more than rounding moves a sample on an edge
 
 const knownStray = new WeakMap();
 
-/** Valid samples that are corners of no cell with three valid corners: no mesh needs to cover them. */
+/** Valid samples in no cell with three valid corners: no mesh needs to cover them. */
 function findStray({ samples, cols, rows }) {
   if (knownStray.has(samples)) return knownStray.get(samples);
   const stray = new Set();
@@ -57,7 +57,7 @@ export function judge(field, { positions, indices }) {
         const at = row * cols + col;
         if (errors[at] === errors[at] || stray.has(at)) continue; // on an edge, judged with the neighbour
         const z = samples[at];
-        const error = ((area - ofB - ofC) * (az - z) + ofB * (bz - z) + ofC * (cz - z)) / area; // 0 where it is flat
+        const error = ((area - ofB - ofC) * (az - z) + ofB * (bz - z) + ofC * (cz - z)) / area; // 0 if it has no area
         if (error !== error) continue;
         errors[at] = error;
         ++covered;
@@ -83,7 +83,7 @@ export function judge(field, { positions, indices }) {
   };
 }
 
-/** Half the size a step, each value the one of the largest |error| of its four: no spike is lost from afar. */
+/** Halves the size at each step, keeping the value of largest |error| among four: no spike is lost from afar. */
 export function makePyramid(errors, cols, rows) {
   const levels = [{ data: errors, width: cols, height: rows }];
   for (let { data, width, height } = levels[0]; width > 1 || height > 1; { data, width, height } = levels.at(-1)) {

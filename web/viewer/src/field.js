@@ -1,6 +1,6 @@
-// The raster that a mesh was made from: samples on a grid, NaN where there is none.
+// The raster from which a mesh was made: samples on a grid, NaN for nodata.
 
-/** In float32 where that holds them all. The engine wants to know what it would round, which its bound then counts. */
+/** In float32 if it holds them all. The engine needs the unrounded samples, since its bound includes the rounding. */
 function narrow(samples) {
   const stay = samples instanceof Float32Array || !samples.every(z => z !== z || Math.fround(z) === z);
   return stay ? samples : Float32Array.from(samples);
@@ -8,7 +8,7 @@ function narrow(samples) {
 
 export class Field {
   /** `affine`: from column and row of a sample's centre to x and y of the mesh, in GDAL's order of terms; `decoding`:
-   * how the heights lie in colours, null where they do not; `step`: each such sample of the file is here. */
+   * the encoding of heights in colours, or null; `step`: every `step`th sample of the file was read. */
   constructor({ name, cols, rows, affine, samples, unit = '', decoding = null, step = 1 }) {
     Object.assign(this, { name, cols, rows, affine, samples: narrow(samples), unit, decoding, step });
     this.determinant = affine[1] * affine[5] - affine[2] * affine[4];
@@ -20,7 +20,7 @@ export class Field {
     }
   }
 
-  /** Triangles of a mesh of all samples. */
+  /** Triangles of the full grid. */
   get fullTriangles() {
     return 2 * (this.cols - 1) * (this.rows - 1);
   }
@@ -30,7 +30,7 @@ export class Field {
     return [a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row];
   }
 
-  /** Vertices that a file rounded to float32 lie on their samples again. */
+  /** Column and row; snaps vertices that a file rounded to float32 to their samples. */
   toGrid(x, y) {
     const a = this.affine;
     const dx = x - a[0];
@@ -46,7 +46,7 @@ export class Field {
     return grid;
   }
 
-  /** Bilinear between samples; NaN outside and next to voids. */
+  /** Bilinear between samples; NaN outside and next to nodata. */
   heightAt(x, y) {
     const [col, row] = this.toGrid(x, y);
     if (!(col >= 0 && row >= 0 && col <= this.cols - 1 && row <= this.rows - 1)) return NaN;
@@ -60,7 +60,7 @@ export class Field {
   }
 }
 
-/** Vertices of the engine, which are offsets from an origin. */
+/** Vertices of the engine: offsets from an origin. */
 export function placeMesh({ positions, origin }) {
   return Float64Array.from(positions, (value, k) => value + origin[k % 3]);
 }

@@ -19,7 +19,7 @@ const KEYS = {
   view: [ANY, { low: -90, high: 90 }, LENGTH, ANY, ANY, ANY],
 };
 
-/** Parses as many numbers as the key has, each within its range; else null. */
+/** Parses the numbers of a key, each within its range; else null. */
 function parse(text, ranges) {
   const words = text.split(',');
   const numbers = words.map(Number);
@@ -39,8 +39,7 @@ export function readFragment() {
 }
 
 let timer = 0;
-/** Not at each picture while one turns it: browsers refuse that; nor within a notebook, where the page has no
- * address. */
+/** Not for each frame of a rotation, which browsers refuse; nor within a notebook, where the page has no address. */
 export function writeFragment(makeState) {
   if (location.protocol === 'about:') return;
   clearTimeout(timer);

@@ -1,6 +1,6 @@
-// The position of samples: the frame that the program gives a raster unless it is asked for another
-// (src/grid/local_frame.cpp explains why cells are rounded). {affine, metres, extras, knowsMetres}: from columns and
-// rows to x and y, metres of a unit of x, y and z, a mesh file's metadata about the frame.
+// The position of samples in the program's default frame of a raster (src/grid/local_frame.cpp explains why cells are
+// rounded). {affine, metres, extras, knowsMetres}: from columns and rows to x and y, metres for a unit of x, y and z, a
+// mesh file's metadata about the frame.
 export const WGS84 = { semiMajor: 6378137, inverseFlattening: 298.257223563 };
 
 function metresPerRadian({ semiMajor, inverseFlattening }, latitude) {
@@ -10,13 +10,13 @@ function metresPerRadian({ semiMajor, inverseFlattening }, latitude) {
   return [(semiMajor / Math.sqrt(w2)) * Math.cos(latitude), (semiMajor * (1 - e2)) / (w2 * Math.sqrt(w2))];
 }
 
-/** Ties to even, as C rounds. */
+/** Rounds ties to even, as in C. */
 function roundEven(value) {
   const near = Math.round(value);
   return Math.abs(value % 1) === 0.5 && near % 2 ? near - 1 : near;
 }
 
-/** Multiples of a power of two so coarse that all their sums over the raster are float32. */
+/** Rounds to multiples of a power of two so coarse that float32 holds all their sums over the raster. */
 function roundPair(pair, reach) {
   const span = Math.abs(pair[0]) * reach[0] + Math.abs(pair[1]) * reach[1];
   if (span === 0 || !Number.isFinite(span)) return pair;
@@ -28,7 +28,7 @@ function roundPair(pair, reach) {
 
 const at = (a, col, row) => [a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row];
 
-/** From x and y around the centre sample to the coordinates of the raster's CRS. */
+/** From x and y relative to the centre sample to the coordinates of the raster's CRS. */
 function backToSource([, a, b, , c, d], samples, centre) {
   const [, e, f, , g, h] = samples;
   const determinant = a * d - b * c;
@@ -43,7 +43,7 @@ function backToSource([, a, b, , c, d], samples, centre) {
   ];
 }
 
-/** For each `step`th column and row: where they lie in the whole raster. */
+/** For every `step`th column and row: the position in the whole raster. */
 export function thinFrame(frame, step) {
   return { ...frame, affine: frame.affine.map((value, k) => (k % 3 ? value * step : value)) };
 }

@@ -1,4 +1,4 @@
-// GeoTIFF: the heights of its first band, and where they lie.
+// GeoTIFF: the heights of its first band, and their position.
 import { fromArrayBuffer } from 'geotiff';
 import { WGS84, gridFrame, localFrame, thinFrame } from './frame.js';
 import { Sentence } from './sentence.js';
@@ -14,7 +14,7 @@ const METRES_OF_HEIGHT = { m: 1, ft: 0.3048, 'US survey foot': 1200 / 3937 };
 const COLOURS = 2;
 const PALETTE = 3;
 
-/** From the centre of a sample to the CRS; null without a place. */
+/** From the centre of a sample to the CRS; null without a position. */
 function samplesAffine(
   { fileDirectory: { ModelTransformation: m, ModelTiepoint: tie, ModelPixelScale: scale } },
   isPoint,
@@ -40,7 +40,7 @@ function ellipsoidOf({
   };
 }
 
-/** Heights become metres where x and y do (src/io/raster/height_unit.cpp): `scale` times. */
+/** Heights are multiplied by `scale` to metres if x and y become metres (src/io/raster/height_unit.cpp). */
 function frameOf(image, unit) {
   const frame = bareFrameOf(image, unit);
   const scale = frame.knowsMetres ? frame.metres[2] : 1;
@@ -75,7 +75,7 @@ function bareFrameOf(image, unit) {
 }
 
 const LARGEST = 3.4028234663852886e38;
-const NEAR_LARGEST = 3.4e38; // "-3.40282e+38" and its like, however few digits survived
+const NEAR_LARGEST = 3.4e38; // "-3.40282e+38" and the like, with any number of digits
 
 /** Parses a number as C does. */
 function numberOf(text) {
@@ -84,7 +84,7 @@ function numberOf(text) {
 }
 
 const ENTITIES = { lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' };
-/** The content of GDAL's own tag about a band, counted from 0, by role; of the file, by name. */
+/** The content of GDAL's own tag: about a band, counted from 0, by role; about the file, by name. */
 function metadataOf({ GDAL_METADATA = '' }, band) {
   const text = String(GDAL_METADATA);
   const ofFile = band === undefined;
@@ -99,7 +99,7 @@ function metadataOf({ GDAL_METADATA = '' }, band) {
   return found;
 }
 
-/** A test for values that stand for no sample; the program's rule (src/io/gdal/read_samples.cpp). */
+/** A test for nodata values, by the program's rule (src/io/gdal/read_samples.cpp). */
 function missingTest({ format, bits }, nodata) {
   if (nodata === null || Number.isNaN(nodata)) return () => false;
   if (format !== 3) return z => z === nodata;
@@ -110,8 +110,8 @@ function missingTest({ format, bits }, nodata) {
   return z => z === value || z >= least || z <= most;
 }
 
-/** The alpha band that marks where there is nothing; null: none. A declared value hides it from GDAL but in one place:
- * a program reads both. */
+/** The alpha band that marks nodata; null: none. GDAL ignores it if a nodata value is declared, except in one place, so
+ * the program uses both. */
 function findAlpha({ fileDirectory: d }, { bands, format, bits }, hasNodata) {
   const { ExtraSamples: extra = [] } = d;
   const isAlpha = k => {
@@ -124,7 +124,7 @@ function findAlpha({ fileDirectory: d }, { bands, format, bits }, hasNodata) {
     : null;
 }
 
-/** The image of the file that is a mask of the first; null: none. */
+/** The file's image that is the mask of the first one; null: none. */
 async function findMask(tiff) {
   const seen = new Set([0]);
   for (let k = 1, before = await tiff.requestIFD(0); !seen.has(before.nextIFDByteOffset); ++k) {
@@ -135,7 +135,7 @@ async function findMask(tiff) {
   return null;
 }
 
-/** Heights of each `step`th sample of each `step`th row, in doubles where float32 does not hold them. */
+/** Heights of every `step`th sample of every `step`th row, in double if float32 does not hold them. */
 async function readHeights(name, tiff, image, buffer, step, told, factor) {
   const source = new TiffSamples(name, image, buffer);
   const {

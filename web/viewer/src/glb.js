@@ -62,7 +62,7 @@ function matrixOf(node) {
   ];
 }
 
-/** Normals as a matrix turns them, z up. */
+/** Normals transformed by a matrix, z up. */
 function turnNormals(m, normals) {
   const column = k => [m[4 * k], m[4 * k + 1], m[4 * k + 2]];
   const cross = (a, b) => [0, 1, 2].map(k => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
@@ -131,7 +131,7 @@ class Reader {
     return { bytes: this.views.get(index), stride: view.byteStride };
   }
 
-  /** The numbers of an accessor, normalized ones as fractions. */
+  /** The numbers of an accessor; normalized ones are fractions. */
   numbers(index, size) {
     const accessor = this.json.accessors?.[index];
     const Type = COMPONENTS[accessor?.componentType];
@@ -145,7 +145,7 @@ class Reader {
     const out = size === 1 ? new Uint32Array(count) : new Float64Array(count * size);
     const scale =
       accessor.normalized && Type !== Float32Array ? 1 / (2 ** (8 * width - (Type.name[0] === 'I' ? 1 : 0)) - 1) : 1;
-    const packed = new Uint8Array(count * width * size); // aligned, as the array's type needs it
+    const packed = new Uint8Array(count * width * size); // aligned for the array's type
     if (stride === width * size) packed.set(bytes.subarray(offset, offset + packed.length));
     else
       for (let k = 0; k < count; ++k)
@@ -155,13 +155,13 @@ class Reader {
     return out;
   }
 
-  /** Adds the triangles of a node and of those below it. */
+  /** Adds the triangles of a node and of its descendants. */
   collect(index, above, level, depth = 0) {
     const node = this.json.nodes?.[index];
     if (!node || depth > 64) throw this.damaged('its nodes form no tree');
     const matrix = multiply(above, matrixOf(node));
     for (const primitive of this.json.meshes?.[node.mesh]?.primitives ?? []) {
-      if (primitive.extras?.scarp?.skirt) continue; // a skirt that hangs from a tile's edges is no part of its surface
+      if (primitive.extras?.scarp?.skirt) continue; // skirts below a tile's edges are no part of its surface
       if ((primitive.mode ?? 4) !== 4) {
         this.notes.add(`Of ${this.name} only triangles are shown: it has primitives of mode ${primitive.mode}, too.`);
         continue;
@@ -190,7 +190,7 @@ class Reader {
     for (const child of node.children ?? []) this.collect(child, matrix, level, depth + 1);
   }
 
-  /** Normals and places in an image, where the primitive has them. A normal map's own normals all point up. */
+  /** Normals and positions in an image, if the primitive has them. With a normal map, all vertex normals point up. */
   surface(primitive, vertices, matrix) {
     const { texture, places, ground, hasNormalMap, isMoved } = surfaceOf(this.json, primitive);
     const { attributes } = primitive;
@@ -208,7 +208,7 @@ class Reader {
     };
   }
 
-  /** The image of a part, if it has one that can be shown. */
+  /** The image of a part, if any can be displayed. */
   async image({ texture, isMoved }) {
     if (texture === null) return null;
     const { image = null, why } = isMoved
@@ -245,7 +245,7 @@ class Reader {
     return { positions, indices, normals, uvs, sheets };
   }
 
-  /** Level 0 is the scene; level k what MSFT_lod puts in its place. */
+  /** Level 0 is the scene; level k replaces it by MSFT_lod. */
   levels() {
     const scene = this.json.scenes?.[this.json.scene ?? 0]?.nodes ?? (this.json.nodes ?? []).map((_, k) => k);
     const deepest = Math.max(0, ...scene.map(k => this.json.nodes?.[k]?.extensions?.MSFT_lod?.ids?.length ?? 0));

@@ -1,11 +1,11 @@
-// Images that lie over a mesh: their settings in a material of a GLB, and their pixels.
+// Images draped over a mesh: their settings in a material of a GLB, and their pixels.
 
 const SLACK = 1e-3; // share of the image's side
 
 const toSrgb = linear => (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
 
 /** {texture, places, ground, hasNormalMap, isMoved} of a primitive: the texture's index or null, the name of an
- * attribute, the colour where there is no texture. */
+ * attribute, the colour without a texture. */
 export function surfaceOf(json, primitive) {
   const material = json.materials?.[primitive.material] ?? {};
   const { baseColorTexture: base, baseColorFactor = [] } = material.pbrMetallicRoughness ?? {};
@@ -20,8 +20,8 @@ export function surfaceOf(json, primitive) {
   };
 }
 
-/** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for the single pixel that stands in for an
- * image; or {why} there is none. */
+/** {image: {bitmap, wraps: [along u, along v]}} with glTF's numbers, null for a placeholder of one pixel; or {why}
+ * there is none. */
 export async function readImage(json, index, bytesOf) {
   const texture = json.textures?.[index] ?? {};
   const source = json.images?.[texture.extensions?.EXT_texture_webp?.source ?? texture.source];
@@ -41,7 +41,7 @@ export function findPlacing({ positions, uvs }) {
   const count = uvs.length / 2;
   const row = v => [positions[3 * v], positions[3 * v + 1], uvs[2 * v], uvs[2 * v + 1]];
   const mean = [0, 0, 0, 0];
-  // Sums for x and for y, with each of the four.
+  // Sums of the products of x and of y with each of the four.
   const products = Array.from({ length: 2 }, () => [0, 0, 0, 0]);
   for (let v = 0; v < count; ++v)
     row(v).forEach((value, k) => {

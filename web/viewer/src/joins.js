@@ -1,11 +1,11 @@
-// Vertices at one place: files keep them apart where parts, tiles or images meet, the eye does not.
+// Joins vertices at one position, which files separate where parts, tiles or images meet.
 
-/** The first power of two that holds as many twice. */
+/** The first power of two above twice the count. */
 function slotsFor(count) {
   return 2 ** Math.ceil(Math.log2(2 * count + 1));
 }
 
-/** For each vertex the first one at its place. `places`: x, y, z in single precision. */
+/** For each vertex the first one at its position. `places`: x, y, z in single precision. */
 export function joinPlaces(places) {
   const count = places.length / 3;
   const bits = new Int32Array(places.buffer, places.byteOffset, places.length);
@@ -59,7 +59,8 @@ export function listEdges(indices, firsts) {
   return pairs.subarray(0, count);
 }
 
-/** By length, roughly: {pairs, countFrom}, the longest first, and how many there are, at least, of a length or more. */
+/** Edges sorted roughly by length: {pairs, countFrom}, the longest first, and the least number of edges from a length
+ * on. */
 export function rankEdges(pairs, places) {
   const SHIFT = 21;
   const ranks = 2 ** (31 - SHIFT);
@@ -90,7 +91,7 @@ export function rankEdges(pairs, places) {
   };
 }
 
-/** For each vertex the sum of the normals of all triangles at its place, by their areas. */
+/** For each vertex the area-weighted sum of the normals of all triangles at its position. */
 export function sumNormals(places, indices, firsts) {
   const sums = new Float64Array(places.length);
   const normals = new Float32Array(places.length);

@@ -1,4 +1,4 @@
-// In the background: the errors of one mesh.
+// Computes one mesh's errors in the background.
 import { judge } from './errors.js';
 import { Field } from './field.js';
 

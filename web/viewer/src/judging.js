@@ -1,8 +1,8 @@
-// Judges a mesh in a worker, so that the picture can be turned meanwhile.
+// Judges a mesh in a worker, so that the view can be rotated meanwhile.
 import SOURCE from 'judge-source';
 import { judge } from './errors.js';
 
-/** The result of judge(). If the browser starts no worker the page waits for it. */
+/** The result of judge(). If the browser starts no worker, the page waits for it. */
 export function judgeBeside(field, { positions, indices }) {
   return new Promise(done => {
     let worker = null;

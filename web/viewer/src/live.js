@@ -1,4 +1,5 @@
-// The engine in the background: meshes for the slider's max error, and side by side. Without it there are no controls.
+// The engine in the background: meshes for the slider's max error, and for the view side by side. Its controls are
+// hidden without it.
 import SOURCE from 'worker-source';
 import { watchLock } from './alive.js';
 import { terrainOfEngine } from './document.js';
@@ -8,10 +9,10 @@ import { withUnit } from './words.js';
 const $ = id => document.getElementById(id);
 const STEPS_AN_OCTAVE = 8;
 
-/** Four digits, so that an error can be printed, and asked for again. */
+/** Rounds to four digits, so that a printed error can be requested again. */
 const tidy = error => Number(error.toPrecision(4));
 
-/** A worker that holds the raster and answers one question at a time; of those that wait, the latest. */
+/** A worker that holds the raster and answers one request at a time; of waiting requests, the latest. */
 class Helper {
   constructor(field) {
     this.field = field;
@@ -55,8 +56,7 @@ class Helper {
     busy?.(data, Boolean(next));
   }
 
-  /** A worker in the middle of a computation hears nothing: it is ended, and a new one begins with the next
-   * question. */
+  /** A computing worker receives no messages: it is terminated, and a new one starts with the next request. */
   cancel() {
     if (this.busy) this.end();
   }
@@ -100,7 +100,7 @@ export class Live {
     $('error').max = String(this.most);
   }
 
-  /** Begins with the settings of the address. If it names no error the slider stands at that of the mesh, once it is
+  /** Begins with the settings of the address. Without an error there, the slider is set to that of the mesh, once
    * known. */
   begin({ error, both, count }) {
     if (!this.isUsable) return;
@@ -122,7 +122,7 @@ export class Live {
     else this.follow(terrain.judged.maxError);
   }
 
-  /** The first mesh of a raster, for a max error of that share of the relief: {mesh, judged, goal}. */
+  /** The first mesh of a raster, for a max error of this share of the relief: {mesh, judged, goal}. */
   makeFirst(field, share) {
     const helper = (this.first = new Helper(field));
     const goal = { maxError: tidy((field.high - field.low) * share) };
@@ -135,7 +135,7 @@ export class Live {
     );
   }
 
-  /** For what another opening overtakes. */
+  /** Cancels requests when another file is opened. */
   cancelFirst() {
     this.first?.settle({ error: 'another file was opened' });
     this.first = null;
@@ -152,7 +152,7 @@ export class Live {
     );
   }
 
-  /** The slider stands at the error of what is shown. */
+  /** Sets the slider to the error of the displayed mesh. */
   follow(error) {
     $('error').value = String(this.stepOf(error));
     this.label(error);
@@ -177,7 +177,7 @@ export class Live {
         };
   }
 
-  /** For a mesh of the file. */
+  /** Hides the engine's state for a mesh of the file. */
   leave(terrain) {
     if (this.isUsable && terrain.isJudged) this.follow(terrain.judged.maxError);
     this.slow?.cancel();
@@ -186,7 +186,7 @@ export class Live {
     this.both = $('both').checked = false;
   }
 
-  /** Positive: a larger error, or the next level where there is no engine. */
+  /** Positive: a larger error, or the next level without an engine. */
   step(by) {
     if (!this.isUsable) return this.page.chooseLevel(this.page.level + by);
     this.choose(Math.max(0, Math.min(this.most, Number($('error').value) - by)));
@@ -206,8 +206,8 @@ export class Live {
     this.show();
   }
 
-  /** A mesh of this error at once, by the engine that inserts the worst sample: the program's greedy mesh, but where x
-   * and y are no offsets that float32 holds. */
+  /** Makes a mesh of this error at once by inserting the worst samples: the program's greedy mesh, except for x and y
+   * offsets beyond float32. */
   choose(step) {
     this.stepNow = step;
     $('error').value = String(step);
@@ -253,7 +253,7 @@ export class Live {
     ];
   }
 
-  /** Effort high, in the background. */
+  /** Makes a mesh with effort high in the background. */
   finish() {
     if (this.stepNow === null) return;
     const [greedy, high] = this.keys();

@@ -1,4 +1,4 @@
-// The page: what is shown, and how its controls change that.
+// The page: its contents, and the effects of its controls.
 import { readInline } from './document.js';
 import { acceptDrops, begin } from './drop.js';
 import { readFragment, writeFragment } from './fragment.js';
@@ -16,7 +16,7 @@ const $ = id => document.getElementById(id);
 /** Controls that need a mesh. */
 const CONTROLS = '#controls :is(input, select, button):not(#file, #full, #help)';
 
-/** A card in the middle, red if it reports an error; none for no words. */
+/** A card in the middle, red if it reports an error; hidden without text. */
 function say(text, isError = false) {
   $('notice').textContent = text;
   $('notice').classList.toggle('error', isError);
@@ -90,7 +90,7 @@ class Page {
     for (const terrain of terrains) if (!terrain.isJudged) this.judge(terrain);
   }
 
-  /** Once the picture is there: the worker occupies a processor that a picture drawn by software needs. */
+  /** After the picture is drawn, since the worker occupies a processor that drawing by software needs. */
   async judge(terrain) {
     await this.scene.nextPicture();
     await terrain.judge();
@@ -106,13 +106,13 @@ class Page {
     this.show([terrain]);
   }
 
-  /** The file's mesh again, as it was first seen. */
+  /** Shows the file's mesh again, in the initial view. */
   reset() {
     if (this.live.stepNow !== null) this.chooseLevel(this.level);
     this.scene.reset();
   }
 
-  /** Makes the controls and the readout agree with the state, and the picture. */
+  /** Updates the controls, the readout and the picture to the state. */
   update(isDrawn = true) {
     fillPanel(this);
     if (isDrawn) this.scene.invalidate();
@@ -213,7 +213,7 @@ class Page {
 }
 
 async function start() {
-  // Before the data are there: the browser compiles meanwhile what draws.
+  // Before the data arrive: the browser compiles the shaders meanwhile.
   const page = (window.scarpPage = new Page());
   if (document.readyState === 'loading') await new Promise(done => addEventListener('DOMContentLoaded', done));
   const data = $('scarp-data');
@@ -228,7 +228,7 @@ async function start() {
 
 addEventListener('error', event => complain(event.error ?? new Error(event.message)));
 addEventListener('unhandledrejection', event => complain(event.reason));
-/** A frame later than the terrain: the layers over it need as long to paint. */
+/** A frame later than the terrain, since the layers over it need as long to draw. */
 const showPanel = () => document.body.classList.remove('empty');
 start().then(
   () => requestAnimationFrame(() => setTimeout(showPanel)),

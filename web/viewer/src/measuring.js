@@ -1,10 +1,10 @@
-// Measuring: a click asks for a point, the next for a line with its profile.
+// Measuring: a click selects a point, the next one a line with its profile.
 import { distance, number, withUnit } from './words.js';
 
 const $ = id => document.getElementById(id);
 const STEPS = 256;
 
-/** Along a line between two places of the mesh's frame: [share of the way, height of the mesh, of the raster]. */
+/** Along a line between two positions in the mesh's frame: [share of the length, height of the mesh, of the raster]. */
 function sampleLine(terrain, from, to) {
   return Array.from({ length: STEPS + 1 }, (_, k) => {
     const t = k / STEPS;
@@ -56,7 +56,7 @@ export class Measuring {
     this.showProfile(false);
   }
 
-  /** A pixel of the picture. */
+  /** Measures at a pixel. */
   click(x, y, page) {
     const hit = this.scene.pick(x, y);
     if (!hit) return;
@@ -68,7 +68,7 @@ export class Measuring {
     this.tell(page);
   }
 
-  /** Again, when another mesh is shown. */
+  /** Measures again when another mesh is displayed. */
   tell(page) {
     if (!this.points.length) return;
     const terrain = page.shown[0];

@@ -1,4 +1,4 @@
-// The panel: its controls, numbers and notes, as the state of the page has them.
+// The panel: its controls, numbers and notes for the state of the page.
 import { commandNotes, commandOf } from './command.js';
 import { drawLegend, drawMap } from './overlay.js';
 import { fillReadout, summarize } from './readout.js';
@@ -42,7 +42,7 @@ function fillMap(terrain, scale, showsErrors) {
   mapped = showsErrors ? { terrain, scale } : {};
 }
 
-/** Limits of what the page knows and does. */
+/** Notes on the limits of the page. */
 function fillNotes({ field, notes, knowsMetres, isOfTiles }, hasEngine) {
   const words = [...notes];
   if (isOfTiles)
@@ -71,7 +71,7 @@ function fillCommand(shown) {
   $('command-note').hidden = !note;
 }
 
-/** Sets the scale of the errors, too. */
+/** Also sets the scale of the errors. */
 export function fillPanel({ look, shown, level, document: made, live }) {
   const { field, unit, levels, place } = made;
   const [terrain] = shown;

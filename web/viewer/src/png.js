@@ -1,5 +1,5 @@
-// PNG, as the numbers that lie in it: a canvas would cut 16 bits to 8, put colours for a palette's numbers, and manage
-// colours.
+// Reads the unchanged numbers of a PNG: a canvas would reduce 16 bits to 8, replace palette indices by colours, and
+// manage colours.
 import { Sentence } from './sentence.js';
 
 const CHANNELS = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 };
@@ -24,7 +24,7 @@ function* chunksOf(bytes) {
   }
 }
 
-/** At most `size` bytes of what is packed. */
+/** Unpacks at most `size` bytes. */
 async function inflate(parts, size) {
   const out = new Uint8Array(size);
   const reader = new Blob(parts).stream().pipeThrough(new DecompressionStream('deflate')).getReader();
@@ -39,7 +39,7 @@ async function inflate(parts, size) {
   return out;
 }
 
-/** One row, from what it differs from its neighbours by. */
+/** Reverses the filter of one row: differences from its neighbours. */
 function undoFilter(kind, row, above, pixel) {
   for (let k = 0; k < row.length; ++k) {
     const left = k < pixel ? 0 : row[k - pixel];
@@ -57,7 +57,7 @@ function undoFilter(kind, row, above, pixel) {
   }
 }
 
-/** The values that stand for no sample; null: none. */
+/** The nodata values; null: none. */
 function findMissing(color, transparency) {
   if (!transparency) return null;
   if (color !== 3)

@@ -1,4 +1,4 @@
-// Rasters dropped on the page: GeoTIFF, .hgt, and PNG tiles of the web, in the frame that the program gives them.
+// Rasters dropped on the page: GeoTIFF, .hgt, and PNG web tiles, in the program's frame.
 import { Field } from './field.js';
 import { gridFrame, localFrame } from './frame.js';
 import { readGeotiff } from './geotiff.js';
@@ -36,13 +36,12 @@ const DECODINGS = {
   mapbox: (r, g, b) => -10000 + (r * 65536 + g * 256 + b) * 0.1,
   grey: r => r,
 };
-// Limits of heights of the earth.
+// Limits of heights on earth.
 const LOWEST = -12000;
 const HIGHEST = 9000;
-const MOST_ODD = 0.1; // share of a tile's pixels that stand for nodata
+const MOST_ODD = 0.1; // share of nodata among a tile's pixels
 
-/** The decoding whose heights are of the earth. Both never are: terrarium's have a red of 81 to 163, mapbox's of 0 to
- * 2. */
+/** The decoding with heights on earth. Never both: terrarium's have a red of 81 to 163, mapbox's of 0 to 2. */
 function guessDecoding(pixels, decode) {
   const found = ['terrarium', 'mapbox'].find(key => {
     const heights = decode(key);
@@ -64,7 +63,7 @@ const NOTES = {
   grey: 'This is a colour picture, and its red is taken as height.',
 };
 
-/** A grey PNG or one with a palette is heights as they stand. `asked`: a decoding; null: the one that fits. */
+/** Values of a grey PNG or one with a palette are heights. `asked`: a decoding; null: the one that fits. */
 async function readPngHeights(name, buffer, asked) {
   const image = await readPng(name, new Uint8Array(buffer), MOST_SAMPLES);
   const { width, height, channels, values, missing } = image;

@@ -1,7 +1,7 @@
 // The numbers of a mesh, judged here against every sample of the raster.
 import { bytes, count, number, share, withUnit } from './words.js';
 
-/** `shown`: which mesh these are of, where there are several. */
+/** `shown`: the mesh judged, if there are several. */
 export function fillReadout(list, terrain, unit, shown) {
   const { field, judged, told } = terrain;
   const rows = shown ? [['shown', shown]] : [];

@@ -1,4 +1,4 @@
-// The terrain on the canvas: one view or two side by side, drawn when something has changed.
+// The terrain on the canvas: one view or two side by side, redrawn after changes.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Antialias } from './antialias.js';
@@ -6,10 +6,10 @@ import { makePyramid } from './errors.js';
 import { EDGE_FRAGMENT, EDGE_VERTEX, SURFACE_FRAGMENT, SURFACE_VERTEX } from './shaders.js';
 import { Sentence } from './sentence.js';
 
-THREE.ColorManagement.enabled = false; // colours go to the screen as they are
+THREE.ColorManagement.enabled = false; // colours reach the screen unchanged
 const UNCOVERED = 1e30;
-const SHORTEST = 4; // pixels of an edge that is seen, as shaders.js has it
-const MOST_TEXELS = 4096; // a side; what is larger is reduced by largest errors
+const SHORTEST = 4; // pixels of a visible edge, as in shaders.js
+const MOST_TEXELS = 4096; // a side; larger maps are reduced by largest errors
 
 function errorTexture(judged, { cols, rows }) {
   let levels = makePyramid(judged.errors, cols, rows);
@@ -50,7 +50,7 @@ class View {
     this.group = new THREE.Group();
     this.scene.add(this.group);
     this.uniforms = { ...shared, errors: { value: null } };
-    this.materials = []; // kept for the next terrain: a new one would be compiled
+    this.materials = []; // kept for the next terrain: a new one would be recompiled
     this.surface = new THREE.Mesh(new THREE.BufferGeometry());
     this.edges = new THREE.LineSegments(
       new THREE.BufferGeometry(),
@@ -84,7 +84,7 @@ class View {
     }));
   }
 
-  /** The browser compiles while this page reads the mesh. */
+  /** The browser compiles shaders while the page reads the mesh. */
   compile(renderer, camera) {
     this.surface.material = this.material(0);
     renderer.compile(this.surface, camera, this.scene);
@@ -111,7 +111,7 @@ class View {
     this.surface.geometry = geometry;
   }
 
-  /** Made when they are first shown. */
+  /** Created when first displayed. */
   prepare(look) {
     const { terrain, uniforms } = this;
     const { geometry } = this.surface;
@@ -131,7 +131,7 @@ class View {
     this.edges.visible = look.edges;
   }
 
-  /** Prepares only edges that may be long enough to be seen: `shortest`, in the scene's units. */
+  /** Prepares only edges long enough to be visible: `shortest`, in the scene's units. */
   prepareEdges(shortest) {
     const { terrain, edges } = this;
     const { pairs, countFrom } = (this.ranked ??= terrain.edges());
@@ -164,7 +164,7 @@ export class Scene {
   constructor(canvas, look) {
     Object.assign(this, { canvas, look, listeners: [], views: [] });
     const { width, height, ratio } = this.size();
-    // Before there is a buffer, which would be made twice.
+    // Before the buffer exists, which would be created twice.
     Object.assign(canvas, { width: width * ratio, height: height * ratio });
     try {
       this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
@@ -196,7 +196,7 @@ export class Scene {
     this.addView().compile(this.renderer, this.camera);
   }
 
-  /** In CSS pixels, and how many of the screen's a side of one is. */
+  /** The size in CSS pixels, and the screen's pixels along the side of a CSS pixel. */
   size() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const ratio = Math.min(devicePixelRatio, 2);
@@ -220,12 +220,12 @@ export class Scene {
     this.listeners.push(listener);
   }
 
-  /** When the one that has been asked for is on the screen. */
+  /** Resolves when the requested picture is on the screen. */
   nextPicture() {
     return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
   }
 
-  /** One terrain or two. */
+  /** Shows one terrain or two. */
   show(terrains) {
     while (this.views.length < terrains.length) this.addView();
     terrains.forEach((terrain, k) => this.views[k].show(terrain));
@@ -233,8 +233,8 @@ export class Scene {
     this.invalidate();
   }
 
-  /** The same part of the terrain stays in sight when one view becomes two, for which the free space has equal room.
-   * `isForTwo`: the orbit is already one of two. */
+  /** Keeps the same part of the terrain visible when one view becomes two of equal size. `isForTwo`: the orbit is
+   * already for two views. */
   divide(count) {
     const before = this.count && Math.tan(this.fov() / 2);
     const { right, top } = this.look.covered();
@@ -251,7 +251,7 @@ export class Scene {
     requestAnimationFrame(() => this.draw());
   }
 
-  /** Resets the view to its start: from the south-south-west, all of it in sight. */
+  /** Resets the view: from the south-south-west, with the whole terrain visible. */
   reset() {
     const first = { azimuth: -20, altitude: 38, target: [0, 0, 0] };
     this.controls.target.set(0, 0, 0);
@@ -260,7 +260,7 @@ export class Scene {
     this.setOrbit({ ...first, distance: this.distanceToSee() });
   }
 
-  /** The distance from which each corner of the terrain's box is in sight, in the camera's direction. */
+  /** The distance, in the camera's direction, at which each corner of the terrain's box is visible. */
   distanceToSee() {
     const { place } = this.views[0].terrain;
     const half = Math.tan((this.camera.fov * Math.PI) / 360) / Math.max(1, this.canvas.clientHeight);
@@ -276,14 +276,14 @@ export class Scene {
     return Math.max(place.radius * 1e-3, 1.04 * Math.max(...reaches));
   }
 
-  /** The smallest angle that is free, of a view's width or height. */
+  /** The smallest free angle among the widths and heights of the views. */
   fov() {
     const half = Math.tan((this.camera.fov * Math.PI) / 360) / Math.max(1, this.canvas.clientHeight);
     const sides = [...Array(this.count).keys()].flatMap(k => this.free(k).slice(2));
     return 2 * Math.atan(half * Math.min(...sides));
   }
 
-  /** Degrees clockwise from north to the camera's direction, degrees above the horizon, metres. */
+  /** The camera's direction in degrees clockwise from north and above the horizon, and its distance in metres. */
   orbit() {
     const { target } = this.controls;
     const away = this.camera.position.clone().sub(target);
@@ -313,7 +313,7 @@ export class Scene {
     this.setOrbit({ ...orbit, azimuth: orbit.azimuth + azimuth, altitude: orbit.altitude + altitude });
   }
 
-  /** The camera over the ground, to its right and ahead: shares of the picture's height. */
+  /** Moves the camera over the ground, to the right and ahead, by shares of the picture's height. */
   move(right, ahead) {
     const {
       azimuth,
@@ -348,7 +348,7 @@ export class Scene {
     return [hidden, 0, Math.max(1, width - hidden), height];
   }
 
-  /** The camera's target is in the middle of what is free. */
+  /** The camera's target is in the middle of the free area. */
   aim(k) {
     const width = Math.max(1, this.part(k)[1]);
     const height = Math.max(1, this.canvas.clientHeight);
@@ -412,7 +412,8 @@ export class Scene {
     for (const listener of this.listeners) listener();
   }
 
-  /** The projection of a place in the scene, exaggerated as drawn: CSS pixels in view `k`; null behind the camera. */
+  /** The projection of a position in the scene, exaggerated as drawn: CSS pixels in view `k`; null behind the
+   * camera. */
   project(point, k = 0) {
     this.aim(k);
     const [left, width] = this.part(k);
@@ -420,7 +421,7 @@ export class Scene {
     return Math.abs(at.z) > 1 ? null : [left + ((at.x + 1) / 2) * width, ((1 - at.y) / 2) * this.canvas.clientHeight];
   }
 
-  /** The point below a pixel: the scene's coordinates without exaggeration; null for the sky. */
+  /** The point at a pixel, in the scene's coordinates without exaggeration; null for the sky. */
   pick(x, y) {
     const k = this.count > 1 && x >= this.part(1)[0] ? 1 : 0;
     const [left, width] = this.part(k);
@@ -435,7 +436,7 @@ export class Scene {
     return hit ? [hit.point.x, hit.point.y, hit.point.z / this.look.exaggeration] : null;
   }
 
-  /** Metres of a pixel in the middle of the scene. */
+  /** Metres per pixel in the middle of the scene. */
   metresPerPixel() {
     const distance = this.camera.position.distanceTo(this.controls.target);
     return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / this.canvas.clientHeight;

@@ -1,4 +1,4 @@
-// How surfaces and edges are coloured.
+// Shaders for surfaces and edges.
 export const SURFACE_VERTEX = `
 attribute vec2 sampled;
 varying vec2 at;
@@ -16,8 +16,8 @@ void main() {
   gl_Position = projectionMatrix * view;
 }`;
 
-// The error map is lit by 28 % at most: a dark slope would hide the sign. Where an image is transparent the relief
-// shows.
+// The error map is shaded by at most 28 %: a dark slope would hide the sign. Transparent parts of an image show the
+// relief.
 export const SURFACE_FRAGMENT = `
 uniform sampler2D errors;
 uniform bool showsErrors;
@@ -59,7 +59,7 @@ void main() {
   gl_FragColor = vec4(color, 1.);
 }`;
 
-// Edges are never wider than a pixel, full from 12 pixels of length on, and gone below 4.
+// Edges are at most a pixel wide, opaque from 12 pixels of length on, and invisible below 4.
 export const EDGE_VERTEX = `
 attribute vec3 other;
 uniform vec2 pixels;

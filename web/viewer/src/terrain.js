@@ -1,9 +1,9 @@
-// A mesh in place: in metres around the page's centre for drawing, in columns and rows for judging.
+// A positioned mesh: in metres from the page's centre for drawing, in columns and rows for judging.
 import { judgeBeside } from './judging.js';
 import { findPlacing } from './images.js';
 import { joinPlaces, listEdges, rankEdges, sumNormals } from './joins.js';
 
-/** The position of the page's scene: `metres` a unit of x, y and z. */
+/** The position of the page's scene: `metres` for a unit of x, y and z. */
 export class Place {
   constructor(positions, metres) {
     this.metres = metres;
@@ -22,7 +22,7 @@ export class Place {
     this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => ((this.high[k] - this.low[k]) / 2) * metres[k])));
   }
 
-  /** At most 1: with it heights stay below a quarter of the width, where that is not below 0.1. */
+  /** A scale of heights, 0.1 to 1, that keeps them below a quarter of the width if possible. */
   get lowExaggeration() {
     const [wide, deep, high] = [0, 1, 2].map(k => (this.high[k] - this.low[k]) * this.metres[k]);
     return Math.min(1, Math.max(0.1, Number((Math.max(wide, deep) / 4 / Math.max(high, 1e-9)).toPrecision(2))));
@@ -74,7 +74,7 @@ export class Terrain {
       this.scene[k + 2] = z;
       reach = Math.max(reach, x * x + y * y + z * z);
     }
-    // From the scene's middle: other levels may be wider than the first.
+    // Distance from the scene's middle: other levels may be wider than the first.
     this.reach = Math.max(place.radius, Math.sqrt(reach));
     this.givenNormals = normals && Float32Array.from(normals, (value, k) => value / place.metres[k % 3]);
   }
@@ -87,14 +87,14 @@ export class Terrain {
     return !this.field || this.judged !== null;
   }
 
-  /** Judges it once, in the background. */
+  /** Judges the mesh once, in the background. */
   judge() {
     return (this.judging ??= judgeBeside(this.field, this).then(judged => {
       this.judged = judged;
     }));
   }
 
-  /** Positions of vertices in the raster, as shares of its columns and rows. */
+  /** Positions of vertices in the raster, as fractions of its columns and rows. */
   get sampled() {
     const { cols, rows } = this.field;
     return Float32Array.from(this.field.toGrids(this.positions), (value, k) => (value + 0.5) / (k % 2 ? rows : cols));
@@ -104,14 +104,14 @@ export class Terrain {
     return this.sheets.some(({ image }) => image);
   }
 
-  /** The map from x and y to the image; null where that is no affine map, or not of one image. */
+  /** The map from x and y to the image; null unless it is affine and there is one image. */
   get placing() {
     if (this.knownPlacing === undefined)
       this.knownPlacing = this.sheets.length === 1 && this.hasImage ? findPlacing(this) : null;
     return this.knownPlacing;
   }
 
-  /** Those of the file, or else of the triangles around each place. */
+  /** Normals of the file, else of the triangles around each position. */
   get normals() {
     return (this.givenNormals ??= sumNormals(this.scene, this.indices, this.firsts));
   }
@@ -120,19 +120,19 @@ export class Terrain {
     return (this.knownFirsts ??= joinPlaces(this.scene));
   }
 
-  /** Longest first, as rankEdges() has them. */
+  /** Edges from rankEdges(), the longest first. */
   edges() {
     return rankEdges(listEdges(this.indices, this.firsts), this.scene);
   }
 
-  /** Height of the mesh over a place of its frame; NaN where it has none. */
+  /** Height of the mesh at a position in its frame; NaN outside. */
   heightAt(x, y) {
     this.cells ??= new Cells(this);
     return this.cells.heightAt(x, y);
   }
 }
 
-/** Triangles by square cells, to find the one over a place. */
+/** Triangles in square cells, to find the one at a position. */
 class Cells {
   constructor({ positions, indices, place }) {
     Object.assign(this, { positions, indices, place });

@@ -1,5 +1,4 @@
-// The samples of a TIFF, block by block, as GDAL reads them: any byte order, blocks that were never written, values
-// that LERC omits.
+// The samples of a TIFF, block by block, as GDAL reads them: any byte order, missing blocks, values that LERC omits.
 import { decompress } from 'fzstd';
 import { getDecoder } from 'geotiff';
 import Lerc from 'lerc';
@@ -32,7 +31,7 @@ function half(bits) {
 
 export const damaged = name => new Sentence(`${name} is damaged or cut off: its samples cannot be read.`);
 
-/** Most significant bit first, each row from a byte on. */
+/** Most significant bit first; each row begins at a byte. */
 function unpackBits(bytes, bits, inRow, rows) {
   const out = new Uint32Array(inRow * rows);
   const rowBytes = Math.ceil((inRow * bits) / 8);
@@ -45,7 +44,7 @@ function unpackBits(bytes, bits, inRow, rows) {
   return out;
 }
 
-/** Bytes of each row: differences, the most significant of all values first. */
+/** Bytes of each row: differences, with the most significant bytes of all values first. */
 function undoFloatPredictor(bytes, rowBytes, size, bands) {
   for (let start = 0; start < bytes.length; start += rowBytes) {
     const row = bytes.subarray(start, start + rowBytes);
@@ -61,8 +60,7 @@ function addUp(words, inRow, bands) {
   for (let k = 0; k < words.length; ++k) if (k % inRow >= bands) words[k] += words[k - bands];
 }
 
-/** How one image of a TIFF lies in the file. Throws a Sentence where its samples are none that are read here, or
- * anything where it is damaged. */
+/** The layout of one image in a TIFF. Throws a Sentence for unsupported samples, and any error for a damaged file. */
 export class TiffSamples {
   constructor(name, { fileDirectory: d, littleEndian }, buffer) {
     const unknown = what => new Sentence(`${name} ${what}: gdal_translate makes a GeoTIFF of it that this page reads.`);
@@ -116,13 +114,13 @@ export class TiffSamples {
       throw damaged(this.name);
   }
 
-  /** The least and the greatest number that a sample can be. */
+  /** The least and the greatest value of a sample. */
   get range() {
     if (this.format === FLOAT) return [-Infinity, Infinity];
     return this.format === SIGNED ? [-(2 ** (this.bits - 1)), 2 ** (this.bits - 1) - 1] : [0, 2 ** this.bits - 1];
   }
 
-  /** Unpacks a block of `rows` rows: its numbers, and how many a pixel has. */
+  /** Unpacks a block of `rows` rows: its numbers, and the count for each pixel. */
   async unpack(bytes, rows) {
     if (this.compression === LERC) return this.unpackLerc(bytes, rows);
     const { bits } = this;
@@ -146,7 +144,7 @@ export class TiffSamples {
     return { values: this.format === FLOAT && bits === 16 ? Float32Array.from(values, half) : values, pitch: bands };
   }
 
-  /** LERC keeps NaN, and an alpha band of 0 and 255, as a mask. */
+  /** LERC stores NaN, and an alpha band of 0 and 255, as a mask. */
   async unpackLerc(bytes, rows) {
     const packed =
       this.lercPacked === 1 ? await unpackDeflate(bytes) : this.lercPacked === 2 ? unpackZstd(bytes) : bytes;
@@ -163,8 +161,8 @@ export class TiffSamples {
     return { values, pitch, mask };
   }
 
-  /** Calls visit(index, value) for each `step`th sample of each `step`th row of a band; `hole`: of blocks that were
-   * never written. */
+  /** Calls visit(index, value) for every `step`th sample of every `step`th row of a band; `hole`: the value in missing
+   * blocks. */
   async each(band, step, hole, visit) {
     const across = Math.ceil(this.cols / this.blockCols);
     const down = Math.ceil(this.rows / this.blockRows);

@@ -1,12 +1,11 @@
-// Heights that stand for nodata without being declared, by the rule of the program (scarp/height_field.h,
-// find_undeclared_nodata).
+// Heights that are undeclared nodata, by the program's rule (scarp/height_field.h, find_undeclared_nodata).
 import { count, number } from './words.js';
 
 const ENDS = 6;
 const SIGNS = [9999, 99999, 999999, 32767, 65535];
 const HUGE = 1e20;
 
-/** The outermost heights at one end, each once, inwards: [{height, samples}]. `isBeyond(a, b)`: a lies farther out than
+/** The outermost distinct heights at one end, inwards: [{height, samples}]. `isBeyond(a, b)`: a lies farther out than
  * b. */
 function outermost(samples, isBeyond) {
   const ends = [];
@@ -32,7 +31,7 @@ function isFar({ height, samples }, gap, range, valid) {
   return gap >= 50 * range && samples <= Math.floor(valid / 100);
 }
 
-/** How many heights at one end are far from the others, which reach to `other`. */
+/** The number of heights at one end that are far from the others, which end at `other`. */
 function countFar(ends, first, other, valid) {
   for (let next = first + 1; next < ends.length; ++next) {
     const { height } = ends[next];

@@ -1,6 +1,6 @@
 // Numbers as `scarp measure` prints them.
 
-/** Six digits. */
+/** Prints six digits. */
 export function number(value) {
   return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : 'none';
 }
@@ -22,7 +22,7 @@ export function withUnit(value, unit) {
   return unit ? `${number(value)} ${unit}` : number(value);
 }
 
-/** A length in metres, or in the mesh's units where these are not known. */
+/** A length in metres, or in the mesh's units if metres are unknown. */
 export function distance(value, unit = 'm') {
   return unit === 'm' && value >= 1000
     ? `${Number((value / 1000).toPrecision(4))} km`

@@ -1,4 +1,4 @@
-// The engine, in the background: greedy meshes from one kept refinement, others by an effort. Answers are judged here.
+// The engine in the background: greedy meshes from a continued refinement, others by effort. Results are judged here.
 import { holdLock } from './alive.js';
 import { ready, Refiner, simplifySync } from 'scarp/inline';
 import { judge } from './errors.js';
@@ -21,10 +21,10 @@ function warmUp() {
   simplifySync(z, side, side, { maxError: 1, effort: 'fast' });
 }
 
-// Factor of an error: the refiner's doubles would continue where an exact decision ends.
+// Factor for an error: with rounding, the refiner would continue where an exact decision ends.
 const AT_THE_BOUND = 1 + 1e-12;
 
-/** Finer meshes continue from the last; for a coarser one it begins again. */
+/** Finer meshes continue from the last one; a coarser one begins anew. */
 function refine(error) {
   if (!refiner || refiner.maxError < error) {
     refiner?.free();

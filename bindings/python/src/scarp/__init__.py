@@ -3,16 +3,16 @@
 >>> import numpy as np, scarp
 >>> y, x = np.mgrid[0:200, 0:300]
 >>> z = 50 * np.sin(x / 30) * np.cos(y / 40)
->>> mesh = scarp.simplify(z, 0.5)             # every sample within 0.5 of the mesh: proven, not hoped
+>>> mesh = scarp.simplify(z, 0.5)             # every sample within 0.5 of the mesh: proven
 >>> mesh.vertices.shape, mesh.triangles.dtype, mesh.max_error <= 0.5
 >>> mesh.write("hills.glb")
 
 The functions accept these as `source`:
   - an array (rows, columns), the first row in the north. float32 is not copied. float64 and integers are rounded to
-    float32, and the promise is about the values that were given. NaN, infinities and masked samples are voids.
-  - an xarray.DataArray, or a Dataset of one variable: its evenly spaced coordinates, its CRS and nodata as CF and
-    rioxarray have them; degrees without a CRS are WGS 84. Uneven coordinates are refused.
-  - a rasterio dataset that is open
+    float32, and bounds hold for the given values. NaN, infinities and masked samples are nodata.
+  - an xarray.DataArray, or a Dataset of one variable, with evenly spaced coordinates, and CRS and nodata as in CF or
+    rioxarray; degrees without a CRS are WGS 84. Uneven coordinates fail.
+  - an open rasterio dataset
   - the path of a raster or of points
 """
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ._call import ProgressArgument
 
 __version__: str = _abi.lib.scarp_version().decode()
-#: True if the library reads GDAL's formats and knows CRSs. Without it paths are read by rasterio or GDAL's own Python.
+#: True if the library reads GDAL's formats and knows CRSs. Else rasterio or GDAL's own Python reads paths.
 has_gdal: bool = bool(_abi.lib.scarp_has_gdal())
 
 __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Report", "Refiner", "Tiles", "tile", "Progress",
@@ -42,7 +42,7 @@ __all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Repor
            "ScarpWarning", "has_gdal", "__version__"]
 
 
-_MOST = 2**63  # so large that it is no limit
+_MOST = 2**63  # large enough to be no limit
 
 
 def _finish(handle: Any, place: Any = None, shape: Optional[tuple[int, ...]] = None) -> Mesh:
@@ -65,7 +65,7 @@ def _goals(settings: _call.Settings, max_error: float | str | None, max_triangle
 
 def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance: Any,
           named: dict[str, Any]) -> None:
-    """Arrays in addition to the heights; paths are options by name."""
+    """Sets mask and tolerance given as arrays; paths are options by name."""
     if mask is None and tolerance is None:
         return
     for name, values in (("mask", mask), ("tolerance", tolerance)):
@@ -80,7 +80,7 @@ def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance:
 
 def _by_name(source: _inputs.Input, frame: str, band: int, nodata: Optional[float], mask: Any, tolerance: Any,
              max_error: float | str | None, named: dict[str, Any]) -> None:
-    """Adds to the options by name what the struct has no place for."""
+    """Adds options that have no member in the struct to those by name."""
     if frame != "auto":
         named["crs"] = frame
     if source.path is not None:
@@ -99,30 +99,31 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
              crs: Any = None, nodata: Optional[float] = None, frame: str = "auto", mask: Any = None,
              tolerance: Any = None, normals: bool = False, threads: int = 0,
              progress: ProgressArgument = None, **options: Any) -> Mesh:
-    """Turns heights into a small mesh that keeps a bound, or a good one of a size.
+    """Simplifies heights to a small mesh within an error bound, or to the best mesh for a budget.
 
     source         see the module's help
     max_error      every sample is within this of the mesh, vertically, in the units of the heights; "0.5%" of the
-                   relief; "1m", "3ft" where the file has a unit
-    max_triangles, max_points   upper bounds; the first goal that is reached ends the run. At least one goal is needed.
+                   relief; "1m", "3ft" if the file has a unit
+    max_triangles, max_points   upper bounds; the first goal reached ends the run. At least one goal is required.
     effort         "fast", "normal" (DEFAULT), "high" or "max": fewer triangles for more time
     band           of a file or dataset, from 1
-    transform      position of pixels: rasterio's Affine, or GDAL's six numbers; of pixel corners, as in both
-    crs            CRS of the transform: "EPSG:32611", a number of EPSG, WKT, a CRS of rasterio or pyproj
+    transform      map to pixel corners: rasterio's Affine, or GDAL's six numbers
+    crs            CRS of the transform: "EPSG:32611", an EPSG code, WKT, a CRS of rasterio or pyproj
     nodata         a value that is no height (NaN and infinities never are)
-    frame          x and y of the mesh. "auto": by the transform, degrees become metres around the centre; "source":
-                   by it, degrees stay; "local": around the centre; "grid": columns and rows; or a CRS (with GDAL)
+    frame          x and y of the mesh. "auto": by the transform, degrees become metres from the centre; "source": by
+                   the transform, degrees do not change; "local": from the centre; "grid": columns and rows; or a CRS
+                   (with GDAL)
     mask           (rows, columns) weights: weight * |error| is bounded; 0 and NaN: no bound. Or a file.
-    tolerance      (rows, columns) bounds of their own for the samples; NaN: none. Or a file.
+    tolerance      (rows, columns) bounds for the samples; NaN: none. Or a file.
     normals        Mesh.normals from all samples
-    threads        0: all cores, for few samples one; never changes the mesh
-    progress       True: a bar; or a function of a Progress: where it returns False, Cancelled is raised
-    options        every other option of `scarp simplify` that is not about its terminal, with _ for -: `vertices="free"`,
-                   `breaklines="dikes.gpkg"`, `min_angle=25`, `nodata_policy="fill"`, `of="obj"` (the format that the
-                   mesh is for, which settles rounding and frame as the program's OUTPUT does) ...
+    threads        0: all cores, or one for few samples; never changes the mesh
+    progress       True: a bar; or a function of a Progress, which returns False to raise Cancelled
+    options        any other option of `scarp simplify` except those for its terminal, with _ for -: `vertices="free"`,
+                   `breaklines="dikes.gpkg"`, `min_angle=25`, `nodata_policy="fill"`, `of="obj"` (the format of the
+                   mesh, which determines rounding and frame like the program's OUTPUT) ...
 
     Returns a Mesh. Raises UsageError, InputError, PromiseError, OutputError, Cancelled; warns with ScarpWarning. Runs
-    without Python's lock. The same samples and options give the same bytes, here, in C and from the program.
+    without Python's lock. The same samples and options give the same bytes in Python, in C and from the program.
     """
     read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
     if transform is None and crs is None and mask is None and tolerance is None:
@@ -147,14 +148,14 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
 def simplify_points(points: Any, max_error: float | str | None = None, *, max_triangles: Optional[int] = None,
                     max_points: Optional[int] = None, crs: Any = None, threads: int = 0,
                     progress: ProgressArgument = None, **options: Any) -> Mesh:
-    """The same for scattered points: (N, 3) float64 of x, y, z, not copied by Python where they are that; or a path.
-    Rows with a masked number are omitted.
+    """The same for scattered points: (N, 3) of x, y, z, which Python does not copy if float64; or a path. Rows with a
+    masked number are omitted.
 
     The mesh covers their convex hull, its vertices are points, and every point is within max_error of it. `duplicates`:
-    which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean". `nodata`:
-    points of that height, and those without a finite one, are omitted. `crs` and `frame`: as in simplify(); degrees
-    become metres around the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, whose edges
-    are 50 long at most where the points allow it.
+    the rule for several points at one position: "first" (DEFAULT), "last", "highest", "lowest", "mean". `nodata`:
+    points with that height, and those without a finite height, are omitted. `crs` and `frame`: as in simplify();
+    degrees become metres from the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, with
+    edges at most 50 long where the points allow it.
     """
     out = C.c_void_p()
     lib = _abi.lib
@@ -202,7 +203,7 @@ def _points_of(points: Any, crs: Any) -> tuple[Any, Any]:
     return struct, array
 
 
-_MANY_ROWS = 16  # rows of three columns: more likely points than a raster
+_MANY_ROWS = 16  # with this many rows, an array of three columns is probably points
 
 
 def _warn_of_points(source: Any) -> None:
@@ -213,7 +214,7 @@ def _warn_of_points(source: Any) -> None:
 
 
 def _are_points(source: Any, mesh: Mesh) -> bool:
-    """By what the mesh was made of, as far as that is known; else by the shape."""
+    """Decides by the origin of the mesh if known, else by the shape of the array."""
     shape = _inputs.shape_of(source)
     if shape is None:
         return False
@@ -225,13 +226,13 @@ def _are_points(source: Any, mesh: Mesh) -> bool:
 def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, transform: Any = None, crs: Any = None,
             nodata: Optional[float] = None, frame: str = "auto", mask: Any = None, tolerance: Any = None,
             points: Optional[bool] = None, threads: int = 0, progress: ProgressArgument = None, **options: Any) -> Report:
-    """Judges a mesh against every sample, by brute force, without knowing how it was made.
+    """Judges a mesh against every sample by brute force, regardless of its origin.
 
-    `source` and what places it: as in simplify(), or points as in simplify_points(). With a mesh of points an array is
-    points, and with another mesh one of (N, 3) is, unless the mesh was made of an array of that shape; transform,
-    nodata, mask and tolerance show that it is a raster. `points`, True or False, decides otherwise. `mesh`: a Mesh, or
-    (N, 3) vertices with (M, 3) triangles. `fail_above=1.5` raises PromiseError where a sample is farther off. Other
-    options as those of `scarp measure`: `cutline`, `script` ... Returns a Report.
+    `source` and its position: as in simplify(), or points as in simplify_points(). An array is points with a mesh of
+    points, and if its shape is (N, 3), unless the mesh was made from an array of that shape. With transform, nodata,
+    mask or tolerance it is a raster. `points`, True or False, overrides this. `mesh`: a Mesh, or (N, 3) vertices with
+    (M, 3) triangles. `fail_above=1.5` raises PromiseError if the error of a sample is larger. Other options as those of
+    `scarp measure`: `cutline`, `script` ... Returns a Report.
     """
     if triangles is not None:
         mesh = Mesh.from_arrays(mesh, triangles)

@@ -1,4 +1,4 @@
-"""The C library by ctypes: the one module with pointers. tests compare the structs with scarp_abi_layout()."""
+"""The C library by ctypes: the only module with pointers. Tests compare the structs with scarp_abi_layout()."""
 from __future__ import annotations
 
 import ctypes as C
@@ -12,7 +12,7 @@ ABI_VERSION = 1
 
 
 def _open() -> C.CDLL:
-    """The library next to this file; else the one that SCARP_LIBRARY names; else the system's."""
+    """The library next to this file; else the one named by SCARP_LIBRARY; else the system's."""
     name = {"win32": "scarp_c.dll", "darwin": "libscarp_c.dylib"}.get(sys.platform, "libscarp_c.so")
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), name)
     named = os.environ.get("SCARP_LIBRARY")
@@ -133,12 +133,12 @@ for _name, (_result, _arguments) in _FUNCTIONS.items():
     _function.argtypes = _arguments
 
 
-# In Python x and y of the mesh are `frame`; `crs` is what the transform is in.
+# In Python the option is called `frame`, since `crs` is the transform's.
 lib.scarp_name_option(b"crs", b"frame")
 
 
 def in_words(sentence: bytes) -> str:
-    """A sentence of the library: its functions by their names here."""
+    """A message of the library, with the Python names of functions."""
     text = sentence.decode("utf-8", "replace")
     if "scarp_" not in text:
         return text
@@ -152,12 +152,12 @@ def last_error() -> str:
 
 
 def check(status: int) -> None:
-    """Raises the exception of a status that is not 0, with the library's sentence."""
+    """Raises the exception of a status other than 0, with the library's message."""
     if status:
         raise OF_STATUS.get(status, InternalError)(last_error())
 
 
-# Structs as the library makes them, which every call copies.
+# Structs initialised by the library; every call copies them.
 _FIELD, _POINTS, _OPTIONS = Field(), Points(), Options()
 lib.scarp_field_init(C.byref(_FIELD), C.sizeof(Field))
 lib.scarp_points_init(C.byref(_POINTS), C.sizeof(Points))
@@ -183,7 +183,7 @@ def new_report() -> Report:
 
 
 def take_bytes(handle: int | None) -> bytes:
-    """The bytes of a handle, which is freed."""
+    """Returns the bytes of a handle, and frees it."""
     try:
         return C.string_at(lib.scarp_bytes_data(handle), lib.scarp_bytes_size(handle))
     finally:
@@ -191,7 +191,7 @@ def take_bytes(handle: int | None) -> bytes:
 
 
 def is_layout_equal() -> bool:
-    """True if the structs above lie in memory as the library's do."""
+    """True if the structs above have the library's memory layout."""
     text: bytes = lib.scarp_abi_layout()
     lines = text.decode().splitlines()
     ours = []

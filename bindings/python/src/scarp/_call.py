@@ -1,4 +1,4 @@
-"""Running the library: options, progress, Ctrl-C, warnings."""
+"""Calls of the library: options, progress, Ctrl-C, warnings."""
 from __future__ import annotations
 
 import atexit
@@ -19,9 +19,9 @@ class Progress(NamedTuple):
 
     name: str  #: "read", "refine", "fit", "search", "measure", "tiles" ...
     fraction: float  #: 0 to 1 of this pass
-    vertices: int  #: so far; 0 where the pass does not know it
-    max_error: float  #: so far, in z units; 0 where the pass does not know it
-    seconds_left: Optional[float]  #: left of this pass; None before it can be estimated
+    vertices: int  #: so far; 0 if the pass does not know it
+    max_error: float  #: so far, in z units; 0 if the pass does not know it
+    seconds_left: Optional[float]  #: estimated time left for this pass; None: no estimate yet
     tiles: int  #: written so far, in the pass "tiles" of tile()
     bytes: int  #: size of these tiles
 
@@ -35,7 +35,7 @@ def _line_on_stderr(progress: Progress) -> None:
 
 
 class _Bar:
-    """progress=True: tqdm where it is installed, else a line on stderr."""
+    """progress=True: tqdm if installed, else a line on stderr."""
 
     def __init__(self) -> None:
         self._bar: Any = None
@@ -81,13 +81,13 @@ def text_of(name: str, value: object) -> str:
 
 
 class Settings:
-    """The options of one call: the struct, and by name all that is neither None nor False."""
+    """The options of one call: the struct, and all others, except None and False, by name."""
 
     def __init__(self, named: Mapping[str, object]) -> None:
         self.struct = _abi.new_options()
         self.pointer = C.byref(self.struct)
         self.keep: list[object] = []
-        self.is_brief = False  #: over before anybody presses Ctrl-C
+        self.is_brief = False  #: ends before anyone can press Ctrl-C
         try:
             for name, value in named.items():
                 for each in value if isinstance(value, list) else (value,):
@@ -103,7 +103,7 @@ class Settings:
             number = _values.whole_of("threads", threads, 0, 2**63)
             if number < 2**31:
                 self.struct.threads = number
-            else:  # the library refuses it by its own number
+            else:  # the library rejects it with its own number
                 _abi.check(_abi.lib.scarp_options_set(self.pointer, b"threads", b"%d" % number))
 
     def close(self) -> None:
@@ -118,13 +118,13 @@ class Settings:
         self.close()
 
 
-_beside: set[tuple[int, int]] = set()  #: calls on other threads that listen: process, which may be a fork, and listener
+_beside: set[tuple[int, int]] = set()  #: calls in progress on other threads: process, which may be a fork, and listener
 _ends = False
 
 
 @atexit.register
 def _end_calls() -> None:
-    """Ends what daemon threads still run: a call back into a Python that is gone would abort the process."""
+    """Ends calls on daemon threads: a callback into a finished interpreter would abort the process."""
     global _ends
     _ends = True
     while any(process == os.getpid() for process, _ in tuple(_beside)):
@@ -137,17 +137,16 @@ def _is_on_main_thread() -> bool:
 
 
 def _is_false(told: object) -> bool:
-    """True for False of Python or of numpy; 0 and None are not."""
+    """True for Python's or numpy's False, but not for 0 and None."""
     return told is False or (type(told).__name__ in ("bool_", "bool") and not told)
 
 
 def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseException],
             is_beside: bool) -> Generator[int, int, None]:
-    """Its send() is called with the address of the library's progress, and returns whether to cancel.
+    """A generator whose send() receives the address of the library's progress, and returns True to cancel.
 
-    An exception raised within it is kept: in ctypes it would be printed and swallowed. Ctrl-C, and what other handlers
-    of signals raise, comes wherever Python code continues: in a function before its first `try`, but here at the
-    `yield`."""
+    It stores exceptions, which ctypes would print and discard. Exceptions of signal handlers, such as Ctrl-C, occur
+    where Python code continues: in a function before its first `try`, but in a generator at the `yield`."""
     answer = 0
     while True:
         try:
@@ -170,8 +169,8 @@ def _listen(tell: Optional[Callable[[Progress], Any]], raised: list[BaseExceptio
 
 
 def run(settings: Settings, progress: ProgressArgument, function: Callable[..., int], *arguments: object) -> None:
-    """Calls a function of the library. An exception of the progress function, and Ctrl-C, end the call and come out of
-    here, and so does what the library has to complain of."""
+    """Calls a function of the library. An exception of the progress function, or Ctrl-C, ends the call and is raised
+    here, as are the library's errors."""
     bar = _Bar() if progress is True else None
     tell: Any = bar if bar is not None else (progress or None)
     if tell is not None and not callable(tell):
@@ -194,7 +193,7 @@ def run(settings: Settings, progress: ProgressArgument, function: Callable[..., 
         if bar is not None:
             bar.close()
     if raised:
-        raise raised.pop(0)  # not kept in this frame, which its traceback holds
+        raise raised.pop(0)  # not stored in this frame, which its traceback references
     if status:
         _abi.check(status)
 

@@ -1,4 +1,4 @@
-"""Arrays, datasets and paths as fields of the library."""
+"""Converts arrays, datasets and paths to fields of the library."""
 from __future__ import annotations
 
 import ctypes as C
@@ -16,7 +16,7 @@ _SMALL = 2**14  # samples
 
 
 class Input(NamedTuple):
-    """The input of a call: a path, or a struct with what it points to."""
+    """The input of a call: a path, or a struct and the data behind its pointers."""
 
     path: Optional[bytes]
     field: Any
@@ -24,13 +24,13 @@ class Input(NamedTuple):
     turn: Turn = AS_GIVEN
 
     def place(self) -> Any:
-        """The map from a sample's row and column to those in the source; None where they are the same."""
+        """The map from a sample's row and column to those in the source; None if they are the same."""
         if self.turn[1:] == AS_GIVEN[1:]:
             return None
         return functools.partial(self.turn._replace(source=None).place, self.field.rows, self.field.cols)
 
     def is_small(self) -> bool:
-        """True if it needs less than some 0.1 s unless the options ask otherwise."""
+        """True if simplification needs less than some 0.1 s with default options."""
         return self.path is None and bool(self.field.rows * self.field.cols <= _SMALL)
 
 
@@ -38,7 +38,7 @@ _NO_PLACE = Raster()
 
 
 def shape_of(source: Any) -> Optional[tuple[int, ...]]:
-    """Shape of an array, or of rows; None for sources that know their own position."""
+    """Shape of an array, or of rows; None for sources with a position."""
     if _is_path(source) or hasattr(source, "coords") or hasattr(source, "read"):
         return None
     shape = getattr(source, "shape", None)
@@ -58,7 +58,7 @@ def _is_path(source: object) -> bool:
 
 
 def _has_file_reader(path: str) -> bool:
-    """True if the library itself reads the file: PGM, STM and text of points always, all else with GDAL."""
+    """True if the library itself reads the file: PGM, STM and text of points always, others with GDAL."""
     own = (".pgm", ".stm", ".csv", ".tsv", ".xyz", ".txt")
     return bool(_abi.lib.scarp_has_gdal()) or path.lower().endswith(own)
 
@@ -91,7 +91,7 @@ def _refuse(path: str, error: Exception) -> InputError:
 
 
 def _read_path(path: str, band: int, nodata: Optional[float]) -> Raster:
-    """By rasterio, else by GDAL's own Python."""
+    """Reads a file by rasterio, else by GDAL's own Python."""
     try:
         import rasterio
     except ImportError:
@@ -121,7 +121,7 @@ def _read_path(path: str, band: int, nodata: Optional[float]) -> Raster:
 
 
 def _geotransform(transform: Any) -> tuple[float, ...]:
-    """GDAL's six numbers of pixel corners, of an Affine (rasterio's) or of six numbers in GDAL's order."""
+    """GDAL's six numbers of pixel corners, from rasterio's Affine or from six numbers in GDAL's order."""
     if all(hasattr(transform, letter) for letter in "abcdef"):
         t = transform
         numbers: tuple[Any, ...] = (t.c, t.a, t.b, t.f, t.d, t.e)
@@ -137,7 +137,7 @@ def _geotransform(transform: Any) -> tuple[float, ...]:
 
 
 def _is_geographic(crs: Any) -> Optional[bool]:
-    """None: it is not known."""
+    """None: unknown."""
     if hasattr(crs, "is_geographic"):
         return bool(crs.is_geographic)
     text = crs_text(crs)
@@ -173,7 +173,7 @@ def _check_shape(shape: tuple[int, ...]) -> None:
 
 
 def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
-    """The samples as C-contiguous float32, the same memory where they are that already, and the largest rounding."""
+    """The samples as C-contiguous float32 (not copied if they are that), and the largest rounding."""
     mask = np.ma.getmask(z) if isinstance(z, np.ma.MaskedArray) else np.ma.nomask
     if isinstance(z, np.ma.MaskedArray):
         z = z.data
@@ -196,7 +196,7 @@ def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
 
 
 def _largest_rounding(np: Any, given: Any, samples: Any) -> float:
-    """A few rows at once, so that it needs little memory."""
+    """The largest rounding, from a few rows at a time."""
     largest = 0.0
     wide = given.dtype if given.dtype.kind == "f" and given.dtype.itemsize > 8 else np.float64
     rows = max(1, _SMALL // max(samples.shape[1], 1))
@@ -204,20 +204,20 @@ def _largest_rounding(np: Any, given: Any, samples: Any) -> float:
         for first in range(0, len(samples), rows):
             difference = np.abs(given[first:first + rows].astype(wide) - samples[first:first + rows])
             most = difference.max(initial=0.0)
-            if not most < np.inf:  # largest of voids: no roundings
+            if not most < np.inf:  # the largest among nodata: no roundings
                 most = difference.max(initial=0.0, where=np.isfinite(difference))
             largest = max(largest, float(most))
     return largest + (_rounding_of_integers(np, given) if given.dtype.kind in "iu" else 0.0)
 
 
 def _rounding_of_integers(np: Any, given: Any) -> float:
-    """How far integers are from float64 at most, which holds all up to 2^53."""
+    """Max distance of integers from float64, which holds all up to 2^53."""
     farthest = max(-int(given.min(initial=0)), int(given.max(initial=0)))
     return float(np.spacing(float(farthest))) / 2 if farthest > 2**53 else 0.0
 
 
 def _from_buffer(z: Any) -> tuple[int, int, int, Any]:
-    """Rows, columns and the address of float32 in an object with the buffer protocol, where numpy is not there."""
+    """Rows, columns and the address of float32 samples in an object with the buffer protocol, for use without numpy."""
     try:
         view = memoryview(z)
     except TypeError:
@@ -261,7 +261,7 @@ def _is_of_xarray(source: Any) -> bool:
 
 def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
          wants_array: bool = False) -> Input:
-    """The source as the library accepts it. Arguments override the source's own attributes."""
+    """Converts the source for the library. Arguments override the source's own attributes."""
     np = numpy_if_there()
     nodata = None if nodata is None else _values.number_of("nodata", nodata)
     if np is not None and type(source) is np.ndarray:  # the most frequent first
@@ -298,14 +298,14 @@ def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, 
 
 
 def _field_of(np: Any, samples: Any) -> tuple[Any, Any]:
-    """A field of samples without a place, and what holds them."""
+    """A field of samples without a position, and the owner of the samples."""
     field = _abi.new_field()
     if np is None:
         field.rows, field.cols, field.samples, keep = _from_buffer(samples)
         return field, keep
     if (type(samples) is np.ndarray and samples.dtype.type is np.float32 and samples.flags.carray
             and samples.dtype.isnative and samples.ndim == 2 and 0 < samples.size < _LARGEST_SIDE):
-        keep = C.c_char.from_buffer(samples)  # the most frequent: nothing is to be done
+        keep = C.c_char.from_buffer(samples)  # the most frequent: no conversion
         field.rows, field.cols = samples.shape
         field.samples = C.addressof(keep)
         return field, keep
@@ -316,7 +316,7 @@ def _field_of(np: Any, samples: Any) -> tuple[Any, Any]:
 
 
 def _as_array(np: Any, samples: Any) -> Any:
-    """Anything that numpy can make an array of."""
+    """Any object that numpy can convert to an array."""
     if isinstance(samples, (list, tuple)):
         try:
             return np.array(samples, dtype=np.float64)

@@ -1,13 +1,13 @@
-"""A raster's samples and place, as sources of every kind give them."""
+"""A raster's samples and position, from sources of all kinds."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple, Optional
 
 
 class Turn(NamedTuple):
-    """How a source's array became rows from north to south, and columns from west to east."""
+    """The changes to a source's array for rows from north to south, and columns from west to east."""
 
-    source: Any = None  #: a DataArray of (y, x), as it was
+    source: Any = None  #: the original DataArray of (y, x)
     is_transposed: bool = False
     flips_rows: bool = False
     flips_cols: bool = False
@@ -16,7 +16,7 @@ class Turn(NamedTuple):
         return rows[::-1 if self.flips_rows else 1, ::-1 if self.flips_cols else 1]
 
     def apply(self, values: Any) -> Any:
-        """The same with an array in parallel."""
+        """Applies the same changes to another array."""
         return self.flip(values.T if self.is_transposed else values)
 
     def place(self, rows: int, cols: int, at: Optional[tuple[int, int]]) -> Optional[tuple[int, int]]:
@@ -45,7 +45,7 @@ _loaded_numpy: Any = None
 
 
 def numpy_if_there() -> Any:
-    """Imported at its first use; None where it is not there."""
+    """Imported at its first use; None if it is not installed."""
     global _loaded_numpy
     if _loaded_numpy is None:
         try:
@@ -57,7 +57,7 @@ def numpy_if_there() -> Any:
 
 
 def unpack(values: Any, voids: Any, scale: Any, offset: Any) -> tuple[Any, Optional[float]]:
-    """Heights of packed values, and the value that still stands for no height."""
+    """Heights from packed values, and the remaining nodata value."""
     np = numpy_if_there()
     scale, offset = float(1 if scale is None else scale), float(0 if offset is None else offset)
     voids = {float(void) for one in voids if one is not None for void in np.ravel(one) if void == void}

@@ -1,4 +1,4 @@
-"""Checks and converts callers' values for the library: else UsageError, with a sentence."""
+"""Checks and converts callers' values for the library; UsageError with a message for others."""
 from __future__ import annotations
 
 import os
@@ -15,7 +15,7 @@ def number_of(name: str, value: Any) -> float:
 
 
 def bound_of(name: str, value: Any) -> float:
-    """A number that is no NaN, which the library treats as none."""
+    """A number, but not NaN, which the library treats as none."""
     number = number_of(name, value)
     if number != number:
         raise UsageError("%s is NaN: give a number" % name)
@@ -23,7 +23,7 @@ def bound_of(name: str, value: Any) -> float:
 
 
 def whole_of(name: str, value: Any, least: int, most: int) -> int:
-    """Whole numbers of any type; what is above `most` is as good as that."""
+    """A whole number of any type, clamped to `most`."""
     try:
         number = int(value)
         is_whole = not isinstance(value, str) and number == value
@@ -37,7 +37,7 @@ def whole_of(name: str, value: Any, least: int, most: int) -> int:
 
 
 def text_of(name: str, value: Any) -> bytes:
-    """UTF-8; the bytes of a file's name that is none stay as they are."""
+    """UTF-8; bytes of file names that are no UTF-8 do not change."""
     if not isinstance(value, str):
         raise UsageError("%s is a text, not %s" % (name, _shown(value)))
     try:

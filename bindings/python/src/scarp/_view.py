@@ -16,7 +16,7 @@ _PLACE = "<!--SCARP-DATA-->"
 
 
 def _read_template() -> str:
-    """The template of the package, else of the program."""
+    """The template in the package, else that of the program."""
     paths = [os.path.join(os.path.dirname(__file__), "viewer.html")]
     program = shutil.which("scarp")
     if program is not None:
@@ -60,7 +60,7 @@ class Page(str):
 
 
 def make_page(mesh: Any, source: Any, options: dict[str, Any]) -> str:
-    """The page's text, with the mesh (a Mesh, whose method calls this) and, if there is one, its raster inside."""
+    """The page's text, with the mesh and its raster, if any. Called by a method of Mesh."""
     glb = mesh.encode("glb")
     data: dict[str, Any] = {"scarp": _abi.lib.scarp_version().decode(), "field": None, "metres": None, "unit": None,
                             "meshes": [{"name": "mesh", "bytes": len(glb), "glb": base64.b64encode(glb).decode()}]}

@@ -1,4 +1,4 @@
-"""Heights of xarray: one variable, its coordinates, its CRS. By CF's names, whatever else is imported."""
+"""Heights from xarray: one variable, its coordinates, its CRS, by CF's names, independent of other packages."""
 from __future__ import annotations
 
 import re
@@ -14,12 +14,12 @@ _NORTH = ("degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "
 _METRES = {"": 1.0, "m": 1.0, "metre": 1.0, "metres": 1.0, "meter": 1.0, "meters": 1.0, "km": 1000.0,
            "kilometre": 1000.0, "kilometres": 1000.0, "kilometer": 1000.0, "kilometers": 1000.0}
 _UNEVEN = 1e-3  # share of a cell
-#: EPSG's number of a whole CRS, at the end of its WKT or as PROJ once had it.
+#: EPSG code of a whole CRS, at the end of its WKT or in PROJ's old form.
 _CODE = re.compile(r'AUTHORITY\["EPSG",\s*"(\d+)"\]\s*\]\s*$|ID\["EPSG",\s*(\d+)\]\s*\]\s*$|^\+init=epsg:(\d+)$', re.I)
 
 
 class _Axis(NamedTuple):
-    """A coordinate, as a line of even steps."""
+    """A coordinate with even steps."""
 
     name: str
     first: float
@@ -48,7 +48,7 @@ def _word(values: Any, key: str) -> str:
 
 
 def _kind(name: Any, attributes: Any) -> Optional[str]:
-    """"lon", "lat", "x", "y" by CF's units and names; None where it is none of them."""
+    """"lon", "lat", "x", "y" by CF's units and names; else None."""
     units, standard = _word(attributes, "units"), _word(attributes, "standard_name")
     if standard in ("grid_longitude", "grid_latitude"):
         return "x" if standard == "grid_longitude" else "y"
@@ -75,7 +75,7 @@ def _kind_of_dim(array: Any, dim: Any) -> Optional[str]:
 
 
 def _as_rows(array: Any, name: str) -> Any:
-    """(y, x): dimensions of one step are dropped, and x before y is turned."""
+    """Converts to (y, x): removes dimensions of one step, and transposes (x, y)."""
     kinds = {dim: _kind_of_dim(array, dim) for dim in array.dims}
     needless = [dim for dim, size in zip(array.dims, array.shape) if size == 1 and kinds[dim] is None]
     if array.ndim > 2 and needless:
@@ -108,7 +108,7 @@ def _line_of(np: Any, array: Any, dim: Any, name: str) -> Optional[_Axis]:
     places = values.astype(np.float64)
     if not np.isfinite(places).all():
         raise InputError("the coordinate %s of %s has numbers that are not finite" % (dim, name))
-    if kind == "lon":  # across the meridian where they begin anew
+    if kind == "lon":  # across the meridian where longitudes wrap
         turns = np.cumsum(np.round(np.diff(places) / 360))
         places[1:] -= 360 * turns
     step = (places[-1] - places[0]) / (len(places) - 1) if len(places) > 1 else 1.0
@@ -134,7 +134,7 @@ def _line_of(np: Any, array: Any, dim: Any, name: str) -> Optional[_Axis]:
 
 
 def _mapping_of(array: Any, beside: Any) -> Optional[Any]:
-    """The attributes of the variable that holds its CRS."""
+    """The attributes of the variable with its CRS."""
     named = array.encoding.get("grid_mapping") or array.attrs.get("grid_mapping")
     for name in ([str(named).split(":")[0].strip()] if named else []) + ["spatial_ref", "crs"]:
         for where in (array.coords, beside):
@@ -144,7 +144,7 @@ def _mapping_of(array: Any, beside: Any) -> Optional[Any]:
 
 
 def _crs_of(array: Any, mapping: Any) -> Any:
-    """By its grid mapping, its own attributes, or rioxarray's accessor where somebody set it there."""
+    """The CRS by its grid mapping, its own attributes, or rioxarray's accessor if set."""
     for attributes in (mapping or {}, array.attrs):
         for key in ("crs_wkt", "spatial_ref", "crs", "proj4", "proj4text", "proj4_params", "proj4_string", "epsg_code",
                     "epsg"):
@@ -186,7 +186,7 @@ def _refuse_curved(array: Any, name: str) -> None:
 
 
 def _values_of(array: Any, nodata: Optional[float]) -> tuple[Any, Optional[float]]:
-    """Heights, and the value that is none. Values that are packed in the file, and not unpacked yet, are unpacked."""
+    """Heights, and the nodata value. Values still packed as in the file are unpacked."""
     attributes = array.attrs
     voids = [attributes[key] for key in ("_FillValue", "missing_value", "nodata") if attributes.get(key) is not None]
     if not voids:
@@ -203,7 +203,7 @@ def _name_of(array: Any) -> str:
 
 
 def align(source: Any, heights: Any, name: str) -> Any:
-    """Masks or tolerances in the order of the heights' dimensions. UsageError if they lie elsewhere."""
+    """Masks or tolerances in the order of the heights' dimensions. UsageError for another grid."""
     values = (_pick_variable(source)[0] if is_dataset(source) else source).squeeze()
     if set(values.dims) != set(heights.dims):
         raise UsageError("the dimensions of %s are (%s), and those of the heights (%s)"
@@ -216,7 +216,7 @@ def align(source: Any, heights: Any, name: str) -> Any:
 
 
 def read(source: Any, has_place: bool, nodata: Optional[float]) -> Raster:
-    """A DataArray, or a Dataset of one. `has_place`: the caller gives a transform, so no coordinate counts."""
+    """Reads a DataArray, or a Dataset of one. `has_place`: the caller gives a transform, so coordinates are ignored."""
     import numpy as np
     array, beside = _pick_variable(source) if is_dataset(source) else (source, {})
     name = _name_of(array)
@@ -244,7 +244,7 @@ def read(source: Any, has_place: bool, nodata: Optional[float]) -> Raster:
     crs = _crs_of(array, mapping)
     if crs is None and x.is_geographic:
         crs = "EPSG:4326"
-    # From north to south, and from west to east.
+    # Orders samples from north to south, and from west to east.
     turn = raster.turn._replace(flips_rows=y.step > 0, flips_cols=x.step < 0)
     west, north = (axis.first + axis.step * (count - 1 if flips else 0) - abs(axis.step) / 2 * sign
                    for axis, count, flips, sign in ((x, rows.shape[1], turn.flips_cols, 1),

@@ -3,19 +3,19 @@ from __future__ import annotations
 
 
 class ScarpError(Exception):
-    """Base of all that Scarp raises."""
+    """Base of all exceptions of Scarp."""
 
 
 class UsageError(ScarpError, ValueError):
-    """Options that do not go together or are out of range; an array of the wrong kind."""
+    """Options that conflict or are out of range; an array of the wrong kind."""
 
 
 class InputError(ScarpError, ValueError):
-    """A raster, mesh or file that cannot be read or holds nothing usable."""
+    """A raster, mesh or file that cannot be read or has no usable data."""
 
 
 class PromiseError(ScarpError):
-    """The error that was asked for cannot be kept, or a mesh does not keep it."""
+    """The requested error bound cannot be met, or a mesh exceeds it."""
 
 
 class OutputError(ScarpError, OSError):
@@ -23,7 +23,7 @@ class OutputError(ScarpError, OSError):
 
 
 class Cancelled(ScarpError):
-    """The progress function asked for it."""
+    """Cancelled by the progress function."""
 
 
 class InternalError(ScarpError, RuntimeError):
@@ -31,7 +31,7 @@ class InternalError(ScarpError, RuntimeError):
 
 
 class ScarpWarning(UserWarning):
-    """A warning of the library about its input, where it can continue."""
+    """A warning of the library about its input; the call continues."""
 
 
 OF_STATUS: dict[int, type[ScarpError]] = {

@@ -1,4 +1,4 @@
-"""Meshes: what simplify() makes and measure() judges."""
+"""Meshes and their measured errors."""
 from __future__ import annotations
 
 import ctypes as C
@@ -21,7 +21,7 @@ class Report(NamedTuple):
     the units of the heights."""
 
     max_error: float  #: the largest |error|
-    max_error_at: Optional[tuple[int, int]]  #: its (row, column); None: there is none
+    max_error_at: Optional[tuple[int, int]]  #: its (row, column); None without a sample
     rmse: float
     mean_error: float
     mean_abs_error: float
@@ -30,18 +30,19 @@ class Report(NamedTuple):
     p99: float
     vertices: int
     triangles: int
-    samples: int  #: judged
+    samples: int  #: number of samples judged
     uncovered: int  #: valid samples without a triangle
     stray: int  #: valid samples outside every valid cell
-    over: int  #: above their tolerance, or above fail_above
-    stop: Optional[str]  #: why the run ended: "max_error", "max_triangles", "max_points", "exact"; None: measured only
+    over: int  #: samples above their tolerance, or above fail_above
+    stop: Optional[str]  #: goal that ended the run: "max_error", "max_triangles", "max_points", "exact"; None: measured
+                         #: only
     effort: Optional[str]  #: "fast", "normal", "high", "max"; None: measured only
-    is_cut_short: bool  #: a time limit ended the effort
+    is_cut_short: bool  #: True if a time limit ended the effort
     seconds: float
 
 
 def report_of(struct: Any, place: Any = None) -> Report:
-    """`place` maps a sample of the library to the source's."""
+    """`place` maps a sample of the library to one of the source."""
     made = struct.effort in _EFFORTS
     at = (struct.max_error_row, struct.max_error_col) if struct.max_error_row >= 0 else None
     at = place(at) if place else at
@@ -74,7 +75,7 @@ class Mesh:
         self._handle = handle
         self._vertices: Any = None
         self._place = place  # report_of()'s
-        self._shape = shape  # shape of the array that it was made of; None: it is not known
+        self._shape = shape  # shape of the array from which it was made; None: unknown
 
     def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
         if hasattr(self, "_handle"):
@@ -82,7 +83,7 @@ class Mesh:
 
     @classmethod
     def from_arrays(cls, vertices: Any, triangles: Any) -> Mesh:
-        """A mesh of (N, 3) absolute positions, float64, and (M, 3) indices, uint32, counter-clockwise from above.
+        """A mesh from (N, 3) absolute positions, float64, and (M, 3) indices, uint32, counter-clockwise from above.
 
         Both are copied. Raises InputError for an index out of range, UsageError for other shapes."""
         import numpy as np
@@ -139,12 +140,13 @@ class Mesh:
 
     @property
     def offsets(self) -> NDArray[float64]:
-        """(N, 3) float64: x, y, z from `origin`. The library's own memory, read-only; it lives as long as the array."""
+        """(N, 3) float64: x, y, z from `origin`. The library's own memory, read-only; valid as long as the array
+        lives."""
         return self._view(_abi.lib.scarp_mesh_positions(self._handle), self.vertex_count, 3, "<f8")  # type: ignore
 
     @property
     def vertices(self) -> NDArray[float64]:
-        """(N, 3) float64: absolute x, y, z; z in the units of the heights. One copy, made at the first use, unless the
+        """(N, 3) float64: absolute x, y, z; z in the units of the heights. Copied once at the first use, unless the
         origin is 0."""
         origin = self.origin
         if origin == (0.0, 0.0, 0.0):
@@ -162,12 +164,12 @@ class Mesh:
 
     @property
     def normals(self) -> Optional[NDArray[float32]]:
-        """(N, 3) float32, of unit length; None unless they were asked for (`normals=True`)."""
+        """(N, 3) float32, of unit length; None unless requested (`normals=True`)."""
         return self._view(_abi.lib.scarp_mesh_normals(self._handle), self.vertex_count, 3, "<f4")  # type: ignore
 
     @property
     def uvs(self) -> Optional[NDArray[float32]]:
-        """(N, 2) float32, (0, 0) top left of the raster; None unless they were asked for (`uvs=True`)."""
+        """(N, 2) float32, (0, 0) top left of the raster; None unless requested (`uvs=True`)."""
         return self._view(_abi.lib.scarp_mesh_uvs(self._handle), self.vertex_count, 2, "<f4")  # type: ignore
 
     def _measured(self) -> Any:
@@ -177,24 +179,24 @@ class Mesh:
 
     @property
     def report(self) -> Report:
-        """The proof that the mesh was made with. UsageError for a mesh that was not measured: see measure()."""
+        """The proof of the mesh's error. UsageError for a mesh that was not measured: see measure()."""
         return report_of(self._measured(), self._place)
 
     @property
     def max_error(self) -> float:
-        """The largest |mesh - sample| of all samples, in the units of the heights."""
+        """The largest |mesh - sample| over all samples, in the units of the heights."""
         error: float = self._measured().max_error
         return error
 
     @property
     def rmse(self) -> float:
-        """The root of the mean square error."""
+        """The root mean square error."""
         error: float = self._measured().rmse
         return error
 
     @property
     def crs(self) -> Optional[str]:
-        """CRS of x and y: "EPSG:32611", WKT; None where there is none."""
+        """CRS of x and y: "EPSG:32611", WKT; None without one."""
         return self.metadata("crs")
 
     @property
@@ -203,13 +205,13 @@ class Mesh:
         return self.metadata("frame")
 
     def metadata(self, key: str) -> Optional[str]:
-        """The mesh's metadata: "command", "frame", "crs", "origin", "error" ..., as in every file of it."""
+        """The mesh's metadata: "command", "frame", "crs", "origin", "error" ..., as written to files."""
         text: Optional[bytes] = _abi.lib.scarp_mesh_metadata(self._handle, _values.text_of("the key", key))
         return None if text is None else text.decode()
 
     def encode(self, format: Optional[str] = None) -> bytes:
         """The bytes of a file: "glb", "obj", "ply", "stl", "2dm", "vtu", "dxf", "landxml", "3mf", "svg" ... DEFAULT:
-        the format that the mesh was made for (`of`), else GLB. OutputError where the format cannot hold it."""
+        the format for which the mesh was made (`of`), else GLB. OutputError if the format cannot hold the mesh."""
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_mesh_encode(self._handle, None if format is None else _values.text_of("the format", format),
                                               C.byref(out)))
@@ -225,7 +227,7 @@ class Mesh:
         return measure(source, self, **options)
 
     def add_base(self, z: float) -> Mesh:
-        """A solid: walls along every border, and a flat base at z, below all vertices. UsageError if it is not."""
+        """A solid with walls along every border and a flat base at z. UsageError unless z is below all vertices."""
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_mesh_add_base(self._handle, _values.number_of("the base", z), C.byref(out)))
         assert out.value is not None
@@ -273,11 +275,11 @@ class Mesh:
 
     def view(self, source: Any = None, path: Optional[str | os.PathLike[str]] = None, *, open: bool = True,
              **options: Any) -> str:
-        """Writes a page that shows the mesh in a browser, and opens it: one HTML file, to a temporary folder unless
-        `path` is given. With the `source` that the mesh was made of (and its options `transform`, `nodata` ...) the
+        """Writes a page that shows the mesh, one HTML file, and opens it in a browser. The file is in a temporary
+        folder unless `path` is given. With the `source` of the mesh (and its options `transform`, `nodata` ...) the
         page shows the error of every sample. Returns the path, which a notebook shows as the page itself; `open=False`
-        opens no browser besides. InputError where the page's template is not there, PromiseError where the mesh covers
-        no sample of the source."""
+        opens no browser. InputError if the page's template is missing, PromiseError if the mesh covers no sample of the
+        source."""
         import tempfile
         import webbrowser
         from pathlib import Path
@@ -290,7 +292,7 @@ class Mesh:
         return Page(file)
 
     def __reduce__(self) -> Any:
-        """All of it, for copies, other processes and the same version of Scarp; files are what write() makes."""
+        """The whole mesh, for copies and for other processes with the same version of Scarp; use write() for files."""
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_mesh_pack(self._handle, C.byref(out)))
         return _unpack, (_abi.take_bytes(out.value), self._place, self._shape)
@@ -318,7 +320,7 @@ def _unpack(packed: bytes, place: Any, shape: Optional[tuple[int, ...]] = None) 
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Reads a mesh file: GLB, OBJ, PLY, STL, 2DM, VTU ..., recognised by its content. InputError if it is none."""
+    """Reads a mesh file: GLB, OBJ, PLY, STL, 2DM, VTU ..., recognised by its content. InputError for other files."""
     out = C.c_void_p()
     _abi.check(_abi.lib.scarp_mesh_read(_values.path_of(path), C.byref(out)))
     assert out.value is not None

@@ -1,4 +1,4 @@
-"""One vertex at a time."""
+"""Refinement one vertex at a time."""
 from __future__ import annotations
 
 import ctypes as C
@@ -10,10 +10,10 @@ from .mesh import Mesh
 
 
 class Refiner:
-    """A mesh that grows by the sample with the largest error, one at a time, towards ever smaller errors.
+    """A mesh that grows by one vertex at a time: the sample with the largest error.
 
-    `source` as in simplify(), but no path. It borrows the samples of a float32 array: do not change them meanwhile. If
-    several threads use it one waits for the other.
+    `source` as in simplify(), but no path. Borrows the samples of a float32 array: do not change them meanwhile. Calls
+    from several threads wait for each other.
 
     >>> refiner = Refiner(z)
     >>> refiner.run(max_error=10)       # inserted vertices
@@ -38,7 +38,7 @@ class Refiner:
             free(self._handle)
 
     def insert_worst(self) -> bool:
-        """Inserts the sample with the largest error; False once every sample is exact."""
+        """Inserts the sample with the largest error; returns False once every sample is exact."""
         with self._lock:
             inserted: int = _abi.lib.scarp_refiner_insert_worst(self._handle)
         if inserted < 0:
@@ -47,10 +47,10 @@ class Refiner:
 
     def run(self, max_error: float = 0.0, max_vertices: Optional[int] = None, *,
             progress: _call.ProgressArgument = None) -> int:
-        """Inserts until the error is at most max_error, or there are max_vertices; returns how many were inserted.
+        """Inserts until the error is at most max_error, or there are max_vertices; returns the number inserted.
 
-        `progress` as in simplify(). Vertices inserted before it was cancelled, or Ctrl-C was pressed, stay: run()
-        continues from there."""
+        `progress` as in simplify(). Vertices inserted before a cancellation or Ctrl-C remain: run() continues from
+        there."""
         inserted = C.c_uint64()
         with self._lock, _call.Settings({}) as settings:
             settings.struct.max_error = _values.bound_of("max_error", max_error)
@@ -61,7 +61,7 @@ class Refiner:
         return inserted.value
 
     def __iter__(self) -> Iterator[float]:
-        """Inserts, and yields the error that is left."""
+        """Inserts vertices, and yields the remaining error after each."""
         while self.insert_worst():
             yield self.max_error
 
@@ -85,7 +85,7 @@ class Refiner:
         return count
 
     def mesh(self) -> Mesh:
-        """The mesh as it is now. It has no report: measure() makes one."""
+        """The current mesh, without a report: see measure()."""
         out = C.c_void_p()
         with self._lock:
             _abi.check(_abi.lib.scarp_refiner_mesh(self._handle, C.byref(out)))

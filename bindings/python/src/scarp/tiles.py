@@ -1,4 +1,4 @@
-"""Terrain tiles for globes: all at once, or made as they are asked for."""
+"""Terrain tiles for globes: all at once, or on request."""
 from __future__ import annotations
 
 import ctypes as C
@@ -21,17 +21,17 @@ _NO_TILE = 2**31 - 1  # no level, no column and no row
 def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: Any = None, crs: Any = None,
          nodata: Optional[float] = None, threads: int = 0, overwrite: bool = False,
          progress: _call.ProgressArgument = None, **options: Any) -> dict[str, Any]:
-    """Makes all tiles of a raster, as `scarp tile` does: the same bytes. Needs a library with GDAL: see scarp.has_gdal.
+    """Makes all tiles of a raster, with the same bytes as `scarp tile`. Needs a library with GDAL: see scarp.has_gdal.
 
-    source     as in simplify(); or a list of paths: at each place the first that has a height there counts
+    source     as in simplify(); or a list of paths: at each position the first file with a height counts
     out        a folder, or one file by its ending: .pmtiles, .mbtiles, .3tz. It gets its name once all tiles are made;
-               a call that fails, or is cancelled, writes nothing.
-    overwrite  replaces a set that Scarp has made
+               a failed or cancelled call writes nothing.
+    overwrite  replaces a set made by Scarp
     options    those of `scarp tile`, with _ for -: `zoom=14`, `max_error=2`, `vertical="egm96"`, `of="3dtiles"`,
                `effort="high"`, `only="7,46,8,47"` ...
 
-    Returns what `scarp tile --report` writes: "max_zoom", "vertical", and "levels" with "tiles", "bytes" and "bound" of
-    each. Raises and warns as simplify() does.
+    Returns the report of `scarp tile --report`: "max_zoom", "vertical", and "levels", each with "tiles", "bytes" and
+    "bound". Raises and warns as simplify() does.
     """
     import json
     out_bytes = C.c_void_p()
@@ -63,8 +63,8 @@ def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: 
 
 
 class Tiles:
-    """The tiles of a raster, as `scarp tile` makes them: quantized-mesh, gzipped, whose edges fit and whose errors are
-    proven. Needs a library with GDAL: see scarp.has_gdal.
+    """The tiles of a raster, as from `scarp tile`: quantized-mesh, gzipped, with matching edges and proven errors.
+    Needs a library with GDAL: see scarp.has_gdal.
 
     `source` as in simplify(); options as those of `scarp tile`: zoom=14, max_error=2, vertical="egm96", effort="high"
     ... Several threads may read tiles at once.
@@ -109,7 +109,7 @@ class Tiles:
         return np.frombuffer(values, dtype=np.uint32).reshape(count, 2)
 
     def read(self, level: int, x: int, y: int) -> bytes:
-        """The tile's bytes, as a server sends them with `Content-Encoding: gzip`. InputError if there is no such
+        """The tile's bytes, for a server that sends them with `Content-Encoding: gzip`. InputError if there is no such
         tile."""
         return self.read_with_bound(level, x, y)[0]
 
@@ -122,7 +122,7 @@ class Tiles:
         return _abi.take_bytes(out.value), None if math.isnan(bound.value) else bound.value
 
     def layer_json(self) -> bytes:
-        """layer.json, which lists the tiles for clients."""
+        """The file layer.json, which lists the tiles for clients."""
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_tiles_read_file(self._handle, b"layer.json", C.byref(out)))
         return _abi.take_bytes(out.value)

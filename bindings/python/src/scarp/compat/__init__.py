@@ -1,1 +1,1 @@
-"""Other packages' interfaces, by Scarp."""
+"""Other packages' interfaces, for Scarp."""

@@ -3,7 +3,7 @@
     from scarp.compat.pydelatin import Delatin
     from scarp.compat.pydelatin.util import decode_ele, rescale_positions
 
-Its algorithm is the one of delatin: the worst sample first. `Delatin.effort = "normal"` has about 0.57 of the triangles
+The algorithm is that of delatin: the worst sample first. `Delatin.effort = "normal"` needs about 0.57 of the triangles
 for the same error.
 """
 from __future__ import annotations
@@ -50,11 +50,11 @@ class Delatin:
         if invert:
             heights = np.float32(1) - heights
         greedy: dict[str, Any] = {"order": "greedy"} if self.effort == "fast" else {}
-        # A place in samples: these do not count as metres, of whose relief Scarp would warn.
+        # Positions in samples, not metres: prevents a warning about the relief.
         corners = (-0.5, 1, 0, heights.shape[0] - 0.5, 0, -1)
         mesh = simplify(heights, max_error, transform=corners, max_triangles=max_triangles or None, max_points=max_points or None,
                         effort=self.effort, **greedy)
-        #: Largest |mesh - sample|, in the units of arr.
+        #: The largest |mesh - sample|, in the units of arr.
         self.error: float = mesh.max_error
         if base_height:
             lowest = float(mesh.vertices[:, 2].min())

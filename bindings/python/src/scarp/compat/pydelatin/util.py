@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 __all__ = ["decode_ele", "rescale_positions", "latitude_adjustment"]
 
-#: The divisor of a number of three bytes, and the offset that is added.
+#: The divisor of a three-byte number, and the offset added.
 _ENCODINGS = {"mapbox": (10, -10000), "terrarium": (256, -32768)}
 
 
@@ -30,9 +30,9 @@ def decode_ele(png: Any, encoding: str) -> NDArray[float64]:
 
 
 def rescale_positions(vertices: Any, bounds: tuple[float, float, float, float], flip_y: bool = False) -> NDArray[float32]:
-    """Vertices of a Delatin, whose x and y now run from the first to the last of bounds: (min x, min y, max x, max y).
+    """Vertices of a Delatin with x and y scaled to bounds: (min x, min y, max x, max y).
 
-    flip_y: y = 0 becomes the largest."""
+    flip_y: y = 0 becomes max y."""
     import numpy as np
     scaled = np.array(vertices, dtype=np.float64)
     low, high = np.array(bounds[:2], dtype=np.float64), np.array(bounds[2:], dtype=np.float64)
@@ -44,5 +44,5 @@ def rescale_positions(vertices: Any, bounds: tuple[float, float, float, float], 
 
 
 def latitude_adjustment(lat: float) -> float:
-    """The scale of the web's Mercator at a latitude, in degrees."""
+    """The scale of Web Mercator at a latitude in degrees."""
     return math.cos(math.radians(lat))
