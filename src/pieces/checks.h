@@ -12,8 +12,8 @@ namespace scarp {
 /// rounding.
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options);
 
-/// As check_values() and check_size(); also kUsage for conflicting settings (src/pieces/conflicts.h) and missing
-/// prerequisites.
+/// Fails as check_values() and check_size() do; also with kUsage for conflicting settings (src/pieces/conflicts.h) and
+/// missing prerequisites.
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options);
 
 /// Fails unless the value is absent or a number of at least 0.

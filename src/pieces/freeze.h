@@ -44,7 +44,7 @@ class SampleHeights {
 /// rounded to float32 on request. Heights stay as they are, except in space. References outlive this.
 struct VertexPositions {
   const SampleHeights& heights;
-  const VertexLattice& lattice;  ///< lattice of the vertices; its heights take precedence over those of samples
+  const VertexLattice& lattice;  ///< lattice of the vertices; its heights override those of samples
   const Frame& frame;
   bool round_to_float32 = false;
 };

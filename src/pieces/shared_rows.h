@@ -19,7 +19,7 @@ namespace scarp {
 /// lines, unless the strip has its own aims: tiles have split the others to the threshold.
 void split_shared_row(const Piece& strip, bool is_top, double threshold, ConstraintGraph& part);
 
-/// As split_shared_row() for a strip that is made whole: all vertices of the shared row. A row that lines meet has no
+/// Adds all vertices of the shared row of a strip that is made whole. A row that lines meet has no
 /// tile vertices, only those of lines and of the chords between them; both its strips are made whole. `side`: of the
 /// tiles beyond. Fails as simplify_border().
 Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold, std::int32_t side,

@@ -7,9 +7,9 @@
 // end the borders are released (release.h): edges across them become Delaunay and the few changed triangles are refined
 // again.
 //
-// ·───────┬───────┬── ─── shared border: its vertices depend only on its samples
+//     ·───────┬───────┬──      ─── shared border: its vertices depend only on its samples
 //     │ tile  │ tile  │
-// ├───────┼───────┼── Measured cost of fixed borders, -3 to +1.5 %: bench/performance.md.
+//     ├───────┼───────┼──          Measured cost of fixed borders, -3 to +1.5 %: bench/performance.md.
 //     │ tile  │ tile  │
 //
 // A callback may post-process each strip (a row of tiles). It receives the mesh between two long borders with its
