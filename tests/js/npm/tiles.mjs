@@ -1,7 +1,7 @@
 // Compares with the program's tiles, except the order of triangles, and its layer.json: tiles.mjs CRS NAME WIDTH HEIGHT
 // WEST SOUTH EAST NORTH FOLDER
 //
-// Prints how many were compared, and how many have an error.
+// Prints how many were compared, and for how many the error is known.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import zlib from 'node:zlib';
