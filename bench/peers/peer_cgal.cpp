@@ -2,8 +2,8 @@
 //
 //   peer_cgal RASTER COLS ROWS Z_SCALE POLICY PREFIX EDGES...
 //
-// For each of the numbers EDGES, descending, the mesh once at most that many edges are left. A run that stops there
-// gives the same mesh, since the order of collapses does not depend on the end. Surfaces are written to PREFIX.EDGES;
+// Writes the mesh for each of the numbers EDGES, descending, once at most that many edges are left. A run that stops
+// there gives the same mesh, since the order of collapses does not depend on the end. Surfaces are in PREFIX.EDGES;
 // each line has the time so far, without that of copies. Z_SCALE: as peer_meshopt's. POLICY: lt (Lindstrom and Turk's
 // cost and placement, CGAL's default) or gh (Garland and Heckbert's quadrics of planes), both with CGAL's filter
 // against normals that turn over.

@@ -72,7 +72,7 @@ enum class Field : std::uint8_t {
   kTileDrape,
   kTileOnly,
   kTileGeoid,     ///< the zero of the heights
-  kTileVertical,  ///< likewise, given other than by a file
+  kTileVertical,  ///< likewise, but not given as a file
 };
 inline constexpr int kSimplifyFieldCount = static_cast<int>(Field::kSource) + 1;
 inline constexpr int kFieldCount = static_cast<int>(Field::kTileVertical) + 1;

@@ -43,7 +43,7 @@ std::vector<std::int32_t> complete(std::span<const std::int32_t> given, std::spa
   return all;
 }
 
-/// True if all samples from one vertex to the next are valid, so that the line has a segment there.
+/// True if the line has a segment there: all samples between the vertices are valid.
 bool is_segment(std::span<const float> heights, std::int32_t a, std::int32_t b) {
   return std::none_of(heights.begin() + a, heights.begin() + b, [](float z) { return std::isnan(z); });
 }

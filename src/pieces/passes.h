@@ -29,9 +29,9 @@ struct ConstraintGoals {
 };
 
 /// Inserts the edges of the graph, in the piece's coordinates, as chains of constrained edges. Then refines the
-/// triangles that break the bound: around the edges if the piece is already refined, else everywhere. The lattice
-/// becomes that of kLatticeSteps. Adds to `work`. Fails as ConstrainedMesh::insert(), with kInput for too many
-/// triangles, and as piece.check does.
+/// triangles that break the bound: around the edges if the piece is already refined, else everywhere. Afterwards the
+/// lattice has kLatticeSteps. Adds to `work`. Fails as ConstrainedMesh::insert(), with kInput for too many triangles,
+/// and as piece.check does.
 Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work);
 
 /// Inserts the samples that break their bound, worst first, and adds to `work`. Fails with kInput for too many

@@ -50,7 +50,7 @@ Request settle_request(const HeightField& field, const SimplifyOptions& asked);
 struct Recipe {
   /// REQUIRES: checked options with a chosen effort.
   Recipe(const HeightField& field, const Request& options, const Scale& scale = {});
-  /// The same recipe for the field whose heights lines have changed.
+  /// The same recipe for a field with heights changed by lines.
   Recipe on(const HeightField& prepared) const;
 
   HeightField field;

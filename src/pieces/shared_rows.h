@@ -1,8 +1,8 @@
 // The vertices of two strips along the row of samples that they share.
 //
-//     strip above, done ───·──·──·────    the vertices there are a function of that row: of its samples, its tolerances
-//     strip at hand        ╲ ╱ ╲ ╱        and the lines that meet it. Both strips insert the same, and neither adds
-//     ─────────────────────────────────   more: nothing is asked of its samples afterwards.
+//     strip above, done ───·──·──·────    the vertices depend only on that row's samples and tolerances and on the
+//     strip at hand        ╲ ╱ ╲ ╱        lines that meet it. Both strips insert the same ones, then no others: the
+//     ─────────────────────────────────   row's samples have no aims afterwards.
 //     strips below, not read yet
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-/// Adds the samples that chords of a shared row need to the strip's part of the lines. Splits only chords next to
+/// Adds to the strip's part of the lines the samples that chords of a shared row need. Splits only chords next to
 /// lines, unless the strip has its own aims: tiles have split the others to the threshold.
 void split_shared_row(const Piece& strip, bool is_top, double threshold, ConstraintGraph& part);
 

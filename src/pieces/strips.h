@@ -19,7 +19,7 @@ namespace scarp {
 struct StripTotals {
   double seconds_of_fit = 0, seconds_of_lines = 0, seconds_of_refinement = 0;
   Work lines;                 ///< work of inserting constraints
-  Work refinement;            ///< to samples' own bounds, without lines
+  Work refinement;            ///< refinement to individual bounds, without lines
   std::uint64_t removed = 0;  ///< number of vertices
   bool is_cut_short = false;  ///< by the time limit: later strips are not fitted
 };

@@ -23,8 +23,8 @@ class PlanMetric {
   double dot(Point apex, Point a, Point b) const;      ///< Dot product of the vectors from the apex.
   double shorter_side() const { return short_side_; }  ///< Shorter side of a sample.
   double longer_side() const { return long_side_; }
-  /// True if d lies inside the circumcircle of a positive triangle. Exact for square samples; else false within the
-  /// rounding error.
+  /// True if d lies inside the circumcircle of a positive triangle. Exact for square samples; otherwise false if
+  /// rounding leaves doubt.
   bool is_in_circle(const std::array<Point, 3>& corners, Point d) const;
 
  private:

@@ -42,7 +42,7 @@ struct ShapeTask {
   std::array<double, 6> affine;        ///< affine map of the frame
   double threshold = 0;                ///< threshold of errors
   std::span<const float> bounds = {};  ///< bounds of samples, like those of LatticeMetric
-  bool all_may_go = false;             ///< later passes may remove or move vertices off samples
+  bool all_may_go = false;             ///< later passes may remove or move vertices that are not samples
   /// Receives the share of bands processed once (1 without bands), the number of vertices and the worst error; a
   /// failure ends the run.
   std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
@@ -61,8 +61,8 @@ struct ShapeWork {
 
 /// Makes `tin` Delaunay in the frame, except constrained edges. Adds vertices until every sample satisfies its bound
 /// and the goals hold as ShapeGoals describes. `lattice`: of the vertices; afterwards in kLatticeSteps. Fixed vertices
-/// remain so; vertices off samples become fixed unless vertices are free. Fails with kInput for too many triangles, and
-/// as progress and foresee do; throws SourceFailure. REQUIRES: checked goals; sides of at most kMaxCoordinate /
+/// remain so; vertices between samples become fixed unless vertices are free. Fails with kInput for too many triangles,
+/// and as progress and foresee do; throws SourceFailure. REQUIRES: checked goals; sides of at most kMaxCoordinate /
 /// kLatticeSteps samples; an exact outline. Cost: expected O(log n) an insertion, without scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
@@ -70,8 +70,8 @@ Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, Vertex
 /// Most bytes a vertex that refine_shapes() uses, the mesh included.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 
-/// Preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing if only
-/// insertion can: with a grade, and if rows and columns of the frame are not perpendicular.
+/// Preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing where only
+/// insertion can preserve them: with a grade, and if rows and columns of the frame are not perpendicular.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 
 /// The effect of lines and outline on the other goals.

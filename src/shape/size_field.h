@@ -19,8 +19,8 @@ class SizeField {
 
   /// Measures the sizes of all vertices. `out`: a half-edge out of each one.
   void measure_all(const std::vector<HalfEdge>& out);
-  /// Updates sizes after an insertion; `changed`: the triangles around the new vertex. Appends each vertex whose size
-  /// fell once.
+  /// Updates sizes after an insertion; `changed`: the triangles around the new vertex. Appends vertices whose sizes
+  /// fell, each once.
   void update(const std::vector<Triangle>& changed, const std::vector<HalfEdge>& out, std::vector<Vertex>& fallen);
 
   double at(Vertex v) const { return sizes_[v]; }

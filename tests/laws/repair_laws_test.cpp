@@ -494,7 +494,7 @@ RC_GTEST_PROP(vertex_step, that_seeks_room_lets_the_energy_rise_only_where_the_s
   Bench bench;
   RC_PRE(bench.cut());
   Patch& patch = bench.patch;
-  // A satisfied bound is within the slack of a smaller one.
+  // The mesh keeps this bound, which is within the slack of a smaller one.
   const TriangleError error =
       TriangleError(bench.field.raster(), patch.window().first, bench.threshold / 1.5, {2, ErrorRule::Power::kEight});
   for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);

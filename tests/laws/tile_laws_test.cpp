@@ -242,7 +242,8 @@ TEST(grid_laws, a_raster_beyond_the_grids_end_is_refused_and_one_across_it_is_cu
   const auto across = plan_pyramid(SourceFacts{{10, 80, 20, 89}, 1000, 0, 100}, settings);
   ASSERT_TRUE(across);
   EXPECT_EQ(across->covered.north, settings.grid.bounds().north);
-  // Twice the error and half the tiles across of the geographic grid's level: the same resolution is one level more.
+  // The error is twice, and the tiles across are half, those of the geographic grid's level: equal resolution is one
+  // level finer.
   EXPECT_EQ(settings.grid.geometric_error(5), TileGrid{}.geometric_error(4));
   const SourceFacts equator{{10, -1, 20, 1}, 30, 0, 100};
   const auto web = plan_pyramid(equator, settings), degrees = plan_pyramid(equator);

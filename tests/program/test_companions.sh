@@ -43,7 +43,7 @@ succeeds "$scarp" simplify "$dem" plain.obj -e 20 --effort fast --report plain.j
 succeeds "$scarp" simplify "$dem" ones.obj -e 20 --mask ones.tif --report ones.json
 holds "$(json ones.json max_error) <= 20 && $(json ones.json triangles) < 1.02 * $(json plain.json triangles)"
 
-# Values that float32 rounds by up to 32 keep slightly larger weighted bounds.
+# Values rounded to float32 by up to 32 keep weighted bounds that are hardly larger.
 gdal_translate -q -ot Float64 -scale 236 1076 1000000000.3 1000084000.7 "$dem" fine.tif
 make_raster half.tif 0.5
 succeeds "$scarp" simplify fine.tif fine.glb -e 1000 --mask half.tif --report s.json --overwrite

@@ -24,7 +24,7 @@ succeeds "$scarp" measure tiles/a.tif tiles/b.tif tiles/c.tif tiles.stl --fail-a
 succeeds "$scarp" info tiles/a.tif tiles/b.tif
 grep -q '403 columns x 344 rows' "$logs/out" || fail "info does not see the mosaic"
 
-# Samples outside all tiles are nodata without a value that stands for it.
+# Samples outside all tiles are nodata, though no value stands for it.
 succeeds "$scarp" simplify tiles/a.tif tiles/b.tif gap.stl -e 20 --report gap.json
 [ "$(json gap.json input void)" = "$((200 * 194))" ] || fail "the gap is not missing: $(json gap.json input void)"
 holds "$(json gap.json input min) >= 236"

@@ -158,7 +158,7 @@ succeeds "$scarp" tile check tall --source tall.img --cell-size 25 -q
 python3 "$judge" tall tall.f32 385 700 "$(json tall/tileset.json asset extras scarp background)" 25 > judged
 [ "$(wc -l < judged)" = 7 ] || fail "other levels than 0 to 6"
 
-# Another planet: the plane touches its ellipsoid, which clients are given as in globe sets; or a given ellipsoid.
+# Another planet: the plane touches its ellipsoid, or a given one; clients learn of it as in globe sets.
 succeeds gdal_translate -q -a_srs "+proj=stere +lat_0=-4.6 +lon_0=137.4 +R=3396190 +units=m" -a_ullr 0 30000 40000 0 "$dem" mars.tif
 succeeds "$scarp" tile mars.tif mars --grid local --effort fast -e 50 --report mars.json
 grep -q "a plane at its centre on " "$logs/out" || fail "the summary does not name the planet"
@@ -202,7 +202,7 @@ grep -q "heights in ft become metres" "$logs/err" || fail "feet of a building si
 sed -i 's|<UnitType>ft|<UnitType>K|' site.vrt
 refuses 1 "heights are in 'K', which is no unit of length" "$scarp" tile site.vrt no
 
-# A plane cannot represent a continent: a warning at 1 % of the distance to a corner, none for the city.
+# A plane cannot represent a continent: errors of 1 % of the distance to a corner cause a warning, the city's did not.
 succeeds gdal_translate -q -a_srs EPSG:3035 -a_ullr 3000000 4000000 5000000 2500000 "$dem" continent.tif
 succeeds "$scarp" tile continent.tif continent "${quick[@]}"
 grep -q "lie up to [0-9]* km from their place on the globe, .* take --grid geographic" "$logs/err" || fail "no word of the distance"

@@ -14,7 +14,7 @@ except ImportError:
 
 PROGRAM = os.environ.get("SCARP_PROGRAM")
 DEM = os.environ.get("SCARP_DEM")
-SHARE = int(os.environ.get("SCARP_SHARE", "10"))  # repeated tasks run one in so many times
+SHARE = int(os.environ.get("SCARP_SHARE", "10"))  # repeated tasks run an Nth of their repetitions
 
 
 def need(*modules):

@@ -25,7 +25,7 @@ struct Companions {
   std::uint64_t bytes = 0;
 
   bool has_weights() const { return !mask.empty() || has_tolerance(); }
-  /// True if the script removes bounds of samples, which count in the largest errors all the same.
+  /// True if the script removes bounds of samples, which still count in the largest errors.
   bool ignores_samples() const { return !script.ignored.empty(); }
   bool inserts_samples() const { return !script.inserted.empty(); }
   /// The bounds that simplify() and judge_mesh() borrow.

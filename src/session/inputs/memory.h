@@ -27,8 +27,8 @@ struct MemoryNeeds {
 /// Bytes of a sample in memory that has a bound of its own.
 inline constexpr std::uint64_t kBoundedSampleBytes = 24;
 
-/// Calls read_height_field() or, with a limit, open_height_field(). Half of the memory that the program does not use is
-/// for the samples, with the needs of each, or for their file's cache.
+/// Calls read_height_field() or, with a limit, open_height_field(). Half of the memory left by the program is for the
+/// samples with their bounds, or for their file's cache.
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
                                      const std::optional<std::uint64_t>& limit, const MemoryNeeds& needs = {});
 

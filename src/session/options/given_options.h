@@ -41,7 +41,7 @@ class GivenOptions {
   void set(OptionId id, Given text);
   void set(OptionId id, Texts texts);
 
-  /// The number within the range of the option's row; nothing if the option was not given.
+  /// The option's number, checked against its row's range; nothing if not given.
   Result<std::optional<double>> number(OptionId id) const;
   Result<std::optional<std::uint64_t>> count(OptionId id) const;
   /// The value that the word stands for.

@@ -36,7 +36,7 @@ struct Choice {
   T value;
 };
 
-/// The value of the word. Else the error lists all words.
+/// The value of the word; otherwise fails with a list of all words.
 template <class T, std::size_t N>
 Result<T> choose(std::string_view option, const std::string& word, const Choice<T> (&choices)[N]) {
   std::string names;

@@ -10,7 +10,7 @@
 
 namespace scarp::cli {
 
-/// Refuses conflicting options, if known before a file is read.
+/// Refuses conflicts that are known before files are read.
 Result<void> check_conflicts(const GivenOptions& given, const SimplifyPlan& plan);
 
 /// Refuses everything that simplify() would refuse, after the files are read.

@@ -17,7 +17,7 @@ std::string format_length(const TileJob& job, double length);
 std::string grid_lines(const TileJob& job);
 /// Summary line about lakes and rivers; empty without water.
 std::string waters_line(const TileJob& job);
-/// A table of the levels, between input and output above and the time below.
+/// A table of the levels, with input and output above and the time below.
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
                               double seconds);
 /// Warnings about a raster, except those about frames, which tiles lack.

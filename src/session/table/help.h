@@ -17,7 +17,7 @@ std::string program_help();
 /// A command's help, with lines of at most 100 characters. Without `all`, if the options would not fit a screen, only
 /// the most used ones follow, one line each.
 std::string command_help(const CommandRow& command, bool all);
-/// The tables of options (of one command; null: all) and mesh formats as JSON. Keys keep their names.
+/// The tables of options (of one command; null: all) and mesh formats as JSON. Keys are stable.
 std::string help_json(const CommandRow* command);
 /// "choose simplify, measure or info": lists all commands.
 std::string choose_command();

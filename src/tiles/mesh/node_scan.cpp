@@ -16,7 +16,7 @@ struct UnitPoint {
   std::int64_t x = 0, y = 0;
 };
 
-/// A side from north to south, or south to north, on the rows that it crosses.
+/// A triangle's side, restricted to the rows that it crosses.
 class Side {
  public:
   Side(UnitPoint from, UnitPoint to, std::int64_t node)

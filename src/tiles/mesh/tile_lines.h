@@ -1,4 +1,4 @@
-// Lines that the meshes of tiles have as edges.
+// Lines that become edges of tile meshes.
 //
 // A level has its own lattice for lines, `cells` steps a tile. A line is simplified to half a step, and its vertices
 // are moved to the nearest lattice nodes. Where it crosses an edge between tiles, the nearest node on the edge becomes

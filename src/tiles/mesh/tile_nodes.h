@@ -39,7 +39,7 @@ class TileNodes {
   bool has_heights() const { return has_heights_; }  ///< true if at least one of its own nodes has a height
   /// True if some of its own nodes have the background's height.
   bool has_voids() const { return !voids_.empty(); }
-  /// True if its four own nodes around a place had heights. REQUIRES: 0 <= col, row <= steps.
+  /// True if the four of its own nodes around a place had heights. REQUIRES: 0 <= col, row <= steps.
   bool has_heights_around(double col, double row) const;
   /// True if all nodes, including the halo, have the background's height.
   bool is_flat() const { return is_flat_; }
