@@ -5,9 +5,8 @@ headers of its neighbours until the batches change.
 usage: tools/check_includes.py [FILE...]     by default all sources of src, apps and bindings/c
 
 Each source must reach the needed headers by its own includes. A name of the standard library needs one of the headers
-that declare it (STANDARD, as generous as libstdc++); a type, function, constant or macro of a header of Scarp needs
-that header. Names in several headers are left to the compiler. `tests/packaging/test_each_source.sh` compiles each
-source alone.
+that declare it (STANDARD, as generous as libstdc++). A type, function, constant or macro of Scarp needs its header.
+Names in several headers are left to the compiler. `tests/packaging/test_each_source.sh` compiles each source alone.
 """
 import collections
 import functools

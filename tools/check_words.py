@@ -6,8 +6,8 @@ usage: check_words.py [TREE]
 - No comment or docstring begins with a fragment (FRAGMENTS): "Whether x" is "True if x", "Of the line" is "The max error
   of the line", "What the mesh holds" is "The contents of the mesh".
 - No comment, docstring or help text has one of the words in WORDS, but in code: `take`, "left out", look().
-- No line of Markdown outside tables and code blocks has one of these words (but "take" and "look"), or more than 160
-  characters: it would be hard to read in a terminal.
+- No line of Markdown outside tables and code blocks has one of these words (except "take" and "look"), or more than 160
+  characters, which are hard to read in a terminal.
 """
 
 import pathlib

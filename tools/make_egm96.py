@@ -3,7 +3,7 @@
 
 The grid has 721 x 1440 heights of the geoid above the ellipsoid of WGS 84, 15 minutes of arc apart. They are rounded to
 centimetres. Second differences along the rows, then along the columns, from the north-western node on, are packed in
-Rice code: a number n >= 0 stands for n / 2 or -(n + 1) / 2, and is written as n >> k ones, a zero, and the last k bits
+Rice code. A number n >= 0 stands for n / 2 or -(n + 1) / 2. It is written as n >> k ones, a zero, and the last k bits
 of n. k adapts to the preceding differences in the row. Bits fill 64-bit words, the highest first.
 
 usage: make_egm96.py /usr/share/proj/egm96_15.gtx data/egm96.bin       (Debian's proj-data)

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Searches for rare faults: compiles each source alone; runs info, simplify and measure on every file in DATA; then,
-# from fresh random seeds, runs repeated rounds of the laws with ten times their cases, and finally the fuzzers (with
-# clang). Prints each failure with the command that repeats it.
+# Searches for rare faults. Compiles each source alone, and runs info, simplify and measure on every file in DATA. Then,
+# with fresh random seeds, repeats the laws with ten times their cases, and runs the fuzzers (with clang). Prints each
+# failure with the command that repeats it.
 #
 # Environment: SOAK_MINUTES (10), half for the laws (the last round is finished), half for the fuzzers; BUILD (build),
 # JOBS (cores), DATA (../shared/data, skipped if missing), SCARP_FUZZ_SEED (fresh). Exit 1 if something failed.

@@ -5,7 +5,8 @@
 
 A refusal is no fault: exit codes 1 to 3, one sentence on stderr, nothing written. Faults are signals, time-outs, exit
 codes 4 and above, more than one sentence, files left in the output folder or next to inputs, and commands that
-disagree: info reads what simplify does not, or measure finds that a mesh breaks its bound. Exit 1 if there is any.
+disagree. Commands disagree if info reads what simplify does not, or measure finds a broken bound. Exit 1 if there is
+any.
 """
 
 import argparse

@@ -3,8 +3,8 @@
 //   tile_levels RASTER [--te W S E N] [--effort fast|normal|high] [--error M] [--zoom Z] [--levels A B] [--tiles N]
 //               [--rounds N]
 //
-// One line per level, from the block's down: the number of tiles (at most N, 20, spread over those completely covered
-// by the raster), their triangles and bytes, and CPU milliseconds a tile (the least of N rounds, 3) to read nodes, make
+// Prints one line per level, from the block's down: the number of tiles (at most N, 20, of those completely covered by
+// the raster), their triangles and bytes. Then CPU milliseconds a tile (the least of N rounds, 3) to read nodes, make
 // the tile, and encode it. A hash of all bytes shows that a change affects only time.
 
 #include <algorithm>

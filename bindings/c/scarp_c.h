@@ -154,12 +154,12 @@ double scarp_round_samples(const double* values, uint64_t count, float* samples)
 void scarp_field_init(scarp_field* field, uint32_t struct_size);
 void scarp_points_init(scarp_points* points, uint32_t struct_size);
 void scarp_options_init(scarp_options* options, uint32_t struct_size);
-/* Sets any option of the program, except those about its terminal and files, by its long name with _ for - and a value
- * as in the program: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals", "true"). For
- * a repeatable option each call adds a value; else the last one applies. A NULL value removes the option. An option set
- * by name overrides the struct's member. `scarp help --json` lists all. "of" is the intended format of the mesh: like
- * the program's OUTPUT it determines the frame and whether positions are float32. SCARP_USAGE for an unknown name, with
- * the one probably meant. */
+/* Sets an option of the program, except those about its terminal and files. The name is the long one with _ for -, the
+ * value as in the program: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals",
+ * "true"). For a repeatable option each call adds a value; else the last one applies. A NULL value removes the option.
+ * An option set by name overrides the struct's member. `scarp help --json` lists all. "of" is the intended format of
+ * the mesh: like the program's OUTPUT it determines the frame and whether positions are float32. SCARP_USAGE for an
+ * unknown name, with the one probably meant. */
 scarp_status scarp_options_set(scarp_options* options, const char* name, const char* value);
 /* Frees the options of scarp_options_set(); the struct may be used again. */
 void scarp_options_clear(scarp_options* options);

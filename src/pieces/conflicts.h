@@ -15,8 +15,8 @@
 
 namespace scarp {
 
-/// A setting: a field of SimplifyOptions that differs from its default, one of its values if they differ in conflicts,
-/// a property of a HeightField, or a setting of a pyramid of tiles.
+/// A setting: a field of SimplifyOptions other than its default, or one of its values if they conflict differently; a
+/// property of a HeightField; or a setting of tiles.
 enum class Field : std::uint8_t {
   kMaxError,
   kMaxTriangles,
@@ -111,7 +111,7 @@ class Fields {
 };
 static_assert(kFieldCount <= 64);
 
-/// The settings in use.
+/// The settings of a call.
 Fields fields_of(const HeightField& field, const SimplifyOptions& options);
 
 /// The fields for which a conflict holds.

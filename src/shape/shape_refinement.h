@@ -1,8 +1,8 @@
 // Triangles for simulation: Delaunay refinement on the lattice between samples, together with the error bound.
 //
-// A triangle with too small an angle is given a vertex near its circumcentre: the off-centre (A. Üngör, 2004), which
-// makes the angle over its shortest edge just what was asked, else the circumcentre. If that lies beyond an outline or
-// a line, or in the diametral circle of one of their edges, the edge is halved instead (J. Ruppert, "A Delaunay
+// A triangle with too small an angle is given a vertex near its circumcentre: first the off-centre (A. Üngör, 2004),
+// which makes the angle over its shortest edge just as requested, else the circumcentre. If that lies beyond an outline
+// or a line, or in the diametral circle of one of their edges, the edge is halved instead (J. Ruppert, "A Delaunay
 // refinement algorithm for quality 2-dimensional mesh generation", 1995). At corners of less than 45 degrees it is
 // split at a power of two from the corner (J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh
 // generation", 2002): both sides get edges of the same lengths. A triangle that is too large gets its circumcentre, or

@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// The size at a vertex is the least s + grade·d over all vertices, where s is the length of a vertex's shortest edge
-/// and d the distance to it along edges. Sizes only fall while a mesh grows: edges that were flipped away also count.
+/// The size at a vertex is the least s + grade·d over all vertices: s is the length of the other's shortest edge, d its
+/// distance along edges. Sizes only fall while a mesh grows: edges that were flipped away also count.
 class SizeField {
  public:
   /// Borrows both. Lengths below `least` count as `least`.

@@ -1,10 +1,10 @@
 // Makes a segment an edge of the triangulation.
 //
 // The edges that the segment crosses are flipped away in turn (S. W. Sloan, "A fast algorithm for generating
-// constrained Delaunay triangulations", Computers & Structures 47, 1993): an edge whose two triangles form a strictly
-// convex quadrilateral is flipped; if it is not convex, or the new edge still crosses, it waits at the end of the
-// queue. Then the edges that the flips made are tested again, except the segment. Integers are exact: a vertex on the
-// segment is recognized and splits it.
+// constrained Delaunay triangulations", Computers & Structures 47, 1993): an edge is flipped if its two triangles form
+// a strictly convex quadrilateral. Otherwise, or if the new edge still crosses, it moves to the end of the queue. Then
+// the edges that the flips made are tested again, except the segment. Integers are exact: a vertex on the segment is
+// recognized and splits it.
 #include <algorithm>
 #include <cassert>
 #include <deque>

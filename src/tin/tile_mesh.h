@@ -3,7 +3,7 @@
 // A triangle has 32 bytes, two to a cache line, with all that insertion reads: corners as points, links, and a word for
 // the owner (its candidate). There is no array of vertices: a vertex is its point. Each insertion finds the cavity of
 // the point (the triangles whose circumcircle contains it, up to constrained edges), then writes every new triangle
-// once; Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular ties.
+// once. Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular ties.
 #pragma once
 
 #include <array>

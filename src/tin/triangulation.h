@@ -21,7 +21,7 @@ class Triangulation;
 class FlipRule {
  public:
   virtual ~FlipRule() = default;
-  /// True if the diagonal h should be flipped. h = a→b lies in (a, b, c), its twin in (b, a, d); it is neither
+  /// True if the diagonal h should be flipped. h = a→b lies in (a, b, c), its twin in (b, a, d). It is neither
   /// constrained nor on the border. After a flip triangle h / 3 is (c, d, b), its neighbour (d, c, a). May be true only
   /// if both new triangles are positive.
   virtual bool should_flip(const Triangulation& tin, HalfEdge h) = 0;

@@ -5,9 +5,9 @@ source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
 # meet.py DIGITS NORTH_WEST NORTH_EAST SOUTH_WEST SOUTH_EAST: for OBJs of rasters that share a row and a column, counts
-# the vertices on shared lines, and those that only one neighbour has. Heights are compared to the last bit, as are
-# places if DIGITS is 17: gdal_translate rounds origins of parts in degrees. A vertex of one mesh does not count where
-# its surface ends: there it has a border edge that leaves the line.
+# vertices on shared lines, and those of only one neighbour. Heights are compared to the last bit, as are places if
+# DIGITS is 17: gdal_translate rounds origins of parts in degrees. A vertex of one mesh does not count where its surface
+# ends: there it has a border edge that leaves the line.
 cat > meet.py <<'PYTHON'
 import sys
 digits = int(sys.argv[1])

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Budgets of meshes with lines, water, walls and cutlines: they are kept, the mesh is that of the error found, and too
+# Budgets of meshes with lines, water, walls and cutlines: they are kept, and the mesh is that of the error found. Too
 # small a budget is refused with the least sufficient one.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate

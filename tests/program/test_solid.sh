@@ -1,6 +1,6 @@
 #!/bin/bash
 # Solids for printing, whole and in print tiles: of the requested size, closed by admesh and the 3MF consortium's
-# library, within the bound by measure, and refused with one message if impossible.
+# library, and within the bound by measure. Impossible ones are refused with one message.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 # admesh_likes FILE: closed, outward, nothing to repair.

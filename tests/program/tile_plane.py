@@ -2,9 +2,9 @@
 """Judges a folder of tiles on a local grid by its files alone, without Scarp's code.
 
   tile_plane.py FOLDER SAMPLES COLS ROWS BACKGROUND CELL: SAMPLES are float32, row by row from the north-west. Decodes
-  every GLB (meshopt, version 0). Fails unless at each level each sample has a triangle within the level's bound, no
-  vertex lies a coarse node beyond the raster, neighbours have the same vertices on their edge, and all heights lie in
-  the box of tileset.json. Prints for each level: tiles, triangles, the worst error, the bound.
+  every GLB (meshopt, version 0). Fails unless each sample has a triangle within the bound of each level, no vertex lies
+  a coarse node beyond the raster, neighbours have the same vertices on their edge, and all heights lie in the box of
+  tileset.json. Prints for each level: tiles, triangles, the worst error, the bound.
 """
 import array
 import json

@@ -2,7 +2,7 @@
 """Reads single-file tilesets without Scarp's code.
 
   tile_sets.py FOLDER ARCHIVE: fails unless the archive (.pmtiles, .mbtiles, .3tz) contains exactly the files of the
-  folder, byte for byte, and satisfies its format's rules; prints the number of files.
+  folder, byte for byte, and satisfies its format's rules. Prints the number of files.
 """
 
 import base64

@@ -2,7 +2,7 @@
 """Reads a folder of quantized-mesh tiles without Scarp's code.
 
   tiles.py FOLDER: fails if tiles differ from those that layer.json announces, two neighbours differ on their shared
-  edge (places, heights in single precision, normals), or a triangle faces down; prints tiles, shared edges, and the
+  edge (places, heights in single precision, normals), or a triangle faces down. Prints tiles, shared edges, and the
   lowest and the highest height.
 """
 

@@ -3,7 +3,7 @@
 
   tiles3d.py FOLDER: follows tileset.json and its subtrees by the specification; fails if tiles differ from the
   announced ones, a height, sphere or horizon point in a property table is impossible, or a file's parts are
-  inconsistent; prints tiles, subtrees, and the region's lowest and highest height.
+  inconsistent. Prints tiles, subtrees, and the region's lowest and highest height.
 """
 
 import json

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Follows lines along the edges of a mesh: python3 walk_lines.py MESH.obj LINES.geojson COLS ROWS [LEAST]
 
-Fails unless each line of the file on the raster of COLS x ROWS samples is a chain of edges: all vertices on a segment
-are joined in order, and each end on the raster is a vertex. Also fails for fewer than LEAST (1) edges. Coordinates are
-samples, and lines end outside only to the left.
+Fails unless each line of the file on the raster of COLS x ROWS samples is a chain of edges: its vertices are joined in
+order, and its ends are vertices. Also fails for fewer than LEAST (1) edges. Coordinates are samples, and lines end
+outside only to the left.
 """
 import json
 import sys
 
-SIDE, NEAR = 16, 0.006  # cell size of the index as a share; distance from a line by rounding to the lattice
+SIDE, NEAR = 16, 0.006  # cell size of the index; distance from a line after rounding to the lattice
 
 vertices, edges = [], set()
 for line in open(sys.argv[1]):

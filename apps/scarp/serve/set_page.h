@@ -9,9 +9,9 @@
 
 namespace scarp::cli {
 
-/// The viewer with the finest levels that fit into a page, as `scarp view SET` writes it; a map of the tiles if the
-/// viewer is not installed or cannot show the set. `makes_tiles`: tiles are made on demand, so the page has one coarse
-/// level. `name`: of the set.
+/// The viewer with the finest levels that fit into a page, as `scarp view SET` writes it. If the viewer is not
+/// installed or cannot show the set: a map of the tiles. `makes_tiles`: tiles are made on demand, so the page has one
+/// coarse level. `name`: of the set.
 std::vector<std::uint8_t> make_set_page(const std::string& name, const TileSetReader& set, bool makes_tiles);
 
 /// The files of a set, one URL path per line.

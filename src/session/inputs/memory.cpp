@@ -25,7 +25,7 @@ void give_back_early() {
 #endif
 }
 
-/// The share of the limit for samples, besides others.
+/// The share of the limit for samples, after other needs.
 std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
   return limit > kProgramBytes + others ? (limit - kProgramBytes - others) / 2 : 0;
 }

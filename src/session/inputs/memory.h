@@ -32,8 +32,8 @@ inline constexpr std::uint64_t kBoundedSampleBytes = 24;
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
                                      const std::optional<std::uint64_t>& limit, const MemoryNeeds& needs = {});
 
-/// The part of `limit` that is not available to a run on a field read within it: the program, the samples or their
-/// file's cache, and the share of others.
+/// The bytes of `limit` unavailable to a run on a field read within it: for the program, samples or their file's cache,
+/// and other files.
 std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit);
 
 /// Opens another raster on the grid of a field that was read within the limit and has a source. In memory it uses at

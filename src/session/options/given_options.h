@@ -62,8 +62,8 @@ class GivenOptions {
   std::optional<OptionId> first_of(std::initializer_list<OptionId> ids) const;
   /// Every option that was given, except arguments, in the order of the table.
   std::vector<const OptionRow*> given() const;
-  /// Every input file that options name, in the order of the table: all values of OptionType::kInputFile, with the
-  /// layer ("FILE:LAYER") but without the tolerance of a region ("=M").
+  /// Every input file that options name, in the order of the table. Includes the layer ("FILE:LAYER") but not the
+  /// tolerance of a region ("=M").
   std::vector<std::string> files_read() const;
   /// " --max-error 1 --cutline site.gpkg,inset=2": all options that can change the mesh, in the order of the table,
   /// without folders of files and without defaults.

@@ -13,9 +13,9 @@ namespace scarp::cli {
 /// values.
 std::string describe_rounding(double sample_rounding);
 
-/// Explains why the mesh does not keep `bound` on the values in the file, up to `sample_rounding` away from the judged
-/// float32 samples: the largest error and its place, the number and first of uncovered samples, or a topological fault.
-/// Nothing if it keeps the bound.
+/// Explains why the mesh does not keep `bound`: the largest error and its place, the number and first of uncovered
+/// samples, or a topological fault. The bound applies to the values in the file, up to `sample_rounding` away from the
+/// judged float32 samples. Nothing if the mesh keeps it.
 std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
                                                const HeightRange& heights);
 

@@ -163,7 +163,7 @@ Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channel
   return {};
 }
 
-/// A judgement beyond simplify()'s own proof.
+/// Records a judgement beyond simplify()'s own proof.
 void add_judging(Clock::time_point start, Outcome& outcome) {
   const double seconds = seconds_since(start);
   outcome.simplified.passes.push_back({"judge", seconds});

@@ -1,4 +1,4 @@
-// Latitudes of a tile's rows of nodes as clients place them: clients divide the degrees between its southern and
+// Latitudes of a tile's rows of nodes as clients place them. Clients divide the degrees between its southern and
 // northern end into 32767 equal steps, or into those of a local grid.
 #pragma once
 
