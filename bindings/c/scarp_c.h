@@ -85,10 +85,9 @@ typedef struct scarp_field {
   const float* samples;
   double nodata;          /* another nodata value; samples with it cost one copy of all. DEFAULT: NaN, none. */
   double geotransform[6]; /* GDAL's, of pixel corners: x = g[0] + g[1] col + g[2] row, y = g[3] + g[4] col + g[5] row */
-  double
-      sample_rounding; /* largest |value - float32 sample| of rounded values; promises subtract it */
-  const char* crs;     /* "EPSG:32611", WKT; DEFAULT: NULL. Without GDAL it is only a name. */
-  const char* name;    /* for messages and the mesh's metadata. DEFAULT: NULL, "heights". */
+  double sample_rounding; /* largest |value - float32 sample| of rounded values; promises subtract it */
+  const char* crs;        /* "EPSG:32611", WKT; DEFAULT: NULL. Without GDAL it is only a name. */
+  const char* name;       /* for messages and the mesh's metadata. DEFAULT: NULL, "heights". */
   const char* unit; /* unit of the heights: "m", "ft"; for errors such as "1m" and "3ft". DEFAULT: NULL, unknown. */
 } scarp_field;
 
