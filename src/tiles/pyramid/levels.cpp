@@ -19,9 +19,9 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 /// Levels of tiles below a block's own. A block with 128 cells per tile then has 4096 × 4096 cells.
 constexpr int kBlockDepth = 5;
-/// Max error / quantum, unless limits below apply.
+/// Usual lower limit of max error / quantum.
 constexpr double kQuantaOfError = 32;
-/// Lower limit of max error / quantum: heights are rounded to the quantum, which uses part of the error.
+/// Absolute lower limit: heights are rounded to the quantum, which uses part of the error.
 constexpr double kLeastQuantaOfError = 4;
 /// Smallest quantum on a globe, in metres: finer heights are noise, and 2²⁴ quanta hold no mountain.
 constexpr double kLeastQuantum = 0x1p-10;
