@@ -1,4 +1,4 @@
-// The parts that all benchmarks in C++ share: command lines, clocks, rasters by name, tables that are kept.
+// Common parts of all benchmarks in C++: command lines, clocks, rasters by name, tables.
 #pragma once
 
 #include <sys/resource.h>
@@ -22,15 +22,15 @@ namespace bench {
   std::exit(code);
 }
 
-/// The value of a scarp::Result; dies with its error.
+/// The value of a scarp::Result; exits with its error.
 template <class Outcome>
 auto check(Outcome result) {
   if (!result) die(result.error().message);
   return std::move(*result);
 }
 
-/// A command line, as its usage describes it: `PROGRAM NEEDED... [MORE] [--option VALUE] [--other A B]`. Dies with the
-/// usage where the two disagree. An option whose last value ends with "..." has all words that follow.
+/// A command line, as its usage describes it: `PROGRAM NEEDED... [MORE] [--option VALUE] [--other A B]`. Exits with the
+/// usage if they disagree. An option whose last value ends with "..." has all following words.
 class Arguments {
  public:
   Arguments(int argc, char** argv, const std::string& usage) {
@@ -91,10 +91,10 @@ class Arguments {
   std::map<std::string, std::vector<std::string>> options_;
 };
 
-/// Times of a stretch of work, all threads together.
+/// Times of a stretch of work, over all threads.
 struct Times {
   double wall = 0, user = 0, system = 0;  // seconds
-  double page_faults = 0;                 // pages mapped: exact where the kernel only samples system time
+  double page_faults = 0;                 // mapped pages: exact where the kernel only samples system time
 
   double cpu() const { return user + system; }
   Times& operator+=(const Times& more) {
@@ -106,7 +106,7 @@ struct Times {
   }
 };
 
-/// Since it was made.
+/// Measures times since construction.
 class Stopwatch {
  public:
   Times read() const {
@@ -129,7 +129,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
 };
 
-/// Times of the run of least CPU time.
+/// Times of the run with the least CPU time.
 template <class Work>
 Times least_of(int runs, const Work& work) {
   Times least;
@@ -142,7 +142,7 @@ Times least_of(int runs, const Work& work) {
   return least;
 }
 
-/// "seconds": …, of `times`, as members of a JSON object.
+/// Times as members of a JSON object: "seconds": …
 inline std::string json_of(const Times& times) {
   char text[200];
   std::snprintf(text, sizeof text,
@@ -152,14 +152,14 @@ inline std::string json_of(const Times& times) {
   return text;
 }
 
-/// The one line of a timed program, JSON; `more`: further members, each with a comma before it.
+/// The only line of a timed program, JSON. `more`: further members, each preceded by a comma.
 inline void print_result(const std::string& version, const Times& times, std::size_t vertices, std::size_t triangles,
                          const std::string& more = "") {
   std::printf("{\"version\": \"%s\", %s, \"vertices\": %zu, \"triangles\": %zu%s}\n", version.c_str(),
               json_of(times).c_str(), vertices, triangles, more.c_str());
 }
 
-/// The project's own copy in data/, else the one in $SCARP_SHARED/data or next to the project in ../shared/data.
+/// The project's copy in data/, else one in $SCARP_SHARED/data or, next to the project, in ../shared/data.
 inline std::optional<std::string> find_raster(const std::filesystem::path& project, const std::string& name) {
   const char* variable = std::getenv("SCARP_SHARED");
   const std::filesystem::path shared = variable != nullptr ? std::filesystem::path(variable) : project / "../shared";
@@ -170,7 +170,7 @@ inline std::optional<std::string> find_raster(const std::filesystem::path& proje
   return std::nullopt;
 }
 
-/// The lines of a list, such as bench/quality/rasters.txt, that are not comments.
+/// The lines of a list, such as bench/quality/rasters.txt, without comments.
 inline std::vector<std::string> read_names(const std::filesystem::path& list) {
   std::vector<std::string> names;
   std::ifstream file(list);
@@ -187,8 +187,8 @@ inline void write_file(const std::filesystem::path& path, const std::string& tex
   if (!file) die("cannot write " + path.string(), 4);
 }
 
-/// Replaces the rows of the table at `path` whose first cell is `key` by those of `fresh`, which begins with the header.
-/// The order is that of `keys`, rows of others are dropped. A table with another header counts as empty.
+/// Replaces the rows of the table at `path` whose first cell is `key` by those of `fresh`, which begins with the
+/// header. Rows are in the order of `keys`; others are dropped. A table with another header counts as empty.
 inline void keep_rows(const std::filesystem::path& path, const std::string& fresh, const std::string& key,
                       const std::vector<std::string>& keys) {
   std::ifstream file(path);

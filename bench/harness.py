@@ -1,5 +1,5 @@
-"""The parts that all benchmarks in Python share: running programs, kept tables, and the pages that hold tables between
-`<!-- table: NAME -->` and `<!-- end -->`."""
+"""Common parts of all benchmarks in Python: running programs, tables, and pages with tables between `<!-- table: NAME
+-->` and `<!-- end -->`."""
 
 import argparse
 import csv
@@ -16,14 +16,14 @@ PROJECT = BENCH.parent
 
 
 def arguments_of(description):
-    """A parser with the option that all have."""
+    """A parser with the common option."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
     return parser
 
 
 def call(command, **environment):
-    """The output of a program, a JSON object each line."""
+    """The output of a program, one JSON object per line."""
     done = subprocess.run([str(part) for part in command], check=True, stdout=subprocess.PIPE, text=True,
                           env={**os.environ, **environment})
     return [json.loads(line) for line in done.stdout.splitlines()]
@@ -35,7 +35,7 @@ def report_of(command, **environment):
 
 
 def measure_process(command):
-    """Seconds of a child, and its peak resident bytes; it must succeed."""
+    """Seconds of a child process and its peak resident bytes; it must succeed."""
     start = time.perf_counter()
     child = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(child.pid, 0)
@@ -53,8 +53,8 @@ def seconds_of_children():
 
 
 def interleave(runs, rounds, once=()):
-    """Results of each run, by name, in rounds, of which each begins with another; `runs` maps names to functions of "is
-    this the last round", and those of `once` run in the last alone."""
+    """Results of each run, by name, in rounds that begin with different runs. `runs` maps names to functions of "is
+    this the last round". Those in `once` run only in the last."""
     results, names = {name: [] for name in runs}, list(runs)
     for number in range(rounds):
         last, turn = number == rounds - 1, number % len(names)
@@ -65,13 +65,13 @@ def interleave(runs, rounds, once=()):
 
 
 def install(package):
-    """Installs the peers in node, of the versions of package.json, which depend on no other package."""
+    """Installs the peers for node in the versions of package.json, which depend on no other package."""
     if not (BENCH / "node_modules" / package).is_dir():
         subprocess.run(["npm", "install", "--no-package-lock", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=BENCH, check=True)
 
 
 def read_table(path):
-    """Rows as dictionaries; none where there is no file."""
+    """Rows as dictionaries; none without a file."""
     if not path.exists():
         return []
     with open(path, newline="") as stream:
@@ -86,7 +86,7 @@ def write_table(path, rows):
 
 
 def keep_rows(path, new, keys, place):
-    """New rows in place of old ones of the same keys, sorted by `place`; old ones of other columns go."""
+    """Replaces old rows with the same keys by new ones, sorted by `place`; drops old ones with other columns."""
     old = read_table(path)
     if old and new and list(old[0]) != list(new[0]):
         old = []
@@ -102,7 +102,7 @@ def markdown(header, rows):
 
 
 def fill(text, found):
-    """The text with every table filled again; those that were not found stay as they are."""
+    """Fills in every table of the text; those without contents do not change."""
     def one(match):
         name = match.group(1)
         if name not in found:

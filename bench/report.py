@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of the pages of bench/ from the CSV files next to them.
+"""Writes the tables in the pages of bench/ from the CSV files next to them.
 
   report.py            writes them
   report.py --check    fails if a page would change
@@ -17,7 +17,7 @@ from harness import BENCH, fill, markdown, read_table
 PAGES = ("quality.md", "performance.md", "tiles.md")
 QUALITY, SPEED, TILES = BENCH / "quality", BENCH / "speed", BENCH / "tiles"
 
-FULL_QUARTER = 25  # percent of the full grid: where greedy insertion needs more, triangles are a few samples in size
+FULL_QUARTER = 25  # percentage of the full grid: if greedy insertion needs more, triangles span only a few samples
 
 
 def geometric_mean(numbers):
@@ -32,7 +32,7 @@ def spread(numbers, digits=2):
 
 
 def times_of(table, digits):
-    """The same of CPU times in greedy insertion's, by variant: these are kept as means."""
+    """Geometric means of CPU times relative to greedy insertion's, by variant."""
     return {row["variant"]: "{:.{d}f} ({:.{d}f} to {:.{d}f})".format(*(float(row[key]) for key in ("mean", "least", "most")), d=digits)
             for row in read_table(QUALITY / "times.csv") if row["table"] == table}
 
@@ -46,7 +46,7 @@ def by_case(rows, column, goal="percent_of_relief"):
 
 
 def values(rows, column):
-    """In their first order."""
+    """Distinct values in their first order."""
     return list(dict.fromkeys(row[column] for row in rows))
 
 
@@ -63,7 +63,7 @@ class Efforts:
         self.efforts = [effort for effort in values(rows, "effort") if effort != "greedy"]
 
     def ratios(self, effort, column, which):
-        """Ratios of a column to the same of greedy insertion, over the cases of one kind."""
+        """Ratios of a column to greedy insertion's, over cases of one kind."""
         return [float(case[effort][column]) / float(case["greedy"][column]) for case in self.cases.values()
                 if effort in case and which(case["greedy"])]
 
@@ -162,7 +162,7 @@ class Squares:
                          if program not in ("Scarp greedy", "Scarp high rms")]
 
     def best(self, case):
-        """The least RMSE of the other programs, relative to that of Scarp."""
+        """The least RMSE of other programs relative to Scarp's."""
         return min(float(row["ratio"]) for program, row in case.items() if not program.startswith("Scarp"))
 
     def table(self):
@@ -198,7 +198,7 @@ class HighNormal:
         self.cases = by_case(self.rows, "variant")
 
     def worst(self):
-        """The case where high saves least."""
+        """The case with the smallest saving of high."""
         def ratio(case):
             return int(case["high"]["triangles"]) / int(case["normal"]["triangles"])
 
@@ -213,7 +213,7 @@ class HighNormal:
         return markdown(["raster", "max error", "`normal`", "`high`", "ratio", "`high --min-shape 0.1`"], lines)
 
     def angles(self):
-        """The angles of terrain, and of the rest: the effect of the floor."""
+        """Angles for terrain and others: the effect of the floor."""
         kinds = [("relief of land, sea floor and Mars", [case for (raster, _), case in self.cases.items()
                                                         if "hard" in case and is_terrain(raster)]),
                  ("houses, steps and walls", [case for (raster, _), case in self.cases.items()
@@ -252,7 +252,7 @@ def cliff_table(rows):
 
 
 def ridge_table(rows):
-    """Triangles and RMSE on streams as shares of those without lines, percentage points of streams kept."""
+    """Triangles and RMSE on streams as shares of those without lines, and percentage points of preserved streams."""
     shown = (("fast", "preferred"), ("normal", "preferred"), ("normal", "kept"), ("high", "preferred"),
              ("high", "kept"))
     lines, names = [], values(rows, "raster")
@@ -285,8 +285,7 @@ def image_table(rows):
 
 
 def picture_table(rows):
-    """The pictures of a scene side by side, and below what each shows: of one bound the triangles, of one budget the
-    errors too."""
+    """The pictures of a scene side by side, with captions: for a bound the triangles, for a budget also the errors."""
     words = {"greedy": "greedy insertion", "max": "`--objective max`", "rms": "`--objective rms`"}
     header = [words.get(row["effort"], f"`{row['effort']}`") for row in rows]
     pictures = [f"![{title(row['raster'])}, {row['effort']}](images/{row['picture']})" for row in rows]
@@ -340,7 +339,7 @@ def order_table(rows):
 
 
 def machine_lines():
-    """The machine of the tables of speed."""
+    """The machine of the speed tables."""
     machine = json.loads((SPEED / "machine.json").read_text())
     has = "has" if machine.get("avx512") else "has no"
     lines = [f"{machine.get('machine')}, {machine.get('processors')} logical processors; it {has} AVX-512; load average at the start "
@@ -394,7 +393,7 @@ def tables():
 
 
 def write(check=False):
-    """Fills the pages again; the names of those that change, which stay as they are with `check`."""
+    """Rewrites the pages and returns the names of those that change; with `check` writes nothing."""
     found, changed = tables(), []
     for page in PAGES:
         old = (BENCH / page).read_text()

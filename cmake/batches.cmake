@@ -1,7 +1,7 @@
-# scarp_batch(TARGET SIZE): compiles the target's sources in batches of at most SIZE, each of one folder, where
-# CMAKE_UNITY_BUILD is on: headers are parsed once a batch. Private names are therefore unique in a folder. A source
-# that cannot share a translation unit is marked by SKIP_UNITY_BUILD_INCLUSION. SCARP_BATCH replaces SIZE: builds that
-# are made once, and not optimized, compile a folder at once.
+# scarp_batch(TARGET SIZE): with CMAKE_UNITY_BUILD, compiles the target's sources in batches of at most SIZE, each from
+# one folder, so that headers are parsed once a batch. Private names must be unique in a folder.
+# SKIP_UNITY_BUILD_INCLUSION marks sources that cannot share a translation unit. SCARP_BATCH overrides SIZE: one-time
+# builds without optimization compile a folder at once.
 function(scarp_batch target size)
   if(SCARP_BATCH)
     set(size ${SCARP_BATCH})
@@ -19,7 +19,7 @@ function(scarp_batch target size)
   endforeach()
   list(REMOVE_DUPLICATES rooms)
   foreach(room IN LISTS rooms)
-    # The needed number of batches, all of about the same size.
+    # The required number of batches of similar size.
     list(LENGTH sources_of_${room} count)
     math(EXPR batches "(${count} + ${size} - 1) / ${size}")
     set(index 0)

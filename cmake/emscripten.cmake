@@ -1,5 +1,5 @@
-# scarp_core under Emscripten: its libraries are headers, found in the machine's own packages through a folder of links,
-# so that nothing else of /usr/include is seen.
+# scarp_core under Emscripten: its libraries are headers from the machine's packages, in a folder of links that hides
+# the rest of /usr/include.
 set(headers ${PROJECT_BINARY_DIR}/libraries)
 file(MAKE_DIRECTORY ${headers})
 foreach(library tl hwy)
@@ -18,13 +18,12 @@ endforeach()
 add_library(fmt::fmt INTERFACE IMPORTED)
 target_include_directories(fmt::fmt INTERFACE ${PROJECT_SOURCE_DIR}/bindings/wasm/headers)
 
-# -fno-rtti: the names of types are 20 kB, and nothing asks for them.
+# -fno-rtti: type names are 20 kB, and nothing uses them.
 target_compile_options(scarp_flags INTERFACE -fwasm-exceptions -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -fno-rtti)
 target_compile_definitions(scarp_flags INTERFACE SCARP_WITHOUT_THREADS)
 target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=1048576)
 
-# Sources where meshes, their proof and a Refiner spend their time (node --cpu-prof of a module linked with
-# --profiling-funcs).
+# Hot sources of meshes, their proof and a Refiner (node --cpu-prof of a module linked with --profiling-funcs).
 string(JOIN "|" SCARP_HOT_SOURCES
   "/fit/(collapse|cut|flips|height_step|insertion|norm|patch|relocation|removal|repair|ring|sample|schedule|triangle|vertex)"
   /geom/scan_kernels "/grid/(height_range|samples|window)" "/mesh/(half_edges|order|thin_triangles)" /metric/[a-z]*_metric

@@ -1,4 +1,4 @@
-# The places of `cmake --install`: program, library, headers, CMake package, pkg-config file, man page, completions.
+# Destinations of `cmake --install`: program, library, headers, CMake package, pkg-config file, man page, completions.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS scarp EXPORT scarpTargets)
@@ -13,7 +13,7 @@ if(SCARP_BUILD_C)
   install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/scarp_c.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
 
-# find_package(scarp): the library's dependencies are searched for again on the consumer's side.
+# find_package(scarp): the consumer also searches for the library's dependencies.
 set(scarp_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/scarp)
 get_target_property(scarp_type scarp TYPE)
 if(scarp_type STREQUAL "STATIC_LIBRARY")
@@ -28,8 +28,8 @@ install(EXPORT scarpTargets NAMESPACE scarp:: DESTINATION ${scarp_package_dir})
 install(FILES ${PROJECT_BINARY_DIR}/scarpConfig.cmake ${PROJECT_BINARY_DIR}/scarpConfigVersion.cmake
         DESTINATION ${scarp_package_dir})
 
-# pkg-config: paths relative to the file itself, so that `--prefix` at install time is right too. A static library
-# hands its own libraries on.
+# pkg-config: paths are relative to the file, so `--prefix` at install time works. A static library passes on its own
+# libraries.
 set(scarp_requires fmt)
 if(SCARP_WITH_GDAL)
   string(APPEND scarp_requires ", gdal")
@@ -60,13 +60,13 @@ if(SCARP_BUILD_C)
 endif()
 
 if(SCARP_BUILD_APPS)
-  # The program finds a shared library next to it, wherever the prefix is moved to.
+  # The program finds a shared library next to it, wherever the prefix is moved.
   file(RELATIVE_PATH scarp_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
   set_target_properties(scarp_program PROPERTIES INSTALL_RPATH "$ORIGIN/${scarp_bin_to_lib}")
   install(TARGETS scarp_program)
-  # The viewer's page, where `make viewer` has built it.
+  # The viewer's page, if `make viewer` has built it.
   install(FILES ${PROJECT_BINARY_DIR}/share/scarp/viewer.html DESTINATION ${CMAKE_INSTALL_DATADIR}/scarp OPTIONAL)
-  # The files that apps/scarp makes from the table of options; nothing where Python was missing.
+  # Files that apps/scarp makes from the table of options; none without Python.
   install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/scarp.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
   foreach(completions bash-completion/completions/scarp zsh/site-functions/_scarp fish/vendor_completions.d/scarp.fish)
     get_filename_component(folder ${completions} DIRECTORY)

@@ -1,5 +1,5 @@
-# scarp_packed_data(TARGET HEADER NAME FILE): compiles the file into the target as NAME, words of 64 bits whose first byte
-# is the highest, and NAMEWords, their number; the header declares both. The file's length is a multiple of 8 bytes.
+# scarp_packed_data(TARGET HEADER NAME FILE): compiles the file into the target as NAME, an array of big-endian 64-bit
+# words, and NAMEWords, its length. The header declares both. The file's length must be a multiple of 8 bytes.
 function(scarp_packed_data target header name file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} digits HEX)

@@ -1,5 +1,5 @@
-// SCARP_MOST_CPU_SECONDS: a test that uses more of the processors' time fails (`make check`, which is run before every
-// commit and has to stay quick). Not by the clock: a busy machine is no fault of the test.
+// SCARP_MOST_CPU_SECONDS: a test that uses more CPU time fails, since `make check` runs before every commit and must
+// remain quick. Wall time would blame tests for a busy machine.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

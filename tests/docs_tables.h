@@ -1,4 +1,4 @@
-// Tables of the documentation that the library's own tables make.
+// Tables of the documentation that are derived from the library's tables.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@
 namespace scarp::test {
 
 struct DocsTable {
-  std::string head;  ///< its first line begins so, in the page too
+  std::string head;  ///< start of its first line, also in the page
   std::string text;
 };
 
-/// Fails unless the page ("docs/formats.md") holds the tables. With SCARP_UPDATE_DOCS=1 it writes them. `tests`: the
-/// filter that runs this test.
+/// Fails unless the page ("docs/formats.md") contains the tables. With SCARP_UPDATE_DOCS=1 it updates them. `tests`:
+/// the filter that runs this test.
 inline void expect_tables(const std::string& page, const std::vector<DocsTable>& tables, const std::string& tests) {
   const std::string path = source_dir() + "/" + page;
   std::stringstream read;

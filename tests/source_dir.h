@@ -1,11 +1,11 @@
-// The path of the sources, for tests that read files of theirs.
+// The path of the sources, for tests that read their files.
 #pragma once
 
 #include <string>
 
 namespace scarp {
 
-/// The project's folder. The only object that holds a path: all others are the same wherever it lies.
+/// The project's folder. Only this object contains a path: all others are independent of it.
 std::string source_dir();
 
 }  // namespace scarp

@@ -1,7 +1,7 @@
 #!/bin/bash
-# timed.sh NAME SECONDS COMMAND...: the command's exit code, but 1 where it uses more than SECONDS of CPU time (0: no
-# limit). CPU time, not wall time, so that a busy machine fails no test. The time goes to SCARP_BUILD/times/NAME, which
-# tools/test_times.py reads.
+# timed.sh NAME SECONDS COMMAND...: returns the command's exit code, or 1 if it uses more than SECONDS of CPU time (0:
+# no limit). CPU time, not wall time, so that a busy machine fails no test. Writes the time to SCARP_BUILD/times/NAME
+# for tools/test_times.py.
 name=$1
 most=$2
 shift 2

@@ -1,10 +1,11 @@
 #!/bin/bash
-# Builds and packs the npm package: tools/build_npm.sh BUILD DIST. BUILD is the folder for Emscripten. Prints the file's path.
+# Builds and packs the npm package: tools/build_npm.sh BUILD DIST. BUILD: the build folder of Emscripten. Prints the
+# file's path.
 #
 # Environment: JOBS (cores).
 set -euo pipefail
 build=$1 dist=$2
-# em++ starts once a source: not by the substitute of a version manager.
+# Avoids the Python wrapper of a version manager: em++ starts once a source.
 export EMSDK_PYTHON=${EMSDK_PYTHON:-$(command -pv python3 || command -v python3)}
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/tools/configure_wasm.sh" "$build" >&2

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The wheel and the sdist of Scarp for Python, into a folder: the library is that of a build folder, without GDAL.
+# Makes the wheel and the sdist of Scarp for Python in a folder, with the library of a build folder, without GDAL.
 #
 # usage: tools/build_python.sh BUILD FOLDER
 set -euo pipefail

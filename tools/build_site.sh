@@ -1,6 +1,6 @@
 #!/bin/bash
-# The static site, into a folder: documents, an example of the viewer, and the page where anyone tries a file of theirs.
-# Needs BUILD/bin/scarp and the npm package of `make npm`.
+# Builds the static site in a folder: documents, an example of the viewer, and the page for trying own files. Needs
+# BUILD/bin/scarp and the npm package of `make npm`.
 #
 # usage: tools/build_site.sh BUILD SITE
 set -euo pipefail

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Builds the viewer's page, BUILD/share/scarp/viewer.html, next to BUILD/bin/scarp, which fills it in. npm fetches
-# three.js and esbuild once, into BUILD/viewer. With the npm package of `make npm` in ENGINE the page refines live, too.
+# Builds the viewer's page, BUILD/share/scarp/viewer.html, a template for BUILD/bin/scarp. npm fetches three.js and
+# esbuild once, into BUILD/viewer. With the npm package of `make npm` in ENGINE the page also refines live.
 #
-# usage: tools/build_viewer.sh BUILD [ENGINE]      ENGINE: BUILD-wasm/npm if it is there
+# usage: tools/build_viewer.sh BUILD [ENGINE]      ENGINE: BUILD-wasm/npm if it exists
 set -euo pipefail
 build=$(mkdir -p "$1" && cd "$1" && pwd)
 cd "$(dirname "$0")/.."

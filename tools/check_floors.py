@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Reads every #include of the library and the program and fails on a step upwards or sideways between rooms; and on
-words that belong to a few files.
+"""Reads every #include of the library and the program and fails on a step upwards or sideways between rooms, and on
+reserved words outside their files.
 
 A room is a folder of src/ (or the passes src/*.cpp, the door include/scarp, the program apps/). ROOMS below is the
-table of docs/design.md, "Rooms and floors": whoever changes one changes the other (`--table` prints it as Markdown).
+table of docs/design.md, "Rooms and floors": change both together (`--table` prints it as Markdown).
 
 usage: check_floors.py [TREE] [--table]
 """
@@ -15,9 +15,9 @@ import sys
 
 MAX_LINES = 600
 
-# room: (floor, rooms it may include, rooms of which it may use public functions besides, what it holds).
-# Rooms on one floor are strangers: none includes another. A use of a public function, or of a class with functions, is a
-# step to the room that implements it; values are free.
+# room: (floor, rooms it may include, further rooms whose public functions it may use, contents).
+# Rooms on one floor must not include each other. A use of a public function, or of a class with functions, is a step to
+# the room that implements it; values are free.
 ANY = None  # the public functions of all rooms on lower floors
 SESSION = [f"session/{room}" for room in ("text", "table", "options", "inputs", "plan", "reports", "tasks")]
 ROOMS = {
@@ -64,8 +64,8 @@ ROOMS = {
     "apps": (14, SESSION, ANY, "the program: commands in a terminal, the server of tiles"),
 }
 
-# Headers of rooms that the session and the program may include, too, as if they were public: manuals like these, but they
-# are not installed and promise nothing.
+# Headers of rooms that the session and the program may include like public ones: documented alike, but not installed
+# and without promises.
 SHOWN = [
     "base/alike.h",
     "check/level_meshes.h",
@@ -119,7 +119,7 @@ def room_of(path):
 
 
 def room_of_header(header):
-    """The room of a header as `#include "header"` names it; "loose" where it lies in none."""
+    """The room of a header as `#include "header"` names it; "loose" if in none."""
     parts = header.split("/")
     depth = 2 if parts[0] in ("session", "tiles") else 1
     return "/".join(parts[:depth]) if len(parts) > depth else "loose"
@@ -162,11 +162,11 @@ def declared_functions(text):
 
 # `Type name(` at the beginning of a line, or `Type Class::name(`; its body follows the parameters.
 DEFINITION = re.compile(r"^(?![ \t}]|return|else|using|namespace)(?:[^;{}()\n=]*[\s*&>])?((?:\w+::)*(?:~?\w+|operator\W+?))\(", re.M)
-STUBS = "src/simplify/without_lines.cpp"  # a build without rooms of lines has these in their place
+STUBS = "src/simplify/without_lines.cpp"  # replaces rooms of lines in a build without them
 
 
 def defined_functions(text):
-    """Names of the functions that a source of namespace scarp defines, but for those of nameless namespaces."""
+    """Names of the functions that a source of namespace scarp defines, except in nameless namespaces."""
     text = re.sub(r"^namespace \{.*?^\}", "", bare(text), flags=re.M | re.S)
     if not re.search(r"^namespace scarp(::gdal)? \{", text, re.M):
         return
@@ -181,7 +181,7 @@ def defined_functions(text):
 
 @functools.cache
 def public_functions(tree):
-    """By name, the public functions, and the classes with functions: the headers that declare it, the rooms that define it."""
+    """By name, public functions and classes with functions: the header that declares each, the rooms that define it."""
     found = {}
     texts = {path.stem: path.read_text(encoding="utf-8") for path in sorted((tree / "include/scarp").glob("*.h"))}
     for header, text in texts.items():
@@ -210,7 +210,7 @@ def includes_of(path):
 
 @functools.cache
 def reached_headers(path, tree):
-    """The names of public headers, and the other headers, that a file reaches by its includes."""
+    """The names of public headers, and other headers, that a file includes directly or indirectly."""
     public, others, pending = set(), set(), [path]
     while pending:
         for header in includes_of(pending.pop()):
@@ -232,7 +232,7 @@ DECLARATION = re.compile(r"^[ \t]*(?!return|else|co_return|throw)(?:(?:const|sta
 
 @functools.cache
 def own_names(path):
-    """The functions that a file has itself, those of nameless namespaces and members included, and its types."""
+    """The file's own functions, including those of nameless namespaces and members, and its types."""
     text = bare(path.read_text(encoding="utf-8"))
     names = {match.group(1).rpartition("::")[2] for match in DEFINITION.finditer(text)}
     names |= set(DECLARATION.findall(text)) | set(re.findall(r"\bauto&?&? (\w+) = \[", text))
@@ -240,7 +240,7 @@ def own_names(path):
 
 
 def judge_step(room, top):
-    """The fault of a use of what a room implements, or None."""
+    """The fault of a use of something that a room implements, or None."""
     floor, may_include, doors, _ = ROOMS[room]
     if top == room or top in may_include or (doors is not ANY and top in doors) or (doors is ANY and ROOMS[top][0] < floor):
         return None

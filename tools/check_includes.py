@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Checks that each source includes what it uses, in a second: unity builds compile sources in batches, where one lives on
-the headers of its neighbours until the batches change.
+"""Checks in a second that each source includes what it uses. Unity builds hide missing includes: a source sees the
+headers of its neighbours until the batches change.
 
-usage: tools/check_includes.py [FILE...]     all sources of src, apps and bindings/c where none is named
+usage: tools/check_includes.py [FILE...]     by default all sources of src, apps and bindings/c
 
-For each source: the headers that it reaches by its own includes. A name of the standard library needs one of the headers
-that declare it (STANDARD, more generous than the standard where libstdc++ is), a type, function, constant or macro of a
-header of Scarp needs that header. Names that several headers declare are left to the compiler.
-`tests/packaging/test_each_source.sh` compiles each source alone.
+Each source must reach the needed headers by its own includes. A name of the standard library needs one of the headers
+that declare it (STANDARD, as generous as libstdc++). A type, function, constant or macro of Scarp needs its header.
+Names in several headers are left to the compiler. `tests/packaging/test_each_source.sh` compiles each source alone.
 """
 import collections
 import functools
@@ -63,7 +62,7 @@ STANDARD = {
     "optional": "nullopt optional",
     "memory": "make_shared make_unique shared_ptr unique_ptr weak_ptr",
 }
-# Headers that bring another one along in libstdc++, or that Scarp's own code may rely on.
+# Headers with others that they include in libstdc++, or that Scarp may rely on.
 BRINGS = {
     "algorithm": "functional numeric".split(),
     "sstream": ["string", "iostream"],
@@ -84,7 +83,7 @@ NEEDED = {name: {header, *(BRINGS.get(header) or [])} for header, names in STAND
           if not (header in BRINGS and BRINGS[header] is None)}
 
 
-# Names that no std:: marks, and those that Scarp uses from other libraries.
+# Names without std::, and those that Scarp uses from other libraries.
 OTHERS = {r"\bassert\(": "cassert", r"\bfmt::": "fmt/format.h", r"\bnlohmann::": "nlohmann/json.hpp"}
 OTHER_HOMES = {"fmt/format.h": ["fmt/core.h", "fmt/chrono.h"], "nlohmann/json.hpp": ["nlohmann/json_fwd.hpp"]}
 
@@ -95,7 +94,7 @@ def is_constant(name):
 
 @functools.cache
 def code_of(path):
-    """The file without comments and without what stands in quotes, and the files that it includes."""
+    """The file without comments and literals, and the files that it includes."""
     text = path.read_text(encoding="utf-8")
     included = re.findall(r'^\s*#\s*include\s+(?:"([^"]+)"|<([^>]+)>)', text, re.M)
     text = re.sub(r"^\s*#\s*include.*$", "", text, flags=re.M)
@@ -114,7 +113,7 @@ def find_header(name, folder):
 
 @functools.cache
 def reached(path):
-    """The headers of Scarp, and the names of others, that the file reaches by its includes."""
+    """The headers of Scarp, and the names of others, that the file includes directly or indirectly."""
     own, others, todo = {path}, set(), [path]
     while todo:
         file = todo.pop()
@@ -130,7 +129,7 @@ def reached(path):
 
 @functools.cache
 def declared(path):
-    """The names that a header declares in a namespace, whose contents are not indented here."""
+    """The names that a header declares in a namespace, whose contents are not indented."""
     text = code_of(path)[0]
     names = set(re.findall(r"^(?:template\s*<.*>\s*)?(?:class|struct|enum class|enum)\s+(?:\[\[\w+\]\]\s*)?(\w+)[^;]*?\{", text, re.M))
     names |= set(re.findall(r"^using (\w+) =", text, re.M))
@@ -142,7 +141,7 @@ def declared(path):
 
 @functools.cache
 def nested(path):
-    """The types and constants that the file declares anywhere, and the parameters of its templates."""
+    """The types, constants and template parameters that the file declares anywhere."""
     text = code_of(path)[0]
     names = set(re.findall(r"\b(?:class|struct|enum class|enum|typename|using)\s+(\w+)\b(?!::)", text))
     return names | set(re.findall(r"\b(k[A-Z]\w*)\s*(?:=|,|\}|\[\w*\]\s*=|\{)", text))
@@ -150,7 +149,7 @@ def nested(path):
 
 @functools.cache
 def members(path):
-    """Names that are declared indented, in a class, a function or among parameters, and those that the file declares."""
+    """Names declared with indentation, in a class, a function or parameters, and those that the file declares."""
     text = code_of(path)[0]
     return set(re.findall(r"[\w>&*\]] [&*]?(\w+)\s*[({;=,)\[]", text))
 
@@ -161,7 +160,7 @@ def main():
     for header in headers:
         for name in declared(header):
             homes[name].add(header.resolve())
-    # Headers that a batch can hide: those that a source of the same folder reaches.
+    # Headers that a batch can hide: those reached by a source of the same folder.
     near = collections.defaultdict(set)
     for folder in FOLDERS:
         for path in (ROOT / folder).rglob("*.cpp"):

@@ -6,8 +6,8 @@ usage: check_words.py [TREE]
 - No comment or docstring begins with a fragment (FRAGMENTS): "Whether x" is "True if x", "Of the line" is "The max error
   of the line", "What the mesh holds" is "The contents of the mesh".
 - No comment, docstring or help text has one of the words in WORDS, but in code: `take`, "left out", look().
-- No line of Markdown outside tables and code blocks has one of these words (but "take" and "look"), or more than 160
-  characters: it would be hard to read in a terminal.
+- No line of Markdown outside tables and code blocks has one of these words (except "take" and "look"), or more than 160
+  characters, which are hard to read in a terminal.
 """
 
 import pathlib
@@ -18,11 +18,11 @@ import sys
 import comments
 
 MAX_CHARACTERS = 160
-GENERATED = {"build", "demo", "node_modules", "shared"}  # files of others in a tree without git
-FROZEN = {"tests/abi/scarp_c_1.h"}  # a header as it was released
+GENERATED = {"build", "demo", "node_modules", "shared"}  # untracked files in a tree without git
+FROZEN = {"tests/abi/scarp_c_1.h"}  # a released header
 
 FRAGMENTS = ("Of", "What", "That", "Whether", "Where", "Which", "As")
-# Words, and the words of the field that stand for them.
+# Words and their replacements.
 WORDS = {
     "tell tells told telling": "print, report, show, distinguish",
     "say says said saying": "report, declare, hold",
@@ -43,11 +43,11 @@ WORD = re.compile(r"(?<![\w.:/$-])(%s)(?![\w(:-]|\.\w|->)" % "|".join(
 CODE = re.compile(r"``.*?``|`[^`]*`|\"[^\"]*\"|“[^”]*”", re.DOTALL)
 LITERAL = r"\"(?:[^\"\\\n]|\\.)*\""
 HELP = {"option_rows": re.compile(rf"\.(help|brief|by_default) =((?:\s*{LITERAL})+)"),
-        "command_table": re.compile(rf"()({LITERAL})")}  # by the beginnings of the files' names
+        "command_table": re.compile(rf"()({LITERAL})")}  # by the beginning of file names
 
 
 def list_files(tree):
-    """The tracked files; all files where the tree is no checkout."""
+    """The tracked files; all files if the tree is no checkout."""
     listed = subprocess.run(["git", "-C", str(tree), "ls-files", "-z"], capture_output=True, text=True)
     if listed.stdout:
         return [tree / name for name in listed.stdout.split("\0") if name]
@@ -57,7 +57,7 @@ def list_files(tree):
 
 
 def find_page_faults(text):
-    """(number, complaint) for each line of prose that is too long or has a word of WORDS but COMMON."""
+    """(number, complaint) for each line of prose that is too long or has a word of WORDS, except COMMON."""
     in_block, prose = False, []
     for number, line in enumerate(text.split("\n"), 1):
         is_fence = line.lstrip().startswith("```")

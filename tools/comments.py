@@ -1,7 +1,7 @@
 """Finds comments and docstrings: find_comments(path, text) yields the line and the text of each.
 
-Comments on successive lines at the same column are one. Known are C and C++, JavaScript and TypeScript, Python, shell and
-CMake; other files have none.
+Comments on successive lines at the same column are one. Supports C and C++, JavaScript and TypeScript, Python, shell
+and CMake; other files have none.
 """
 import ast
 import io
@@ -11,13 +11,13 @@ import tokenize
 CPP = {".h", ".c", ".cpp", ".inc"}
 JAVASCRIPT = {".js", ".mjs", ".ts", ".mts"}
 SHELL = {".sh", ".cmake"}
-BEFORE_PATTERN = "(,=:[!&|?{};+>"  # characters before the / of a regular expression
+BEFORE_PATTERN = "(,=:[!&|?{};+>"  # characters that precede a regular expression
 SPECIAL = re.compile(r'//|/\*|\bR"|["\'`/]')
 RAW_STRING = re.compile(r'R"([^(]*)\(')
 
 
 def end_of_string(text, start):
-    """The place after a literal that begins at `start`; a quote alone on its line is one character."""
+    """The position after a literal that begins at `start`; a lone quote on its line is one character."""
     quote, at = text[start], start + 1
     while at < len(text) and text[at] != quote and (quote == "`" or text[at] != "\n"):
         at += 2 if text[at] == "\\" else 1
@@ -25,7 +25,7 @@ def end_of_string(text, start):
 
 
 def end_of_pattern(text, start):
-    """The place after a regular expression of JavaScript."""
+    """The position after a regular expression of JavaScript."""
     at, in_class = start + 1, False
     while at < len(text) and text[at] != "\n" and (in_class or text[at] != "/"):
         at += 1 if text[at] == "\\" else 0
@@ -35,13 +35,13 @@ def end_of_pattern(text, start):
 
 
 def is_pattern(text, start):
-    """True if the / begins a regular expression, by what stands before it."""
+    """True if the / begins a regular expression, judged by the preceding text."""
     before = text[max(0, start - 40):start].rstrip()
     return not before or before[-1] in BEFORE_PATTERN or re.search(r"\breturn$", before) is not None
 
 
 def c_tokens(text, is_javascript):
-    """(place, comment) of each comment, with its // or /* */."""
+    """(position, comment) of each comment, including its // or /* */."""
     at = 0
     while found := SPECIAL.search(text, at):
         start, sign = found.span()[0], found.group()
@@ -88,7 +88,7 @@ def shell_comments(text):
 
 
 def join_lines(comments):
-    """One comment of those below each other."""
+    """Joins comments on successive lines into one."""
     first = last = column = body = None
     for line, at, is_alone, text in comments:
         if first is not None and is_alone and line == last + 1 and at == column and at >= 0:

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Configures a build folder: with Ninja where it is there, Release unless a preset or option sets another.
+# Configures a build folder: with Ninja if available, Release unless a preset or option changes it.
 #
 # usage: tools/configure.sh FOLDER [cmake arguments, such as --preset asan]
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Builds Debian's packages from a tarball of sources, in a folder of their own, WORK, which is emptied first. They end in
-# WORK, the build in WORK/scarp-VERSION/obj-*.
+# Builds Debian packages from a tarball of sources in the folder WORK, which is emptied first. The packages are in WORK,
+# the build in WORK/scarp-VERSION/obj-*.
 #
 # usage: tools/debian_packages.sh TARBALL WORK
 # Environment: JOBS (cores), DEB_BUILD_OPTIONS.

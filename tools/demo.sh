@@ -1,6 +1,6 @@
 #!/bin/bash
-# The demonstration: a bundled DEM becomes a mesh, a picture and a report in demo/, the mesh file is read back and judged,
-# and a page shows it where the viewer could be built. The program's own output is what a user will see.
+# The demonstration: makes a mesh, a picture and a report of a bundled DEM in demo/, reads the mesh file back and judges
+# it. A page shows it if the viewer could be built. The program's output is what a user sees.
 #
 # usage: tools/demo.sh PROGRAM
 set -euo pipefail
@@ -8,7 +8,7 @@ scarp=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 cd "$(dirname "$0")/.."
 dem=data/jacksboro_fault.tif
 
-# The command as a user would type it, then its run.
+# Prints the command as a user would type it, then runs it.
 run() {
   printf '\n$ scarp %s\n' "$*"
   "$scarp" "$@"

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Everything that is handed out, into FOLDER, with SHA256SUMS: the sources, the npm package, the wheel and the sdist of
-# Scarp for Python, the plugin for QGIS, Debian's packages. Wheel and packages carry the viewer's page. Files that
-# cannot be made on this machine are skipped, with a message: the npm package without Emscripten, the page where npm
-# cannot fetch, Debian's packages without dpkg-buildpackage.
+# Makes everything to distribute in FOLDER, with SHA256SUMS: the sources, the npm package, the wheel and the sdist for
+# Python, the plugin for QGIS, Debian packages. Wheel and packages include the viewer's page. Files that cannot be made
+# on this machine are skipped, with a message: the npm package without Emscripten, the page where npm cannot fetch,
+# Debian's packages without dpkg-buildpackage.
 #
 # usage: tools/dist.sh BUILD FOLDER      BUILD has the program and scarp_c_alone; Emscripten builds in BUILD-wasm
 set -euo pipefail
@@ -13,7 +13,7 @@ folder=$(realpath "$2")
 find "$folder" -maxdepth 1 -type f -delete
 sources=$("$here/source_tarball.sh" "$folder")
 
-# quietly LOG COMMAND...: into LOG, whose end is shown if it fails.
+# quietly LOG COMMAND...: prints the end of the log only on failure.
 quietly() {
   local log=$1
   shift
@@ -29,7 +29,7 @@ fi
 "$here/build_python.sh" "$build" "$folder" >/dev/null
 python3 "$here/../bindings/qgis/make_plugin.py" "$build/bin/scarp" "$folder/scarp_processing.zip"
 if command -v dpkg-buildpackage >/dev/null; then
-  # Without symbols for debuggers, which are larger than the packages and need longer to compile.
+  # Without debug symbols, which are larger than the packages and need longer to compile.
   export DEB_BUILD_OPTIONS="nocheck noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$build/share/scarp/viewer.html
   quietly "$build/debian.log" "$here/debian_packages.sh" "$sources" "$build/debian"
   cp "$build/debian"/*.deb "$folder/"

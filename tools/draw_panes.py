@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the picture of README.md: a detail of the bundled DEM as full grid, and as meshes of three efforts at one max error.
+"""Draws the picture of README.md: a detail of the bundled DEM as full grid, and as meshes by three efforts at one max
+error.
 
 usage: tools/draw_panes.py SCARP PICTURE.png
 
-The counts are those that the program reports of the whole DEM. Needs matplotlib, and gdal_translate for the full grid."""
+The counts are the program's for the whole DEM. Needs matplotlib, and gdal_translate for the full grid."""
 import io
 import json
 import pathlib
@@ -34,7 +35,8 @@ COLOURS = 64
 
 
 def read_mesh(path, width, height):
-    """Columns, rows and heights of the vertices, and the triangles, of a GLB that covers the raster: x east, y up, z south."""
+    """Columns, rows and heights of the vertices, and the triangles, of a GLB that covers the raster: x east, y up, z
+    south."""
     document, binary = glb.load(path)
     (mesh,) = document["meshes"]
     part = mesh["primitives"][0]
@@ -58,7 +60,7 @@ def full_grid(folder):
 
 
 def draw(axes, cell, column, row, heights, triangles, line):
-    """Each triangle tinted by its height and lit from the north-west, heights twice as high; and its edges."""
+    """Draws triangles tinted by height and lit from the north-west, heights exaggerated twice; and their edges."""
     at = numpy.stack([column * cell[0], -row * cell[1], 2 * heights], 1)
     corners = at[triangles]
     normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Pictures of the plugin for QGIS: draw_qgis.py PLUGINS PROGRAM DEM OUT, without a screen. PLUGINS holds the unpacked plugin."""
+"""Draws pictures of the plugin for QGIS without a screen: draw_qgis.py PLUGINS PROGRAM DEM OUT. PLUGINS contains the
+unpacked plugin."""
 
 import os
 import sys

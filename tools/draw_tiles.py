@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the picture of docs/tiles.md: one area as tiles of three levels, of the bundled DEM.
+"""Draws the picture of docs/tiles.md: an area of the bundled DEM as tiles of three levels.
 
 usage: tools/draw_tiles.py SCARP PICTURE.png
 

@@ -2,7 +2,7 @@
 # Formats JavaScript and TypeScript by prettier, in the style of .prettierrc.
 #
 # usage: tools/format_js.sh --write|--check [PRETTIER]      PRETTIER: the program; without it npx fetches the version
-# that tests/js/package.json names. --check changes no file, and fails if one is not formatted.
+# that tests/js/package.json names. --check changes no file and fails if one is not formatted.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if [ $# -gt 1 ]; then

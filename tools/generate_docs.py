@@ -3,10 +3,10 @@
 
 usage: generate_docs.py PROGRAM FOLDER
 
-PROGRAM is build/bin/scarp, whose `help --json` prints the tables. FOLDER gets man/man1/scarp.1 (packaging/scarp.1.in, with
-synopsis and options), bash-completion/completions/scarp, zsh/site-functions/_scarp, fish/vendor_completions.d/scarp.fish
-doc/scarp/options.md and doc/scarp/conflicts.md: the places below share/ where they are installed. The build runs it after
-it has linked the program.
+PROGRAM is build/bin/scarp, whose `help --json` prints the tables. FOLDER gets man/man1/scarp.1 (packaging/scarp.1.in,
+with synopsis and options), bash-completion/completions/scarp, zsh/site-functions/_scarp,
+fish/vendor_completions.d/scarp.fish doc/scarp/options.md and doc/scarp/conflicts.md: their installed places below
+share/. The build runs it after linking the program.
 """
 
 import argparse
@@ -36,7 +36,7 @@ class Table:
         return [option for option in self.of(command) if option["name"].startswith("-") and not option["part_of"]]
 
     def listed(self, command):
-        """The options that pages list: those of simplify once, not for classic, too."""
+        """The options for pages: those of simplify once, not again for classic."""
         return [option for option in self.of(command) if command != "classic" or "strategies" in option["group"]]
 
     def arguments(self, command):
@@ -44,7 +44,7 @@ class Table:
 
 
 def spelling(option):
-    """--max-error; of a part, as it stands behind its option: --cutline ...,inset"""
+    """--max-error; for a part, its form after the option: --cutline ...,inset"""
     return f"{option['part_of']} ...,{option['key']}" if option["part_of"] else option["name"]
 
 
@@ -53,7 +53,7 @@ def first_sentence(option):
 
 
 def sentences(option, with_default=True):
-    """The help, and the rest of the table's row, like --help."""
+    """The help and the rest of the table's row, as in --help."""
     text = option["help"]
     if option["range"] and " to " in option["range"]:
         text += f" From {option['range']}."
@@ -117,7 +117,7 @@ def man_page(table):
 
 def cell(text, choices=()):
     text = re.sub(r"([*_<|])", r"\\\1", text)
-    for choice in choices:  # "fast: refine only"; a default that is a choice
+    for choice in choices:  # "fast: refine only"; a default among the choices
         text = re.sub(rf"(?<![\w-]){re.escape(choice)}(?=:)|^{re.escape(choice)}(?=$|;|,| where| with)", f"`{choice}`", text)
     return re.sub(r"(?<![\w`-])(--[a-z][a-z-]*|-[a-z])(?![\w-])", r"`\1`", text)
 

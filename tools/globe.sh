@@ -1,6 +1,6 @@
 #!/bin/bash
-# Makes a folder with a globe of terrain tiles and a page that shows it: tools/globe.sh SCARP RASTER FOLDER [OPTIONS]
-# OPTIONS are those of scarp tile. Needs npm once, for CesiumJS.
+# Makes a folder with a globe of terrain tiles and its page: tools/globe.sh SCARP RASTER FOLDER [OPTIONS]. OPTIONS: of
+# scarp tile. Needs npm once, for CesiumJS.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 scarp=$1 raster=$2 folder=$3

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
 """Is HEAD slower or larger than BASE? Builds both, times both in interleaved rounds on the same rasters, and reports.
 
-  guard.py BASE [HEAD]       two commits; HEAD is what is checked out if omitted (its last commit)
-  guard.py --bins A B        two folders of programs that are built already
+  guard.py BASE [HEAD]       two commits; HEAD is by default the last commit checked out
+  guard.py --bins A B        two folders of built programs
 
-Compared are the triangulation's CPU time as speed_scarp reports it (instructions of the whole process where `perf` can
-count them), least of the rounds, and the peak memory of the process. A case fails where a number grew by more than a
-ratio and by more than an amount: either alone is noise, or a triviality. What fails is measured again before it counts.
-A commit without speed_scarp is timed by `scarp simplify --report` (seconds of refinement, wall clock); then the other
-one is too. Options that a program does not know are omitted, and that is reported. Exit code: 0 well, 1 a case failed,
-2 no comparison.
+Compares the triangulation's CPU time from speed_scarp (or instructions of the whole process if `perf` can count them),
+least of the rounds, and the peak memory of the process. A case fails if a number grew by more than a ratio and by more
+than an amount: either alone is noise or trivial. Failures are measured again before they count. If a commit lacks
+speed_scarp, both are timed by `scarp simplify --report` (seconds of refinement, wall clock). Unknown options of a
+program are omitted and reported. Exit code: 0 well, 1 a case failed, 2 no comparison.
 """
 
 import argparse
@@ -32,7 +31,7 @@ DEFAULT_RASTERS = ("fuji", "essen_dom", "sierra_3601")
 
 @dataclass(frozen=True)
 class Threshold:
-    """How much a number may grow: it fails beyond both."""
+    """Limits of growth: a number fails beyond both."""
     ratio: float
     amount: float
 
@@ -53,7 +52,8 @@ def least(runs, key):
 
 
 def judge(base, head, limits):
-    """Rows (what, base, head, fails) of one case from the runs of both sides; instructions rule out time."""
+    """Rows (what, base, head, fails) of one case from the runs of both sides; with instructions, time does not
+    count."""
     rows = []
     counted = least(base, "instructions") is not None and least(head, "instructions") is not None
     for what in ("instructions", "seconds", "megabytes"):
@@ -66,8 +66,8 @@ def judge(base, head, limits):
 
 
 def run_child(command):
-    """(output, peak megabytes), or None if it fails. Peaks below this interpreter's own are not seen: a child starts as
-    its image."""
+    """(output, peak megabytes), or None on failure. Peaks below this interpreter's are hidden: a child starts as its
+    image."""
     with tempfile.TemporaryFile("w+") as output, open(os.devnull, "w") as nowhere:
         child = subprocess.Popen([str(part) for part in command], stdout=output, stderr=nowhere)
         _, status, usage = os.wait4(child.pid, 0)
@@ -77,7 +77,7 @@ def run_child(command):
 
 
 def count_instructions(command, scratch):
-    """Instructions in user mode of one run, or None where they cannot be counted."""
+    """Instructions of one run in user mode, or None if they cannot be counted."""
     if shutil.which("perf") is None:
         return None
     counts = scratch / "counts"
@@ -91,7 +91,7 @@ def count_instructions(command, scratch):
 
 
 class NoComparison(Exception):
-    """Why there is nothing to compare."""
+    """The reason why a comparison is impossible."""
 
 
 class Side:
@@ -132,7 +132,7 @@ class Side:
 
 
 def measure_case(sides, run, rounds):
-    """Runs of each side, interleaved, the first of a round by turns."""
+    """Interleaved runs of both sides, which alternate in beginning a round."""
     runs = {side.name: [] for side in sides}
     for number in range(rounds):
         for side in sides if number % 2 == 0 else sides[::-1]:
@@ -141,7 +141,7 @@ def measure_case(sides, run, rounds):
 
 
 def compare(sides, cases, rounds, limits):
-    """Prints the table; whether any case fails. `cases`: (title, function of a side)."""
+    """Prints the table; returns whether any case fails. `cases`: (title, function of a side)."""
     failed = False
     print("| case | what | base | head | head ÷ base | verdict |\n|---|---|---|---|---|---|")
     for title, run in cases:
@@ -159,7 +159,7 @@ def compare(sides, cases, rounds, limits):
 
 
 def find_commit(name):
-    """The commit's hash, by which a branch is meant as it stands now."""
+    """The commit's hash; a branch means its present commit."""
     found = subprocess.run(["git", "-C", PROJECT, "rev-parse", "--verify", "--quiet", f"{name}^{{commit}}"],
                            capture_output=True, text=True)
     if found.returncode != 0:
@@ -173,7 +173,7 @@ def has_target(made, target):
 
 
 def build(commit, folder, jobs):
-    """The programs of a commit, in a worktree of its own; their folder."""
+    """Builds the programs of a commit in a separate worktree; returns their folder."""
     subprocess.run(["git", "-C", PROJECT, "worktree", "add", "-q", "--detach", folder, commit], check=True)
     launcher = [] if "CMAKE_CXX_COMPILER_LAUNCHER" in os.environ or shutil.which("ccache") is None else [
         "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"]
@@ -190,7 +190,7 @@ def build(commit, folder, jobs):
 
 
 def run_step(commit, command):
-    """Its output is only shown if it fails."""
+    """Prints the output only on failure."""
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0:
         sys.stderr.write(done.stdout[-4000:])
@@ -198,7 +198,7 @@ def run_step(commit, command):
 
 
 def bench_cases(options, sides, scratch):
-    """Cases for speed_scarp, on raw rasters; for the program, on GeoTIFF, where one side lacks it."""
+    """Cases for speed_scarp on raw rasters, or for the program on GeoTIFF if one side lacks speed_scarp."""
     both = all(side.has_bench() for side in sides)
     if not both:
         print("timed by scarp simplify --report, since one side has no speed_scarp: wall clock")
@@ -237,7 +237,7 @@ def parse(arguments):
 
 
 def limits_of(options):
-    """Five million instructions need about a millisecond: the amount is that of the time."""
+    """Five million instructions are about a millisecond, the amount for time."""
     return Limits(Threshold(options.time_ratio, options.time_ms / 1e3),
                   Threshold(options.memory_ratio, options.memory_mb),
                   Threshold(options.time_ratio, options.time_ms * 5e6))

@@ -2,8 +2,8 @@
 """The code of a guide, for the test that runs it.
 
 usage: guide_blocks.py FILE LANGUAGE [NUMBER]     prints the fenced blocks of the language, or one of them (from 0)
-       guide_blocks.py --check TREE               each block of docs/guide and of all READMEs has a test, which
-                                                  names its file: tests/program/guide_blocks.tsv
+       guide_blocks.py --check TREE               checks that each block of docs/guide and of all READMEs has a
+                                                  test: tests/program/guide_blocks.tsv
 """
 import pathlib
 import re

@@ -3,9 +3,9 @@
 #
 # usage: tools/install_packages.sh PURPOSE...      PURPOSE: build run viewer test full globe wasm bench paper lint dist
 #
-# A machine that has them all is left alone: no network, no rights. Otherwise apt-get runs once, as root or through sudo
-# without a password; where neither is possible, the line to run is printed and the exit code is 1.
-# On a machine without apt the packages are named and the build continues: CMake reports what it does not find.
+# If all are installed, it does nothing: no network, no rights. Otherwise apt-get runs once, as root or through sudo
+# without a password. If neither is possible, it prints the command to run and exits with 1.
+# Without apt it lists the packages, and the build continues: CMake reports missing ones.
 set -euo pipefail
 list=$(dirname "$0")/packages.txt
 
@@ -54,7 +54,7 @@ else
 fi
 log=$(mktemp "${TMPDIR:-/tmp}/scarp-packages.XXXXXX")
 echo "Installing ${#missing[@]} packages and what they need: ${missing[*]} (apt's output: $log)"
-# apt COMMAND...: as root, its output in the log.
+# apt COMMAND...: runs as root with output to the log.
 apt() {
   "${as_root[@]+"${as_root[@]}"}" env DEBIAN_FRONTEND=noninteractive "$@" -q </dev/null >>"$log" 2>&1 || {
     tail -n 20 "$log" >&2

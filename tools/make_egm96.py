@@ -2,9 +2,9 @@
 """Packs the grid of EGM96 for the program: data/egm96.bin, which src/globe/egm96.cpp reads.
 
 The grid has 721 x 1440 heights of the geoid above the ellipsoid of WGS 84, 15 minutes of arc apart. They are rounded to
-centimetres. Packed are their second differences along the rows and then along the columns, from the north-western node
-on, in Rice's code: a number n >= 0 stands for n / 2 or -(n + 1) / 2; n >> k ones, a zero, and the last k bits of n. k
-follows the differences before it in the row. Bits fill words of 64, the highest first.
+centimetres. Second differences along the rows, then along the columns, from the north-western node on, are packed in
+Rice code. A number n >= 0 stands for n / 2 or -(n + 1) / 2. It is written as n >> k ones, a zero, and the last k bits
+of n. k adapts to the preceding differences in the row. Bits fill 64-bit words, the highest first.
 
 usage: make_egm96.py /usr/share/proj/egm96_15.gtx data/egm96.bin       (Debian's proj-data)
 """

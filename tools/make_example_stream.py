@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes data/examples/streams.geojson: the course of water over the bundled DEM, from a valley in the north.
+"""Writes data/examples/streams.geojson: a stream over the bundled DEM, from a valley in the north.
 
     tools/make_example_stream.py >data/examples/streams.geojson
 
 A flood rises from the border of the raster inwards, the lowest sample next (Barnes et al. 2014). Each sample drains
-into the one that it was reached from; what lies in a pit drains over its lowest sill.
+into the one from which it was reached; pits drain over their lowest sill.
 """
 import heapq
 import json

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Makes the pictures of docs/guide and of the README. Views in three dimensions need f3d, and xvfb-run where there is no
-# display (Debian: f3d, xvfb); the mesh layer needs QGIS (python3-qgis, qgis-providers); pngquant and GDAL make them small
+# Makes the pictures of docs/guide and of the README. Views in three dimensions need f3d, and xvfb-run without a display
+# (Debian: f3d, xvfb); the mesh layer needs QGIS (python3-qgis, qgis-providers); pngquant and GDAL compress them
 # (pngquant, gdal-bin).
 #
 # usage: tools/make_guide_pictures.sh PROGRAM
@@ -20,7 +20,7 @@ shrink() {
 }
 simplify() { "$scarp" simplify "$@" --quiet --overwrite; }
 
-# The sky that lights the views: a sun in the north-west, as a Radiance picture of longitudes and latitudes.
+# A sky that lights the views: a sun in the north-west, as a Radiance picture in longitude and latitude.
 python3 - sky.hdr << 'PYTHON'
 import math, sys
 WIDTH, HEIGHT, SUN = 256, 128, (2.5, 0.55)
@@ -39,7 +39,7 @@ with open(sys.argv[1], "wb") as file:
     file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (HEIGHT, WIDTH) + b"".join(rows))
 PYTHON
 
-# view MESH PICTURE UP POSITION FOCAL [OPTIONS]: as f3d draws it.
+# view MESH PICTURE UP POSITION FOCAL [OPTIONS]: draws with f3d.
 view() {
   local mesh=$1 picture=$2 up=$3 position=$4 focal=$5
   shift 5
@@ -59,7 +59,7 @@ shrink "$out/gis_parcel.png" 900
 simplify dem.tif tin.2dm -e 20 --crs EPSG:32616
 "$scarp" measure dem.tif tin.2dm --map "$out/gis_errors.png" --quiet --overwrite
 shrink "$out/gis_errors.png" 700
-# The interpreter of Debian's packages, which others on the path do not replace.
+# Debian's interpreter, even if the path has another first.
 QT_QPA_PLATFORM=offscreen /usr/bin/python3 - "$out/gis_qgis.png" << 'PYTHON'
 import sys
 from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsMapRendererParallelJob, QgsMapSettings, QgsMeshLayer,
@@ -104,7 +104,7 @@ simplify dem.tif flow.2dm -e 20 --crs local --breaklines dikes.geojson --min-ang
   --preview "$out/simulation_lines.png"
 shrink "$out/simulation_lines.png" 900
 
-# Heights are three times as high in the views, or there is little to be seen.
+# Heights are exaggerated three times in the views to be visible.
 python3 - << 'PYTHON'
 import subprocess
 subprocess.run(["gdal_translate", "-q", "-of", "VRT", "dem.tif", "tall.vrt"], check=True)
@@ -134,7 +134,7 @@ view hills.stl printing_solid.png +Z -40,-90,110 57,60,0
 simplify dem.tif big.stl -e 0.1mm --solid size=360mm,exaggerate=3 --split 2x2,joint=dovetail,gap=0.2mm
 view big-r1-c1.stl printing_tile.png +Z 120,-60,220 100,260,0
 
-# Tiles: as triangles, and in CesiumJS, whose picture comes from the test of make globe.
+# Tiles: as triangles, and in CesiumJS, from the picture of the test of make globe.
 /usr/bin/python3 "$tree/tools/draw_tiles.py" "$scarp" "$tree/docs/images/tiles_levels.png"
 SCARP_SHOTS=$scratch SCARP_BUILD=$(dirname "$(dirname "$scarp")") SCARP_SOURCE=$tree bash "$tree/tests/browsers/test_globe.sh"
 shrink globe.png 900

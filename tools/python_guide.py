@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the code of docs/guide/python.md, of bindings/python/README.md and of README.md, from top to bottom in a folder with the
-examples.
+"""Runs the code of docs/guide/python.md, bindings/python/README.md and README.md from top to bottom in a folder with
+the examples.
 
-usage: tools/python_guide.py [--pictures]     --pictures: puts the pictures that it draws into docs/guide/images
+usage: tools/python_guide.py [--pictures]     --pictures: saves its pictures in docs/guide/images
 
 Needs the package scarp on the path, numpy and matplotlib.
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the reference of the Python package, a page of Markdown, from the docstrings of bindings/python.
+"""Writes the reference of the Python package as Markdown from the docstrings of bindings/python.
 
 usage: python_reference.py FILE.md
 """
@@ -10,7 +10,7 @@ import textwrap
 
 root = pathlib.Path(__file__).resolve().parent.parent
 package = root / "bindings" / "python" / "src" / "scarp"
-# Names for users, by the module that they stand in.
+# Public names by module.
 PUBLIC = [("__init__", ["simplify", "simplify_points", "measure"]), ("mesh", ["read_mesh", "Mesh", "Report"]),
           ("refiner", ["Refiner"]), ("tiles", ["tile", "Tiles"]), ("_call", ["Progress"]),
           ("errors", ["ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled",

@@ -1,11 +1,10 @@
 #!/bin/bash
-# Searches for rare faults for a while: each source is compiled alone, then, from fresh random seeds, the laws with ten
-# times their cases, round after round, and then the fuzzers (where clang is); before them every file in DATA goes
-# through info, simplify and measure. What fails is printed with the command that repeats it.
+# Searches for rare faults. Compiles each source alone, and runs info, simplify and measure on every file in DATA. Then,
+# with fresh random seeds, repeats the laws with ten times their cases, and runs the fuzzers (with clang). Prints each
+# failure with the command that repeats it.
 #
-# Environment: SOAK_MINUTES (10), half for the laws (a round that has begun is finished), half for the fuzzers; BUILD
-# (build), JOBS (cores), DATA (../shared/data, skipped where it is not there), SCARP_FUZZ_SEED (fresh). Exit 1 if
-# something failed.
+# Environment: SOAK_MINUTES (10), half for the laws (the last round is finished), half for the fuzzers; BUILD (build),
+# JOBS (cores), DATA (../shared/data, skipped if missing), SCARP_FUZZ_SEED (fresh). Exit 1 if something failed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}
@@ -15,7 +14,7 @@ exec </dev/null
 
 fresh_seed() { od -An -N4 -tu4 /dev/urandom | tr -d ' '; }
 
-# The laws that RC_GTEST_PROP(SUITE, NAME, ...) declares, as SUITE.NAME, in a random order.
+# Prints the laws that RC_GTEST_PROP(SUITE, NAME, ...) declares, as SUITE.NAME, in random order.
 laws() {
   cat tests/laws/*.cpp tests/unit/*.cpp | tr '\n' ' ' |
     grep -o 'RC_GTEST_PROP( *[A-Za-z_0-9]*, *[A-Za-z_0-9]*' | sed 's/.*( *//; s/, */./' | shuf
@@ -31,7 +30,7 @@ else
 fi
 [ $fuzz = no ] || seconds=$((seconds / 2))
 
-# try_law PROGRAM LAW SEED: prints what failed and how to repeat it.
+# try_law PROGRAM LAW SEED: prints a failure and the command to repeat it.
 try_law() {
   local log
   log=$(RC_PARAMS="seed=$3 max_success=1000" "$1" --gtest_brief=1 --gtest_filter="$2" 2>&1) && return 0

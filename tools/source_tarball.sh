@@ -1,6 +1,6 @@
 #!/bin/bash
-# Packs the sources of this checkout: what git tracks, and what is new here and not ignored. The same tree gives the
-# same bytes. Prints the path.
+# Packs the sources of this checkout: tracked files and new ones that are not ignored. The same tree gives the same
+# bytes. Prints the path.
 #
 # usage: tools/source_tarball.sh FOLDER
 set -euo pipefail
@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 git rev-parse --is-inside-work-tree >/dev/null 2>&1 || { echo "$0: needs a checkout of git" >&2; exit 1; }
 version=$(sed -n 's/^project(scarp VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 out=$folder/scarp-$version-source.tar.gz
-# A file that was removed and not committed is listed, too.
+# Removed files that are not committed are listed, too.
 git ls-files -zco --exclude-standard | while IFS= read -rd '' file; do
   if [ -e "$file" ]; then printf '%s\0' "$file"; fi
 done | LC_ALL=C sort -zu | tar -c --format=gnu --no-recursion --transform="s,^,scarp-$version/," --owner=0 --group=0 \

@@ -1,22 +1,22 @@
 #!/bin/bash
 # usage: tools/test.sh test|rest|full
 #
-# test: everything that shows that this tree works on this machine. Release: unit tests, laws with 15 cases each, and the
+# test: everything needed to verify this tree on this machine. Release: unit tests, laws with 15 cases each, and the
 #       scripts of labels fast and full: program, Python, npm, viewer.
 # rest: what `make test-full` adds.
 #   1. Release: laws with 100 cases each; scripts of label rest: packages, installs, clients of other languages,
 #      other programs, clusters.
-#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests, and laws with 8 cases each, asserts on; of the samples
-#      of real rasters a share (tests/laws/sanitized.h). One process runs many tests, since each start costs. With clang
-#      this is the build of the fuzzers, so that the library is compiled once. The C library, called by C
-#      (tests/abi/door.c) and, with clang, by Python.
+#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests, and laws with 8 cases each, with asserts and a share
+#      of the samples of real rasters (tests/laws/sanitized.h). One process runs many tests to save starts. With clang
+#      this is the fuzzers' build, so the library is compiled once. The C library, called by C (tests/abi/door.c) and,
+#      with clang, by Python.
 #   3. Fuzzers, SCARP_FUZZ_SECONDS (10) each; needs clang.
 #   4. ThreadSanitizer: the tests that use threads.
 # full: both.
 #
-# A stage that fails does not hide the next. Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp,
-# SCARP_FUZZ_SEED; tools/soak.sh uses fresh ones. The CPU seconds of each stage and script go to BUILD/times, which
-# tools/test_times.py prints; above 2,200 s for `test` it fails.
+# A failed stage does not skip the next. Random seeds are fixed: tests/laws/fixed_seed.cpp, SCARP_FUZZ_SEED;
+# tools/soak.sh uses fresh ones. The CPU seconds of each stage and script go to BUILD/times, which tools/test_times.py
+# prints; above 2,200 s for `test` it fails.
 #
 # Environment: BUILD (build), JOBS (cores). The last line counts the tests of all stages; exit 1 if one failed.
 set -uo pipefail
@@ -81,8 +81,8 @@ run_ctest() {
   add $((tests - failed - skipped)) "$failed" "$skipped"
 }
 
-# run_gtest PROGRAM [PARTS]: its tests in PARTS (1) processes, as many at once as there are jobs. Tests that an abort
-# kept from running count as failed.
+# run_gtest PROGRAM [PARTS]: runs its tests in PARTS (1) processes, as many at once as there are jobs. Tests that an
+# abort prevented count as failed.
 run_gtest() {
   local program=$1 parts=${2:-1} passed=0 failed=0 skipped=0 part
   run_part() {
@@ -109,7 +109,7 @@ run_gtest() {
   add "$passed" "$failed" "$skipped"
 }
 
-# run_callers FOLDER PROGRAM: the C library of that build, which has sanitizers, called by C and by Python.
+# run_callers FOLDER PROGRAM: calls the sanitized C library of that build from C and Python.
 run_callers() {
   local folder=$1 program=$2 scratch runtime
   # passes NAME COMMAND...
@@ -125,7 +125,7 @@ run_callers() {
     "$scratch/out.glb"
   runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so" 2>/dev/null || true)
   if [ -e "$folder/bindings/c/libscarp_c.so" ] && [ -e "$runtime" ]; then
-    # Leaks are searched for above: an interpreter frees little at its end.
+    # Leaks are searched for above: an interpreter frees little at exit.
     basename -a tests/python/test_*.py >"$scratch/files"
     passes "the C library called by Python" env ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 \
       PYTHONPATH="$PWD/bindings/python/src" SCARP_LIBRARY="$(realpath "$folder")/bindings/c/libscarp_c.so" \
@@ -138,13 +138,13 @@ run_callers() {
   rm -rf "$scratch"
 }
 
-# names_of_laws: the laws as a filter of GoogleTest, made of what RC_GTEST_PROP(SUITE, NAME, ...) declares.
+# names_of_laws: the laws as a filter of GoogleTest, from RC_GTEST_PROP(SUITE, NAME, ...).
 names_of_laws() {
   cat tests/laws/*.cpp tests/unit/*.cpp | tr '\n' ' ' | grep -o 'RC_GTEST_PROP( *[A-Za-z_0-9]*, *[A-Za-z_0-9]*' |
     sed 's/.*( *//; s/, */./' | paste -sd:
 }
 
-# Whole meshes whose sizes or errors are compared: laws run the same code on smaller ones, and so do sanitizers.
+# Tests that compare sizes or errors of whole meshes. Laws run the same code on smaller ones, also under sanitizers.
 compared=(
   bounds.that_are_all_but_one_the_same_take_as_many_triangles_as_a_threshold
   bounds.that_fall_across_a_field_take_fewer_triangles_with_each_effort

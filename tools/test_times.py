@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Prints the CPU seconds of each stage and script of the last `make test`, the dearest first.
+"""Prints the CPU seconds of each stage and script of the last `make test`, the longest first.
 
 usage: tools/test_times.py [BUILD] [--rest] [--most SECONDS]
 
 BUILD is the build folder (build). Without --rest: the stages of `make test`; with it, what `make test-full` adds. With
---most the exit code is 1 where the sum is larger, so that the growth of the tests is seen: of SECONDS on the machine on
-which a compilation needs REFERENCE CPU seconds, on every core at once. Where cores are shared or slow it needs longer,
-and so may the tests.
+--most the exit code is 1 if the sum is larger, to detect growth of the tests. SECONDS apply to a machine where a
+compilation on every core at once needs REFERENCE CPU seconds; on slower or shared cores the limit grows in proportion.
 """
 import argparse
 import multiprocessing
@@ -28,8 +27,8 @@ def compile_once(_):
 
 
 def slowness():
-    """The factor by which a compilation is slower than on the machine of REFERENCE, on all cores at once; 1 at
-    least."""
+    """The factor, at least 1, by which a compilation on all cores at once is slower than on the machine of
+    REFERENCE."""
     cores = os.cpu_count() or 2
     with multiprocessing.Pool(cores) as pool:
         taken = sorted(pool.map(compile_once, range(3 * cores), chunksize=1))

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Runs `info`, `simplify` and `measure` on every file of a folder that others made, and reports failures.
+"""Runs `info`, `simplify` and `measure` on every file of a folder of foreign files, and reports failures.
 
     tools/try_files.py PROGRAM FOLDER [--jobs N] [--timeout SECONDS] [--error E]
 
 A refusal is no fault: exit codes 1 to 3, one sentence on stderr, nothing written. Faults are signals, time-outs, exit
-codes 4 and above, more than one sentence, files left in the folder of the outputs or next to the inputs, and commands
-that disagree: info reads what simplify does not, or measure finds that a mesh breaks its bound. Exit 1 if there is any.
+codes 4 and above, more than one sentence, files left in the output folder or next to inputs, and commands that
+disagree. Commands disagree if info reads what simplify does not, or measure finds a broken bound. Exit 1 if there is
+any.
 """
 
 import argparse
@@ -34,7 +35,7 @@ def parse(words):
 
 
 def run(command, timeout):
-    """Exit code, 'time-out' or the name of a signal; and the lines on stderr that are no warnings."""
+    """Exit code, 'time-out' or the name of a signal; and the lines on stderr except warnings."""
     try:
         done = subprocess.run(command, timeout=timeout, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                               stderr=subprocess.PIPE)
@@ -46,7 +47,7 @@ def run(command, timeout):
 
 
 def try_file(path, options):
-    """{command: end} and a list of faults."""
+    """{command: exit state} and a list of faults."""
     ends, faults = {}, []
     with tempfile.TemporaryDirectory() as scratch:
         mesh, report = os.path.join(scratch, "mesh.glb"), os.path.join(scratch, "report.json")

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Compiles the core with Emscripten, and compares the meshes that it makes under node with those of a native build.
+# Compiles the core with Emscripten and compares its meshes under node with those of a native build.
 #
 # Environment: BUILD (build), JOBS (cores).
 set -euo pipefail

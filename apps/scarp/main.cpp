@@ -1,5 +1,4 @@
-// scarp COMMAND [OPTIONS] …: picks the command, prints its one sentence if it fails, and turns the error into an exit
-// code.
+// scarp COMMAND [OPTIONS] …: runs the command; prints a failure as one sentence and returns its exit code.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -35,7 +34,7 @@ std::string join_command_line(int argc, char** argv) {
   return line;
 }
 
-/// The help of the command that was chosen, or the program's.
+/// The help of the chosen command, or the program's.
 std::string help_text(const CLI::App& program, bool all) {
   check_table(program);
   const CommandRow* chosen = nullptr;
@@ -43,7 +42,7 @@ std::string help_text(const CLI::App& program, bool all) {
   return chosen != nullptr ? command_help(*chosen, all) : program_help();
 }
 
-/// CLI11's complaint about the number of values, in words.
+/// CLI11's error about the number of values, in words.
 std::string describe_mismatch(const std::string& message) {
   const std::string option = message.substr(0, message.find(':'));
   const bool is_missing = message.find("missing") != std::string::npos || message.find("At least") != std::string::npos;
@@ -57,9 +56,9 @@ Error end_usage(const std::string& sentence, const std::string& command) {
   return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, command)};
 }
 
-/// CLI11's complaint as one sentence that ends with where to read more.
+/// CLI11's error as one sentence that ends with a reference.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
-  if (error.get_name() == "ValidationError") return {ErrorKind::kUsage, error.what()};  // by the table's rules
+  if (error.get_name() == "ValidationError") return {ErrorKind::kUsage, error.what()};  // from the table's rules
   std::string command, sentence;
   const CLI::App* chosen = nullptr;
   for (const CLI::App* candidate : program.get_subcommands()) chosen = candidate;
@@ -81,7 +80,7 @@ Error describe(const CLI::ParseError& error, const CLI::App& program) {
   return end_usage(sentence, command);
 }
 
-/// Prints the error, if there is one, and returns the exit code.
+/// Prints the error, if any, and returns the exit code.
 int report_end(const scarp::Result<void>& result) {
   keep_interrupts_quiet();
   if (result) return 0;
@@ -90,7 +89,7 @@ int report_end(const scarp::Result<void>& result) {
   return exit_code(result.error().kind);
 }
 
-/// "tile plan" is the command tile-plan.
+/// Joins "tile plan" to tile-plan.
 std::vector<std::string> join_command(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   if (argc < 3 || words[1] != "tile" || find_command("tile-" + words[2]) == nullptr) return words;
@@ -161,8 +160,8 @@ int run_program(int count, char** words) {
   return report_end(kRunners[chosen].run(*options[chosen], command_line));
 }
 
-/// A standard stream that the caller has closed would lend its number to the next file that is opened, which messages
-/// would then be written into. /dev/null, opened for reading, occupies its number: writing to it fails as it should.
+/// Opens /dev/null read-only in place of standard streams that the caller has closed. Otherwise the next opened file
+/// would get their number and receive messages. Writing to it fails as it should.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != stream) return;
@@ -177,7 +176,7 @@ int main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const std::bad_alloc&) {
-    print_to_stderr("scarp: not enough memory for this run\n");  // without asking for more of it
+    print_to_stderr("scarp: not enough memory for this run\n");  // must not allocate
     return exit_code(ErrorKind::kInput);
   } catch (const std::exception& error) {
     print_error({ErrorKind::kInternal, fmt::format("internal error: {}; please report it", error.what())});

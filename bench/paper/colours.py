@@ -1,4 +1,4 @@
-"""Terrain with its aerial photograph, and colour images, against uniform grids of as many vertices."""
+"""Terrain with its aerial photograph, and colour images, against uniform grids with the same number of vertices."""
 import math
 
 import numpy
@@ -11,7 +11,7 @@ from program import uniform_grid
 HEIGHTS, PHOTOGRAPH, PICTURE_SIDE = "santa_barbara_elev.tif", "santa_barbara_aerial.tif", 224
 EMPHASES = {"heights alone": 0, "both, emphasis 0.02": 0.02, "both, emphasis 0.1": 0.1, "both, emphasis 0.5": 0.5,
             "colours alone": 1}
-MOVED_EMPHASIS, MOVED_RELIEFS = 0.1, 10  # the other table: the emphasis, and what is added to all heights, in reliefs
+MOVED_EMPHASIS, MOVED_RELIEFS = 0.1, 10  # the other table: the emphasis, and the offset of all heights in reliefs
 # The paper used the mandrill; these are free.
 IMAGES = {"astronaut.png": "astronaut: NASA, public domain", "kodim05.png": "Kodak 05, released for unrestricted use",
           "kodim23.png": "Kodak 23, released for unrestricted use"}
@@ -41,16 +41,17 @@ class Texture:
         self.field = study.program.field(name, study.program.folder / f"{name}.tif")
 
     def paint(self, emphasis, size, points=None):
-        """A run, its picture and its PSNR: the error is (1 − w) |dz| + w · size / 3 · (|dr| + |dg| + |db|), colours from 0 to 1.
+        """A run, its picture and its PSNR.
 
-        The program counts the range of each band as much as the relief, where the weights of the bands do not differ.
+        The error is (1 − w) |dz| + w · size / 3 · (|dr| + |dg| + |db|), with colours from 0 to 1. If bands
+        have equal weights, the program gives the range of each band the weight of the relief.
         """
         ranges = (self.photo.max((0, 1)).astype(int) - self.photo.min((0, 1))).tolist()
         weight = 1
         if emphasis < 1:
             share = emphasis / (1 - emphasis) * size / self.field.relief * sum(ranges) / (3 * 255)
             weight = share / (1 + share)
-        render = self.study.program.folder / f"{self.field.key}_{emphasis}_{size}.png"  # kept, as the run is
+        render = self.study.program.folder / f"{self.field.key}_{emphasis}_{size}.png"  # kept, like the run
         options = ("--texture", f"{self.path},weight={weight!r}", "--norm", f"weights={','.join(map(str, ranges))}", "--render", render)
         if points:
             run = self.study.program.through_points(self.field, points, *options)
@@ -90,7 +91,7 @@ def add_textured_terrain(study):
 
 
 def add_moved_heights(study, terrain, heights, photo):
-    """The effect of the two definitions of the colours' weight on the same land with heights from another zero."""
+    """The effect of both definitions of colour weight on the same terrain with another zero of heights."""
     relief = terrain.field.relief
     moved = Texture(study, heights + numpy.float32(MOVED_RELIEFS * relief), photo, "moved")
     up, rows = f", all heights {number(MOVED_RELIEFS * relief)} higher", []
@@ -107,7 +108,7 @@ def add_moved_heights(study, terrain, heights, photo):
 
 
 def resize(pixels, cols, rows):
-    """The image at a smaller size, each new pixel the mean of what it covers, in whole numbers."""
+    """The image at a smaller size: each new pixel is the mean of the covered ones, in integers."""
     def shares(count, new_count):
         edges, old = numpy.arange(new_count + 1) * count / new_count, numpy.arange(count)
         covered = numpy.minimum(edges[1:, None], old + 1) - numpy.maximum(edges[:-1, None], old)
@@ -119,7 +120,7 @@ def resize(pixels, cols, rows):
 
 
 class Subject:
-    """A small image, over a flat field."""
+    """A small image over a flat field."""
 
     def __init__(self, study, path):
         pixels = read_image(path)
@@ -147,7 +148,7 @@ class Subject:
 
 
 def compare_treatments(subject):
-    """Rows of the table, the pictures, and the names of the greedy rows that are worse than the grid."""
+    """Rows of the table, the pictures, and names of greedy rows that are worse than the grid."""
     points, wide, high = subject.grid(IMAGE_VERTICES)
     vertices, picture, of_grid = subject.paint_uniform(points)
     rows = [[subject.name, f"uniform grid, {wide} × {high}", vertices, f"{of_grid:.2f} dB"]]
@@ -162,7 +163,7 @@ def compare_treatments(subject):
 
 
 def trace(subject, colour, plot):
-    """PSNR against vertices; from where on greedy insertion is better than the grid, if it is."""
+    """PSNR against vertices, and the number from which greedy insertion beats the grid, if any."""
     curves, vertices = {"squares": [], "greedy": [], "uniform": []}, 100
     overtakes = None
     while vertices <= (100 if subject.study.is_fast else subject.pixels.shape[0] * subject.pixels.shape[1] / 3):

@@ -1,4 +1,4 @@
-"""Section 4.4: data-dependent triangulation against Delaunay, its threshold of shape, supersampling, its meshes."""
+"""Section 4.4: data-dependent triangulation against Delaunay; its shape threshold, supersampling and meshes."""
 import math
 import statistics
 
@@ -51,7 +51,8 @@ def add_modes(study):
 
 
 def find_saving(study, field, options, rmse, full):
-    """Percent of vertices that a rule saves at that RMS, between its runs straight in logarithms. `full`: its run at 1 %."""
+    """Percentage of vertices that a rule saves at that RMS, by logarithmic interpolation between its runs. `full`: its
+    run at 1 %."""
     known_share, known_rmse = 1, full.rmse
     if known_rmse > rmse:
         return "–"
@@ -84,7 +85,7 @@ def add_gains(study, runs):
 
 
 def add_bounds(study, runs):
-    """Triangles that keep the max error which Delaunay has at 1 %, rule by rule."""
+    """Triangles that each rule needs for Delaunay's max error at 1 %."""
     rows = []
     for field, delaunay in zip(study.fields, runs["Delaunay"]):
         study.note(f"edge rules: bound on {field.key}")

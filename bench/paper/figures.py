@@ -6,8 +6,8 @@ import pathlib
 import re
 from typing import NamedTuple
 
-FIELDS = ("crater", "ashby", "ozark", "ntc", "westUS")  # the paper's, in its order
-THREE = ("crater", "ashby", "westUS")  # those of the selectors, the batches and the sweep of thresholds
+FIELDS = ("crater", "ashby", "ozark", "ntc", "westUS")  # in the paper's order
+THREE = ("crater", "ashby", "westUS")  # fields of the selectors, the batches and the sweep of thresholds
 
 # Section 3: RMS and max error at 1 % of the samples, on THREE.
 SELECTORS = {
@@ -28,9 +28,9 @@ SELECTORS = {
 SCAN_FIELD = "westUS"
 SCANS = {1049: 17.4, 10486: 25.5, 104858: 33.2, 524288: 39.3}
 SCAN_SLOPE, SCAN_OFFSET = 3.3, -6.0  # samples scanned = n (slope · ln m + offset)
-SWAPS = (24, 35)  # moves in the queue for each vertex
+SWAPS = (24, 35)  # moves in the queue per vertex
 
-# Section 4, parallel insertion, on THREE: vertices and passes that bring the max error below a bound.
+# Section 4, parallel insertion, on THREE: vertices and passes needed to reach a max error.
 BATCH_BOUNDS = (24.27, 17.0, 57.83)
 BATCHES = {
     "sequential": ((1542, 1810, 10486), (1538, 1806, 10482)),
@@ -41,9 +41,9 @@ BATCHES = {
     "constant = bound": ((2349, 2928, 16857), (16, 16, 21)),
 }
 
-BYTES_MEASURED, BYTES_COUNTED, BYTES_OF_PAPER = 600, 316, 192  # memory for each vertex
+BYTES_MEASURED, BYTES_COUNTED, BYTES_OF_PAPER = 600, 316, 192  # memory per vertex
 
-# Section 4.4, data-dependent triangulation: samples scanned against Delaunay, and time.
+# Section 4.4, data-dependent triangulation: samples scanned relative to Delaunay, and time.
 DATA_SCANS, DATA_TIME = 2.1, (2.6, 3.2)
 # RMS at 1 % of the samples on FIELDS.
 EDGES = {
@@ -55,9 +55,9 @@ EDGES = {
     "sum, q 0": (8.32, 7.21, 4.78, 5.64, 22.53),
     "sum, q 1": (7.08, 5.71, 3.26, 4.09, 17.36),
 }
-# The gain of the sum at threshold 0.5, in percent: RMS at 5 % of the samples, vertices at equal RMS.
+# Percentage gain of the sum at threshold 0.5: RMS at 5 % of the samples, vertices at equal RMS.
 GAIN_AT_5, FEWER = (11, 14), (13, 16)
-# Percent of triangles with an angle below 5 degrees: Delaunay, threshold 0.5, threshold 0.
+# Percentage of triangles with an angle below 5 degrees: Delaunay, threshold 0.5, threshold 0.
 THIN = ((0.2, 0.9), (0.7, 4.3), (40, 53))
 # RMS of the sum at thresholds 0, 0.1, … 1, on THREE.
 SWEEP = ((8.32, 7.04, 6.44, 6.26, 6.16, 6.22, 6.22, 6.42, 6.64, 6.85, 7.08),
@@ -93,11 +93,11 @@ class Row(NamedTuple):
     triangles: int
     max_error: float
     rmse: float
-    seconds: float  # the scan and the insertions, by one core of a cloud Xeon
+    seconds: float  # scan and insertions, on one core of a cloud Xeon
 
 
 def reference_rows():
-    """The rows of section 5, which the engine is held to."""
+    """The rows of section 5, requirements for the engine."""
     header = (pathlib.Path(__file__).resolve().parent.parent / "quality/reference_rows.h").read_text()
     row = re.compile(r'\{"(\w+)", (\d+), (\d+), ([\d.]+), ([\d.]+), ([\d.]+)\}')
     return [Row(field, int(vertices), int(triangles), *map(float, rest)) for field, vertices, triangles, *rest in row.findall(header)]

@@ -1,4 +1,4 @@
-"""Sections 1 to 4: a field and its TIN, what is worth inserting, Algorithms I, II and III, batches."""
+"""Sections 1 to 4: a field and its TIN, selection of points, Algorithms I, II and III, batches."""
 import math
 
 import figures
@@ -6,10 +6,10 @@ from page import Differences, compare, change_in_percent, number, with_sign
 from plots import Plot, draw_surfaces, full_mesh
 from program import uniform_grid
 
-# The paper shows 65 × 65 samples in its figure 1, and 512 of them in its figure 2. The field is not known.
+# The paper shows 65 × 65 samples in figure 1 and 512 of them in figure 2. The field is unknown.
 FIGURE_SIDE, FIGURE_VERTICES, FIGURE_SEED = 65, 512, 9
 SEED, OTHER_DRAWS = 1995, 5
-SELECTORS = {  # options; a word for samples that are chosen without the program
+SELECTORS = {  # options; a word for samples selected without the program
     "global error": (),
     "uniform sub-grid": "uniform",
     "random points": "random",
@@ -53,7 +53,7 @@ def add_memory(study):
 
 
 def random_points(field, vertices, seed):
-    """The corners, and other samples drawn at random without repetition (splitmix64: the same on every machine)."""
+    """The corners and random other samples without repetition (splitmix64: the same on every machine)."""
     count, cols, mask, state = field.samples, field.cols, 2 ** 64 - 1, seed
     drawn = dict.fromkeys((0, cols - 1, count - cols, count - 1))
     while len(drawn) < min(vertices, count):
@@ -74,7 +74,7 @@ def select(study, field, choice, seed=SEED):
 
 
 def describe_selectors(runs):
-    """The content of the table, put into words."""
+    """The content of the table in words."""
     plain, random = runs["global error"], runs["random points"]
     attenuated = [name for name in SELECTORS if name.startswith("attenuated")]
     others = [name for name in SELECTORS if name not in attenuated]
@@ -95,7 +95,7 @@ def describe_selectors(runs):
 
 
 def describe_draws(study, fields):
-    """The part of chance in random points: errors of further draws."""
+    """The variation between random point sets: errors of further draws."""
     draws = []
     for field in fields:
         runs = [select(study, field, "random", SEED + draw) for draw in range(1, OTHER_DRAWS + 1)]
@@ -180,7 +180,7 @@ def add_algorithms(study):
 
 
 def scans(run):
-    """Samples scanned but for the three corners of each triangle: Scape passes over samples that are vertices."""
+    """Samples scanned, except the three corners of each triangle: Scape skips samples that are vertices."""
     return run.work["samples_scanned"] - 3 * run.work["triangles_scanned"]
 
 

@@ -1,11 +1,11 @@
-"""A page of Markdown, written from top to bottom, and the format of its numbers."""
+"""A page of Markdown, written from top to bottom, and formats of its numbers."""
 
 LINE_WIDTH = 120
-FAR_PERCENT = 45  # from Scape's figure: a sentence next to the table explains it
+FAR_PERCENT = 45  # percentage from Scape's figure that requires an explanation next to the table
 
 
 def wrap(text, indent=0):
-    """Lines of at most LINE_WIDTH characters. None begins with a single sign, which could begin a list of Markdown."""
+    """Lines of at most LINE_WIDTH characters. None begins with a lone sign that could start a Markdown list."""
     lines = [""]
     for word in text.split(" "):
         if lines[-1].strip() and len(word) > 1 and len(lines[-1]) + 1 + len(word) > LINE_WIDTH:
@@ -58,13 +58,13 @@ def change_in_percent(ours, theirs):
 
 
 def compare(ours, theirs):
-    """"7.06 (7.08, −0.3 %)", or without a figure to compare with "7.06"."""
+    """"7.06 (7.08, −0.3 %)", or "7.06" without a figure to compare."""
     text, figure = (str(ours), "{:.0f}") if isinstance(ours, int) else (number(ours), "{:g}")
     return text if theirs is None else f"{text} ({figure.format(theirs)}, {change_in_percent(ours, theirs)})"
 
 
 class Differences:
-    """How far our figures lie from Scape's, over a section."""
+    """Differences between our figures and Scape's in a section."""
 
     def __init__(self):
         self.changes = {}
@@ -80,6 +80,6 @@ class Differences:
                 f"the farthest is {farthest}.")
 
     def far(self):
-        """Those that need an explanation: "random on westUS (+86 %), …"; empty if none does."""
+        """Differences that require an explanation: "random on westUS (+86 %), …"; empty if none."""
         return ", ".join(f"{what} ({with_sign(change, 0)} %)" for what, change in self.changes.items()
                          if abs(change) >= FAR_PERCENT)

@@ -37,7 +37,7 @@ class Plot:
 
 
 def full_mesh(heights):
-    """Positions and triangles of the field itself: two triangles a cell."""
+    """Positions and triangles of the full grid: two triangles a cell."""
     rows, cols = heights.shape
     col, row = numpy.meshgrid(numpy.arange(cols), numpy.arange(rows))
     at = numpy.arange(rows * cols).reshape(rows, cols)
@@ -47,11 +47,11 @@ def full_mesh(heights):
 
 
 def draw_surfaces(path, heights, meshes, turn=(0.8, 0.6), up=(0.8, 0.6), relief=0.2, lines=()):
-    """Meshes side by side, without perspective, in light from the upper left.
+    """Meshes side by side in parallel projection, lit from the upper left.
 
-    turn, up: cosine and sine of how far the surface is turned, and how far above the horizon the eye is; (0, 1) up is a
-    map. relief: height of the field's relief, in its longer sides. lines: the width of the edges of each mesh, in
-    pixels; 0 for none. The field decides what fits: all meshes have the same place and scale.
+    turn, up: cosine and sine of the surface's rotation and the eye's elevation; up = (0, 1) draws a map. relief: height
+    of the field's relief relative to its longer side. lines: width of each mesh's edges in pixels; 0 for none. All
+    meshes have the place and scale of the field.
     """
     rows, cols = heights.shape
     z_scale = relief * (max(rows, cols) - 1) / (heights.max() - heights.min())
@@ -84,7 +84,7 @@ def draw_surfaces(path, heights, meshes, turn=(0.8, 0.6), up=(0.8, 0.6), relief=
 
 
 def save_few_colours(path, pixels):
-    """Five bits a colour, so that the file stays small."""
+    """Five bits per colour, for a small file."""
     pixels = (pixels >> 3).astype(int) * 255 // 31
     Image.fromarray(pixels.astype(numpy.uint8)).save(path, optimize=True)
 
@@ -95,7 +95,7 @@ def middle(pixels, side):
 
 
 def draw_images(path, pictures):
-    """Side by side, of one height."""
+    """Side by side, with the same height."""
     gap = numpy.full((pictures[0].shape[0], 4, 3), 255, numpy.uint8)
     strips = [part for picture in pictures for part in (picture, gap)][:-1]
     save_few_colours(path, numpy.concatenate(strips, 1))

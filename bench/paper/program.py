@@ -1,4 +1,4 @@
-"""The scarp program as the experiments use it: runs with their reports, the meshes it writes, the fields it reads."""
+"""The scarp program for the experiments: runs with reports, their meshes, and fields."""
 import functools
 import json
 import pathlib
@@ -9,9 +9,9 @@ import numpy
 from PIL import Image
 
 THIN_DEGREES = 5
-# A budget that ends a run returns the best mesh of its last 5 % of vertices. Only products with a feature of the raster
-# always return the last mesh, as Scape does: heights this small have features that vanish next to 1, so that the product
-# is the error, and a power of two changes no digit of it.
+# At a budget a run returns the best mesh of its last 5 % of vertices. Only products with a feature of the raster always
+# return the last mesh, like Scape. Heights this small have features that vanish next to 1, so the product equals the
+# error; a power of two changes no digit.
 SMALL = 2.0 ** -100
 EXACT = ("--z-scale", repr(SMALL), "--importance", "global*(local+1)")
 
@@ -23,7 +23,7 @@ class Mesh:
     content: bytes  # the file without its header
 
     def thin_share(self):
-        """Percent of the triangles with an angle below 5 degrees, seen from above."""
+        """Percentage of triangles with an angle below 5 degrees, seen from above."""
         corners = self.positions[self.triangles][:, :, :2].astype(float)
         to_next, to_last = numpy.roll(corners, -1, 1) - corners, numpy.roll(corners, 1, 1) - corners
         cross = numpy.abs(to_next[..., 0] * to_last[..., 1] - to_next[..., 1] * to_last[..., 0])
@@ -35,11 +35,11 @@ class Mesh:
 class Run:
     report: dict
     mesh: Mesh
-    scale: float = 1  # the heights per those of the field
+    scale: float = 1  # ratio of the heights to those of the field
 
     def __post_init__(self):
         self.vertices, self.triangles = self.report["vertices"], self.report["triangles"]
-        if "rmse" in self.report:  # errors of heights, which an image has not
+        if "rmse" in self.report:  # errors of heights, which an image lacks
             self.max_error, self.rmse = self.report["max_error"] / self.scale, self.report["rmse"] / self.scale
         self.work, self.seconds = self.report["work"], self.report["seconds"]["refine"]
         if self.mesh is not None and self.scale != 1:
@@ -64,7 +64,7 @@ class Field:
         return self.high - self.low
 
     def share(self, percent, least=0):
-        """Percent of the samples, rounded: the paper's numbers of vertices."""
+        """The rounded percentage of the samples: the paper's numbers of vertices."""
         return max(int(percent / 100 * self.samples + 0.5), least)
 
     def heights(self):
@@ -76,7 +76,7 @@ class Field:
 
 
 def read_mesh(path):
-    """A binary PLY of the program."""
+    """Reads a binary PLY of the program."""
     header, content = pathlib.Path(path).read_bytes().split(b"end_header\n", 1)
     words, is_vertex, properties = header.decode().split("\n"), False, []
     counts = {line.split()[1]: int(line.split()[2]) for line in words if line.startswith("element ")}
@@ -91,7 +91,7 @@ def read_mesh(path):
 
 
 class Program:
-    """Runs of the program, in a scratch folder."""
+    """Runs the program in a scratch folder."""
 
     def __init__(self, path, folder):
         self.path, self.folder = str(path), pathlib.Path(folder)
@@ -112,21 +112,21 @@ class Program:
         return self.field(style, path)
 
     def simplify(self, raster, *options, mesh=False, scale=1):
-        """One run on one thread. `mesh`: reads the mesh, too."""
+        """One run on one thread. `mesh`: also reads the mesh."""
         ply, report = self.folder / "mesh.ply", self.folder / "report.json"
         self.call("classic", raster, ply, "--crs", "grid", "--report", report, "--overwrite", "-q", "-j", 1, *options)
         return Run(json.loads(report.read_text()), read_mesh(ply) if mesh else None, scale)
 
     def greedy(self, field, *options, mesh=False):
-        """Greedy insertion, which the strategies in the options change."""
+        """Greedy insertion, modified by the options."""
         return self.simplify(field.path, "--order", "greedy", *options, mesh=mesh)
 
     @functools.lru_cache(maxsize=None)
     def exactly(self, field, vertices, *options, mesh=False):
-        """Greedy insertion up to exactly that many vertices."""
+        """Greedy insertion up to exactly so many vertices."""
         vertices = max(vertices, 4)
         run = self.greedy(field, "-p", vertices, *options, mesh=mesh)
-        # The angle of normals depends on the size of the heights: for it the best mesh near the budget must do.
+        # The angle of normals depends on the size of heights: there the best mesh near the budget must suffice.
         if run.vertices == vertices or run.report["stopped_by"] != "max_points" or "abn" in options:
             return run
         return self.simplify(field.path, "-p", vertices, *EXACT, *options, mesh=mesh, scale=SMALL)
@@ -139,7 +139,7 @@ class Program:
 
 
 def uniform_grid(cols, rows, vertices):
-    """Samples spread evenly, borders included: about that many, and the numbers of columns and rows."""
+    """Evenly spaced samples, borders included: about so many, with the numbers of columns and rows."""
     wide = min(max(int((vertices * cols / rows) ** 0.5 + 0.5), 2), cols)
     high = min(max(int(vertices / wide + 0.5), 2), rows)
     at_col = [(2 * i * (cols - 1) + wide - 1) // (2 * (wide - 1)) for i in range(wide)]

@@ -9,7 +9,7 @@ from page import Differences, compare, change_in_percent, number
 from plots import Plot
 
 SHARES = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-LEAST_ROUNDS, MOST_ROUNDS, SECONDS_OF_ROUNDS = 3, 9, 0.5  # short runs are disturbed more
+LEAST_ROUNDS, MOST_ROUNDS, SECONDS_OF_ROUNDS = 3, 9, 0.5  # more rounds for short runs, which are more disturbed
 MILLION_VERTICES = 10486  # 1 % of a million samples
 
 
@@ -46,7 +46,7 @@ def add_other_programs(study):
 
 
 def stations(first, last, steps):
-    """Numbers of vertices, `steps` to a factor of ten, and the last."""
+    """Numbers of vertices: `steps` per factor of ten, and the last."""
     numbers = []
     while first * 10 ** (len(numbers) / steps) < last:
         numbers.append(int(first * 10 ** (len(numbers) / steps) + 0.5))

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Repeats the experiments of the 1995 paper with the scarp program, and writes them as a page with pictures.
+"""Repeats the experiments of the 1995 paper with the scarp program, and writes a page with pictures.
 
 usage: bench/paper/run.py SCARP DATA OUT     the paper's fields in DATA: writes OUT/paper.md and OUT/images/paper
        bench/paper/run.py SCARP --fast OUT   small generated fields, and images of this folder: for a test
 
-SCARP is the program. DATA holds crater, ashby, ozark, ntc and westUS as .stm, .pgm or .tif files, also named
-scape_crater.stm and so on, and for the experiments with colours astronaut.png, kodim05.png, kodim23.png and the pair
-santa_barbara_elev.tif, santa_barbara_aerial.tif if they are there. Needs matplotlib.
+SCARP is the program. DATA contains crater, ashby, ozark, ntc and westUS as .stm, .pgm or .tif files, also named
+scape_crater.stm and so on. For the experiments with colours it may contain astronaut.png, kodim05.png, kodim23.png and
+the pair santa_barbara_elev.tif, santa_barbara_aerial.tif. Needs matplotlib.
 """
 import pathlib
 import sys

@@ -1,4 +1,4 @@
-"""Common parts of the experiments: the fields, the page that they write on, and Scape's figures for a field."""
+"""Common parts of the experiments: the fields, the page, and Scape's figures for a field."""
 import pathlib
 import sys
 
@@ -15,7 +15,7 @@ def find_file(folder, key):
 
 
 class Study:
-    """`data` is the folder with the paper's fields; nothing: small generated ones, which the figures are not of."""
+    """`data` is the folder of the paper's fields; None: small generated fields without figures."""
 
     def __init__(self, program, out, data):
         self.program, self.data, self.is_fast, self.page = program, pathlib.Path(data or "."), not data, Page()
@@ -39,14 +39,14 @@ class Study:
         return next(field for field in self.fields if field.key == key)
 
     def figure(self, figures_of_keys, keys, field):
-        """Scape's figure for a field; nothing where there are none."""
+        """Scape's figure for a field, or None."""
         return figures_of_keys and figures_of_keys[keys.index(field.key)]
 
     def delaunay(self, field, vertices):
         return self.program.exactly(field, vertices)
 
     def picture(self, name, caption):
-        """Adds a picture to the page; the file that is to hold it."""
+        """Adds a picture to the page and returns the path of its file."""
         self.page.picture(f"images/paper/{name}.png", caption)
         return self.images / f"{name}.png"
 

@@ -2,11 +2,11 @@
 //
 //   peer_cgal RASTER COLS ROWS Z_SCALE POLICY PREFIX EDGES...
 //
-// For each of the numbers EDGES, descending, the mesh at the moment at which at most that many edges are left: what a
-// run that stops there gives, for the order of the collapses does not depend on where it ends. Surfaces are written to
-// PREFIX.EDGES; each line has the time until then, without that of the copies. Z_SCALE: as peer_meshopt's. POLICY: lt
-// (Lindstrom and Turk's cost and placement, CGAL's default) or gh (Garland and Heckbert's quadrics of planes), both
-// with CGAL's filter against normals that turn over.
+// Writes the mesh for each of the numbers EDGES, descending, once at most that many edges are left. A run that stops
+// there gives the same mesh, since the order of collapses does not depend on the end. Surfaces are in PREFIX.EDGES;
+// each line has the time so far, without that of copies. Z_SCALE: as peer_meshopt's. POLICY: lt (Lindstrom and Turk's
+// cost and placement, CGAL's default) or gh (Garland and Heckbert's quadrics of planes), both with CGAL's filter
+// against normals that turn over.
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -39,7 +39,7 @@ Mesh mesh_of(const bench::Surface& surface, double z_scale) {
   return mesh;
 }
 
-/// The rest of a mesh whose removed parts have not been collected.
+/// The mesh without removed parts that have not been collected yet.
 bench::Surface surface_of(const Mesh& mesh, double z_scale) {
   bench::Surface surface;
   std::vector<std::uint32_t> names(mesh.number_of_vertices() + mesh.number_of_removed_vertices());
@@ -54,7 +54,7 @@ bench::Surface surface_of(const Mesh& mesh, double z_scale) {
   return surface;
 }
 
-/// Asked before each collapse; stops at the last of the numbers.
+/// Called before each collapse; stops at the last of the numbers.
 class Checkpoints {
  public:
   using Visit = std::function<void(const Mesh& mesh, std::size_t edges, double cpu_seconds)>;
@@ -77,7 +77,7 @@ class Checkpoints {
   double spent_on_visits_ = 0;
 };
 
-/// The part that CGAL copies.
+/// The copyable handle for CGAL.
 struct Stop {
   Checkpoints* checkpoints;
 

@@ -1,4 +1,4 @@
-// Judges a mesh with measure(): its true max error, and the part of the raster that it does not cover or covers twice.
+// Judges a mesh with measure(): its true max error, and the parts of the raster left uncovered or covered twice.
 //
 //   peer_judge RASTER COLS ROWS lattice|surface MESH     one JSON line
 //
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Counter-clockwise in the frame of the raster.
+/// The mesh, counter-clockwise in the frame of the raster.
 scarp::Mesh lift(const bench::RawMesh& raw, const bench::RawRaster& raster) {
   scarp::Mesh mesh;
   for (std::size_t v = 0; v < raw.points.size(); v += 2) {

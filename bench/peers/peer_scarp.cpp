@@ -1,4 +1,4 @@
-// Scarp itself on a raw raster, as its peers are run; the time is all of simplify(), its own proof included.
+// Scarp on a raw raster, run like its peers. The time covers all of simplify(), its proof included.
 //
 //   peer_scarp RASTER COLS ROWS -e ERROR VARIANT [SURFACE]         VARIANT: one of kVariants of ../quality/variants.h
 //   peer_scarp RASTER COLS ROWS -t TRIANGLES VARIANT [SURFACE]     one of its kBudgetVariants

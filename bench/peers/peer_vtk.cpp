@@ -1,8 +1,8 @@
-// vtkQuadricDecimation on the full grid of a raw raster; nothing is read or written inside the timed part.
+// vtkQuadricDecimation on the full grid of a raw raster, timed without reading and writing.
 //
 //   peer_vtk RASTER COLS ROWS Z_SCALE MODE PREFIX TRIANGLES...
 //
-// For each number of TRIANGLES a surface, PREFIX.TRIANGLES, and a line about it. Z_SCALE: as peer_meshopt's. MODE:
+// Writes a surface, PREFIX.TRIANGLES, and a line for each number of TRIANGLES. Z_SCALE: as in peer_meshopt. MODE:
 // plain; volume (VolumePreservation); attribute (AttributeErrorMetric, the heights are scalars too).
 
 #include <vtkCellArray.h>
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   const double z_scale = arguments.number(3);
   const std::string& mode = arguments[4];
   const bench::Surface grid = bench::full_grid(raster);
-  vtkObject::GlobalWarningDisplayOff();  // warnings about each collapse whose least square has no single place
+  vtkObject::GlobalWarningDisplayOff();  // warnings about collapses whose least-squares problem is not unique
   const auto mesh = mesh_of(grid, z_scale);
   for (const std::string& size : arguments.from(6)) {
     const double wanted = std::stod(size), all = static_cast<double>(grid.triangles.size() / 3);

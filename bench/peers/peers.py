@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Triangles of Scarp and of its peers at equal *measured* max error; keeps ../quality/peers.csv.
+"""Triangles of Scarp and of its peers at equal *measured* max error, in ../quality/peers.csv.
 
   peers.py --bin build/bin                       everything (about half an hour of CPU time)
   peers.py --bin build/bin --only crater         some rasters, printed only
-  peers.py --bin build/bin --only crater --keep  some rasters or programs, their rows put in place of the old ones
+  peers.py --bin build/bin --only crater --keep  some rasters or programs; replaces their rows
 
-A peer promises no max error, or not this one: its own parameter is searched for the smallest mesh that keeps the goal,
-as measure() judges it: every sample covered, none farther than the goal. Where no mesh that was tried covers every
-sample, it is the smallest that keeps the goal where it covers, and the table has the number of samples that it does not
-cover. A row whose max error is above what was asked shows that no mesh that was tried keeps the goal.
+Peers promise no max error, or another one. Their parameter is searched for the smallest mesh that keeps the goal by
+measure(): every sample covered, none farther than the goal. If no tried mesh covers every sample, the smallest that
+keeps the goal at covered samples is used, and the table has the number of uncovered ones. If no tried mesh keeps the
+goal, the row has a larger max error.
 """
 
 import math
@@ -22,7 +22,7 @@ sys.path[:0] = [str(SPEED), str(HERE.parent)]
 from harness import arguments_of, call, install, keep_rows, read_table, write_table  # noqa: E402
 from rasters import find_file, to_raw  # noqa: E402
 
-# name: (file, window: 384 × 384 samples of the larger ones, since CGAL needs a minute a million samples and run)
+# name: (file, window: 384 × 384 samples of the larger ones, as CGAL needs a minute per million samples and run)
 RASTERS = {
     "fuji": ("fuji.tif", None),
     "crater": ("crater.tif", None),
@@ -33,19 +33,19 @@ RASTERS = {
 GOALS = (5, 2, 1, 0.5, 0.2)  # percent of the relief
 VARIANTS = ("greedy", "fast", "normal", "high on samples", "high")
 
-# Heights are multiplied so that the relief is a share of the raster's longer side: what measures errors in space comes
-# nearer to errors along z the flatter the surface is. On crater.tif shares from 1 to 0.0016 were tried: the larger ones
-# fold the mesh and uncover samples, smaller ones gain nothing more. There, too, meshoptimizer did no better with its
-# border locked, and kept its faults under PreserveFolds and RegularizeLight.
+# Heights are scaled so that the relief is a share of the raster's longer side: the flatter the surface, the closer
+# errors in space are to errors along z. On crater.tif shares from 1 to 0.0016 were tried: larger ones fold the mesh and
+# uncover samples, smaller ones gain nothing more. There meshoptimizer also did no better with a locked border, and had
+# the same faults under PreserveFolds and RegularizeLight.
 FLATTENED = (0.04, 0.008)
-FINEST_ASKED = 8  # how far below the goal a peer that breaks its own max error is asked to go
+FINEST_ASKED = 8  # lower limit of the requested error, as goal / error, for a peer that breaks its own max error
 
-COARSE, FINE = 1.3, 1.02  # neighbouring sizes that are tried first, and last
-PROMISING = 1.4            # settings whose first size is worse than this by the best one's are not searched further
+COARSE, FINE = 1.3, 1.02  # ratio of neighbouring sizes, tried first and last
+PROMISING = 1.4            # a setting whose first size exceeds the best one's by this factor is not searched further
 
 
 class Case:
-    """A raster, and where programs find it."""
+    """A raster and its files for the programs."""
 
     def __init__(self, name, options, scratch):
         file, window = RASTERS[name]
@@ -63,14 +63,14 @@ class Case:
         return call([self.bin / program, self.raw, self.cols, self.rows, *arguments, self.mesh])[0]
 
     def judge(self, form, report, mesh=None):
-        """The report with the verdict on the mesh, which is deleted."""
+        """Adds the verdict on the mesh to the report, and deletes the mesh."""
         mesh = mesh or self.mesh
         verdict = call([self.bin / "peer_judge", self.raw, self.cols, self.rows, form, mesh])[0]
         mesh.unlink()
         return {**report, **verdict}
 
     def judge_surface(self, report, number):
-        """The same of one of several surfaces."""
+        """Like judge(), for one of several surfaces."""
         return self.judge("surface", report, self.mesh.with_name(f"{self.mesh.name}.{number}"))
 
     def z_scale(self, flattened):
@@ -78,7 +78,7 @@ class Case:
 
 
 class Meshopt:
-    """By number of triangles."""
+    """A peer by number of triangles."""
 
     name, program = "meshoptimizer", None
     settings = ((0.04, "update"), (0.008, "update"), (0.008, "simplify"), (0.04, "attribute"))
@@ -97,7 +97,7 @@ class Meshopt:
 
 
 class Cgal:
-    """By number of edges, three for two triangles; all sizes in one run."""
+    """A peer by number of edges, three for two triangles; all sizes in one run."""
 
     program, settings, at_once = "peer_cgal", FLATTENED[-1:], 13
 
@@ -116,7 +116,7 @@ class Cgal:
 
 
 class Inserting:
-    """By its own max error; the size is 10⁹ times its inverse."""
+    """A peer by its own max error; the size is 10⁹ / error."""
 
     settings = (None,)
 
@@ -145,7 +145,7 @@ PEERS = (
 
 
 def spread(low, high, factor):
-    """Whole numbers from low to high, neighbours about `factor` apart."""
+    """Integers from low to high, neighbours about `factor` apart."""
     steps = max(1, math.ceil(math.log(high / low) / math.log(factor)))
     return sorted({round(low * (high / low) ** (k / steps)) for k in range(steps + 1)})
 
@@ -160,7 +160,7 @@ class Search:
         self.tried.update(self.peer.probe(self.case, self.setting, sizes))
 
     def best_size(self, goal):
-        """The size of the smallest mesh that keeps the goal, if possible of those that cover every sample."""
+        """The size of the smallest mesh that keeps the goal, preferably among those that cover every sample."""
         kept = [size for size, verdict in self.tried.items() if verdict["max_error"] <= goal]
         kept = [size for size in kept if self.tried[size]["uncovered"] == 0] or kept
         return min(kept, key=lambda size: self.tried[size]["triangles"], default=None)
@@ -170,7 +170,7 @@ class Search:
         return math.inf if size is None else self.tried[size]["triangles"]
 
     def sizes_below(self, goal):
-        """To be tried between the best one and the next smaller one; none where these are near enough."""
+        """Sizes to try between the best one and the next smaller one; none if these are close enough."""
         size = self.best_size(goal)
         below = max((other for other in self.tried if size is not None and other < size), default=None)
         if below is None or size <= FINE * below:
@@ -185,7 +185,7 @@ class Search:
 
 
 def search_sizes(case, peer, goals, greedy):
-    """{goal: (verdict, setting)} of a peer whose size is a number of triangles: all goals share what was tried."""
+    """{goal: (verdict, setting)} of a peer whose size is a number of triangles; all goals share the trials."""
     full = 2 * (case.cols - 1) * (case.rows - 1)
     sizes = spread(max(8, min(greedy.values()) // 3), min(full, 6 * max(greedy.values())), COARSE)
     searches = [Search(case, peer, setting) for setting in peer.settings]
@@ -203,8 +203,8 @@ def search_sizes(case, peer, goals, greedy):
 
 
 def search_errors(case, peer, goals):
-    """The same of a peer whose size is an error: about each goal, and from there to finer ones. Where none of them
-    keeps the goal, the mesh for which the goal itself was asked, whose max error then shows that it is broken."""
+    """The same for a peer whose size is an error: around each goal, then towards finer ones. If none keeps the goal,
+    returns the mesh for the goal itself, whose max error shows the breach."""
     found = {}
     for goal in goals:
         search, size = Search(case, peer, None), round(1e9 / goal)
@@ -254,8 +254,8 @@ def compare(case, options):
 
 
 def keep(rows, times):
-    """Old rows of other rasters, goals or programs stay. CPU times in greedy insertion's are kept as means, of whole
-    runs alone."""
+    """Preserves old rows of other rasters, goals or programs. CPU times relative to greedy insertion's are stored as
+    means of complete runs only."""
     programs = [f"Scarp {variant}" for variant in VARIANTS] + [peer.name for peer in PEERS]
 
     def place(row):
@@ -284,7 +284,7 @@ def parse():
 
 
 def add_times(rows, times):
-    """CPU times of the rows that satisfy their goal, in greedy insertion's; the rows are then without."""
+    """Mean CPU times of rows that satisfy their goal, relative to greedy insertion's; removes times from rows."""
     seconds = {(row["percent_of_relief"], row["program"]): float(row.pop("cpu_seconds")) for row in rows}
     for row in rows:
         if row["program"] != "Scarp greedy" and float(row["max_error"]) <= float(row["max_error_asked"]) * (1 + 1e-7):

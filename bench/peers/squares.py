@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""RMSE of Scarp and of the quadric tools at equal numbers of triangles; keeps ../quality/squares.csv.
+"""RMSE of Scarp and of the quadric tools at equal numbers of triangles, in ../quality/squares.csv.
 
   squares.py --bin build/bin                       everything (about twenty minutes of CPU time)
   squares.py --bin build/bin --only crater         some rasters, printed only
-  squares.py --bin build/bin --only crater --keep  some rasters, their rows put in place of the old ones
+  squares.py --bin build/bin --only crater --keep  some rasters; replaces their rows
 
-The number is that of greedy insertion at 1 % of the relief. A peer is given the settings below; of each setting it is
-the smallest mesh of at least as many triangles as Scarp's, `high rms`, and at most 1 % more. The best RMSE of its
-settings counts. Samples that a mesh does not cover have no error, which is in that mesh's favour.
+The number is that of greedy insertion at 1 % of the relief. For each setting of a peer the smallest mesh is used that
+has at least as many triangles as Scarp's, `high rms`, and at most 1 % more. The setting with the best RMSE counts.
+Uncovered samples have no error, which favours the peer.
 """
 
 import sys
@@ -16,7 +16,8 @@ import tempfile
 from peers import FLATTENED, QUALITY, RASTERS, Case, Cgal, Meshopt, arguments_of, call, install, keep_rows
 
 PERCENT = 1  # percent of the relief
-MOST_MORE = 1.01  # a mesh of more triangles than this by Scarp's does not count: VTK's attributes stop it early on walls
+MOST_MORE = 1.01  # a mesh with more triangles than Scarp's by this factor does not count: VTK's attributes stop it
+                  # early on walls
 SCARP = ("normal", "normal rms", "high", "high rms")
 
 RASTERS.update({
@@ -32,7 +33,7 @@ RASTERS.update({
 
 
 def keep_smallest(case, sizes, triangles, least):
-    """The smallest surface of MESH.SIZE with `triangles[size]` of at least `least`, if any; the others are deleted."""
+    """The smallest surface of MESH.SIZE with `triangles[size]` of at least `least`, if any; deletes the others."""
     best = min((size for size in sizes if triangles[size] >= least), key=lambda size: (triangles[size], size),
                default=None)
     for size in sizes:
@@ -42,7 +43,7 @@ def keep_smallest(case, sizes, triangles, least):
 
 
 class CgalSquares(Cgal):
-    """Its size is a number of edges, which for as many triangles grows with the border: all are tried in one run."""
+    """By number of edges, which depends on the border for the same number of triangles: all are tried in one run."""
 
     settings = FLATTENED
 
@@ -56,7 +57,7 @@ class CgalSquares(Cgal):
 
 
 class ByTriangles:
-    """Its size is a number of triangles, of which it may reach fewer: more are asked until it does not."""
+    """By number of triangles. A peer may reach fewer: requests more until it does not."""
 
     def make(self, case, setting, least):
         for more in (0, 1, 2, 4, 8, 16, 64, 256):
@@ -72,7 +73,7 @@ class MeshoptSquares(ByTriangles, Meshopt):
 
 class Vtk(MeshoptSquares):
     name, program = "VTK quadrics", "peer_vtk"
-    # VolumePreservation changed nothing on mars_gale, and attributes were better at 0.2 than at flatter surfaces.
+    # VolumePreservation changed nothing on mars_gale, and attributes were better at 0.2 than on flatter surfaces.
     settings = ((0.2, "plain"), (0.04, "plain"), (0.008, "plain"), (0.2, "attribute"))
 
     @staticmethod
@@ -121,7 +122,7 @@ def compare(case, options):
 
 
 def keep(rows):
-    """Old rows of other rasters or programs stay."""
+    """Preserves old rows of other rasters or programs."""
     programs = [f"Scarp {name}" for name in ("greedy", *SCARP)] + [peer.name for peer in PEERS]
     keep_rows(QUALITY / "squares.csv", rows, ("raster", "program"),
               lambda row: (list(RASTERS).index(row["raster"]), programs.index(row["program"])))

@@ -1,11 +1,11 @@
-// The full grid of a raster, with which edge collapse begins.
+// The full grid of a raster, the start of edge collapse.
 #pragma once
 
 #include "../speed/raw.h"
 
 namespace bench {
 
-/// Every sample a vertex, every cell two triangles cut along alternating diagonals.
+/// A vertex for each sample, two triangles for each cell, cut along alternating diagonals.
 inline Surface full_grid(const RawRaster& raster) {
   Surface surface;
   for (int row = 0; row < raster.rows; ++row) {

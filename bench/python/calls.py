@@ -4,16 +4,16 @@
     PYTHONPATH=bindings/python/src SCARP_LIBRARY=build/bindings/python/libscarp_c.so python3 bench/python/calls.py
         [--side N] [--rounds N] [--in-a-row N] [--imports N] [--csv FILE]
 
-or, without the two variables, of the scarp that is installed.
+Without the two variables the installed scarp is measured.
 
-Calls: of N x N samples (33: 54 triangles), on one thread. All kinds alternate, some calls of each in a row (20), so
-that a busy machine is as unkind to each, and caches are as warm as in a loop. For each: the median over the rounds
-(3000) of the call's time, until its mesh is freed, less the time of simplify() in its report; in microseconds. "C" is
-scarp_simplify() and scarp_mesh_free() by ctypes, with all structs prepared: what it costs is the C door (options, plan,
-reading, metadata). "python" is what a row has beyond "C".
+Calls: N x N samples (33: 54 triangles), on one thread. All kinds alternate with some calls (20) in a row, so that a
+busy machine affects all alike and caches are as warm as in a loop. Each figure is the median over the rounds (3000) of
+the call's time until its mesh is freed, minus the time of simplify() in its report, in microseconds. "C" is
+scarp_simplify() and scarp_mesh_free() by ctypes with prepared structs: the cost of the C interface (options, plan,
+reading, metadata). "python" is the cost beyond "C".
 
-Imports: fresh processes by turns (20 of each); the median of their processor time in milliseconds, less that of a
-process that imports nothing.
+Imports: alternating fresh processes (20 of each); the median processor time in milliseconds, minus that of a process
+without imports.
 """
 import argparse
 import csv
@@ -30,7 +30,7 @@ from harness import seconds_of_children  # noqa: E402
 
 
 def find_calls(side):
-    """By name: a function that makes a mesh, one that reads the library's seconds from it, one that frees it."""
+    """By name: functions that make a mesh, read the library's seconds from it, and free it."""
     import numpy as np
     import scarp
     from scarp import _abi
@@ -89,7 +89,7 @@ def time_calls(side, rounds, in_a_row):
 
 
 def time_imports(rounds):
-    """Milliseconds beyond those of a process that imports nothing, by what is imported."""
+    """Milliseconds beyond those of a process without imports, by imported module."""
     lines = {"nothing": "pass", "numpy": "import numpy", "scarp": "import scarp", "numpy, scarp": "import numpy, scarp"}
     spent = {name: [] for name in lines}
     for _ in range(rounds):

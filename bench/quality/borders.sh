@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# borders.sh SCARP DEM ERROR: triangles of DEM cut into 1 x 1, 2 x 2 and 4 x 4 parts that share rows and columns, without
-# and with --lock-border: parts a side, effort, free, locked, how many per cent more. Needs gdal_translate.
+# borders.sh SCARP DEM ERROR: triangles of DEM cut into 1 x 1, 2 x 2 and 4 x 4 parts that share rows and columns,
+# without and with --lock-border. Prints parts a side, effort, free, locked, excess in per cent. Needs gdal_translate.
 set -euo pipefail
 scarp=$(realpath "$1") dem=$(realpath "$2") error=$3
 folder=$(mktemp -d)
@@ -8,7 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 read -r cols rows < <("$scarp" info "$dem" --json | python3 -c 'import json, sys; i = json.load(sys.stdin)["input"]; print(i["cols"], i["rows"])')
 
-triangles() { # OPTIONS...: of all parts
+triangles() { # OPTIONS...: for all parts
   local sum=0 part
   for part in part-*.tif; do
     "$scarp" simplify "$part" x.ply -e "$error" "$@" --overwrite -q --report x.json

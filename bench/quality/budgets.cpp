@@ -1,5 +1,5 @@
-// Effort and objective for a budget: as many triangles as greedy insertion needs at 1 % of the relief, and at 0.3 %
-// where these are fewer than 100,000 → max error and RMSE. Fails where `high` has a larger max error than `normal`.
+// Max error and RMSE by effort and objective for a budget: the triangles that greedy insertion needs at 1 % of the
+// relief, and at 0.3 % if fewer than 100,000. Fails if `high` has a larger max error than `normal`.
 
 #include "suite.h"
 #include "variants.h"
@@ -9,8 +9,8 @@ namespace {
 
 constexpr char kList[] = "budgets";
 constexpr double kPercentsOfRelief[] = {1, 0.3};
-constexpr std::uint64_t kMostOfMore = 100'000;       ///< a second budget that is larger is omitted
-constexpr const char* kWalls = "athens_dsm_1m.tif";  ///< reported apart: its times are not in the mean
+constexpr std::uint64_t kMostOfMore = 100'000;       ///< a larger second budget is omitted
+constexpr const char* kWalls = "athens_dsm_1m.tif";  ///< reported separately: its times are not in the mean
 
 void add_row(const std::string& name, const scarp::OwnedHeightField& field, double percent, std::uint64_t budget,
              std::string_view variant, const Made& made, Rows& rows) {

@@ -1,4 +1,4 @@
-// Triangles at equal max error under each edge rule and batch rule, all in the greedy order, so that the rules alone
+// Triangles at equal max error under each edge rule and batch rule, all in the greedy order so that only the rules
 // differ; rasters up to 2 million samples.
 
 #include "suite.h"

@@ -1,4 +1,4 @@
-// Each effort towards an error: rasters × goals × variants → triangles, their ratio to greedy insertion, errors, angles.
+// Each effort for a max error: rasters × goals × variants → triangles, their ratio to greedy insertion, errors, angles.
 
 #include "suite.h"
 #include "variants.h"

@@ -1,6 +1,6 @@
-// `high` against `normal` for the same max error, and what its default floor of shapes yields: rasters and generated
+// `high` against `normal` at the same max error, and the yielding of its default shape floor: rasters and generated
 // fields × errors → triangles, max errors, RMSE, thin triangles. `hard` is high with --min-shape 0.1, which does not
-// yield; it is run where a raster is small. Fails where `high` has more triangles than `normal`.
+// yield, on small rasters. Fails if `high` has more triangles than `normal`.
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +12,20 @@ namespace {
 
 constexpr char kList[] = "rasters";
 constexpr double kPercentsOfRelief[] = {5, 1};
-constexpr std::uint64_t kMostOfFine = 600'000;  ///< rasters of more samples: the first error only, and not `hard`
+constexpr std::uint64_t kMostOfFine = 600'000;  ///< larger rasters: the first error only, without `hard`
 constexpr int kSide = 384;
 
-/// Heights of samples by column and row.
+/// Height of a sample by column and row.
 using Shape = float (*)(int col, int row);
 
-/// Whole numbers that appear random and are the same everywhere.
+/// Pseudo-random integers, the same everywhere.
 std::uint32_t scramble(std::uint32_t a, std::uint32_t b) {
   std::uint32_t x = a * 0x9E3779B1U ^ (b + 0x7F4A7C15U) * 0x85EBCA77U;
   x = (x ^ x >> 15) * 0xC2B2AE3DU;
   return x ^ x >> 13;
 }
 
-/// Houses with level roofs on lots of 24 × 24 samples, streets of 6 between them.
+/// Houses with level roofs on lots of 24 × 24 samples, with streets of 6 samples in between.
 float blocks(int col, int row) {
   const auto lot_col = static_cast<std::uint32_t>(col / 24), lot_row = static_cast<std::uint32_t>(row / 24);
   return col % 24 < 6 || row % 24 < 6 ? 0.0F : static_cast<float>(5 + scramble(lot_col, lot_row) % 25);
@@ -34,7 +34,7 @@ float blocks(int col, int row) {
 /// A flight of 12 steps across the raster's corner, each 3 high.
 float stairs(int col, int row) { return static_cast<float>(3 * ((2 * col + row) / (kSide / 4))); }
 
-/// Heaps of 1 to 40 samples' radius on a slope, cut off at the height of 20.
+/// Heaps with radii of 1 to 40 samples on a slope, cut off at a height of 20.
 float heaps(int col, int row) {
   const int lot_col = col / 96, lot_row = row / 96;
   const std::uint32_t chance = scramble(static_cast<std::uint32_t>(lot_col), static_cast<std::uint32_t>(lot_row));

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Max error and PSNR of images as meshes of at most 4000 vertices, compared with a uniform grid of as many, to
+"""Max error and PSNR of images as meshes of at most 4000 vertices, compared with a uniform grid of the same size, to
 images.csv.
 
     bench/quality/images.py build/bin/scarp DATA [IMAGE...] > bench/quality/images.csv
 
-Images are read from DATA. PSNR is that of the picture that Scarp renders of its mesh, over all bands; the grid's
-vertices are samples, its cells two triangles each, its values rounded. Max error is the largest difference of a band.
+Images are read from DATA. PSNR, over all bands, is of the picture that Scarp renders of its mesh. The grid's vertices
+are samples, its cells are two triangles each, and its values are rounded. Max error is the largest difference of a
+band.
 """
 import json
 import subprocess
@@ -22,7 +23,7 @@ VARIANTS = {"fast": ["--effort", "fast"], "normal": ["--effort", "normal"], "hig
 
 
 def read_bands(path, folder):
-    """Three bands, whole numbers from 0 to 255: (3, rows, cols)."""
+    """Three bands of integers from 0 to 255: (3, rows, cols)."""
     raw = Path(folder) / "bands.raw"
     subprocess.run(["gdal_translate", "-q", "-of", "ENVI", "-co", "INTERLEAVE=BSQ", "-b", "1", "-b", "2", "-b", "3",
                     str(path), str(raw)], check=True)
@@ -31,7 +32,7 @@ def read_bands(path, folder):
 
 
 def uniform_grid(bands, most):
-    """The picture that a uniform grid gives, and its vertices: the widest of at most `most` in the image's shape."""
+    """The picture of a uniform grid and its vertices: the widest grid with at most `most` in the image's shape."""
     _, rows, cols = bands.shape
     wide = int((most * cols / rows) ** 0.5)
     high = most // wide

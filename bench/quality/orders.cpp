@@ -1,4 +1,4 @@
-// Vertices of the dominant order and of the greedy one: rasters of a million samples or more, and those of orders.txt.
+// Vertices of the dominant and the greedy order: rasters of a million samples or more, and those of orders.txt.
 
 #include "suite.h"
 

@@ -1,5 +1,5 @@
-// The same scenes under the same max error by greedy insertion and by each effort, and under the same budget by each
-// objective: the mesh over the relief, all of a scene in the same light and scale, as bench/images/effort_*.png.
+// Scenes at the same max error by greedy insertion and each effort, and at the same budget by each objective. Shows the
+// mesh over the relief, within a scene in the same light and scale, as bench/images/effort_*.png.
 
 #include "suite.h"
 #include "variants.h"
@@ -13,15 +13,15 @@ struct Scene {
   const char* file;
   int first_col, first_row, side;
   double max_error;      ///< in z units
-  int pixels;            ///< pixels of the picture's longer side, at most, its legend included
-  std::uint64_t budget;  ///< triangles that both objectives get; 0: neither is drawn
+  int pixels;            ///< maximum pixels of the picture's longer side, legend included
+  std::uint64_t budget;  ///< triangles for both objectives; 0: neither is drawn
 };
 
 constexpr Scene kScenes[] = {
     {"fuji", "fuji.tif", 204, 114, 192, 25, 440, 800},
     {"essen", "nrw_dom1_essen.tif", 300, 300, 128, 2, 440, 0},
 };
-/// Variants of a budget, and the objectives that they are drawn for.
+/// Variants of a budget with their objectives.
 constexpr std::pair<const char*, const char*> kObjectives[] = {{"high", "max"}, {"high rms", "rms"}};
 
 std::vector<std::string> names(const std::filesystem::path& /*project*/) {
@@ -41,7 +41,7 @@ scarp::OwnedHeightField cut(const scarp::OwnedHeightField& field, const Scene& s
   return window;
 }
 
-/// The mesh of some variant, drawn and listed in the table.
+/// Draws the mesh of a variant and lists it in the table.
 void draw(const Scene& scene, const scarp::OwnedHeightField& window, const scarp::SimplifyOptions& options,
           const std::string& title, const std::string& goal, std::string_view variant, Rows& rows) {
   const auto made = check(scarp::simplify(window, options));

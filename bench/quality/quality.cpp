@@ -1,10 +1,10 @@
-// Measures meshes and keeps the tables bench/quality/SUITE.csv. They hold no times, so that they only change when the
-// meshes do; the mean ratios of CPU times go to times.csv, after a run over all rasters.
+// Measures meshes and updates the tables bench/quality/SUITE.csv. Without times, they change only with the meshes; mean
+// ratios of CPU times go to times.csv after a run over all rasters.
 //
 //   scarp_quality PROJECT SUITE [NAME...]     all rasters of the suite, or the named ones, whose rows are replaced
 //
-// SUITE: efforts, budgets, high_normal, edges, orders, ridges, pictures. Exit code 2: a raster is not there, its rows
-// are left as they were; 3: a mesh is not what it should be.
+// SUITE: efforts, budgets, high_normal, edges, orders, ridges, pictures. Exit code 2: a raster is missing, and its rows
+// are unchanged; 3: a mesh is faulty.
 
 #include <algorithm>
 #include <array>
@@ -40,9 +40,9 @@ double thin_percent(const scarp::Mesh& mesh) {
   return 100.0 * static_cast<double>(thin) / static_cast<double>(std::max<std::size_t>(1, mesh.triangle_count()));
 }
 
-/// The fault of a mesh; nothing if nothing is.
+/// The fault of a mesh, if any.
 std::string find_fault(const scarp::Measurement& judged, const scarp::SimplifyOptions& options) {
-  // Planes through vertices between samples are no numbers of double.
+  // Planes through vertices between samples are not exact in double.
   constexpr double kRounding = 1 + 1e-12;
   const auto& goals = options.goals;
   if (goals.max_error && judged.max_error > kRounding * *goals.max_error)

@@ -1,4 +1,4 @@
-// The reference rows: Scape's own fields, refined to Scape's vertex counts exactly as Scape did, judged by measure().
+// The reference rows: Scape's fields, refined to Scape's vertex counts exactly like Scape, judged by measure().
 //
 //   scarp_reference PROJECT TABLE.md     exit 3 if a row misses its tolerance
 

@@ -1,6 +1,5 @@
-// The reference runs that the engine is held to: Scape 1.2 (Garland & Heckbert's program, Delaunay) on its own five
-// fields, measured with the original program. Vertices include the four corners, RMSE is
-// over all samples.
+// The reference runs that the engine must match: Scape 1.2 (Garland & Heckbert's program, Delaunay) on its own five
+// fields, measured with the original program. Vertices include the four corners; RMSE is over all samples.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@ struct ReferenceRow {
   std::uint64_t vertices;
   std::uint64_t triangles;
   double max_error, rmse;
-  double seconds;  ///< seconds of one core of a cloud Xeon: the scan and the insertions
+  double seconds;  ///< seconds of the scan and the insertions on one core of a cloud Xeon
 };
 
 inline constexpr ReferenceRow kReferenceRows[] = {
@@ -28,7 +27,7 @@ inline constexpr ReferenceRow kReferenceRows[] = {
     {"westUS", 104858, 209144, 11.00, 3.5810, 0.75}, {"westUS", 524288, 1046717, 1.50, 0.5278, 3.4},
 };
 
-/// Requirements on every row: the max error is omitted, since ties and the first diagonal set it.
+/// Tolerances of every row. The max error is omitted, since it depends on ties and the first diagonal.
 inline constexpr double kRmseTolerance = 0.01, kTriangleTolerance = 0.005;
 
 }  // namespace bench

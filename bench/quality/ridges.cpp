@@ -1,8 +1,8 @@
-// The effect of lines along ridges and valleys on meshes of the same max error: triangles; the error where water
-// gathers and where it parts; and how much of the network of streams the mesh keeps. Streams are the samples through
-// which at least 100 others drain, by steepest descent over the raster filled to its spills (D8; priority flood),
-// divides the same on the raster upside down: both know nothing of how the lines were found. A stream is kept where the
-// mesh, sampled on the raster's grid, has one within a sample of it. The height asked of ridges is twice the max error.
+// The effect of lines along ridges and valleys on meshes with the same max error: triangles, errors at streams and
+// divides, and the preserved share of streams. Streams are the samples through which at least 100 others drain, by
+// steepest descent over the raster filled to its spills (D8; priority flood). Divides are the streams of the inverted
+// raster. Both are independent of how lines are found. A stream is preserved where the mesh, sampled on the raster's
+// grid, has one within a sample. The height of ridges is twice the max error.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<std::string> names(const std::filesystem::path& /*project*/) {
   return {"fuji.tif", "bigtujunga30m.tif", "jacksboro_fault.tif", "crater.tif", "gabilan_lidar_1m.tif"};
 }
 
-/// The flow of water over a grid of heights.
+/// Drainage over a grid of heights.
 class Drainage {
  public:
   Drainage(const std::vector<float>& heights, int cols, int rows)
@@ -79,7 +79,7 @@ class Drainage {
     }
   }
 
-  /// Raises pits to where they spill; then ways lead out of everywhere.
+  /// Raises pits to their spills, so that all paths lead out.
   void flood() {
     using Waiting = std::pair<float, std::size_t>;
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> waiting;
@@ -130,7 +130,7 @@ std::vector<float> turned(std::vector<float> heights) {
   return heights;
 }
 
-/// The share of the marks that have one of `others` next to them, or in their place.
+/// The share of marks with one of `others` at or next to them.
 double share_kept(const Marks& marks, const Marks& others, int cols, int rows) {
   std::size_t all = 0, kept = 0;
   for (int row = 0; row < rows; ++row) {

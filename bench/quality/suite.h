@@ -1,5 +1,5 @@
-// The tables of bench/quality of which each row is a mesh, as measure() judges it. Each table has a source of its own,
-// which defines a Suite; quality.cpp runs them.
+// The tables of bench/quality whose rows are meshes judged by measure(). Each table has a source that defines a Suite;
+// quality.cpp runs them.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ class Rows {
 
   const std::filesystem::path project;
 
-  /// Adds a row, without its end of line, and prints it.
+  /// Adds a row without line end, and prints it.
   void add(const std::string& row);
   /// Adds to the mean ratio of a variant's CPU time to greedy insertion's.
   void add_time(std::string_view variant, double ratio);
@@ -37,10 +37,10 @@ class Rows {
 
 struct Suite {
   const char* name;    ///< bench/quality/NAME.csv
-  const char* header;  ///< names of columns; the first is that of the raster
+  const char* header;  ///< names of columns, first that of the raster
   std::vector<std::string> (*names)(const std::filesystem::path& project);
   void (*measure)(const std::string& name, const scarp::OwnedHeightField& field, Rows& rows);
-  /// Raster by name; null: one of find_raster() or a style of `scarp generate`.
+  /// Reads a raster by name; null: one of find_raster() or a style of `scarp generate`.
   scarp::Result<scarp::OwnedHeightField> (*read)(const std::filesystem::path& project, const std::string& name) = nullptr;
 };
 
@@ -53,14 +53,14 @@ std::vector<std::string> names_in(const std::filesystem::path& project) {
 scarp::Result<scarp::OwnedHeightField> read_field(const std::filesystem::path& project, const std::string& name,
                                                   int generated_side = 768);
 
-/// A mesh as measure() judges it, and what it cost.
+/// A mesh judged by measure(), and its cost.
 struct Made {
   scarp::Measurement judged;
   double seconds = 0;       ///< CPU time of simplify()
-  double thin_percent = 0;  ///< share of its triangles whose smallest angle, seen from above, is below 5 degrees
+  double thin_percent = 0;  ///< share of triangles with an angle below 5 degrees, seen from above
 };
 
-/// Ends the program with 3 where the mesh breaks its max error or its budget, leaves a sample uncovered or is not sound.
+/// Exits with 3 if the mesh breaks its max error or budget, leaves a sample uncovered or is not sound.
 Made make(const std::string& what, const scarp::OwnedHeightField& field, const scarp::SimplifyOptions& options);
 
 inline double relief_of(const scarp::OwnedHeightField& field) { return field.info.max - field.info.min; }

@@ -1,4 +1,4 @@
-// The variants in the tables of effort: greedy insertion, and the ways in which simplify() makes less of it.
+// The variants in the tables of effort: greedy insertion, and ways in which simplify() improves on it.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 namespace bench {
 
 struct Variant {
-  std::string_view name;  ///< name of the row; no two the same
+  std::string_view name;  ///< unique name of the row
   scarp::Order order;
   scarp::Effort effort;
-  std::string_view vertices;  ///< places of the vertices: "samples" or anywhere, "free"
-  double most_greedy_triangles = std::numeric_limits<double>::infinity();  ///< not run where greedy needs more
+  std::string_view vertices;  ///< places of vertices: "samples", or "free" for anywhere
+  double most_greedy_triangles = std::numeric_limits<double>::infinity();  ///< not run if greedy needs more
 };
 
-/// The first is what the others are compared with.
+/// Others are compared with the first.
 inline constexpr Variant kVariants[] = {
     {"greedy", scarp::Order::kGreedy, scarp::Effort::kFast, "samples"},
     {"fast", scarp::Order::kAuto, scarp::Effort::kFast, "samples"},
@@ -27,12 +27,12 @@ inline constexpr Variant kVariants[] = {
     {"max", scarp::Order::kAuto, scarp::Effort::kMax, "free", 100'000},
 };
 
-/// The variants that are given a budget.
+/// A variant for budgets.
 struct BudgetVariant {
-  std::string_view name;  ///< name of the row; no two the same
+  std::string_view name;  ///< unique name of the row
   scarp::Effort effort;
   scarp::Objective objective;
-  double most_budget = std::numeric_limits<double>::infinity();  ///< not run where more triangles are allowed
+  double most_budget = std::numeric_limits<double>::infinity();  ///< not run for larger budgets
 };
 
 inline constexpr BudgetVariant kBudgetVariants[] = {
@@ -43,7 +43,7 @@ inline constexpr BudgetVariant kBudgetVariants[] = {
     {"max rms", scarp::Effort::kMax, scarp::Objective::kRms, 30'000},
 };
 
-/// Nothing if there is none of that name.
+/// The variant of that name, or null.
 inline const Variant* find_variant(std::string_view name) {
   for (const Variant& variant : kVariants) {
     if (variant.name == name) return &variant;
@@ -51,7 +51,7 @@ inline const Variant* find_variant(std::string_view name) {
   return nullptr;
 }
 
-/// One thread, so that CPU times compare.
+/// Uses one thread, so that CPU times are comparable.
 inline scarp::SimplifyOptions options_of(const Variant& variant, double max_error) {
   scarp::SimplifyOptions options;
   options.goals.max_error = max_error;
@@ -62,7 +62,7 @@ inline scarp::SimplifyOptions options_of(const Variant& variant, double max_erro
   return options;
 }
 
-/// Nothing if there is none of that name.
+/// The variant of that name, or null.
 inline const BudgetVariant* find_budget_variant(std::string_view name) {
   for (const BudgetVariant& variant : kBudgetVariants) {
     if (variant.name == name) return &variant;

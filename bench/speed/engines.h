@@ -1,4 +1,4 @@
-// Scarp's two engines as the programs of bench/speed run them: from samples in memory to the triangulation.
+// Scarp's two engines for the programs of bench/speed: from samples in memory to the triangulation.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace bench {
 
 struct EngineRun {
   scarp::DomainMesh domain;
-  scarp::Order order = scarp::Order::kGreedy;  // the one that did the work
+  scarp::Order order = scarp::Order::kGreedy;  // the order that was used
   scarp::Work work;
 };
 
@@ -36,7 +36,7 @@ inline EngineRun refine_greedily(const RawRaster& raw, double error) {
   return run;
 }
 
-/// The dominant order; greedy where that engine declines, as simplify() does. `side` 0: chosen by the engine.
+/// The dominant order, or greedy if that engine declines, like simplify(). `side` 0: chosen by the engine.
 inline EngineRun refine_dominantly(const RawRaster& raw, double error, int threads, int side = 0) {
   scarp::TiledOptions options;
   options.threshold = error;

@@ -1,4 +1,4 @@
-// Raw rasters and meshes of files as the library's own.
+// Raw rasters and meshes from files as the library's types.
 #pragma once
 
 #include <string>

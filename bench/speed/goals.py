@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Measures the goals of speed that Scarp was given, in ratios; keeps goals.csv next to this file.
+"""Measures Scarp's speed goals as ratios; updates goals.csv next to this file.
 
-The engine's goals are multiples of a peer's time. The peer is any program that is called as speed_scarp is, RASTER COLS
-ROWS ERROR, triangulates on one thread and prints "cpu_seconds" in JSON; without one it is delatin. All ratios are of
-CPU time (least of the rounds, programs by turns), but for "2 threads": wall clock, which means nothing on a busy
-machine.
+The engine's goals are multiples of a peer's time. The peer is any program with the arguments of speed_scarp, RASTER
+COLS ROWS ERROR, that triangulates on one thread and prints "cpu_seconds" in JSON; by default delatin. Ratios are of CPU
+time (least of interleaved rounds), except "2 threads": wall clock, which is meaningless on a busy machine.
 
   goals.py --bin build/bin [--peer PROGRAM --peer-name hmm] [--only GOAL...] [--rounds N]
 """
@@ -32,7 +31,7 @@ class Measure:
         return make_raw(name, self.scratch, self.bin)
 
     def least(self, commands, run, rounds=None):
-        """Least of the rounds of run(command), by name; by turns."""
+        """The least of the rounds of run(command), by name; rounds are interleaved."""
         runs = {name: lambda _, one=command: run(one) for name, command in commands.items()}
         return {name: min(values) for name, values in interleave(runs, rounds or self.rounds).items()}
 
@@ -81,12 +80,12 @@ def normal(bench):
 
 
 def high(bench):
-    """The same of high effort."""
+    """Like normal(), for high effort."""
     return effort(bench, "high", [("sierra_3601", (238, 119)), ("essen_dom", (20.6,)), ("fuji", (217,))])
 
 
 def program(bench):
-    """Peer's triangulation alone ÷ Scarp's whole program, fast, one thread; and what options add to it."""
+    """Peer's triangulation alone ÷ Scarp's whole program, fast, one thread; and the cost of options."""
     raster = bench.raw("sierra_3601")
     if raster is None:
         return

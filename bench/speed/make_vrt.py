@@ -3,8 +3,8 @@
 
     make_vrt.py RASTER SIDE OUTPUT.vrt      make_vrt.py moon_gld100_caucasus_4096.tif 60000 moon60000.vrt
 
-RASTER's band 1 must be Int16. Next to OUTPUT it writes four tiled, compressed GeoTIFFs (RASTER and its mirrors), which
-several VRTs in one folder share. Needs gdal_translate and gdalinfo.
+RASTER's band 1 must be Int16. Next to OUTPUT it writes four tiled, compressed GeoTIFFs (RASTER and its mirrors), shared
+by all VRTs in the folder. Needs gdal_translate and gdalinfo.
 """
 import array
 import json

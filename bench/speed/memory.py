@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Peak memory, fitted as bytes per sample, bytes per vertex and a constant, held against what is allowed; writes
+"""Fits peak memory as bytes per sample, bytes per vertex and a constant, compares it with the limits, and writes
 memory.md.
 
-First the engine alone in both orders, one thread, from samples to the frozen mesh (speed_memory: its own baseline
-subtracted), then, where the program is built, a whole `scarp simplify --effort fast` run from GeoTIFF to GLB (peak of
-the process less that of the same run on 16×16 samples).
+First the engine alone in both orders, one thread, from samples to the frozen mesh (speed_memory, minus its baseline).
+Then, if the program is built, a whole `scarp simplify --effort fast` run from GeoTIFF to GLB (peak of the process minus
+that of the same run on 16×16 samples).
 
   memory.py --bin build/bin
 """
@@ -20,7 +20,7 @@ sys.path.insert(0, str(HERE.parent))
 from harness import arguments_of, markdown, measure_process, report_of  # noqa: E402
 
 CASES = ("fuji", "essen_dom", "everest", "sierra_3601")
-# Bytes a sample and a vertex.
+# Bytes per sample and per vertex.
 ALLOWED = {"dominant": (4.25, 72), "greedy": (5, 120), "simplify": (5, 80)}
 
 

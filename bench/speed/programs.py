@@ -1,7 +1,7 @@
-"""Times whole programs: a deflated GeoTIFF in, a mesh out, reading, proof and writing included.
+"""Times whole programs from a deflated GeoTIFF to a mesh, with reading, proof and writing.
 
-delatin has no program of its own. Here it is one process of node that reads the raw raster (nothing to decode), refines
-once, not warmed up, and writes 12 bytes a vertex and 12 a triangle, without a proof.
+delatin has no program. Here it is a process of node that reads the raw raster (nothing to decode), refines once without
+warm-up, and writes 12 bytes a vertex and 12 a triangle, without a proof.
 """
 
 import json
@@ -15,12 +15,12 @@ sys.path.insert(0, str(HERE.parent))
 from harness import install, interleave, measure_process  # noqa: E402
 
 EFFORTS = ("fast", "normal", "high")
-# Many seconds at fine errors: at the two coarsest of each raster only.
+# Many seconds at fine errors, so only the two coarsest of each raster.
 SLOW = ("high",)
 
 
 def make_tif(raster, scratch):
-    """The raw raster as a GeoTIFF as most are: deflated blocks of 512 by 512, a predictor."""
+    """The raw raster as a typical GeoTIFF: deflated blocks of 512 by 512 with a predictor."""
     tif = scratch / f"{raster[0].stem}.tif"
     if not tif.exists():
         subprocess.run(["gdal_translate", "-q", "-co", "TILED=YES", "-co", "BLOCKXSIZE=512", "-co", "BLOCKYSIZE=512",
@@ -38,7 +38,7 @@ def passes_of(program, tif, glb, error, effort):
 
 
 def time_programs(bench, name, raster, error):
-    """Rows of the efforts on one thread and on all, and of delatin; all interleaved."""
+    """Rows of the efforts on one and on all threads, and of delatin; all interleaved."""
     program, tif, glb = bench.bin / "scarp", make_tif(raster, bench.scratch), bench.scratch / "program.glb"
     coarsest = error in ERRORS[name][:2]
 

@@ -1,4 +1,4 @@
-"""The rasters of bench/speed, all without voids, their errors, and how they become raw float32 files."""
+"""The rasters of bench/speed, all without voids, their errors, and their conversion to raw float32 files."""
 
 import os
 import subprocess
@@ -9,7 +9,7 @@ HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parent.parent
 SHARED = Path(os.environ.get("SCARP_SHARED", PROJECT.parent / "shared")) / "data"
 
-# name: (file, window of gdal_translate -srcwin or none); FRACTAL: made by `scarp generate`
+# name: (file, window of gdal_translate -srcwin or None); FRACTAL: made by `scarp generate`
 FRACTAL = "fractal"
 RASTERS = {
     "jacksboro": ("jacksboro_fault.tif", None),
@@ -25,8 +25,8 @@ RASTERS = {
     "sierra_mosaic": ("srtm3_sierra_nevada_basin_range.tif", None),
 }
 
-# The errors that keep about these shares of the samples in the greedy order, as run.py --find gave them, rounded to
-# three digits. The small rasters omit the second.
+# The errors at which the greedy order keeps about these shares of the samples, from run.py --find, rounded to three
+# digits. The small rasters omit the second.
 SHARES = (0.001, 0.004, 0.01, 0.05)
 ERRORS = {
     "jacksboro": (274, 92.4, 30),
@@ -42,12 +42,12 @@ ERRORS = {
     "sierra_mosaic": (216, 110, 66, 22.2),
 }
 
-# Above this many samples there are fewer rounds and a shorter warm-up.
+# Larger rasters have fewer rounds and a shorter warm-up.
 LARGE = 2_000_000
 
 
 def find_file(name):
-    """The project's own copy of a raster, else the one next to the project; None if neither is there."""
+    """The project's copy of a raster, else the one next to the project, or None."""
     for folder in (PROJECT / "data", SHARED):
         if (folder / name).is_file():
             return folder / name
@@ -55,7 +55,7 @@ def find_file(name):
 
 
 def generate_fractal(folder, side, program):
-    """The fractal as a file in `folder`; None where the program was not built."""
+    """The fractal as a file in `folder`, or None if the program was not built."""
     path = Path(folder) / f"fractal_{side}.tif"
     if not program.exists():
         return None
@@ -65,7 +65,7 @@ def generate_fractal(folder, side, program):
 
 
 def make_raw(name, folder, binaries):
-    """(path, cols, rows) of the raw raster, made by gdal_translate; None if its source is not there."""
+    """(path, cols, rows) of the raw raster, made by gdal_translate, or None if its source is missing."""
     file, window = RASTERS[name]
     source = generate_fractal(folder, window[2], binaries / "scarp") if file == FRACTAL else find_file(file)
     if source is None:
@@ -75,7 +75,7 @@ def make_raw(name, folder, binaries):
 
 
 def to_raw(source, window, raw):
-    """(raw, cols, rows): the raster, or its window (first column, first row, cols, rows), as the raw file `raw`."""
+    """(raw, cols, rows): the raster, or its window (first column, first row, cols, rows), written to `raw`."""
     command = ["gdal_translate", "-q", "-of", "ENVI", "-ot", "Float32"]
     if window:
         command += ["-srcwin", *map(str, window)]

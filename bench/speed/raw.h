@@ -1,4 +1,4 @@
-// Raw rasters, and meshes as files for the judge: what the timed programs and the peers read and write.
+// Raw rasters, and meshes as files for the judge: inputs and outputs of timed programs and peers.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline File open_file(const std::string& path, const char* mode) {
   return file;
 }
 
-/// The raster that the first three arguments, RASTER COLS ROWS, name.
+/// The raster given by the first three arguments, RASTER COLS ROWS.
 inline RawRaster read_raw(const Arguments& arguments) {
   RawRaster raster;
   raster.cols = static_cast<int>(arguments.number(1));
@@ -48,13 +48,13 @@ inline RawRaster window_of(const RawRaster& raster, int col, int row, int cols, 
   return part;
 }
 
-/// The input of the warm-up: the raster itself, or its upper left 512×512 samples where it has more than 2 million.
+/// The input of the warm-up: the raster itself, or its upper left 512×512 samples if it has more than 2 million.
 inline RawRaster warm_up_part(const RawRaster& raster) {
   if (raster.samples.size() <= 2'000'000) return raster;
   return window_of(raster, 0, 0, std::min(raster.cols, 512), std::min(raster.rows, 512));
 }
 
-/// Vertices of kPer numbers each, triangles as triples of their ids.
+/// Vertices with kPer numbers each, triangles as triples of their ids.
 template <class Number, std::size_t kPer>
 struct ArrayMesh {
   static constexpr std::size_t kNumbers = kPer;

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Times triangulation only (but for "programs"), in interleaved rounds; keeps CSV tables next to this file.
+"""Times triangulation only (except "programs") in interleaved rounds; updates CSV tables next to this file.
 
   peers    Scarp's two orders, delatin (node), VTK, one verification of Scarp's mesh     results.csv
-  kernels  the instruction sets of this machine, forced one by one                       kernels.csv
+  kernels  the instruction sets of this machine, each forced in turn                     kernels.csv
   threads  one thread against more                                                       threads.csv
   calls    the first call of a process against later ones                                calls.csv
   programs whole programs, GeoTIFF to GLB, by effort; delatin's process                  programs.csv
 
-A round runs each program once on the same raw raster with the same error. Each is one process that warms up, then
-reports its own time; reading and writing are outside of it. In the last round each mesh is judged by measure().
+A round runs each program once on the same raw raster with the same error. Each is a process that warms up, then reports
+its time without reading and writing. In the last round measure() judges each mesh.
 
   run.py --bin build/bin                     everything (about an hour)
   run.py --bin build/bin --only fuji         some rasters, printed only
-  run.py --bin build/bin --only fuji --keep  some rasters, their rows put in place of the old ones
+  run.py --bin build/bin --only fuji --keep  some rasters; replaces their rows
   run.py --bin build/bin --find              chooses the errors of rasters.py anew
 """
 
@@ -33,7 +33,7 @@ from harness import arguments_of, install, interleave, keep_rows, report_of  # n
 
 KERNELS = ("AVX3", "AVX2", "SSE4", "NEON", "WASM", "SCALAR")
 
-# Rasters of the parts that need not see all of them.
+# Rasters of the parts that need not run on all.
 PART_RASTERS = {
     "peers": tuple(RASTERS),
     "kernels": ("fuji", "essen_dom", "sierra_3601", "moon_4096"),
@@ -44,7 +44,7 @@ PART_RASTERS = {
 
 
 class Bench:
-    """The paths of the programs and the number of their runs."""
+    """The paths of the programs and the number of runs."""
 
     def __init__(self, options, scratch):
         self.bin, self.scratch, self.options = options.bin, Path(scratch), options
@@ -68,7 +68,7 @@ def times_of(reports):
 
 
 def time_peers(bench, name, raster, error):
-    """Each program: its times, its mesh, the judge's verdict."""
+    """For each program: times, mesh and the judge's verdict."""
     judged = {}
 
     def runner(program, command, option=()):
@@ -116,7 +116,7 @@ def time_peers(bench, name, raster, error):
 
 
 def kernel_runs(bench, kernel, raster):
-    """The program ignores the sets that the machine lacks, and names the one that it used."""
+    """The program ignores sets that the machine lacks, and reports the one it used."""
     return report_of(bench.scarp(*raster, 1e30), SCARP_KERNEL=kernel)["kernel"] == kernel
 
 
@@ -162,7 +162,7 @@ PARTS = {
 
 
 def keep(part, new, complete):
-    """Puts new rows in place of old ones of the same keys, in the order of the rasters. Complete: no old ones stay."""
+    """Replaces old rows with the same keys, in the order of the rasters; with `complete` drops all old rows."""
     _, file, keys = PARTS[part]
     places = {name: place for place, name in enumerate(RASTERS)}
     if complete and new:
@@ -171,7 +171,7 @@ def keep(part, new, complete):
 
 
 def describe_machine(options, bench, load, partial):
-    """Remarks are written by hand, about rows of several sittings; a complete run needs none."""
+    """Remarks are handwritten notes about rows from several sittings; a complete run needs none."""
     path = HERE / "machine.json"
     old = json.loads(path.read_text()) if path.exists() else {}
     facts = dict(line.split(":", 1) for line in Path("/proc/cpuinfo").read_text().splitlines() if ":" in line)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Times tiles that scarp serve makes when they are asked for: python3 serve_tiles.py SCARP RASTER [OPTION...]
+"""Times tiles that scarp serve makes on demand: python3 serve_tiles.py SCARP RASTER [OPTION...]
 
-Asks for up to 40 tiles of each level, spread over it: as soon as the server answers, when they are not made yet, and
-again, when they are kept; then of another server, once it has prepared its coarse levels. One client on loopback, one
-answer at a time. Prints milliseconds a tile, median and 95th percentile.
+Requests up to 40 tiles spread over each level: first when they are not made yet, then again when they are cached. Then
+it asks another server that has prepared its coarse levels. One client on loopback, one answer at a time. Prints
+milliseconds a tile, median and 95th percentile.
 """
 
 import http.client
@@ -40,7 +40,7 @@ class Server:
         self.process.wait()
 
     def ask(self, path):
-        """Milliseconds, the bytes, and the bound in the answer."""
+        """Milliseconds, bytes and bound of the answer."""
         begun = time.monotonic()
         self.client.request("GET", path, headers={"Accept-Encoding": "gzip"})
         answer = self.client.getresponse()

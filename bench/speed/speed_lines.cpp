@@ -1,10 +1,10 @@
-// Times the arrangement of lines: seconds of one core for several kinds of lines, and of reading them from a file.
+// Times the arrangement of several kinds of lines, in seconds of one core, and reading them from a file.
 //
 //   speed_lines            a Markdown table, on a raster of 3601 × 3601 samples
 //   speed_lines --meshes PROJECT
-//                          what 100,000 vertices of lines add to the time of a mesh of 10 million samples, read and
-//                          written: of a synthetic terrain, and of a real one where its raster is there
-//   speed_lines FILE...    reads each file, file.gpkg:layer, as it is
+//                          time that 100,000 vertices of lines add to a mesh of 10 million samples, reading and writing
+//                          included: on synthetic and, if available, real terrain
+//   speed_lines FILE...    reads each file, file.gpkg:layer
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ class Drawing {
   Point any() { return at(between(0, kSize), between(0, kSize)); }
   static Point at(double x, double y) { return {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}; }
 
-  /// Walks of a hundred segments of two samples, a few of which go out of the raster.
+  /// Walks of a hundred segments of two samples, a few of which leave the raster.
   scarp::Polylines walks(int count) {
     scarp::Polylines lines;
     std::vector<Point> line;
@@ -97,7 +97,7 @@ void time_arrangement(const char* name, const scarp::Polylines& lines) {
   std::fflush(stdout);
 }
 
-/// In samples, on the raster as it is.
+/// In samples of the raster.
 scarp::LineConstraints soft_lines(const scarp::Polylines& lines, int size) {
   scarp::LineConstraints constraints;
   const double scale = (size - 1.0) / kSize;
@@ -127,7 +127,7 @@ bench::Times time_mesh(const std::string& raster, const scarp::SimplifyOptions& 
   return times;
 }
 
-/// One row of the table for each kind of lines, the first of which is none; the least of five runs, by turns.
+/// A row of the table for each kind of lines, first without lines; the least of five interleaved runs.
 void time_meshes(const char* terrain, const std::string& raster, std::vector<Kind>& kinds, const char* effort,
                  scarp::SimplifyOptions options) {
   constexpr int kRuns = 5;
@@ -165,7 +165,7 @@ scarp::OwnedHeightField crop(const scarp::OwnedHeightField& whole, int col, int 
   return window;
 }
 
-/// On one terrain, for bounds with fewer triangles than the lines need up to bounds with several times as many.
+/// Times one terrain, for bounds with fewer up to several times as many triangles as the lines need.
 void time_terrain(const char* terrain, const scarp::OwnedHeightField& field, const std::vector<double>& errors) {
   std::vector<Kind> kinds{{"none", {}},
                           {"1,000 walks", soft_lines(Drawing().walks(1000), field.cols)},

@@ -1,5 +1,5 @@
-// Peak memory of the engine on a raw raster, from samples in memory to the frozen mesh, samples included, above what
-// the process needs before it starts.
+// Peak memory of the engine on a raw raster, from samples in memory to the frozen mesh, samples included, minus the
+// process's memory before.
 //
 //   speed_memory RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N]     one JSON line
 

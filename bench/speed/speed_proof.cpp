@@ -1,11 +1,11 @@
-// Times the judge on Scarp's finished mesh of a raw raster: what simplify() and `scarp measure` pay for their proof.
+// Times the judge on Scarp's finished mesh of a raw raster: the cost of the proof in simplify() and `scarp measure`.
 //
 //   speed_proof RASTER COLS ROWS ERROR [--effort fast|normal|high] [--frame grid|degrees] [--repeat N] [--threads N]
 //
-// degrees: positions are rounded to float32 offsets, as `--crs source` writes GLB. One JSON line. "seconds" are those
-// of measure() without topology (the proof of simplify()), "topology_seconds" those of the topology in addition. The
-// least CPU time of N calls (5), after one unseen. Divided by the seconds of speed_verify for the same raster and error
-// this shows how far the judge is from one scan of the triangles.
+// degrees: positions are rounded to float32 offsets, as `--crs source` writes GLB. One JSON line. "seconds": measure()
+// without topology (the proof of simplify()); "topology_seconds": its topology. The least CPU time of N calls (5),
+// after a warm-up. The ratio to the seconds of speed_verify for the same raster and error compares the judge with one
+// scan of the triangles.
 
 #include "field.h"
 #include "scarp/measure.h"
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Cells of 3 arc seconds, whose offsets are no float32.
+/// Cells of 3 arc seconds, whose offsets are not exact in float32.
 scarp::Frame degrees() {
   scarp::Frame frame;
   frame.kind = scarp::Frame::Kind::kSource;

@@ -1,5 +1,5 @@
-// Times Scarp's triangulation of a raw raster, until every sample is within ERROR; nothing is read, measured or written
-// inside the timed part.
+// Times Scarp's triangulation of a raw raster until every sample is within ERROR, without reading, measuring and
+// writing.
 //
 //   speed_scarp RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N] [--tile SIDE] [--mesh FILE]
 //                                      [--repeat N]
@@ -30,7 +30,7 @@ bench::EngineRun refine(const bench::RawRaster& raw, const Options& options) {
   return bench::refine_dominantly(raw, options.error, options.threads, options.side);
 }
 
-/// Max error is not monotone in the vertices: the smallest that was seen on the way to each share.
+/// Max error is not monotone in the vertices: prints the smallest one reached up to each share.
 void print_errors(const bench::RawRaster& raw, const std::vector<std::string>& shares) {
   const scarp::Raster raster = bench::view_of(raw);
   scarp::DomainMesh domain = bench::start_greedy(raster);
@@ -57,7 +57,7 @@ bench::RawMesh mesh_of(const scarp::Triangulation& tin) {
   return mesh;
 }
 
-/// Times of one call, its triangulation freed again inside the timed part.
+/// Times of one call, including the release of its triangulation.
 bench::Times time_call(const bench::RawRaster& raw, const Options& options) {
   const bench::Stopwatch watch;
   refine(raw, options);

@@ -1,11 +1,11 @@
-// Times simplify(), proof included, on small windows of a raw raster, as a maker of tiles calls it: one after the other
-// in one process, on one thread.
+// Times simplify(), proof included, on small windows of a raw raster, like a maker of tiles: sequentially in one
+// process, on one thread.
 //
 //   speed_small RASTER COLS ROWS [--side N] [--triangles N] [--error E] [--effort fast|normal|high] [--rounds N]
 //
-// One JSON line. Windows of N by N samples (64) from all over the raster, 100 at most; towards a budget, an error, or
-// both. "milliseconds" are CPU time a window: of each the least of N rounds (7), then the median of the windows, and
-// the dearest. "mean_error": of the max errors.
+// One JSON line. At most 100 windows of N by N samples (64) from all over the raster, for a budget, an error, or both.
+// "milliseconds" are CPU time a window: the least of N rounds (7) for each, then the median and the maximum over
+// windows. "mean_error" is the mean of max errors.
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Evenly from all over the raster.
+/// Evenly spaced over the raster.
 std::vector<bench::RawRaster> cut_windows(const bench::RawRaster& raster, int side) {
   constexpr int kMost = 10;  // in a row, and rows
   const int across = std::min(raster.cols / side, kMost), down = std::min(raster.rows / side, kMost);

@@ -1,5 +1,4 @@
-// Times vtkGreedyTerrainDecimation (absolute error, else defaults) on a raw raster; nothing is read or written inside
-// the timed part.
+// Times vtkGreedyTerrainDecimation (absolute error, else defaults) on a raw raster, without reading and writing.
 //
 //   speed_vtk RASTER COLS ROWS ERROR [MESH]
 
@@ -19,7 +18,7 @@
 
 namespace {
 
-/// The samples as VTK wants them; row 0 lies at y = 0, as it does for the others.
+/// The samples for VTK; row 0 lies at y = 0, as for the others.
 void fill_image(bench::RawRaster& raster, vtkImageData* image) {
   image->SetDimensions(raster.cols, raster.rows, 1);
   vtkNew<vtkFloatArray> heights;

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Edges that neighbouring tiles share, on land of every kind: how many differ once they are decoded, normals included.
+"""Counts differences, normals included, between decoded edges of neighbouring tiles on all kinds of terrain.
 
   borders.py SCARP DATA     SCARP: the program; DATA: the open set of rasters. Writes borders.csv.
 
 `scarp tile check` decodes all tiles and compares both sides of each edge, and all tiles at each corner; it shares no
-code with what made them. Exit code 1 where one differs. Needs gdal-bin."""
+code with their encoder. Exit code 1 if any differs. Needs gdal-bin."""
 
 import json
 import pathlib

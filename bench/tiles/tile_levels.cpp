@@ -1,11 +1,11 @@
-// Times tiles, level by level, as `scarp tile` makes them: from nodes of a raster in memory to compressed bytes.
+// Times tiles level by level, made like in `scarp tile`: from nodes of a raster in memory to compressed bytes.
 //
 //   tile_levels RASTER [--te W S E N] [--effort fast|normal|high] [--error M] [--zoom Z] [--levels A B] [--tiles N]
 //               [--rounds N]
 //
-// One line a level, from the block's down: tiles (N at most, 20, spread over those that the raster covers wholly),
-// their triangles and bytes, CPU milliseconds a tile (of each tile the least of N rounds, 3) to read its nodes, to make
-// it of them, and to encode it, and a hash of all bytes: the same before and after what changes the time alone.
+// Prints one line per level, from the block's down: the number of tiles (at most N, 20, of those completely covered by
+// the raster), their triangles and bytes. Then CPU milliseconds a tile (the least of N rounds, 3) to read nodes, make
+// the tile, and encode it. A hash of all bytes shows that a change affects only time.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace {
 
-/// Tiles of a level that the raster covers wholly; else those that it covers in part.
+/// Tiles of a level that the raster covers completely, else those that it covers in part.
 std::vector<scarp::TileId> choose_tiles(const scarp::PyramidPlan& plan, int z, int most) {
   std::vector<scarp::TileId> whole, all;
   const scarp::DegreeBox& covered = plan.covered;

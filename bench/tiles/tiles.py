@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Terrain tiles of Scarp compared with those of martini: triangles, bytes, true errors, and edges where neighbours
+"""Compares terrain tiles of Scarp with those of martini: triangles, bytes, true errors, and edges where neighbours
 differ.
 
   tiles.py SCARP DATA     SCARP: the program; DATA: the open set of rasters. Writes tiles.csv and tiles_seconds.csv.
 
-The raster is a part of srtm3_sierra_nevada_basin_range.tif, resampled to the nodes of level 12, 64 cells a tile, so
-that all start from the same numbers. Each tile is encoded as quantized-mesh, decoded, and judged at every node below
-it. Needs numpy, gdal-bin, node and npm."""
+The raster is a part of srtm3_sierra_nevada_basin_range.tif, resampled to the nodes of level 12, 64 cells a tile: the
+same input for all. Each tile is encoded as quantized-mesh, decoded, and judged at every node below it. Needs numpy,
+gdal-bin, node and npm."""
 
 import gzip
 import pathlib
@@ -57,7 +57,7 @@ class Tile:
         self.bytes = len(gzip.compress(data[:at], 9))
 
     def edge(self, across, value):
-        """The vertices of an edge: where along it, and how high."""
+        """The vertices of an edge: places along it, and heights."""
         along = self.v if across is self.u else self.u
         return sorted(zip(along[across == value].tolist(), self.heights[across == value].tolist()))
 
@@ -81,13 +81,13 @@ class Tile:
             errors = numpy.abs(a * za + b * zb + (1 - a - b) * zc - part)[inside]
             covered[north:south + 1, west:east + 1] |= inside
             worst = max(worst, errors.max(initial=0))
-        # Rounded positions put nodes on a tilted edge a hair outside; all others are judged.
+        # Rounded positions put some nodes on tilted edges slightly outside; all others are judged.
         assert covered.mean() > 0.995, covered.mean()
         return worst
 
 
 def encode(columns, rows, heights, triangles):
-    """quantized-mesh, without a place: zeros of the header are as good for comparing bytes as numbers would be."""
+    """quantized-mesh without a place: a header of zeros has the same size."""
     order = list(dict.fromkeys(triangles.ravel().tolist()))
     rank = {vertex: k for k, vertex in enumerate(order)}
     low, high = float(heights.min()), float(heights.max())
@@ -152,7 +152,7 @@ class Area:
         return found, float(printed.stdout) / len(found)
 
     def scarp(self, program, effort):
-        """The tiles of all levels, and CPU milliseconds a tile of the whole run."""
+        """The tiles of all levels, and CPU milliseconds per tile of the whole run."""
         folder = self.scratch / effort
         seconds = cpu_seconds([program, "tile", self.tif, folder, "--zoom", str(FINEST), "--cells", str(CELLS), "--quality", "1",
                                "-e", repr(geometric_error(FINEST)), "--effort", effort, "-j", "1", "--overwrite", "-q"])

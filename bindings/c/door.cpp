@@ -17,14 +17,14 @@
 namespace scarp::door {
 namespace {
 
-constexpr const char* kNoMemory = "out of memory";  // so short that a string holds it without asking for more
+constexpr const char* kNoMemory = "out of memory";  // short enough for a string without allocation
 
 std::string& last_sentence() {
   thread_local std::string sentence;
   return sentence;
 }
 
-/// How sentences name options whose name is another here; written before other calls.
+/// Names of options in messages that differ from the program's; set before other calls.
 std::map<cli::OptionId, std::string>& names_here() {
   static std::map<cli::OptionId, std::string> names{{cli::OptionId::kThreads, "threads"}};
   return names;
@@ -34,8 +34,8 @@ bool is_of_name(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-' || letter == '_';
 }
 
-/// The option that begins at a dash, "--max-error" or "-e", and the end of its name; null where none does. Letters
-/// after the name of another program are that program's.
+/// The option that begins at a dash, "--max-error" or "-e", and the end of its name; null if none does. Letters after
+/// another program's name are that program's option.
 const cli::OptionRow* option_at(const std::string& sentence, std::size_t at, std::size_t& end) {
   if (sentence[at] != '-' || (at > 0 && is_of_name(sentence[at - 1]))) return nullptr;
   end = at;

@@ -1,4 +1,4 @@
-// Common parts of all functions of the C door: statuses, sentences, structs of any age, and no exception that goes out.
+// Common parts of all functions of the C interface: statuses, messages, structs of any version. No exception escapes.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace scarp::door {
 
-/// Keeps the sentence, in the words of the door: an option by its name there.
+/// Stores the message with options by their names here.
 scarp_status report(const Error& error);
 scarp_status report(ErrorKind kind, const std::string& sentence);
-/// "--max-error" and "-e" become "max_error", or the name that name_option() gave.
+/// Replaces "--max-error" and "-e" by "max_error", or the name given to name_option().
 std::string in_words_of_door(const std::string& sentence);
-/// How callers and sentences name an option from now on. kUsage if there is no such option.
+/// Sets the name of an option for callers and messages. kUsage if there is no such option.
 Result<void> name_option(const std::string& name, const std::string& shown);
-/// "--num-threads" of "threads": an option by its name here; empty where no option has another name here.
+/// "--num-threads" for "threads": an option by its changed name; empty if it has none.
 std::string find_named_here(const std::string& name);
-/// Reports the exception that is being handled.
+/// Reports the current exception.
 scarp_status report_exception();
 
 /// Runs `work`, which returns a scarp_status.
@@ -37,7 +37,7 @@ scarp_status guarded(Work&& work) noexcept {
   }
 }
 
-/// A call that is refused from within; guarded() reports it.
+/// A refusal from inside a call, reported by guarded().
 struct Refused {
   Error error;
 };
@@ -47,13 +47,13 @@ constexpr const char* name_of(const scarp_points*) { return "scarp_points"; }
 constexpr const char* name_of(const scarp_options*) { return "scarp_options"; }
 constexpr const char* name_of(const scarp_report*) { return "scarp_report"; }
 
-/// True if a size is that of a struct, of any version.
+/// True if a size can be that of a struct, of any version.
 constexpr bool is_struct_size(std::uint32_t size) {
-  constexpr std::uint32_t kLargest = 1 << 16;  // values in uninitialised memory are larger, mostly
+  constexpr std::uint32_t kLargest = 1 << 16;  // uninitialised values are mostly larger
   return size >= 2 * sizeof(std::uint32_t) && size <= kLargest;
 }
 
-/// Throws Refused for a struct whose size was never set, or set to something else.
+/// Throws Refused for a struct with a missing or wrong size.
 template <class T>
 void check_size(const T* given) {
   if (is_struct_size(given->struct_size)) return;
@@ -73,7 +73,7 @@ T known(const T* given, void (*init)(T*, std::uint32_t)) {
   return all;
 }
 
-/// Fills in as much of the caller's struct as it has.
+/// Fills in the caller's part of the struct.
 template <class T>
 void hand_out(const T& all, T* out) {
   check_size(out);
@@ -82,7 +82,7 @@ void hand_out(const T& all, T* out) {
   out->struct_size = size;
 }
 
-/// `counts`, if not null: the tiles that the call has written.
+/// `counts`: the tiles written by the call; may be null.
 ProgressCallback progress_of(const scarp_options& asked, const cli::TileCounts* counts = nullptr);
 
 }  // namespace scarp::door

@@ -28,7 +28,7 @@ LentRaster raster_of(const scarp_field& field) {
 
 constexpr std::uint64_t kLargestArray = std::numeric_limits<std::ptrdiff_t>::max();  // bytes
 
-/// The reason why no memory can hold the contents of the struct; empty if it can.
+/// The reason why the struct's contents cannot fit in memory; empty if they can.
 std::string find_fault(const scarp_field& field) {
   if (field.samples == nullptr) return "the pointer to the samples is null";
   if (field.frame < SCARP_FRAME_GRID || field.frame > SCARP_FRAME_DEGREES)
@@ -58,7 +58,7 @@ std::string find_fault(const scarp_points& points) {
   return "";
 }
 
-/// Values on the grid of the field.
+/// Other values on the grid of the field.
 LentRaster beside(const LentRaster& raster, const float* values) {
   LentRaster other = raster;
   other.samples = values;
@@ -112,7 +112,7 @@ extern "C" double scarp_round_samples(const double* values, uint64_t count, floa
   double largest = 0;
   for (uint64_t k = 0; k < count; ++k) {
     samples[k] = static_cast<float>(values[k]);
-    const double rounding = std::abs(values[k] - static_cast<double>(samples[k]));  // no number where one is infinite
+    const double rounding = std::abs(values[k] - static_cast<double>(samples[k]));  // not a number if one is infinite
     if (rounding > largest && rounding <= std::numeric_limits<double>::max()) largest = rounding;
   }
   return largest;

@@ -1,4 +1,4 @@
-// The structs of the door as inputs that readers treat as files.
+// Structs as inputs that readers treat like files.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace scarp::door {
 
-/// Lends a field, and with it the arrays of the options, by their names.
+/// Lends a field and the arrays of the options, by their names.
 class LentInputs {
  public:
   LentInputs(const scarp_field* field, const scarp_options& asked);
   LentInputs(const scarp_points* points);
 
-  /// kUsage where a pointer that is needed is null, or a number out of range.
+  /// kUsage for a required pointer that is null or a number out of range.
   Result<void> check() const;
   const std::string& name() const { return name_; }
 
  private:
   std::string name_;
-  std::string unfit_;  ///< why the struct cannot be read; empty where it can
+  std::string unfit_;  ///< reason why the struct cannot be read, or empty
   LentRaster raster_, mask_, tolerance_;
   PointSet points_;
   std::optional<Lent> lent_, lent_mask_, lent_tolerance_;

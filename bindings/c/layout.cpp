@@ -1,4 +1,4 @@
-// The structs of the door as they lie in memory, for bindings that write them anew.
+// The memory layout of the structs, for bindings that redeclare them.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -59,6 +59,6 @@ extern "C" const char* scarp_abi_layout(void) {
     static const std::string text = describe_all();
     return text.c_str();
   } catch (...) {
-    return "";  // no memory for it
+    return "";  // out of memory
   }
 }

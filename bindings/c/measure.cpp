@@ -1,4 +1,4 @@
-// measure() by the program's own plans.
+// measure() through the program's own plans.
 #include <CLI/CLI.hpp>
 #include <optional>
 
@@ -28,7 +28,7 @@ scarp_status finish(const Measurement& measured, std::uint64_t over, double seco
   return broken ? report(ErrorKind::kPromise, *broken) : SCARP_OK;
 }
 
-/// A file holds points or a raster.
+/// A file contains points or a raster.
 scarp_status judge(const std::string& input, std::optional<bool> are_points, const Mesh& mesh,
                    const scarp_options& asked, scarp_report* out) {
   const Lent lent(kMeshName, mesh);

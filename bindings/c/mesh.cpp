@@ -48,7 +48,7 @@ int stop_code(StopReason stop) {
   return -1;
 }
 
-/// The file's bytes, as the program would write them.
+/// The file's bytes as the program would write them.
 Result<std::vector<std::uint8_t>> encode(const scarp_mesh& mesh, const cli::OutputFormat& format) {
   if (format.kind == cli::OutputKind::kDem)
     return fail(ErrorKind::kUsage, "a raster is no format of a mesh: choose glb, obj, ply, stl or another mesh format");

@@ -21,9 +21,9 @@ struct scarp_bytes {
 struct scarp_mesh {
   scarp::Mesh mesh;  ///< z up
   std::optional<scarp_report> report;
-  scarp::cli::OutputFormat format;  ///< format that it was made for
+  scarp::cli::OutputFormat format;  ///< format it was made for
   scarp::cli::Given up;
-  std::string crs;  ///< CRS that was asked for
+  std::string crs;  ///< requested CRS
   bool is_print = false, doubles = false;
   scarp::GlbOptions glb;
   std::string warnings;
@@ -37,13 +37,13 @@ struct scarp_mesh {
 
 namespace scarp::door {
 
-/// Triangles name vertices by 32 bits, of which one number stands for none.
+/// Triangles have 32-bit vertex ids, one of which means none.
 constexpr std::uint64_t kMostVertices = 0xfffffffe;
 
 scarp_report describe_measurement(const Measurement& measured);
 scarp_report describe_run(const Simplified& simplified);
 std::string join_lines(const std::vector<std::string>& sentences);
-/// Copies all but the positions in float32.
+/// Copies everything except the float32 positions.
 std::unique_ptr<scarp_mesh> copy_mesh(const scarp_mesh& mesh);
 
 }  // namespace scarp::door

@@ -21,7 +21,7 @@ using cli::OptionType;
 
 constexpr Commands kDoorCommands = cli::kClassic | cli::kMeasure | cli::kTile;
 
-/// True for options of a program alone: its terminal, its files, more than one mesh.
+/// True for options that only a program needs: its terminal, its files, several meshes.
 bool is_of_program(const OptionRow& row) {
   constexpr OptionId kOfProgram[] = {OptionId::kOverwrite, OptionId::kQuiet,     OptionId::kTiming,
                                      OptionId::kJson,      OptionId::kPoints,    OptionId::kJsonProgress,
@@ -68,7 +68,7 @@ std::optional<bool> find_truth(const std::string& value) {
   return std::nullopt;
 }
 
-/// The words that a command line would have for the option.
+/// Appends the command-line words for the option.
 Result<void> add_words(const OptionRow& row, const std::string& value, std::vector<std::string>& words) {
   const std::string name = row.name;
   if (row.type == OptionType::kFlag) {
@@ -94,7 +94,7 @@ Result<void> add_words(const OptionRow& row, const std::string& value, std::vect
   return {};
 }
 
-/// The members of the struct, as options by name.
+/// The members of the struct as options by name.
 std::vector<std::pair<std::string, std::string>> common_settings(const scarp_options& asked) {
   std::vector<std::pair<std::string, std::string>> settings;
   if (!std::isnan(asked.max_error)) settings.emplace_back("--max-error", fmt::format("{}", asked.max_error));
@@ -141,13 +141,13 @@ Result<std::vector<std::string>> words_of(Commands command, const std::vector<st
       SCARP_RETURN_IF_ERROR(add(name, value));
     }
   }
-  words.emplace_back("--");  // the words after it are names, which may begin with a dash
+  words.emplace_back("--");  // the following words are names, which may begin with a dash
   words.insert(words.end(), arguments.begin() + 1, arguments.end());
   return words;
 }
 
 Result<void> parse_words(CLI::App& program, std::vector<std::string> words) {
-  std::reverse(words.begin(), words.end());  // in the order that CLI11 expects
+  std::reverse(words.begin(), words.end());  // the order that CLI11 expects
   try {
     program.parse(words);
   } catch (const CLI::ParseError& error) {

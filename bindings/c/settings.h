@@ -1,4 +1,4 @@
-// Options by name: the words of a command line, read by the program's own table and parsers.
+// Options by name: command-line words, read by the program's own table and parsers.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,28 +11,27 @@
 #include "session/table/option_table.h"
 
 struct scarp_settings {
-  /// Names as the program has them ("--max-error"), in the order in which they were set.
+  /// Names as in the program ("--max-error"), in the order set.
   std::vector<std::pair<std::string, std::string>> values;
 };
 
 namespace scarp::door {
 
-/// "max_error", "max-error" and "--max-error" are one: the name in the program's table.
+/// The name in the program's table for "max_error", "max-error" or "--max-error".
 std::string name_in_program(const std::string& name);
 
-/// An option of a call.
+/// True if the call has the option.
 bool has_setting(const scarp_options& asked, const char* name);
 
-/// The words of a command line: `arguments`, which are the command's name, its inputs and its outputs, and the options:
-/// those `beside` the caller's, the struct's members where no option by name goes before them, then those by name.
-/// kUsage, in one sentence.
+/// The command-line words: `arguments` (the command's name, inputs and outputs), then options: those `beside` the
+/// caller's, struct members not overridden by name, then options by name. kUsage, in one sentence.
 Result<std::vector<std::string>> words_of(cli::Commands command, const std::vector<std::string>& arguments,
                                           const scarp_options& asked, const std::vector<std::string>& beside = {});
 
-/// Has `program`, to which the command was added, parse them. kUsage, in one sentence.
+/// Parses the words with `program`, to which the command was added. kUsage, in one sentence.
 Result<void> parse_words(CLI::App& program, std::vector<std::string> words);
 
-/// Both.
+/// Calls words_of() and parse_words().
 Result<void> parse_options(CLI::App& program, cli::Commands command, const std::vector<std::string>& arguments,
                            const scarp_options& asked, const std::vector<std::string>& beside = {});
 

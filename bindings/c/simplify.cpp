@@ -1,4 +1,4 @@
-// simplify() by the program's own plans, on what is in memory and on files.
+// simplify() through the program's own plans, for data in memory and for files.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
@@ -28,14 +28,13 @@
 namespace scarp::door {
 namespace {
 
-enum class InputKind { kField, kPoints, kFile };  // a file holds either
+enum class InputKind { kField, kPoints, kFile };  // a file contains either
 
-/// The request in the words of a call.
+/// The request of a call.
 struct Request {
   std::vector<std::string> words;
   cli::GivenOptions given{cli::kSimplify};
-  std::optional<cli::SimplifyPlan> plan;  ///< request for a raster; no file is written that could be one of those that
-                                          ///< are read
+  std::optional<cli::SimplifyPlan> plan;  ///< request for a raster; no output file can be an input
 };
 
 Result<void> check_goal(const cli::GivenOptions& given) {
@@ -46,8 +45,8 @@ Result<void> check_goal(const cli::GivenOptions& given) {
               "max_points");
 }
 
-/// The command's options, as a run of the program would hold them, and the last requests about fields. A thread keeps
-/// them: to make them anew needs longer than to simplify a small field.
+/// The command's options as in a run of the program, and the last requests about fields. Cached per thread: making them
+/// anew is slower than simplifying a small field.
 class SimplifyWords {
  public:
   SimplifyWords() { given_.add_to(program_); }
@@ -85,7 +84,7 @@ SimplifyWords& words_of_thread() {
   return words;
 }
 
-/// Without a purpose of the mesh the frame is the raster's own coordinates, in which arrays are compared.
+/// Without a purpose of the mesh, the frame is the raster's own coordinates, in which arrays are compared.
 void choose_frame(const scarp_options& asked, ReadOptions& read) {
   if (has_setting(asked, "--of")) return;
   read.default_frame = DefaultFrame::kMetric;
@@ -107,7 +106,7 @@ std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, cli::Simpli
   return mesh;
 }
 
-/// A print's mesh is that of its one tile.
+/// Moves the mesh of a print's only tile.
 Result<void> take_print(cli::Outcome& outcome, scarp_mesh& mesh) {
   if (!outcome.print) return {};
   if (outcome.print->tiles.size() != 1)

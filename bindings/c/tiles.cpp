@@ -1,4 +1,4 @@
-// Tiles, all at once or made as they are asked for, by the program's own plans.
+// Tiles, all at once or on demand, through the program's own plans.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <limits>
@@ -43,7 +43,7 @@ std::vector<std::vector<std::uint32_t>> list_tiles(const LiveTileSet& set) {
   return lists;
 }
 
-/// The command's options, as a run of the program would hold them.
+/// The command's options as in a run of the program.
 struct TileWords {
   CLI::App program;
   cli::GivenOptions given{cli::kTile};

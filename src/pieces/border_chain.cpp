@@ -13,7 +13,7 @@ namespace scarp {
 
 namespace {
 
-/// Keeps what the chord from `first` to `last` needs. REQUIRES: heights on [first, last] are not nodata.
+/// Keeps the samples that the chord from `first` to `last` needs. REQUIRES: no nodata on [first, last].
 void split_chord(const std::vector<float>& heights, std::int32_t first, std::int32_t last, const LineBound& bound,
                  std::vector<std::int32_t>& kept) {
   std::vector<std::pair<std::int32_t, std::int32_t>> chords{{first, last}};
@@ -22,7 +22,7 @@ void split_chord(const std::vector<float>& heights, std::int32_t first, std::int
     const auto [a, b] = chords.back();
     chords.pop_back();
     const double from = at(a), rise = double{at(b)} - from, steps = b - a;
-    // Five roundings, each of at most the size of the numbers that go in.
+    // Five roundings, each at most the magnitude of its operands.
     const double guard_of_chord = 0x1p-50 * (std::abs(from) + std::abs(rise));
     double worst = -1;
     std::int32_t split = 0;
@@ -42,10 +42,10 @@ void split_chord(const std::vector<float>& heights, std::int32_t first, std::int
   }
 }
 
-/// Three samples across the line at each of its steps, NaN beyond the raster: before, on and after the line.
+/// Samples before, on and after the line at each of its steps; NaN beyond the raster.
 struct Strip {
   std::array<std::vector<float>, 3> heights;
-  /// The corners of the cell between step i and i + 1 on one side (0 before, 1 after the line) that are heights.
+  /// The valid corners of the cell between step i and i + 1 on one side (0 before, 1 after the line).
   unsigned corners(std::size_t side, std::size_t i) const {
     const auto bit = [&](std::size_t k, std::size_t j, unsigned n) { return std::isnan(heights[k][j]) ? 0u : 1u << n; };
     return bit(side, i, 0) | bit(side, i + 1, 1) | bit(side + 1, i, 2) | bit(side + 1, i + 1, 3);
@@ -109,7 +109,7 @@ Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, cons
   SCARP_TRY(const auto& strip, read_strip(field, line));
   std::vector<std::int32_t> kept;
   for (const BorderRun& run : runs_of(strip, line.steps)) {
-    // A half cell whose missing corner lies on the line has no surface along it, and its run is one step.
+    // A half cell whose missing corner lies on the line has no surface along it; its run is one step.
     if (run.has_surface && run.end - run.begin > 1) split_chord(strip.heights[1], run.begin, run.end, bound, kept);
     if (run.end < line.steps) kept.push_back(run.end);
   }

@@ -1,7 +1,7 @@
 // The border between two tiles: a line of samples, simplified on its own.
 //
-// A pure function of the samples on the line and of the cells next to it. Both tiles that share a border compute the
-// same points, whatever else they hold. So their meshes fit without a crack, and the tiles exchange no data.
+// It depends only on the samples on the line and the cells next to it, so both tiles compute the same points. Their
+// meshes meet without a crack, and the tiles exchange no data.
 #pragma once
 
 #include <cstdint>
@@ -21,36 +21,35 @@ struct BorderLine {
 
 /// The bounds of the samples of a line.
 struct LineBound {
-  LineBound(double same) : of_all(same) {}                     // NOLINT: either will do
+  LineBound(double same) : of_all(same) {}                     // NOLINT: implicit by design
   LineBound(std::span<const float> by_step) : own(by_step) {}  // NOLINT
   double of_all = 0;
-  std::span<const float> own;  ///< by step, from 0 on, +infinity for none; EMPTY: one for all
+  std::span<const float> own;  ///< bounds by step from step 0, +infinity for none; EMPTY: `of_all` holds everywhere
 
   double at(std::int32_t step) const { return own.empty() ? of_all : double{own[static_cast<std::size_t>(step)]}; }
-  /// The larger rank belongs to the sample that breaks its bound by more.
+  /// The sample with the largest rank splits the chord: the largest error, or error / bound where bounds differ.
   double rank(double error, double bound) const { return own.empty() ? error : error / bound; }
 };
 
 /// Returns the steps that become vertices, ascending and strictly between 0 and line.steps. Every sample of the line
-/// that belongs to the surface on either side lies within its bound, as a real number, of their chain. The farthest
-/// sample of a chord splits it (first among equals), again and again. A sample where the surface next to the line
-/// changes (a cell with a nodata sample) is kept too, so every corner of an outline on the line is a vertex. The line
-/// lies inside the raster; its field may have nodata. Cost: O(steps · log steps), expected. Fails as the field's source
-/// does.
+/// that belongs to the surface on either side lies within its bound, as a real number, of the chain of vertices. The
+/// farthest sample of a chord splits it recursively (ties: the first). A sample where the surface next to the line
+/// changes (a cell with nodata) is also kept: every corner of an outline on the line is a vertex. The line lies inside
+/// the raster; its field may have nodata. Cost: O(steps · log steps), expected. Fails as the field's source does.
 Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line,
                                                   const LineBound& bound);
 
-/// The missing steps where `kept`, ascending, are the vertices that simplify_border() made for a larger bound.
+/// The additional steps that `bound` needs, ascending. `kept`: the result of simplify_border() for a larger bound.
 Result<std::vector<std::int32_t>> split_border(const HeightField& field, const BorderLine& line,
                                                std::span<const std::int32_t> kept, const LineBound& bound);
 
-/// A run of steps of a line with the same surface on either side: cells of four heights, or none.
+/// A run of steps with the same surface on either side: cells with four heights, or none.
 struct BorderRun {
   std::int32_t begin = 0, end = 0;
-  bool has_surface = false;  ///< on one side at least
+  bool has_surface = false;  ///< on at least one side
 };
 
-/// The whole of a line in such runs. Fails as the field's source does.
+/// Splits the whole line into such runs. Fails as the field's source does.
 Result<std::vector<BorderRun>> find_border_runs(const HeightField& field, const BorderLine& line);
 
 }  // namespace scarp

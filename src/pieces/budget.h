@@ -22,18 +22,18 @@ class Budget {
 
   /// Fails if not even the smallest mesh fits: "N vertices are too few: CULPRIT M; allow moreADVICE".
   Result<void> check(const MeshSize& least, const std::string& culprit, const std::string& advice) const;
-  /// The budget that one more vertex with `gain` more triangles would break.
+  /// The budget, if any, that a vertex with `gain` more triangles would exceed.
   std::optional<StopReason> exceeded(const MeshSize& size, std::uint32_t gain) const;
-  /// The last 5 % of the budget, where the best prefix is searched for.
+  /// True in the last 5 % of the budget, where the best prefix is searched for.
   bool in_last_stretch(const MeshSize& size) const;
-  /// The larger used share of the budgets; 0 without budgets.
+  /// The larger used share of the two budgets; 0 without budgets.
   double used(const MeshSize& size) const;
 
  private:
   std::optional<std::uint64_t> max_triangles_, max_vertices_;
 };
 
-/// An intermediate mesh, identified by the number of vertices of the triangulation at that time.
+/// An intermediate mesh, identified by its number of vertices.
 struct Prefix {
   std::size_t vertices = 0;
   double error = 0;

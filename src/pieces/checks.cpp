@@ -84,7 +84,7 @@ Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
   return {};
 }
 
-/// A number of two digits, at least this one. REQUIRES: value > 0.
+/// The smallest number with two digits that is not below the value. REQUIRES: value > 0.
 double round_to_two_digits(double value) {
   const double exponent = std::floor(std::log10(value)) - 1, unit = std::pow(10, std::abs(exponent));
   const auto scale = [&](double count) { return exponent < 0 ? count / unit : count * unit; };
@@ -92,7 +92,7 @@ double round_to_two_digits(double value) {
   return scale(scale(count) < value ? count + 1 : count);
 }
 
-/// Far from 0 doubles lie farther apart than samples do.
+/// Far from 0, doubles are coarser than the spacing of samples.
 Result<void> check_places(const HeightField& field) {
   for (int axis = 0; axis < 2; ++axis) {
     const double* const terms = &field.frame.affine[3 * static_cast<std::size_t>(axis)];

@@ -1,4 +1,4 @@
-// Checks of options before a run begins: settings without conflicts, needs that are met, values within their range.
+// Checks options before a run: conflicts, missing prerequisites, ranges.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,15 @@
 
 namespace scarp {
 
-/// Fails with kUsage for goals out of range or none, with kPromise for a max error below the rounding of the samples.
+/// Fails with kUsage for goals that are missing or out of range, with kPromise for a max error below the samples'
+/// rounding.
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options);
 
-/// The same; with kUsage where settings do not go together, by the table of src/pieces/conflicts.h, for a setting
-/// without another that it needs, and for values out of range; and as check_size().
+/// Fails as check_values() and check_size() do; also with kUsage for conflicting settings (src/pieces/conflicts.h) and
+/// missing prerequisites.
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options);
 
-/// Fails unless it is a number of at least 0, or none.
+/// Fails unless the value is absent or a number of at least 0.
 Result<void> check_max_error(const std::optional<double>& max_error);
 
 }  // namespace scarp

@@ -18,7 +18,7 @@ constexpr Fields kLines(Field::kBreaklines, Field::kCutline);
 constexpr Fields kInsertedFirst(Field::kWalls, Field::kRidges);
 constexpr Fields kShapes(Field::kShape);
 constexpr Fields kEfforts(Field::kEffortNormal, Field::kEffortHigh, Field::kEffortMax);
-/// Settings that ask for an effort above fast.
+/// Settings that require an effort above fast.
 constexpr Fields kAsksForEffort(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms, Field::kVerticesFree);
 
 constexpr ConflictRule kRules[] = {

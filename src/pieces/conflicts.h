@@ -15,8 +15,8 @@
 
 namespace scarp {
 
-/// A setting: a field of SimplifyOptions that differs from its default, one of its values where these differ in what
-/// they go with, or what a HeightField holds; or a setting of a pyramid of tiles.
+/// A setting: a field of SimplifyOptions other than its default, or one of its values if they conflict differently; a
+/// property of a HeightField; or a setting of tiles.
 enum class Field : std::uint8_t {
   kMaxError,
   kMaxTriangles,
@@ -28,7 +28,7 @@ enum class Field : std::uint8_t {
   kMaskSource,
   kTolerance,
   kToleranceSource,
-  kBreaklines,  ///< lines of any feature
+  kBreaklines,  ///< lines of any kind
   kWalls,       ///< declared, or lines of detect_cliffs() among the breaklines
   kRidges,      ///< declared, or lines of detect_ridges() among the breaklines
   kCutline,
@@ -57,8 +57,8 @@ enum class Field : std::uint8_t {
   kMemoryLimit,
   kChannels,     ///< the field has channels, or a height_scale other than 1
   kCurvedFrame,  ///< the field's frame is not affine
-  kSpaceFrame,   ///< the field's frame is in space, where z is not the height; a curved one, too
-  kSource,       ///< the field's samples are not in memory as a whole
+  kSpaceFrame,   ///< the field's frame is in space, where z is not the height; it may also be curved
+  kSource,       ///< the samples are not entirely in memory
 
   // Settings of tiles; never set in options of simplify().
   kTileMercator,  ///< the grid
@@ -72,15 +72,15 @@ enum class Field : std::uint8_t {
   kTileDrape,
   kTileOnly,
   kTileGeoid,     ///< the zero of the heights
-  kTileVertical,  ///< likewise, as anything but a file
+  kTileVertical,  ///< likewise, but not given as a file
 };
 inline constexpr int kSimplifyFieldCount = static_cast<int>(Field::kSource) + 1;
 inline constexpr int kFieldCount = static_cast<int>(Field::kTileVertical) + 1;
 
-/// The library's word for it, such as "max_error" or "order = dominant".
+/// The library's name of the setting, such as "max_error" or "order = dominant".
 std::string_view name_of(Field field);
 
-/// Some of the settings.
+/// A set of settings.
 class Fields {
  public:
   constexpr Fields() = default;
@@ -111,20 +111,19 @@ class Fields {
 };
 static_assert(kFieldCount <= 64);
 
-/// Those that are set.
+/// The settings of a call.
 Fields fields_of(const HeightField& field, const SimplifyOptions& options);
 
 /// The fields for which a conflict holds.
 enum class Where { kAlways, kInMemory, kStreamed };
 
-/// Each of `one` conflicts with each of `other`; if `beside` is not empty, only if one of these is set, too.
+/// Each setting in `one` conflicts with each in `other`; if `beside` is not empty, only if one of `beside` is also set.
 struct ConflictRule {
   Fields one, other, beside;
   Where where;
   const char* reason;
 };
 
-/// The table.
 std::span<const ConflictRule> conflict_rules();
 
 /// Two settings that conflict; three, if `beside` is given.
@@ -134,14 +133,12 @@ struct Conflict {
   std::string reason;
 };
 
-/// All conflicts among the settings, in the order of the table; whether the samples are streamed is one of them
-/// (Field::kSource).
+/// All conflicts in the set, in the order of the table. Field::kSource in the set means that the samples are streamed.
 std::vector<Conflict> find_conflicts(Fields set);
-/// The same of a call of simplify(), which fails with kUsage and describe() of the first.
+/// All conflicts of a call of simplify(), which fails with kUsage and describe() of the first.
 std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOptions& options);
 
-/// "X cannot be combined with Y: reason", or "X cannot be combined with Y beside Z: reason". `word`: what a setting is
-/// called.
+/// "X cannot be combined with Y: reason", or "X cannot be combined with Y beside Z: reason". `word` names a setting.
 template <class Word>
 std::string describe(const Conflict& conflict, Word&& word) {
   std::string text = std::string(word(conflict.one)) + " cannot be combined with " + std::string(word(conflict.other));

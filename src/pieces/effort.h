@@ -1,4 +1,4 @@
-// The efforts: the work that follows refinement, in one table.
+// Table of the efforts: the work after refinement.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 namespace scarp {
 
 struct EffortTraits {
-  bool fits = false;            ///< vertices are removed
-  bool moves_vertices = false;  ///< and leave their samples, where they may
-  bool goes_on = false;         ///< until a limit of the time, if there is one
+  bool fits = false;            ///< removes vertices
+  bool moves_vertices = false;  ///< also moves vertices off their samples, if the options allow
+  bool goes_on = false;         ///< continues until the time limit, if any
   FitDepth depth = {};
   int exchanges = 0;                           ///< SquareGoal::exchanges
   std::optional<Effort> lower = std::nullopt;  ///< the next lower effort that may find a smaller mesh for shapes

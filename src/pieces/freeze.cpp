@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kPartVertices = 4 * kChunkVertices, kPartTriangles = 1 << 15;
 
-/// Many vertices at a time.
+/// Computes positions of many vertices at a time.
 class PositionMaker {
  public:
   PositionMaker(const Triangulation& tin, const VertexPositions& way)
@@ -47,7 +47,7 @@ class PositionMaker {
       chunk.clear();
     }
   }
-  /// The same for all vertices, by several threads where the frame is affine.
+  /// Calls put() for all vertices, on several threads in affine frames.
   template <class IsUsed, class Put>
   void each_of_all(const IsUsed& is_used, int threads, const Put& put) const {
     const std::size_t count = tin_.vertex_count();
@@ -55,7 +55,7 @@ class PositionMaker {
     parallel_for_parts(count, kPartVertices, threads,
                        [&](std::size_t first, std::size_t end) { each(first, end, is_used, put); });
   }
-  /// Without their heights. REQUIRES: an affine frame.
+  /// Computes x and y. REQUIRES: an affine frame.
   void find_places(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) const {
     std::vector<Point> chunk;
     std::vector<double> x, y, none;
@@ -66,8 +66,7 @@ class PositionMaker {
   }
 
  private:
-  /// One array at a time: g++ 12 makes a vector of a vertex' x and y, and forgets to round it where rounding depends on
-  /// a condition.
+  /// One array at a time: if rounding is conditional, g++ 12 vectorizes a vertex' x and y without rounding.
   void round(std::vector<double>& offsets) const {
     if (!way_.round_to_float32) return;
     for (double& offset : offsets) offset = static_cast<float>(offset);
@@ -81,7 +80,7 @@ class PositionMaker {
   OffsetMap offsets_;
 };
 
-/// Seen along `up`.
+/// Twice the area projected along `up`.
 double twice_area(std::span<const Vertex> corners, const std::vector<double>& positions,
                   const std::array<double, 3>& up) {
   double sum = 0;
@@ -97,8 +96,8 @@ double twice_area(std::span<const Vertex> corners, const std::vector<double>& po
   return sum;
 }
 
-/// Triangles are positive on the lattice; where the frame turns them over they are turned back. `positions`: of the
-/// vertices, but in affine frames.
+/// Makes triangles counter-clockwise if the frame mirrors them; they are positive on the lattice. `positions`: of the
+/// vertices, unused in affine frames.
 void face_up(const Frame& frame, const std::vector<double>& positions, int threads, std::span<Vertex> corners) {
   const std::array<double, 3> up = frame.space ? frame.space->up() : std::array<double, 3>{0, 0, 1};
   if (frame.is_affine() ? frame.determinant() > 0 : twice_area(corners, positions, up) >= 0) return;

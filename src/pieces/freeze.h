@@ -23,8 +23,8 @@ namespace scarp {
 class SampleHeights {
  public:
   explicit SampleHeights(const Raster& raster) : raster_(raster) {}
-  /// Heights for a field with a source, which stays alive. `known`: heights of the first vertices, so that they need
-  /// not be read.
+  /// Heights for a field with a source, which stays alive. `known`: heights of the first vertices, which then need not
+  /// be read.
   SampleHeights(const HeightField& field, std::span<const float> known)
       : raster_{nullptr, field.cols, field.rows}, source_(field.source), known_(known) {}
 
@@ -40,25 +40,25 @@ class SampleHeights {
   std::span<const float> known_;
 };
 
-/// How vertices become positions in the frame: offsets from frame_origin(), or from that of a frame in space, rounded
-/// to float32 if asked; heights as they are, but in space. Its references outlive it.
+/// Maps vertices to positions in the frame: offsets from frame_origin(), or from the origin of a frame in space,
+/// rounded to float32 on request. Heights stay as they are, except in space. References outlive this.
 struct VertexPositions {
   const SampleHeights& heights;
-  const VertexLattice& lattice;  ///< lattice of the vertices; their heights come before those of samples
+  const VertexLattice& lattice;  ///< lattice of the vertices; its heights override those of samples
   const Frame& frame;
   bool round_to_float32 = false;
 };
 
-/// The triangles that are not outside, with the vertices they use. Counter-clockwise from above whatever way the frame
-/// turns. Ids follow the order of insertion. The mesh does not depend on threads.
+/// The inside triangles with their vertices, counter-clockwise from above even if the frame mirrors. Ids follow the
+/// order of insertion. The mesh does not depend on threads.
 Mesh freeze(const Triangulation& tin, const VertexPositions& positions, int threads = 1);
 
-/// Those of freeze()'s vertices, in its order.
+/// The lattice points of freeze()'s vertices, in its order.
 LatticePoints frozen_points(const Triangulation& tin, const VertexLattice& lattice);
 
-/// The mesh of freeze(), or that mesh in the order of optimize_order(), from a triangulation that gives its memory back
-/// step by step: in affine frames at most 64 bytes a vertex are in use at a time, else 88. Used once, from top to
-/// bottom.
+/// Makes the mesh of freeze(), optionally in the order of optimize_order(), and releases the triangulation's memory
+/// step by step. At most 64 bytes a vertex are in use at a time in affine frames, else 88. Call its functions once,
+/// from top to bottom.
 class MeltDown {
  public:
   MeltDown(Triangulation tin, const VertexPositions& positions, int threads);
@@ -80,12 +80,12 @@ class MeltDown {
   VertexPositions way_;
   int threads_;
   Array<Vertex> corners_;                 // until the triangles are ordered
-  std::optional<VertexNumbers> numbers_;  // nothing: all vertices are used, as they are
-  std::vector<double> positions_;         // by vertex; empty in affine frames, where they are quickly made again
-  std::vector<std::uint32_t> ordered_;    // corners; empty before
+  std::optional<VertexNumbers> numbers_;  // nothing: all vertices are used and keep their numbers
+  std::vector<double> positions_;         // by vertex; empty in affine frames, where they are cheap to recompute
+  std::vector<std::uint32_t> ordered_;    // ordered corners; empty before ordering
 };
 
-/// To multiples of a power of two.
+/// Rounds heights to multiples of a power of two.
 void round_heights(Mesh& mesh, double step);
 
 }  // namespace scarp

@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-/// One of the four, from west to east or from north to south.
+/// One of the four edges, from west to east or from north to south.
 struct LockedBorder::Edge {
   const char* name;
   Point first, step;
@@ -32,7 +32,7 @@ double height_on(std::span<const float> heights, std::int32_t a, std::int32_t b,
   return from + (to - from) * (static_cast<double>(i - a) / (b - a));
 }
 
-/// `given`, and the ends of runs of heights.
+/// `given` plus the ends of runs of valid heights.
 std::vector<std::int32_t> complete(std::span<const std::int32_t> given, std::span<const float> heights) {
   const auto is_height = [&](std::size_t i) { return i < heights.size() && !std::isnan(heights[i]); };
   std::vector<std::int32_t> ends, all;
@@ -43,7 +43,7 @@ std::vector<std::int32_t> complete(std::span<const std::int32_t> given, std::spa
   return all;
 }
 
-/// True if the samples from one vertex to the next are heights: the line is there.
+/// True if the line has a segment there: all samples between the vertices are valid.
 bool is_segment(std::span<const float> heights, std::int32_t a, std::int32_t b) {
   return std::none_of(heights.begin() + a, heights.begin() + b, [](float z) { return std::isnan(z); });
 }

@@ -1,5 +1,5 @@
-// The locked border of a raster: lines along its edges, and the samples as the engine sees them, those of the edges on
-// the lines.
+// The locked border of a raster: lines along its edges, and a copy of the samples with edge samples moved onto the
+// lines.
 //
 //     edge     o──·──·──o──·──o      o  vertices of the line: there before refinement, and after every effort
 //              │╲       │   ╱ │      ·  samples that get the line's height: no triangle misses them, so none asks for
@@ -21,14 +21,14 @@ namespace scarp {
 
 class LockedBorder {
  public:
-  /// `raster`: the field's samples, nodata as NaN. Fails with kUsage where a line that is given goes out of the raster,
-  /// stands on nodata or breaks a bound. REQUIRES: options.domain.border is locked, and has a max error, unless the
-  /// samples have tolerances.
+  /// `raster`: the field's samples, nodata as NaN. Fails with kUsage where a given line leaves the raster, touches
+  /// nodata or breaks a bound. REQUIRES: options.domain.border is locked and has a max error, unless samples have
+  /// tolerances.
   static Result<LockedBorder> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster);
 
-  /// The samples that the lines' vertices are, edge by edge; corners twice.
+  /// The samples at the lines' vertices, edge by edge; corners twice.
   const std::vector<Point>& vertices() const { return vertices_; }
-  /// Fails with kUsage if one of the points, in steps between samples, lies on a side and is none of the vertices.
+  /// Fails with kUsage if a point, in steps between samples, lies on a side but is not one of the vertices.
   Result<void> check(std::span<const Point> points, std::int32_t steps) const;
   Raster raster() const { return {samples_.data(), cols_, rows_}; }
 
@@ -42,8 +42,7 @@ class LockedBorder {
   std::vector<Point> vertices_;
 };
 
-/// The vertices on the sides of the rectangle between its corners, sorted; `steps` of the triangulation's points
-/// between two samples.
+/// The vertices on the sides of the rectangle without its corners, sorted. `steps`: lattice steps between two samples.
 std::vector<Point> find_side_vertices(const Triangulation& tin, const Raster& raster, std::int32_t steps);
 
 }  // namespace scarp

@@ -12,14 +12,14 @@
 namespace scarp {
 namespace {
 
-/// The pixels of a sample along one axis: one or two, since pixels are no smaller than samples.
+/// The pixels of a sample along one axis: one or two, as samples are no larger than pixels.
 struct Share {
   int pixel = 0;
-  double here = 1;  ///< the rest of the sample lies in the next pixel
+  double here = 1;  ///< share of the first pixel; the next one has the rest
 };
 
 Share share_of(int sample, int samples, int pixels) {
-  const std::int64_t begin = std::int64_t{sample} * pixels, end = begin + pixels;  // in samples of a pixel
+  const std::int64_t begin = std::int64_t{sample} * pixels, end = begin + pixels;  // in units of a pixel / samples
   const std::int64_t pixel = begin / samples, border = (pixel + 1) * samples;
   if (end <= border) return {static_cast<int>(pixel), 1};
   return {static_cast<int>(pixel), static_cast<double>(border - begin) / pixels};
@@ -83,7 +83,7 @@ class NormalMap {
 
   const HeightField& field_;
   int width_, row_ = 0;
-  Sums sums_, below_;  // sums of the row of pixels that is being filled, and of the next
+  Sums sums_, below_;  // sums of the current and the next row of pixels
 };
 
 }  // namespace

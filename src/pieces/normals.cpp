@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-/// Samples that are in memory for now, of a raster with `rows` rows.
+/// Samples currently in memory, of a raster with `rows` rows.
 struct Surroundings {
   const RowRange& held;
   std::int32_t rows;
@@ -25,7 +25,7 @@ struct Surroundings {
   bool is_usable(Point p) const { return p.x >= 0 && p.y >= 0 && p.x < cols() && p.y < rows && !std::isnan(at(p)); }
 };
 
-/// 1 if a step along a row and one along a column turn left, seen from above at the raster's centre, −1 if right.
+/// 1 if the axes of rows and columns turn left, seen from above at the raster's centre, −1 if right.
 double turn_in_space(const Surroundings& heights, const OffsetMap& offsets, const std::array<double, 3>& up) {
   const Point centre{heights.cols() / 2, heights.rows / 2};
   std::vector<double> x, y, z{0, 0, 0};
@@ -39,8 +39,8 @@ double turn_in_space(const Surroundings& heights, const OffsetMap& offsets, cons
   return turn < 0 ? -1 : 1;
 }
 
-/// The slope along one of the raster's axes at a sample of a locked border: a rise over so many steps. One step without
-/// a rise if a neighbour does not know the sample beyond; no step if no neighbour has a height.
+/// The slope along an axis of the raster at a sample of a locked border: a rise over so many steps. One step without a
+/// rise if a neighbour does not know the sample beyond; no step if neither side has a height.
 struct BorderSlope {
   double rise = 0;
   int steps = 1;
@@ -62,7 +62,7 @@ BorderSlope border_slope(const Surroundings& heights, Point p, Point step) {
           int{!std::isnan(low)} + int{!std::isnan(high)}};
 }
 
-/// Steps in place of positions: rasters with a common side number its samples in two ways.
+/// Uses steps instead of positions: rasters with a common side number its samples differently.
 std::array<float, 3> border_normal(const Surroundings& heights, const Frame& frame, Point p) {
   const auto& a = frame.affine;
   const BorderSlope u = border_slope(heights, p, {1, 0}), v = border_slope(heights, p, {0, 1});
@@ -77,14 +77,14 @@ std::array<float, 3> border_normal(const Surroundings& heights, const Frame& fra
           static_cast<float>(normal[2] * scale)};
 }
 
-/// At samples.
+/// Normals at samples.
 std::vector<float> normals_at_samples(const Surroundings& heights, const Frame& frame, std::span<const Point> samples) {
   const OffsetMap offsets(heights.cols(), heights.rows, frame, 1);
   const std::array<double, 3> up = frame.space ? frame.space->up() : std::array<double, 3>{0, 0, 1};
   const double turn = frame.space ? turn_in_space(heights, offsets, up) : 0;
   std::vector<float> normals;
   normals.reserve(3 * samples.size());
-  std::vector<Point> neighbours;  // west, east, north, south of each vertex; a missing one is the vertex itself
+  std::vector<Point> neighbours;  // west, east, north and south of each vertex; the vertex itself if missing
   std::vector<double> x, y, z;
   for (std::size_t begin = 0; begin < samples.size(); begin += kChunkVertices) {
     neighbours.clear();
@@ -101,7 +101,7 @@ std::vector<float> normals_at_samples(const Surroundings& heights, const Frame& 
       };
       const auto u = difference(k, k + 1), v = difference(k + 2, k + 3);
       std::array normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-      // A vertex without neighbours along its row or its column has no slope to speak of.
+      // A vertex without neighbours along its row or column has no slope.
       const bool has_slope = frame.space ? normal != std::array<double, 3>{} : normal[2] != 0;
       if (!has_slope) normal = up;
       const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
@@ -120,7 +120,7 @@ std::vector<float> normals_at_samples(const Surroundings& heights, const Frame& 
   return normals;
 }
 
-/// The valid ones of the up to four samples around a point, with their bilinear weights.
+/// The valid samples of the up to four around a point, with bilinear weights.
 void add_corners(const Surroundings& heights, std::int32_t steps, Point p, std::vector<Point>& corners,
                  std::vector<double>& weights) {
   const Point first{p.x / steps, p.y / steps};
@@ -167,7 +167,7 @@ std::vector<float> normals_at(const Surroundings& heights, const Frame& frame, s
   return normals;
 }
 
-/// Indices of points, in the order of the rows of samples at or above them.
+/// Indices of points, ordered by the row of samples at or above them.
 std::vector<std::uint32_t> order_by_row(const LatticePoints& at) {
   std::vector<std::uint32_t> order(at.points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -179,7 +179,7 @@ std::vector<std::uint32_t> order_by_row(const LatticePoints& at) {
 }  // namespace
 
 std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at, const Border& border) {
-  constexpr std::int32_t kReach = 2;  // reach of the samples around the one below a point
+  constexpr std::int32_t kReach = 2;  // samples needed around the one above a point
   std::vector<float> normals;
   std::vector<std::uint32_t> order;
   std::vector<Point> points;

@@ -15,8 +15,8 @@ namespace scarp {
 /// Points mapped at a time.
 inline constexpr std::size_t kChunkVertices = 4096;
 
-/// Offsets of lattice points from the frame's origin, in double; a few thousand at a time, since double arrays of a
-/// whole mesh would be the peak of memory.
+/// Offsets of lattice points from the frame's origin, in double. Points are mapped a few thousand at a time, since
+/// double arrays of a whole mesh would be the peak of memory.
 class OffsetMap {
  public:
   OffsetMap(std::int32_t cols, std::int32_t rows, const Frame& frame, std::int32_t steps)
@@ -24,14 +24,13 @@ class OffsetMap {
 
   std::array<double, 3> origin() const { return origin_; }
 
-  /// Fills x and y for a chunk of points. `z`: their heights, which only a frame in space moves.
+  /// Fills x and y for a chunk of points. Only a frame in space uses `z`, their heights.
   void map(std::span<const Point> points, std::vector<double>& x, std::vector<double>& y,
            std::vector<double>& z) const {
     x.clear();
     y.clear();
     for (Point p : points) {
-      // In affine frames from differences of indices, so that offsets that are float32 by construction come out
-      // exactly.
+      // Differences of indices in affine frames: offsets that are float32 by construction come out exactly.
       const auto& a = frame_.affine;
       const double col = p.x / steps_, row = p.y / steps_, i = col - col0_, j = row - row0_;
       const std::array<double, 2> at =

@@ -15,7 +15,7 @@ namespace scarp {
 
 namespace {
 
-/// The effort that was asked for, or what Effort::kAuto stands for.
+/// The requested effort, or the choice for Effort::kAuto.
 Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   if (options.quality.effort != Effort::kAuto) return options.quality.effort;
   const Fields set = fields_of(field, options);
@@ -23,7 +23,7 @@ Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   return set.has(Field::kOrderGreedy) ? Effort::kFast : Effort::kNormal;
 }
 
-/// Used if no number is asked for: few samples are done before another thread has started.
+/// Without a requested number of threads: few samples are finished before another thread starts.
 int choose_threads(const HeightField& field, int asked, Effort effort) {
   constexpr std::int64_t kFewSamples = 1 << 14;
   const bool is_small = std::int64_t{field.cols} * field.rows <= kFewSamples;
@@ -33,7 +33,7 @@ int choose_threads(const HeightField& field, int asked, Effort effort) {
 bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   const bool has_goal = options.goals.max_error || has_tolerances(options);
   if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
-  // Inserting the worst of the whole raster first needs fewer triangles where bounds differ.
+  // If bounds differ, inserting the worst sample of the whole raster first needs fewer triangles.
   if (options.quality.order == Order::kAuto && has_own_bounds(options, field.samples == nullptr)) return false;
   // A locked border is refined as one tile, which may begin with points.
   const auto of_order = [&](const Conflict& conflict) {
@@ -44,9 +44,8 @@ bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   return std::none_of(conflicts.begin(), conflicts.end(), of_order);
 }
 
-/// Goals for shapes have no search for squares, nor has a locked border, which has an error of its own; nor have
-/// samples in a source with lines, tolerances and curved frames: refinement of a fine start reads triangle by triangle
-/// there.
+/// No search for squares with shape goals, nor with a locked border, which has a separate error. Nor for streamed
+/// samples with lines, tolerances or curved frames, where refinement of a fine start reads triangle by triangle.
 Search choose_search(const Recipe& recipe) {
   const SimplifyOptions& options = recipe.options;
   if (!recipe.has_budget || (!recipe.fits && recipe.insertion_stops)) return Search::kNone;
@@ -67,7 +66,8 @@ double choose_height_step(const HeightField& field, const SimplifyOptions& optio
   const bool has_own =
       !own.values.empty() || own.source != nullptr || !own.weights.empty() || own.weights_source != nullptr;
   if (!options.output.lattice || !rows_run_along_x(field.frame) || has_own || has_norm(field)) return 0;
-  // Meshes that share a border share its bound, and not always their own: levels, and neighbours of other errors.
+  // Meshes with a common border share its bound, but may have other bounds inside: levels, and neighbours with other
+  // errors.
   const Border& border = options.domain.border;
   const double asked = options.goals.max_error.value_or(0);
   const double shared = border.is_locked ? border.max_error.value_or(asked) : asked;
@@ -76,8 +76,8 @@ double choose_height_step(const HeightField& field, const SimplifyOptions& optio
   return std::ldexp(1.0, std::ilogb(2 * kHeightShare * bound));
 }
 
-/// The judge moves a position to a place of the lattice that is as near as rounding may have moved it, but not farther
-/// off than this share of a cell: cells that are tiny compared with their coordinates lose their places.
+/// The judge moves a position to the lattice if rounding explains the distance, up to this share of a cell. Cells that
+/// are tiny relative to their coordinates lose their places.
 bool doubles_hold_lattice(const HeightField& field, std::int32_t steps) {
   const auto& a = field.frame.affine;
   const double near = steps > 1 ? 0x1p-16 : 0x1p-8;
@@ -87,14 +87,14 @@ bool doubles_hold_lattice(const HeightField& field, std::int32_t steps) {
   return 0x1p-50 * std::max(x, y) <= near * cell;
 }
 
-/// True if the mesh holds all lattice points exactly, at so many steps between two samples.
+/// True if the mesh represents all lattice points exactly, at so many steps between two samples.
 bool lattice_is_exact(const HeightField& field, bool rounds_offsets, std::int32_t steps) {
   if (!field.frame.is_affine()) return false;
   return rounds_offsets ? offsets_are_exact(field.frame, field.cols, field.rows, steps)
                         : doubles_hold_lattice(field, steps);
 }
 
-/// True if samples are multiples of a power of two; false where that is not known.
+/// True if samples are multiples of a power of two; false if unknown.
 bool samples_are_multiples(const HeightField& field, double step) {
   if (field.samples == nullptr) return false;
   const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
@@ -131,11 +131,11 @@ Question either(const Question& first, const Question& second) {
   return [first, second] { return first() || second(); };
 }
 
-/// A short edge is worth any try.
+/// A short edge is worth any number of trials.
 constexpr double kAnyPatience = 100;
 
 FitOptions fit_options(const Recipe& recipe) {
-  // On samples a floor would cost up to a tenth more, and could result in more triangles than normal effort.
+  // On samples a floor costs up to a tenth more, possibly more triangles than normal effort.
   constexpr double kUsualShape = 0.1;
   const SimplifyOptions& options = recipe.options;
   const Frame& frame = recipe.field.frame;
@@ -144,7 +144,7 @@ FitOptions fit_options(const Recipe& recipe) {
   if (frame.transform || options.domain.border.is_locked) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = recipe.frees_vertices;
   fit.depth = recipe.traits.depth;
-  // Two neighbours that are too near to each other are mostly both needed, but one between them may do.
+  // If two vertices are too close, usually both are needed, but one between them may suffice.
   if (options.quality.shape.min_edge && recipe.traits.moves_vertices) {
     fit.depth.repair = kMaxDepth.repair;
     fit.depth.repair.patience = kAnyPatience;
@@ -195,7 +195,7 @@ Recipe::Recipe(const HeightField& given, const Request& asked, const Scale& by)
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples && given.frame.is_affine() &&
                      !has_norm(given)),
       releases_starts((traits.fits && !traits.moves_vertices) || frees_vertices),
-      // Shape goals need strips without the redundant vertices of tile borders, whatever the effort.
+      // With shape goals, strips must lose the redundant vertices of tile borders at every effort.
       fits_pieces((fits && !by.squares) || asked.quality.shape.any()),
       removes_last(asked.quality.shape.any() && shape_rule(asked.quality.shape, given.frame)),
       fits_strips(is_streamed && fits_pieces),

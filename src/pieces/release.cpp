@@ -13,7 +13,7 @@ namespace scarp {
 
 namespace {
 
-/// The verdict of the rule about an edge, and its cost.
+/// The rule's verdict about an edge, and its cost.
 struct EdgeVerdict {
   bool flips = false;
   std::uint64_t samples = 0, triangles = 0;
@@ -25,7 +25,7 @@ EdgeVerdict assess_edge(const Triangulation& tin, const ErrorMetric& metric, Hal
   const auto corner = [&](HalfEdge g) { return tin.point(tin.origin(g)); };
   const Point a = corner(h), b = corner(Triangulation::next(h)), c = corner(Triangulation::previous(h));
   const Point d = corner(Triangulation::previous(tin.twin(h)));
-  // An error so far above the goal is a breach beyond any rounding. If it were not, the edge would only stay as it is.
+  // An error so far above the goal is a breach despite rounding; a false alarm would only keep the edge.
   FitQuestion question;
   if (metric.goal() > 0) question.give_up_max = 1.001 * metric.goal();
   const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
@@ -38,7 +38,8 @@ EdgeVerdict assess_edge(const Triangulation& tin, const ErrorMetric& metric, Hal
   return verdict;
 }
 
-/// Delaunay's rule where the bound allows it. Verdicts made beforehand hold until one of an edge's triangles changes.
+/// Delaunay's rule where the bound allows it. Verdicts computed in advance hold until one of an edge's triangles
+/// changes.
 class CarefulRule final : public FlipRule {
  public:
   CarefulRule(const Triangulation& tin, const ErrorMetric& metric, const std::vector<HalfEdge>& edges, int threads)

@@ -16,7 +16,7 @@ namespace scarp {
 
 namespace {
 
-/// Samples strictly within a row of the strip's samples that are vertices, ascending.
+/// Samples that are vertices, strictly within a row, ascending.
 std::vector<std::int32_t> vertices_along(const Piece& strip, std::int32_t y) {
   std::vector<std::int32_t> cols;
   for (Vertex v = 0; v < strip.tin.vertex_count(); ++v) {
@@ -45,7 +45,7 @@ struct BorderVertex {
   bool is_of_line = false;
 };
 
-/// A vertex of a line before that of the mesh at the same point, which goes.
+/// A vertex of a line replaces a mesh vertex at the same point.
 void sort_along(std::vector<BorderVertex>& vertices) {
   sort_rarely(vertices, [](const BorderVertex& a, const BorderVertex& b) {
     return std::pair(a.x, !a.is_of_line) < std::pair(b.x, !b.is_of_line);
@@ -54,7 +54,7 @@ void sort_along(std::vector<BorderVertex>& vertices) {
                  vertices.end());
 }
 
-/// Those that lines have on a row of the part.
+/// Vertices of lines on a row of the part.
 std::vector<BorderVertex> line_vertices(const ConstraintGraph& part, std::int32_t y, const float* samples) {
   std::vector<BorderVertex> vertices;
   for (std::size_t i = 0; i < part.points.size(); ++i) {
@@ -66,7 +66,7 @@ std::vector<BorderVertex> line_vertices(const ConstraintGraph& part, std::int32_
   return vertices;
 }
 
-/// Samples of a row become vertices for both rows that share it.
+/// Makes samples of a row vertices for both strips that share it.
 void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const float* samples, ConstraintGraph& part) {
   for (const std::int32_t col : cols) {
     part.points.push_back({col * kLatticeSteps, y * kLatticeSteps});
@@ -75,7 +75,7 @@ void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const flo
   }
 }
 
-/// Appends the samples that a chord needs between two vertices: the farthest splits it, again and again.
+/// Appends the samples that a chord between two vertices needs: the farthest splits it recursively.
 void split_border_chord(const float* samples, const BorderVertex& from, const BorderVertex& to, const LineBound& bound,
                         std::vector<std::int32_t>& kept) {
   std::vector<std::pair<BorderVertex, BorderVertex>> chords{{from, to}};
@@ -136,7 +136,7 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
   std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
   std::vector<std::int32_t> kept;
   if (vertices.empty()) {
-    // The row beyond may be of tiles.
+    // The strip beyond may consist of tiles.
     const Tiling tiling(field.cols, field.rows, side);
     for (std::size_t tile = 0; tile < tiling.per_row(); ++tile) {
       const TileWindow window = tiling.window(tile);
@@ -167,7 +167,7 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
     if (run->has_surface)
       split_border_chord(samples, vertices[i], vertices[i + 1], bound_along(strip, y, threshold), kept);
   }
-  // Each point of the part once.
+  // Each point of the part occurs once.
   std::erase_if(kept, [&](std::int32_t col) {
     const auto at = std::lower_bound(vertices.begin(), vertices.end(), col * kLatticeSteps,
                                      [](const BorderVertex& v, std::int32_t x) { return v.x < x; });

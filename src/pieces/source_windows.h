@@ -1,4 +1,4 @@
-// The part of streamed samples that a pass over the whole mesh holds at a time.
+// The window of streamed samples that a pass over the whole mesh holds at a time.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,14 @@
 
 namespace scarp {
 
-/// Rows for refine_shapes(), a quarter of the memory at most with their bounds (null: none), if that holds some.
+/// Rows that refine_shapes() holds at a time: at most a quarter of the memory, bounds included (null: none), but at
+/// least a few.
 std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 std::uint64_t bytes_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 
-/// Makes fit() read windows, of a quarter of the memory at most for a thread, and cuts patches that they mostly hold.
-/// They depend on the memory alone, so that the mesh does not on threads. `bounds`: of samples; null: none of their
-/// own. The field and they stay alive.
+/// Makes fit() read windows of at most a quarter of the memory per thread, and cut patches that mostly fit them.
+/// Windows depend on the memory alone, so the mesh does not depend on threads. `bounds`: of samples, may be null.
+/// Borrows field and bounds.
 void read_windows(const HeightField& field, const MemoryBudget& memory, FitOptions& options,
                   const SourceBounds* bounds = nullptr);
 std::uint64_t window_bytes(const FitOptions& options);

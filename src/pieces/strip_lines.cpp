@@ -20,7 +20,7 @@ void sort_by_upper_ends(std::vector<Edge>& edges, const EndsOf& ends_of) {
   sort_rarely(edges, [&](const Edge& a, const Edge& b) { return upper_of(ends_of(a)) < upper_of(ends_of(b)); });
 }
 
-/// Calls visit(edge) for those that lie in the rows [top, bottom].
+/// Calls visit(edge) for edges within the rows [top, bottom].
 template <class Edge, class EndsOf, class Visit>
 void visit_within(const std::vector<Edge>& edges, std::int32_t top, std::int32_t bottom, const EndsOf& ends_of,
                   const Visit& visit) {

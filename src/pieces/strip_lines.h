@@ -1,14 +1,13 @@
-// The part that a strip has of the lines of the whole raster.
+// A strip's part of the raster's lines.
 //
 //     strip above, done ──────┬───────    a line is cut at the shared row of samples: the vertex there is the line's
 //     strip at hand       line│           alone, so both strips know it. Where it cuts a chord of the shared row,
 //     ────────────────────────┴───────    samples split that, by the row's own rule (shared_rows.h).
 //     strips below, not read yet
 //
-// Walls and ridges, which are inserted before the surface is refined, would come too late behind tiles. Strips that
-// such a graph touches are made whole: lines first, then refinement of the strip as one. The rims of a cut are cut
-// where strips meet, too, so each strip has whole ones; those along a shared row are both strips', and each asks on
-// which side of them it lies.
+// Walls and ridges must be inserted before the surface is refined, so tiles would be too early. Strips that such a
+// graph touches are made whole: lines first, then the strip is refined at once. The rims of a cut are also split where
+// strips meet. Those along a shared row belong to both strips; each strip determines its side of them.
 #pragma once
 
 #include <array>
@@ -24,12 +23,12 @@ namespace scarp {
 
 class StripLines {
  public:
-  /// `graph`: of the whole raster, its edges cut at the rows that strips share. Stays alive.
+  /// `graph`: of the whole raster, its edges split at the rows that strips share. Borrowed.
   explicit StripLines(const ConstraintGraph& graph);
 
   /// True for rows of samples where lines are inserted before the surface is refined.
   bool makes_whole(std::int32_t first, std::int32_t rows) const;
-  /// In the strip's own coordinates; points on shared rows are all there.
+  /// The part in the strip's coordinates; it has all points on shared rows.
   ConstraintGraph part_of(const Piece& strip) const;
 
  private:
@@ -39,7 +38,7 @@ class StripLines {
 
   const ConstraintGraph& graph_;
   std::vector<std::uint32_t> points_;                // points of the graph, from the top down
-  std::vector<std::uint32_t> edges_;                 // by their upper ends, as the next
+  std::vector<std::uint32_t> edges_;                 // sorted by their upper ends, as walls_ is
   std::vector<std::array<std::uint32_t, 2>> walls_;  // walls of its cut
   std::vector<std::array<Point, 2>> outline_;
 };

@@ -18,10 +18,10 @@ namespace scarp {
 
 namespace {
 
-/// Bytes that bounds need for each sample of a strip.
+/// Bytes of bounds per sample of a strip.
 constexpr std::uint64_t kAimBytesPerSample = sizeof(float);
 
-/// Every strip's vertices on the same lattice, whatever its own extent.
+/// Every strip needs the same lattice, whatever its extent.
 bool has_room(const HeightField& field) { return std::max(field.cols, field.rows) <= kMaxCoordinate / kLatticeSteps; }
 
 FitOptions strip_fit(const Recipe& recipe, double threshold) {
@@ -37,7 +37,7 @@ FitOptions strip_fit(const Recipe& recipe, double threshold) {
   return fit;
 }
 
-/// The passes over one strip after the other.
+/// Runs the passes strip by strip.
 class StripWork {
  public:
   StripWork(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
@@ -50,7 +50,7 @@ class StripWork {
     if (lines != nullptr) lines_.emplace(*lines);
   }
 
-  /// Lines that come first, and samples that need not keep the max error: tiles are of no use there.
+  /// With lines inserted first, or samples that need not satisfy the max error, tiles are useless.
   bool makes_whole(std::int32_t first, std::int32_t rows) const {
     return (bounds_ != nullptr && !bounds_->has_most()) || (lines_ && lines_->makes_whole(first, rows));
   }
@@ -98,7 +98,7 @@ class StripWork {
     return {};
   }
 
-  /// The metric of triangles skips samples on shared rows: the metric of the row has decided them.
+  /// The metric of triangles skips samples on shared rows, which the row's metric has decided.
   Result<void> refine_to_bounds(Piece& strip, bool is_whole) {
     for (const bool is_top : {true, false}) {
       if (!(is_top ? strip.has_above : strip.has_below)) continue;
@@ -125,7 +125,7 @@ class StripWork {
   std::optional<FitOptions> fit_;
   std::optional<StripLines> lines_;
   std::vector<float> aims_;   // aims of the current strip
-  bool has_surface_ = false;  // any strip so far, behind the cut
+  bool has_surface_ = false;  // any strip so far, after the cutline
   StripTotals& totals_;
 };
 

@@ -1,8 +1,7 @@
-// A streamed raster, strip by strip. Each strip gets its lines, is refined to its bounds and fitted while its
-// samples are in memory.
+// Works on a streamed raster strip by strip: lines, refinement and fitting while the strip's samples are in memory.
 //
-//     strip above, done ──────────────    its lower row of samples is the next one's upper row: the vertices on it
-//     stay, strip at hand     │     │     │     and everything between, across the tiles' own borders too, is one piece
+//     strip above, done ──────────────    its lower row of samples is the next strip's upper row: vertices on it are
+//     strip at hand     │     │     │     fixed. The rest, across borders of tiles too, is one piece
 //     ────────────────────────────────
 //     strips below, not read yet
 #pragma once
@@ -20,19 +19,18 @@ namespace scarp {
 struct StripTotals {
   double seconds_of_fit = 0, seconds_of_lines = 0, seconds_of_refinement = 0;
   Work lines;                 ///< work of inserting constraints
-  Work refinement;            ///< to bounds of their own, where there are no lines
-  std::uint64_t removed = 0;  ///< vertices
-  bool is_cut_short = false;  ///< by the time: strips that come later stay as they are
+  Work refinement;            ///< refinement to individual bounds, without lines
+  std::uint64_t removed = 0;  ///< number of vertices
+  bool is_cut_short = false;  ///< by the time limit: later strips are not fitted
 };
 
-/// Makes refine_tiled() work on each strip with the passes of the recipe: constraints of `lines` (null: none), bounds
-/// of samples (null: the threshold holds for all), the recipe's effort; and adds to `totals`. Effort kMax does not
-/// continue until a time is up, as the first strip would use it all. Progress is reported through the present
-/// `tiles.progress`. All stay alive.
+/// Makes refine_tiled() run the recipe's passes on each strip, and adds to `totals`. `lines`: constraints (null: none).
+/// `bounds`: of samples (null: the threshold holds for all). Effort kMax ignores the time limit, as the first strip
+/// would use it up. Progress is reported through the present `tiles.progress`. Borrows all.
 void work_by_strips(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
                     StripTotals& totals, TiledOptions& tiles);
 
-/// The side of tiles of such a run, which cuts lines where strips meet.
+/// The side of tiles in such a run, which decides where strips meet and lines are split.
 std::int32_t strip_side(const Recipe& recipe);
 
 }  // namespace scarp

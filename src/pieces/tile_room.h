@@ -1,4 +1,4 @@
-// The memory of tiles that are refined side by side.
+// The memory of tiles that are refined concurrently.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,18 @@
 
 namespace scarp {
 
-/// Gives each new tile a share of the memory that the mesh does not use, so that all tiles at work fit together. The
-/// share depends on the other tiles at work. A tile alone gets all of the free memory.
+/// Divides the memory that the mesh does not use among the tiles at work. The share of a new tile depends on the
+/// others. A tile alone gets all of the free memory.
 class TileRoom {
  public:
-  /// `base`: bytes that any mesh needs. `vertices`: those of the mesh so far. `tiles`: the most that are made at a
-  /// time.
+  /// `base`: bytes that any mesh needs. `vertices`: of the mesh so far. `tiles`: the maximum at a time.
   TileRoom(const MemoryBudget& memory, std::uint64_t base, std::uint64_t vertices, int tiles);
 
-  /// The most vertices of a tile that begins now; no limit without a memory limit.
+  /// The maximum number of vertices of a tile that begins now; unlimited without a memory limit.
   std::size_t begin();
-  /// The tile is finished with so many vertices, and waits.
+  /// Reports a tile finished with so many vertices, which now waits. `most`: what begin() returned.
   void end(std::size_t most, std::size_t vertices);
-  /// A waiting tile has become part of the mesh.
+  /// Moves a waiting tile's vertices to the mesh.
   void commit(std::size_t vertices);
 
   /// Bytes a vertex of a tile at work.

@@ -16,17 +16,17 @@ namespace scarp {
 
 namespace {
 
-/// Below, a tile would hold a few dozen vertices, many of them on its borders.
+/// Below this, a tile would have a few dozen vertices, many of them on its borders.
 constexpr double kLeastDensity = 1e-5;
 
-/// Tiles of a coarse mesh are large, so that borders are few; those of a fine one fit the caches.
+/// Large tiles for a coarse mesh, so that borders are few; tiles that fit the caches for a fine one.
 std::int32_t side_for(double density) {
   if (density < 0.001) return 2048;
   if (density < 0.003) return 1024;
   return density < 0.04 ? 512 : 256;
 }
 
-/// From the borders that tiles of 256 samples would have; from the raster's own where there would be none.
+/// Estimates from the borders of tiles of 256 samples, or from the raster's edges without such borders.
 Result<double> estimate_density(const HeightField& field, double threshold, int threads) {
   const Tiling tiling(field.cols, field.rows, 256);
   const bool is_alone = tiling.count() == 1;
@@ -60,7 +60,7 @@ Result<double> estimate_density(const HeightField& field, double threshold, int 
   return expected_density(kept, steps);
 }
 
-/// Vertices that no triangle of the domain uses.
+/// Number of vertices in no triangle of the domain.
 std::uint32_t count_unused(const Triangulation& tin) {
   std::vector<bool> is_used(tin.vertex_count(), false);
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
@@ -69,10 +69,10 @@ std::uint32_t count_unused(const Triangulation& tin) {
   return static_cast<std::uint32_t>(std::count(is_used.begin(), is_used.end(), false));
 }
 
-/// The samples are neither in one array nor in a source that copies them.
+/// True if samples are neither in one array nor in a source that copies them.
 bool is_in_file(const HeightField& field) { return field.samples == nullptr && !field.source->is_in_memory(); }
 
-/// Rows of a field whose source is slow, read once for all the tiles that want them.
+/// Rows of a field with a slow source, read once for all tiles that need them.
 class StripSource final : public SampleSource {
  public:
   explicit StripSource(const HeightField& field) : field_(field), band_(field_, 0) {}
@@ -86,7 +86,7 @@ class StripSource final : public SampleSource {
     return {};
   }
   bool is_in_memory() const override { return true; }
-  /// Rows that are loaded.
+  /// A view of loaded rows.
   Raster raster(std::int32_t row, std::int32_t rows) const {
     return {band_.raster().row(row - band_.first()), field_.cols, rows};
   }
@@ -101,24 +101,24 @@ class StripSource final : public SampleSource {
   Band band_;
 };
 
-/// Strips are read and finished one after the other.
+/// True if strips are read and finished sequentially.
 bool goes_by_strips(const HeightField& field, const TiledOptions& options) {
   return is_in_file(field) || options.finish_strip != nullptr;
 }
 
-/// Bytes of a strip that is read: its samples, and if it is finished a copy and the memory of finishing.
+/// Bytes per sample of a strip: the sample, and for finishing a copy and its memory.
 std::uint64_t bytes_per_sample(const TiledOptions& options) {
   return options.finish_strip ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
 }
 
-/// Bytes of the samples of the highest strip, where they are read by rows.
+/// Bytes of the samples of the highest strip, if read by rows.
 std::uint64_t strip_bytes(const HeightField& field, const Tiling& tiling) {
   std::int32_t rows = 0;
   for (std::size_t i = 0; i < tiling.count(); i += tiling.per_row()) rows = std::max(rows, tiling.window(i).rows);
   return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
 }
 
-/// Bytes of a thread's buffers and finished tiles that wait, in addition to their vertices: some twice the samples of a
+/// Bytes of a thread's buffers and of finished tiles that wait, without their vertices: about twice the samples of a
 /// tile.
 std::uint64_t worker_bytes(const Tiling& tiling) {
   const TileWindow window = tiling.window(0);
@@ -173,15 +173,15 @@ class TiledRun {
   }
 
  private:
-  /// With the row above and the row below: borders examine the cells on both sides.
+  /// Includes the row above and the row below, since borders examine cells on both sides.
   Result<void> load_rows(std::size_t tile) {
     const TileWindow window = tiling_.window(tile);
     const std::int32_t first = std::max(window.row - 1, 0);
     return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
   }
 
-  /// One after the other from the first that has no room in addition to the others: then no tile is refused what it
-  /// could have, whatever the number of threads.
+  /// Continues with one tile at a time from the first that did not fit next to the others. Thus each tile gets all
+  /// memory available, whatever the number of threads.
   void refine(std::size_t first, std::size_t count) {
     const std::size_t end = first + count;
     const std::size_t refused = refine(first, end, threads_);
@@ -192,7 +192,7 @@ class TiledRun {
     if (too_large != end && status_) status_ = refuse(too_large);
   }
 
-  /// Up to the first tile for which there is no room, which is returned, or `end`.
+  /// Returns the first tile that does not fit, or `end`.
   std::size_t refine(std::size_t first, std::size_t end, int threads) {
     std::size_t refused = end;
     TileRoom room(options_.memory, base_bytes_, assembly_.vertex_count() + strip_.vertex_count(), threads);
@@ -214,8 +214,7 @@ class TiledRun {
     return refused;
   }
 
-  /// Refuses a tile that outgrows all the room there is. It is assumed to become as dense as can be, or four times as
-  /// much.
+  /// Refuses a tile that exceeds all memory. Estimates its size as the densest possible, or four times the room.
   Result<void> refuse(std::size_t tile) const {
     const MemoryBudget& memory = options_.memory;
     const std::uint64_t before = assembly_.vertex_count() + strip_.vertex_count(),
@@ -256,13 +255,13 @@ class TiledRun {
     return status_.has_value();
   }
 
-  /// Beyond those of so many vertices of the strip as such.
+  /// Bytes of finishing beyond those of the strip's vertices.
   std::uint64_t finish_bytes(std::uint64_t vertices) const {
     const std::uint64_t whole = options_.finish_bytes_per_vertex, mesh = options_.memory.per_vertex;
     return (std::max(whole, mesh) - mesh) * vertices;
   }
 
-  /// `share`: of the tiles, when it is done.
+  /// `share`: of all tiles when this strip is done.
   Result<void> finish_strip(const TileWindow& window, bool is_made_whole, double share) {
     const Raster samples = band_.raster(window.row, window.rows);
     const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
@@ -305,18 +304,18 @@ class TiledRun {
   }
 
   const TiledOptions& options_;
-  std::uint64_t base_bytes_ = 0;  // bytes used whatever the mesh
+  std::uint64_t base_bytes_ = 0;  // bytes independent of the mesh
   Tiling tiling_;
   double density_;
   bool is_streamed_;
   StripSource band_;
   HeightField field_;
-  std::size_t step_;  // tiles that are refined between one reading of rows and the next
+  std::size_t step_;  // tiles refined per reading of rows
   int threads_;
   std::vector<TileWorker> workers_;
   std::vector<std::optional<TileOutcome>> outcomes_;
   Assembly assembly_;  // assembly of tiles, or of finished strips
-  Assembly strip_;     // assembly of tiles whose strip is not finished
+  Assembly strip_;     // assembly of tiles of the current strip
   std::vector<float> heights_;
   std::vector<std::uint8_t> fixed_;
   std::int32_t steps_ = 1;
@@ -327,7 +326,7 @@ class TiledRun {
 
 }  // namespace
 
-/// Strips fit a quarter of the memory, half with their post-processing. That pays for each line between two strips.
+/// Strips use a quarter of the memory, with post-processing half, which pays for each border between strips.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
   std::int32_t side = options.finish_strip ? 1024 : 512;

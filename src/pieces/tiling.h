@@ -13,7 +13,7 @@ namespace scarp {
 /// Tiles of nearly equal sides.
 class Tiling {
  public:
-  /// Sides within half and one and a half times `side` where the raster is that large.
+  /// Sides are between half and one and a half times `side` if the raster is that large.
   Tiling(std::int32_t cols, std::int32_t rows, std::int32_t side);
 
   std::size_t per_row() const { return x_.size() - 1; }

@@ -1,4 +1,4 @@
-// The attributes of vertices in addition to their positions.
+// Vertex attributes besides positions.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct LatticePoints {
 /// True if add_attributes() adds any.
 bool has_attributes(const HeightField& field, const Request& options);
 
-/// Normals and positions in the raster's image where they are asked for, and the field's channels. `field`: as it is
-/// refined; of a locked border as it was given. `at`: of the vertices. Throws SourceFailure.
+/// Adds the requested normals and positions in the raster's image, and the field's channels. `field`: as refined; with
+/// a locked border as given. `at`: the vertices. Throws SourceFailure.
 void add_attributes(const HeightField& field, const Request& options, const LatticePoints& at, Mesh& mesh);
 
 }  // namespace scarp

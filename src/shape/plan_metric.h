@@ -1,4 +1,4 @@
-// Lengths, angles and circles of lattice points as they are in a mesh's coordinates, where samples need not be square.
+// Lengths, angles and circles of lattice points in a mesh's coordinates, where samples need not be square.
 #pragma once
 
 #include <array>
@@ -8,33 +8,32 @@
 
 namespace scarp {
 
-/// Offsets of lattice points in an affine frame. IEEE arithmetic and square roots only: the same on every machine.
+/// Offsets of lattice points in an affine frame. Only IEEE arithmetic and square roots: the same on every machine.
 class PlanMetric {
  public:
   using Vector = std::array<double, 2>;
 
-  /// `affine` as Frame::affine, of samples; points are in so many steps from one to the next. REQUIRES: it can be
-  /// inverted.
+  /// `affine`: like Frame::affine, of samples; must be invertible. `steps`: lattice steps per sample.
   PlanMetric(const std::array<double, 6>& affine, std::int32_t steps);
 
-  Vector to_plan(const Vector& offset) const;     ///< Image of an offset in steps.
-  Vector to_lattice(const Vector& offset) const;  ///< in steps
+  Vector to_plan(const Vector& offset) const;     ///< image of an offset in steps
+  Vector to_lattice(const Vector& offset) const;  ///< inverse of to_plan()
   Vector between(Point a, Point b) const { return to_plan({double(b.x) - a.x, double(b.y) - a.y}); }
-  double square(Point a, Point b) const;               ///< Square of their distance.
+  double square(Point a, Point b) const;               ///< squared distance
   double dot(Point apex, Point a, Point b) const;      ///< Dot product of the vectors from the apex.
   double shorter_side() const { return short_side_; }  ///< Shorter side of a sample.
   double longer_side() const { return long_side_; }
-  /// True if d lies inside the circle through the corners of a positive triangle. Exact where samples are square; else
-  /// a point in doubt by rounding is outside.
+  /// True if d lies inside the circumcircle of a positive triangle. Exact for square samples; otherwise false if
+  /// rounding leaves doubt.
   bool is_in_circle(const std::array<Point, 3>& corners, Point d) const;
 
  private:
   std::array<double, 4> to_plan_, to_lattice_;  ///< row by row
   double short_side_, long_side_;
-  bool is_similar_;  ///< the lattice's circles are circles
+  bool is_similar_;  ///< similarity: circles of the lattice remain circles
 };
 
-/// Delaunay edges in such a frame.
+/// Flips towards Delaunay edges in that frame.
 class PlanDelaunay final : public FlipRule {
  public:
   explicit PlanDelaunay(const PlanMetric& metric) : metric_(metric) {}
@@ -47,7 +46,7 @@ class PlanDelaunay final : public FlipRule {
 /// Flips free edges until all are Delaunay.
 void restore_delaunay(Triangulation& tin, PlanDelaunay& rule);
 
-/// sin² and cos² of an angle of 0 … 90 degrees, by their series: no two C libraries agree on the last bit.
+/// sin² and cos² of an angle of 0 … 90 degrees, by series: C libraries differ in the last bit.
 struct SquaredAngle {
   double sine, cosine;
 };

@@ -8,16 +8,16 @@
 
 namespace scarp {
 
-/// True if the angle between two vectors is less than the one whose cosine has this square (of 0 … 90 degrees).
-/// `squares`: the product of the squares of their lengths.
+/// True if the angle between two vectors is less than one of 0 … 90 degrees with this squared cosine. `squares`:
+/// product of the vectors' squared lengths.
 inline bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
 
-/// cos² of 45 degrees: corners between walls below that are acute, those of nodata not.
+/// cos² of 45 degrees: corners between walls are acute if sharper, those of nodata outlines never.
 inline constexpr double kAcute = 0.5;
 
 class PlanShapes {
  public:
-  /// Both stay alive. `cosine2`: of the smallest angle, squared.
+  /// Borrows both. `cosine2`: squared cosine of the smallest allowed angle.
   PlanShapes(const Triangulation& tin, const PlanMetric& metric, double cosine2)
       : tin_(tin), metric_(metric), cosine2_(cosine2) {}
 
@@ -27,7 +27,7 @@ class PlanShapes {
   HalfEdge shortest(Triangle t) const {
     return std::min({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return square(a) < square(b); });
   }
-  /// Nothing may cross it.
+  /// True if nothing may cross the edge.
   bool is_wall(HalfEdge h) const {
     const HalfEdge g = tin_.twin(h);
     return g == kNone || tin_.is_constrained(h) || tin_.is_outside(g / 3);
@@ -38,7 +38,7 @@ class PlanShapes {
     const HalfEdge h = shortest(t);
     return is_sharper(dot_over(h), square(Triangulation::next(h)) * square(Triangulation::previous(h)), cosine2_);
   }
-  /// True if the small angle is the input's: between two walls, or over an edge that joins two walls of an acute
+  /// True if the input forces the small angle: between two walls, or over an edge that joins two walls of an acute
   /// corner.
   bool is_forced(Triangle t) const {
     const HalfEdge h = shortest(t);

@@ -1,4 +1,4 @@
-// The queue of triangles that break goals of shapes.
+// The queue of triangles that break shape goals.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// The order of work: too large triangles before too sharp ones, larger excess first, shorter edges first.
+/// A fault. Order: too large triangles before too sharp ones, then larger excess, then shorter edges.
 struct ShapeFault {
   bool is_long = false;
   double key = 0;  ///< larger first
@@ -24,7 +24,7 @@ struct ShapeFault {
   }
 };
 
-/// The first of them in that order, first out. Where sizes fall again and again triangles come in more than once.
+/// A priority queue of faults. A triangle is added again whenever sizes fall.
 class ShapeFaults {
  public:
   bool empty() const { return heap_.empty(); }
@@ -42,7 +42,7 @@ class ShapeFaults {
     return first;
   }
 
-  /// Keeps for each triangle the first for which is_current() returns true.
+  /// Keeps the first current fault of each triangle.
   template <class Current>
   void clean(Current&& is_current) {
     heap_.erase(std::remove_if(heap_.begin(), heap_.end(), [&](const ShapeFault& fault) { return !is_current(fault); }),
@@ -59,7 +59,7 @@ class ShapeFaults {
   std::vector<ShapeFault> heap_;
 };
 
-/// Triangles whose turn comes later, each once or a few times.
+/// Triangles to process later, each once or a few times.
 class WaitingTriangles {
  public:
   void push(Triangle t) {

@@ -10,7 +10,7 @@ namespace scarp {
 
 double least_triangles(const Triangulation& tin, const PlanMetric& metric, const ShapeGoals& goals,
                        const SizeField* sizes) {
-  // Ways along edges of a Delaunay triangulation are at most 1.998 times as long as straight ones (G. Xia, "The stretch
+  // Paths along edges of a Delaunay triangulation are at most 1.998 times the straight distance (G. Xia, "The stretch
   // factor of the Delaunay triangulation is less than 1.998", 2013).
   constexpr double kStretch = 2, kFastest = 0.1;
   const double infinity = std::numeric_limits<double>::infinity(), fixed = goals.max_edge.value_or(infinity);
@@ -26,7 +26,7 @@ double least_triangles(const Triangulation& tin, const PlanMetric& metric, const
                    side2 = std::max({metric.square(a, b), metric.square(b, c), metric.square(c, a)});
       const double size =
           std::min({sizes->at(tin.origin(3 * t)), sizes->at(tin.origin(3 * t + 1)), sizes->at(tin.origin(3 * t + 2))});
-      // Corners of a triangle that reaches in lie up to an edge beyond.
+      // A triangle that reaches into this one has corners up to an edge beyond.
       const double most = (size + way * std::sqrt(side2)) / (1 - kGradeFactor * way);
       longest = std::min(longest, kGradeFactor * most);
     }

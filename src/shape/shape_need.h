@@ -12,17 +12,17 @@
 
 namespace scarp {
 
-/// Edges over sizes, at most.
+/// Upper bound of edge length / size.
 inline constexpr double kGradeFactor = 2;
 
-/// Triangles that the surface of `tin` will have at least, however they lie: its area over that of equilateral
-/// triangles with the longest edges that are allowed. Sizes only fall from what they are (null: without a grade). 0
-/// where nothing limits edges, or sizes grow too fast to estimate. Cost: O(triangles).
+/// Lower bound of the triangles in the surface of `tin`: its area over that of equilateral triangles with the longest
+/// allowed edges. Sizes only fall from the given ones (null: without a grade). 0 if edges are unlimited or sizes grow
+/// too fast to estimate. Cost: O(triangles).
 double least_triangles(const Triangulation& tin, const PlanMetric& metric, const ShapeGoals& goals,
                        const SizeField* sizes);
 
-/// Fails with kInput where no mesh has so many triangles, with kUsage where the memory does not hold them in addition
-/// to `work` bytes.
+/// Fails with kInput if no mesh can have so many triangles, with kUsage if they do not fit in memory besides `work`
+/// bytes.
 Result<void> check_need(double triangles, const MemoryBudget& memory, std::uint64_t work);
 
 }  // namespace scarp

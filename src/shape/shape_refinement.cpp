@@ -27,11 +27,11 @@ namespace {
 using Vector = PlanMetric::Vector;
 using Location = Triangulation::Location;
 
-constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, reserved for the rounding of positions
-constexpr double kClosest = 1.0 / 32;    ///< in samples: the closest vertices for the sake of angles
+constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, reserved for rounding of positions
+constexpr double kClosest = 1.0 / 32;    ///< in samples: least distance of vertices added for angles
 constexpr double kAnyLength = 0;         ///< least length of the halves of an edge that is too long
-constexpr double kFinestSize = 0.5;      ///< in samples: the finest size that grade uses
-constexpr double kSnapShare = 1.0 / 12;  ///< steps of the lattice over the distance to the nearest vertices
+constexpr double kFinestSize = 0.5;      ///< in samples: the smallest size with a grade
+constexpr double kSnapShare = 1.0 / 12;  ///< upper bound of lattice step / distance to the nearest vertices
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -117,7 +117,7 @@ class ShapeRefiner {
     return work_off();
   }
 
-  /// The first time all triangles are scanned, then only bad ones are examined.
+  /// Scans all triangles the first time, later only bad ones.
   Result<void> sweep_bands() {
     const bool is_first = waiting_.empty();
     waiting_.assign(bands_.count(), {});
@@ -130,7 +130,7 @@ class ShapeRefiner {
       bands_.hold(band_, *rows_);
       if (bound_rows_) bands_.hold(band_, *bound_rows_);
       for (const Triangle t : here) {
-        // Who has left the band has been changed, and scanned.
+        // A triangle that left the band was changed and scanned.
         if (is_first && bands_.at(row_of(t)) == band_) refinement_->scan({&t, 1});
         enqueue(t);
       }
@@ -162,7 +162,7 @@ class ShapeRefiner {
     return {};
   }
 
-  // ---- What is bad ------------------------------------------------------------------------------------------------
+  // ---- Finding faults -----------------------------------------------------------------------------------------------
 
   std::array<Vertex, 3> corners_of(Triangle t) const {
     return {tin_.origin(3 * t), tin_.origin(3 * t + 1), tin_.origin(3 * t + 2)};
@@ -170,14 +170,14 @@ class ShapeRefiner {
   double square(HalfEdge h) const { return shapes_.square(h); }
   HalfEdge shortest(Triangle t) const { return shapes_.shortest(t); }
   bool is_wall(HalfEdge h) const { return shapes_.is_wall(h); }
-  /// The row of samples in which its centre lies.
+  /// The row of samples of its centre.
   std::int32_t row_of(Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
     return static_cast<std::int32_t>((std::int64_t{a.y} + b.y + c.y) / (3 * kLatticeSteps));
   }
   Vertex opposite(HalfEdge h) const { return tin_.origin(Triangulation::previous(h)); }
 
-  /// How many times as long as allowed, squared.
+  /// The squared ratio of length to allowed length.
   double excess(HalfEdge h) const {
     const double length2 = square(h);
     double excess = length2 / longest2_;
@@ -206,10 +206,10 @@ class ShapeRefiner {
     }
   }
 
-  /// A line with surface on both sides.
+  /// True for an edge with surface on both sides.
   bool is_line(HalfEdge h) const { return tin_.twin(h) != kNone && !tin_.is_outside(tin_.twin(h) / 3); }
 
-  // ---- What is done about it ----------------------------------------------------------------------------------------
+  // ---- Repairing faults ---------------------------------------------------------------------------------------------
 
   bool shorten(Triangle t) {
     const HalfEdge h =
@@ -222,8 +222,8 @@ class ShapeRefiner {
            insert_near(t, std::numeric_limits<double>::infinity(), least_);
   }
 
-  /// Towards the centre of the triangle's circle, so far from its shortest edge at most, and at least so far from all
-  /// other vertices. False if nothing was inserted.
+  /// Inserts a vertex towards the triangle's circumcentre, at most `reach` from its shortest edge and at least `least`
+  /// from all other vertices. False if nothing was inserted.
   bool insert_near(Triangle t, double reach, double least) {
     const HalfEdge h = shortest(t);
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
@@ -241,7 +241,7 @@ class ShapeRefiner {
     return insert_free(t, from, p, least);
   }
 
-  /// On the lattice and in the rectangle; on coarse steps where `radius`, in samples, is large.
+  /// A point on the lattice and in the rectangle; on coarse steps if `radius`, in samples, is large.
   Point lattice_point_near(const Vector& from, const Vector& wanted, double radius) const {
     const Vector far{(samples_.cols() - 1.0) * kLatticeSteps, (samples_.rows() - 1.0) * kLatticeSteps};
     double share = 1;
@@ -258,7 +258,7 @@ class ShapeRefiner {
     return {snap(0), snap(1)};
   }
 
-  /// The triangle that holds p, seen from `from` in t; else the wall that hides it.
+  /// The triangle that contains p, seen from `from` in t, or the wall that hides it.
   struct Sight {
     Triangle triangle = kNone;
     HalfEdge wall = kNone;
@@ -275,8 +275,7 @@ class ShapeRefiner {
       for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
         if (h == entered || orient(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))), p) >= 0)
           continue;
-        // If p lies beyond two edges, the exit is the one that the way crosses: they share a corner, left or right of
-        // it.
+        // If p lies beyond two edges, the segment leaves through one of them: left or right of their common corner.
         if (exit == kNone) {
           exit = h;
         } else if (Triangulation::next(exit) == h) {
@@ -293,7 +292,8 @@ class ShapeRefiner {
     return {};  // lost by rounding
   }
 
-  /// The triangles that the insertion of p would remove, and the walls around that whose circles hold p, longest first.
+  /// The triangles that inserting p would remove; and the walls around them whose diametral circles contain p, longest
+  /// first.
   struct Cavity {
     double nearest2 = std::numeric_limits<double>::infinity();
     std::vector<HalfEdge> encroached;
@@ -338,7 +338,7 @@ class ShapeRefiner {
     return cavity.nearest2 >= least * least && insert_with_height(p, location);
   }
 
-  /// The raster's; in level triangles theirs, so that water is flat up to its shore.
+  /// The raster's height; in level triangles their height, so that water is flat up to its shore.
   float height_between(Point p, const Location& location) const {
     const HalfEdge across = location.kind == Location::Kind::kOnEdge ? tin_.twin(location.edge) : location.edge;
     for (const HalfEdge h : {location.edge, across}) {
@@ -360,14 +360,14 @@ class ShapeRefiner {
     return true;
   }
 
-  /// Halves an edge that is not constrained.
+  /// Halves a free edge.
   bool split_free(HalfEdge h) {
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
     const auto p = beside({(double(a.x) + b.x) / 2, (double(a.y) + b.y) / 2}, h);
     return p && insert_with_height(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
   }
 
-  /// The lattice point nearest to one on an edge with two sides, such that the four triangles are positive.
+  /// The lattice point nearest to one on an edge with two sides, such that all four triangles are positive.
   std::optional<Point> beside(const Vector& wanted, HalfEdge h) const {
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
                 c = tin_.point(opposite(h)), d = tin_.point(opposite(tin_.twin(h)));
@@ -387,15 +387,14 @@ class ShapeRefiner {
     return best;
   }
 
-  /// Halves it, about, if the halves are as long as that. False if nothing was inserted.
+  /// Halves a wall approximately if both halves have the least length. False if nothing was inserted.
   bool split_wall(HalfEdge h, double least) {
     if (tin_.is_outside(h / 3)) h = tin_.twin(h);
     if (square(h) < 4 * least * least) return false;
     const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
     const Point a = tin_.point(from), b = tin_.point(to);
     const double share = share_of_split(h);
-    // The outline of the valid data stays where it is; where a cutline ends the surface few lattice points are exactly
-    // on the way.
+    // The outline of the valid data must not move. Along a cutline few lattice points lie exactly on the edge.
     std::optional<Point> p;
     if (!is_line(h)) p = on_outline(a, b, share);
     const bool bends = !p && tin_.twin(h) != kNone;
@@ -418,8 +417,8 @@ class ShapeRefiner {
     return true;
   }
 
-  /// The lattice point beside() a line, of which an edge is part. Few lattice points are possible for vertices next to
-  /// the line: the result is the one nearest to the share that is wanted, and at most `leeway` from it.
+  /// The lattice point beside() a line that contains the edge. Next to existing vertices on the line few lattice points
+  /// are possible: returns the one nearest to the wanted share, at most `leeway` from it.
   std::optional<Point> beside_line(const std::pair<Point, Point>& line, HalfEdge h, double share, double leeway) const {
     constexpr int kTries = 512;
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
@@ -430,7 +429,7 @@ class ShapeRefiner {
     return std::nullopt;
   }
 
-  /// A half; from an acute corner so much that the length from there is a power of two.
+  /// One half; from an acute corner, the share that makes the length from there a power of two.
   double share_of_split(HalfEdge h) const {
     const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
     const bool begins = is_acute(from, to), ends = is_acute(to, from);
@@ -441,7 +440,7 @@ class ShapeRefiner {
     const double share = std::clamp(shell / length, 0.25, 0.75);
     return begins ? share : 1 - share;
   }
-  /// True if another wall than that to w begins at v, less than 45 degrees from it.
+  /// True if another wall begins at v, less than 45 degrees from the one to w.
   bool is_acute(Vertex v, Vertex w) const {
     const Point apex = tin_.point(v), end = tin_.point(w);
     bool found = false;
@@ -464,27 +463,27 @@ class ShapeRefiner {
     return {a[0] + along * way[0], a[1] + along * way[1]};
   }
 
-  /// A lattice point between a and b, exactly on the way: a sample where that is fine enough.
+  /// A lattice point exactly between a and b: a sample if samples are fine enough.
   std::optional<Point> on_outline(Point a, Point b, double share) const {
     const std::int32_t units = std::gcd(std::abs(b.x - a.x), std::abs(b.y - a.y));
     if (units < 2) return std::nullopt;
     const Point unit{(b.x - a.x) / units, (b.y - a.y) / units};
     std::int32_t step = 1;
     while (step < kLatticeSteps && 2 * step <= units * kSnapShare) step *= 2;
-    // Multiples of the step count from the raster's corner, as they do for other lattice points.
+    // Multiples of the step count from the raster's corner, as for other lattice points.
     const std::int32_t begin = unit.x != 0 ? a.x * (unit.x < 0 ? -1 : 1) : a.y * (unit.y < 0 ? -1 : 1);
     const double at = std::floor((begin + share * units) / step + 0.5) * step - begin;
     const auto k = static_cast<std::int32_t>(std::clamp(at, 1.0, units - 1.0));
     return Point{a.x + k * unit.x, a.y + k * unit.y};
   }
 
-  // ---- What must be known ------------------------------------------------------------------------------------------
+  // ---- Bookkeeping -------------------------------------------------------------------------------------------------
 
   void note_all() {
     out_.resize(tin_.vertex_count());
     for (HalfEdge h = 0; h < 3 * tin_.triangle_count(); ++h) out_[tin_.origin(h)] = h;
   }
-  /// So that no band need be asked again.
+  /// Remembers a height so that its band is not read again.
   void remember_height(Vertex v) {
     const Point p = tin_.point(v);
     if (LatticeHeights::is_sample(p)) heights_.set(p, heights_.at(p));
@@ -505,7 +504,7 @@ class ShapeRefiner {
   }
 
   Bands bands_;
-  std::optional<Band> rows_;  ///< used if the samples are not in memory as a whole
+  std::optional<Band> rows_;  ///< used if the samples are not entirely in memory
   std::optional<Band> bound_rows_;
   SampleView samples_;
   Triangulation& tin_;
@@ -520,11 +519,11 @@ class ShapeRefiner {
   std::optional<Refinement> refinement_;
   std::optional<SizeField> sizes_;
   ShapeFaults bad_;
-  std::size_t band_ = 0;                                       ///< at work
-  double share_ = 1;                                           ///< share of bands that has been at work
+  std::size_t band_ = 0;                                       ///< current band
+  double share_ = 1;                                           ///< share of bands processed
   std::vector<WaitingTriangles> waiting_;                      ///< by band
   std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
-  std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< for vertices that halve lines: where these run
+  std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< by vertex that halves a line: the line's ends
   std::vector<Vertex> fallen_;
   std::vector<std::uint8_t> seen_;
   ShapeWork work_;
@@ -539,7 +538,7 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
   ShapeRule rule;
   rule.by_angle = true;
   rule.aspect = height / width;
-  // Without a smallest angle whatever has an area will do, but for simulation, which asks for a shortest edge.
+  // Without a smallest angle any triangle with an area is valid, except in simulations, which request a shortest edge.
   constexpr double kUsualAngle = 5;
   const double angle = goals.min_edge && goals.min_angle == 0 ? kUsualAngle : goals.min_angle;
   rule.floor = std::max(squares_of(angle + kShapeSlack).sine, std::numeric_limits<double>::min());

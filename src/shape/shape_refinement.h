@@ -1,22 +1,22 @@
 // Triangles for simulation: Delaunay refinement on the lattice between samples, together with the error bound.
 //
-// A triangle with too small an angle is given a vertex near the centre of its circle: the off-centre (A. Üngör, 2004),
-// which makes the angle over its shortest edge just what was asked, else the centre. Where that lies beyond an outline
-// or a line, or in the circle over one of its edges, the edge is halved instead (J. Ruppert, "A Delaunay refinement
-// algorithm for quality 2-dimensional mesh generation", 1995), at corners of less than 45 degrees at powers of two from
-// the corner (J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh generation", 2002), so that both
-// sides get edges of the same lengths. A triangle that is too large gets the centre of its circle, or else its longest
-// edge is halved.
+// A triangle with too small an angle is given a vertex near its circumcentre: first the off-centre (A. Üngör, 2004),
+// which makes the angle over its shortest edge just as requested, else the circumcentre. If that lies beyond an outline
+// or a line, or in the diametral circle of one of their edges, the edge is halved instead (J. Ruppert, "A Delaunay
+// refinement algorithm for quality 2-dimensional mesh generation", 1995). At corners of less than 45 degrees it is
+// split at a power of two from the corner (J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh
+// generation", 2002): both sides get edges of the same lengths. A triangle that is too large gets its circumcentre, or
+// else its longest edge is halved.
 //
-// Differences: edges with vertices in their circle are split only if a bad triangle requires it. Every vertex has a
-// lattice point of its own, on samples where that is fine enough. Between any two steps samples that break the bound
-// are inserted, worst first, as always. Refinement ends for any goal: vertices added for angles stay 1/32 of a sample
-// from all others, edges are split for size only while they are longer than allowed, and samples are finite.
+// Differences: edges with vertices in their circle are split only if a bad triangle requires it. Every vertex is a
+// lattice point, on a sample if samples are fine enough. After each step, samples that break the bound are inserted,
+// worst first. Refinement ends for any goal: vertices added for angles stay 1/32 of a sample from all others, edges are
+// split for size only while they are longer than allowed, and samples are finite.
 //
-// If the samples are streamed, the mesh is in memory, and bands of rows are processed from the top down. Bad triangles
-// of a band are treated while its samples and some around are held. Triangles changed further up or down are refined to
-// the bound at once; their shapes are treated in their own bands, if necessary in the next sweep. So there are no
-// borders between bands, and the goals hold as they do in memory.
+// If samples are streamed, the mesh is in memory, and bands of rows are processed from the top down. Bad triangles of a
+// band are treated while its samples and some around are held. Changed triangles elsewhere are refined to the bound at
+// once; their shapes are treated in their own bands, if necessary in the next sweep. Thus bands have no borders, and
+// the goals hold as in memory.
 #pragma once
 
 #include <array>
@@ -41,15 +41,15 @@ struct ShapeTask {
   ShapeGoals goals;
   std::array<double, 6> affine;        ///< affine map of the frame
   double threshold = 0;                ///< threshold of errors
-  std::span<const float> bounds = {};  ///< bounds of samples, as LatticeMetric has them
-  bool all_may_go = false;             ///< who comes next may remove, or move, vertices that are no samples
-  /// Receives the share of the bands that have been gone through once, all if there are none, the number of vertices
-  /// and the worst error; a failure ends the run.
+  std::span<const float> bounds = {};  ///< bounds of samples, like those of LatticeMetric
+  bool all_may_go = false;             ///< later passes may remove or move vertices that are not samples
+  /// Receives the share of bands processed once (1 without bands), the number of vertices and the worst error; a
+  /// failure ends the run.
   std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
-  /// Receives once, before all, the least number of triangles; a failure ends the run.
+  /// Receives the least number of triangles once, at the start; a failure ends the run.
   std::function<Result<void>(double triangles)> foresee = {};
-  /// For a raster without samples: the field whose source has them, alive, and how many rows are held at a time, at
-  /// least 4. Then bounds of samples come from windows, too; null: the threshold holds for all.
+  /// For a raster without samples: the borrowed field whose source has them, and how many rows are held at a time, at
+  /// least 4. Bounds of samples then come from windows, too; null: the threshold holds for all.
   const HeightField* field = nullptr;
   const SourceBounds* source_bounds = nullptr;
   std::int32_t rows_at_once = 0;
@@ -59,32 +59,31 @@ struct ShapeWork {
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0;
 };
 
-/// Makes `tin` Delaunay in the frame, but for constrained edges, and adds vertices until every sample keeps its bound
-/// and the goals hold as described at ShapeGoals. `lattice`: of the vertices; afterwards in kLatticeSteps, those fixed
-/// that were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, and as
-/// progress and foresee do; throws SourceFailure. REQUIRES: goals that were checked; sides of at most kMaxCoordinate /
-/// kLatticeSteps samples; an outline that is exact. Cost: expected O(log n) an insertion, but for scanning.
+/// Makes `tin` Delaunay in the frame, except constrained edges. Adds vertices until every sample satisfies its bound
+/// and the goals hold as ShapeGoals describes. `lattice`: of the vertices; afterwards in kLatticeSteps. Fixed vertices
+/// remain so; vertices between samples become fixed unless vertices are free. Fails with kInput for too many triangles,
+/// and as progress and foresee do; throws SourceFailure. REQUIRES: checked goals; sides of at most kMaxCoordinate /
+/// kLatticeSteps samples; an exact outline. Cost: expected O(log n) an insertion, without scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
 
-/// Most bytes a vertex that this uses, the mesh included.
+/// Most bytes a vertex that refine_shapes() uses, the mesh included.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 
-/// The rule that keeps angles and lengths of edges, as refine_shapes() has made them, while vertices are removed and
-/// moved. Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right
-/// angles.
+/// Preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing where only
+/// insertion can preserve them: with a grade, and if rows and columns of the frame are not perpendicular.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 
 /// The effect of lines and outline on the other goals.
 struct ShapeLosses {
-  std::uint64_t forced = 0;        ///< triangles with small angles in corners between lines or outline
+  std::uint64_t forced = 0;        ///< triangles with a small angle in a corner between lines or outline
   std::uint64_t beside_lines = 0;  ///< other such triangles with a corner on lines or outline
-  std::uint64_t short_edges = 0;   ///< with an end on lines or outline
+  std::uint64_t short_edges = 0;   ///< edges with an end on lines or outline
 };
-/// `steps`: of the lattice of `tin`, from a sample to the next.
+/// `steps`: lattice steps per sample.
 ShapeLosses count_losses(const Triangulation& tin, std::int32_t steps, const Frame& frame, const ShapeGoals& goals);
 
-/// Shapes of a finished mesh. `losses`: of the triangulation that it was made of.
+/// Shapes of a finished mesh. `losses`: of its triangulation.
 ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const ShapeLosses& losses);
 
 }  // namespace scarp

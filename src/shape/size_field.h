@@ -1,4 +1,4 @@
-// How long edges may be at each vertex when sizes are to grow slowly (Persson 2006, "Mesh size functions for implicit
+// Sizes, the longest edges allowed at each vertex, that grow slowly (Persson 2006, "Mesh size functions for implicit
 // geometries and PDE-based gradient limiting"; here on the graph of the mesh itself).
 #pragma once
 
@@ -9,19 +9,18 @@
 
 namespace scarp {
 
-/// The size at a vertex is the least s + grade·d over all vertices, where s is the length of the shortest edge at one
-/// and d the way from there, along edges. Sizes only fall while a mesh grows: an edge that is flipped away has been
-/// considered all the same.
+/// The size at a vertex is the least s + grade·d over all vertices: s is the length of the other's shortest edge, d its
+/// distance along edges. Sizes only fall while a mesh grows: edges that were flipped away also count.
 class SizeField {
  public:
-  /// Both stay alive. Lengths below `least` count as that.
+  /// Borrows both. Lengths below `least` count as `least`.
   SizeField(const Triangulation& tin, const PlanMetric& metric, double grade, double least)
       : tin_(tin), metric_(metric), grade_(grade), least_(least) {}
 
-  /// Measures the sizes of all vertices. `out`: for each one a half-edge that begins there.
+  /// Measures the sizes of all vertices. `out`: a half-edge out of each one.
   void measure_all(const std::vector<HalfEdge>& out);
-  /// After an insertion; `changed`: the triangles around the new vertex. Appends the vertices whose sizes fell, each
-  /// once.
+  /// Updates sizes after an insertion; `changed`: the triangles around the new vertex. Appends vertices whose sizes
+  /// fell, each once.
   void update(const std::vector<Triangle>& changed, const std::vector<HalfEdge>& out, std::vector<Vertex>& fallen);
 
   double at(Vertex v) const { return sizes_[v]; }
@@ -38,8 +37,8 @@ class SizeField {
   const PlanMetric& metric_;
   double grade_, least_;
   std::vector<double> sizes_;
-  std::vector<Vertex> queue_, wave_;  ///< vertices whose neighbours have not got its size yet, and those that are
-                                      ///< passing it on
+  std::vector<Vertex> queue_, wave_;  ///< vertices that have yet to pass on their size, and those that are passing it
+                                      ///< on
   std::vector<std::uint8_t> states_;  ///< by vertex: kWaits, kFell
 };
 

@@ -44,7 +44,7 @@ struct TinView {
 
 }  // namespace
 
-/// At least half of the slots stay free.
+/// Keeps at least half of the slots free.
 void PieceMaker::clear(std::size_t vertices) {
   unsigned bits = 4;
   while ((std::size_t{1} << bits) < 2 * vertices) ++bits;
@@ -53,9 +53,9 @@ void PieceMaker::clear(std::size_t vertices) {
   std::fill(slots_.begin(), slots_.end(), Slot{0, kNone});
 }
 
-/// The slot where p is, or would be.
+/// The slot of p, or the free slot for it.
 PieceMaker::Slot& PieceMaker::find(TilePoint p) {
-  constexpr std::uint32_t kGolden = 2654435769;  // 2^32 / golden ratio: neighbours are spread
+  constexpr std::uint32_t kGolden = 2654435769;  // 2^32 / golden ratio: spreads neighbours
   std::size_t i = (p * kGolden) >> shift_;
   while (slots_[i].id != kNone && slots_[i].at != p) i = (i + 1) & (slots_.size() - 1);
   return slots_[i];

@@ -1,4 +1,4 @@
-// One triangulation from the meshes of tiles.
+// Assembles one triangulation from the meshes of tiles.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// A finished tile without its workbench: 13 bytes a triangle less than Triangulation, and nothing that points outside.
+/// A finished tile without its workbench: 13 bytes a triangle less than Triangulation, and no links out of the tile.
 struct TilePiece {
   Point first;  ///< the tile's first sample in the raster
   std::int32_t cols = 0, rows = 0;
@@ -19,7 +19,7 @@ struct TilePiece {
   Array<std::uint8_t> outside;   ///< 1 per triangle
 };
 
-/// Numbers the vertices of tile meshes; its scratch memory (16 to 32 bytes a vertex) is kept.
+/// Numbers the vertices of tile meshes; reuses its scratch memory (16 to 32 bytes a vertex).
 class PieceMaker {
  public:
   TilePiece make(const TileMesh& mesh, Point first, std::int32_t cols, std::int32_t rows);
@@ -44,28 +44,29 @@ class Assembly {
 
   /// REQUIRES: neighbours have the same vertices on their shared border.
   void append(const TilePiece& piece);
-  /// The same of a triangulation of the rectangle of cols × rows points from `first` on; its own count from there.
+  /// Appends a triangulation of the rectangle of cols × rows points from `first` on; its points count from `first`.
   void append(const Triangulation& tin, Point first, std::int32_t cols, std::int32_t rows);
 
-  /// The vertices of the points of the piece, or the triangulation, that was appended last.
+  /// The vertices of the points that were appended last.
   const std::vector<Vertex>& last_vertices() const { return ids_; }
 
   std::uint64_t vertex_count() const { return tin_.vertex_count(); }
   std::uint64_t triangle_count() const { return tin_.triangle_count(); }
 
-  /// No triangle so far is outside.
+  /// True if no triangle so far is outside.
   bool is_whole() const { return is_whole_; }
 
-  /// The whole. `seams`: the edges between tiles that are neither constrained nor outside, one half-edge each.
+  /// The complete triangulation. `seams`: one half-edge of each edge between tiles that is neither constrained nor
+  /// outside.
   Triangulation finish(std::vector<HalfEdge>& seams);
 
  private:
-  /// An edge on a border, by the coordinate where it begins.
+  /// An edge on a border, by the coordinate of its start.
   struct BorderEdge {
     std::int32_t at;
     HalfEdge edge;
   };
-  /// The vertices and edges that one side of a tile has for its neighbour, by coordinate.
+  /// The vertices and edges on one side of a tile, by coordinate.
   struct Border {
     std::vector<std::pair<std::int32_t, Vertex>> vertices;
     std::vector<BorderEdge> edges;
@@ -86,7 +87,7 @@ class Assembly {
   Border beside_;                       // right side of the piece to the left
   std::vector<Border> below_;           // lower side of the piece above, by column
   Border left_, top_, right_, bottom_;  // borders of the current piece
-  std::vector<Vertex> ids_;             // its vertices
+  std::vector<Vertex> ids_;             // vertices of the current piece
   std::vector<HalfEdge> seams_;
 };
 

@@ -13,7 +13,7 @@ bool is_border(const Triangulation& tin, HalfEdge h) {
   return !tin.is_outside(h / 3) && (twin == kNone || tin.is_outside(twin / 3));
 }
 
-/// The border edge that begins where `h` ends, with the domain on the same side. REQUIRES: is_border(h).
+/// The border edge that starts at the end of `h`, with the domain on the same side. REQUIRES: is_border(h).
 HalfEdge next_on_border(const Triangulation& tin, HalfEdge h) {
   HalfEdge next = Triangulation::next(h);
   while (!is_border(tin, next)) next = Triangulation::next(tin.twin(next));
@@ -27,7 +27,7 @@ std::uint64_t count_border_triangles(const Triangulation& tin) {
   std::int64_t count = 0;
   for (HalfEdge first = 0; first < 3 * tin.triangle_count(); ++first) {
     if (is_seen[first] || !is_border(tin, first)) continue;
-    // A loop of n corners: an outer one makes n - 2 triangles, a hole in it n + 2 more.
+    // A loop of n corners: an outer one adds n - 2 triangles, a hole n + 2.
     std::int64_t corners = 0, twice_area = 0;
     HalfEdge h = first;
     do {

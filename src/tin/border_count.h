@@ -1,4 +1,4 @@
-// The size of a domain's border by itself.
+// Minimum size of a domain.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// Triangles of any triangulation of the domain that has vertices at the corners of its border and nowhere else. Cost:
+/// Number of triangles in any triangulation of the domain whose only vertices are the corners of its border. Cost:
 /// O(triangles).
 std::uint64_t count_border_triangles(const Triangulation& tin);
 

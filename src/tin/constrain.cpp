@@ -1,10 +1,10 @@
-// Making a segment an edge of the triangulation.
+// Makes a segment an edge of the triangulation.
 //
-// The edges that the segment crosses are flipped away one after the other (S. W. Sloan, "A fast algorithm for
-// generating constrained Delaunay triangulations", Computers & Structures 47, 1993): an edge whose two triangles form a
-// strictly convex quadrilateral is flipped; if it is not convex, or the new edge still crosses, it waits at the end of
-// the queue. Then the edges that the flips made are tested again, the new one excepted. All of it in exact integers, so
-// that a vertex on the segment is seen as such and splits it.
+// The edges that the segment crosses are flipped away in turn (S. W. Sloan, "A fast algorithm for generating
+// constrained Delaunay triangulations", Computers & Structures 47, 1993): an edge is flipped if its two triangles form
+// a strictly convex quadrilateral. Otherwise, or if the new edge still crosses, it moves to the end of the queue. Then
+// the edges that the flips made are tested again, except the segment. Integers are exact: a vertex on the segment is
+// recognized and splits it.
 #include <algorithm>
 #include <cassert>
 #include <deque>
@@ -16,7 +16,7 @@ namespace scarp {
 
 namespace {
 
-/// p is ahead of a in the direction of b (REQUIRES the three on one line).
+/// True if p is beyond a in the direction of b. REQUIRES: the three are collinear.
 bool is_ahead(Point a, Point b, Point p) {
   return std::int64_t{b.x - a.x} * (p.x - a.x) + std::int64_t{b.y - a.y} * (p.y - a.y) > 0;
 }
@@ -72,7 +72,7 @@ bool Triangulation::constrain(Vertex a, Vertex b) {
     v = p.reached;
   }
   for (auto [v, w] : pieces) {
-    // Flips of an earlier piece cannot make a later piece cross a constraint, but they can change what it crosses.
+    // Flips for an earlier piece cannot make a later piece cross a constraint, but they can change its crossings.
     const Passage p = passage(v, w);
     if (!p.crossed.empty()) force_edge(v, w, p.crossed);
     const HalfEdge h = find_edge(v, w), edge = h != kNone ? h : find_edge(w, v);
@@ -112,7 +112,7 @@ void Triangulation::force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& 
     const bool crosses = !touches && sign_of(orient(pa, pb, points_[c])) * sign_of(orient(pa, pb, points_[d])) < 0;
     (crosses ? queue.emplace_back(c, d) : made.emplace_back(c, d));
   }
-  // Lawson's flips until nothing changes; the segment itself is held by its constraint.
+  // Lawson's flips until nothing changes; the constraint protects the segment.
   set_constrained(find_edge(a, b));
   pending_.clear();
   for (auto [u, w] : made) pending_.push_back(find_edge(u, w));

@@ -11,14 +11,14 @@ namespace {
 
 constexpr unsigned kNext[3] = {1, 2, 0}, kPrevious[3] = {2, 0, 1};
 
-/// orient() of points of a tile: 32 bits hold it (2 · 4096²).
+/// orient() for points of a tile: 32 bits suffice (2 · 4096²).
 std::int32_t orient(TilePoint a, TilePoint b, TilePoint c) {
   const std::int32_t ax = tile_x(a), ay = tile_y(a);
   return (tile_x(b) - ax) * (tile_y(c) - ay) - (tile_y(b) - ay) * (tile_x(c) - ax);
 }
 
-/// p strictly inside the circle of a positive triangle. In double: with differences below 2^12 every term is an integer
-/// below 2^53, so nothing is rounded.
+/// True if p is strictly inside the circumcircle of a positive triangle. Exact in double: with differences below 2^12
+/// every term is an integer below 2^53.
 bool is_in_circle(const std::array<TilePoint, 3>& corners, double x, double y) {
   const double ax = tile_x(corners[0]) - x, ay = tile_y(corners[0]) - y;
   const double bx = tile_x(corners[1]) - x, by = tile_y(corners[1]) - y;
@@ -60,7 +60,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
   stack_.clear();
   removed_.push_back(t);
   splits_constraint_ = false;
-  Link split = kBorder;  // the edge of t on which p lies, seen from beyond
+  Link split = kBorder;  // the edge of t that contains p, seen from beyond
   for (unsigned k = 0; k < 3; ++k) {
     const Record& record = records_[t];
     const Link beyond = record.links[k];
@@ -72,7 +72,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
     }
   }
   const double x = tile_x(p), y = tile_y(p);
-  // Depth first, the next side counter-clockwise on top: the sides come out in order.
+  // Depth first with the next side counter-clockwise on top, so that sides are found in order.
   for (unsigned k = 3; k-- > 0;) stack_.push_back(t << 3 | k);
   while (!stack_.empty()) {
     const Link at = stack_.back();
@@ -97,7 +97,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
 }
 
 std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
-  // On the border the side that p lies on opens the fan: its ends are the first and the last spoke.
+  // If p lies on the border, that side opens the fan: its ends are the first and the last spoke.
   const auto border = std::find_if(sides_.begin(), sides_.end(), [p](const Cavity::Side& side) {
     return side.beyond == kBorder && orient(side.from, side.to, p) == 0;
   });
@@ -131,7 +131,7 @@ std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
 }
 
 TileMesh::Id TileMesh::locate(TilePoint p, Id hint) const {
-  // From a varying first edge: with constraints a fixed order could run in circles.
+  // The first edge varies: with constraints a fixed order could cycle.
   std::uint32_t sequence = 12345;
   Link entered = kBorder;
   for (Id t = hint;;) {

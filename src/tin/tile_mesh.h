@@ -1,10 +1,9 @@
 // The workbench of one tile: a constrained Delaunay triangulation that grows by cavities instead of flips.
 //
-// A triangle is 32 bytes, two to a cache line, and holds all that insertion reads: corners as points, links, and a word
-// that belongs to the owner (its candidate). There is no array of vertices: a vertex is its point. Each insertion finds
-// the cavity of the point (the triangles whose circle holds it, up to constrained edges), then writes every new
-// triangle once; Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular
-// ties.
+// A triangle has 32 bytes, two to a cache line, with all that insertion reads: corners as points, links, and a word for
+// the owner (its candidate). There is no array of vertices: a vertex is its point. Each insertion finds the cavity of
+// the point (the triangles whose circumcircle contains it, up to constrained edges), then writes every new triangle
+// once. Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular ties.
 #pragma once
 
 #include <array>
@@ -28,7 +27,7 @@ class TileMesh {
   struct alignas(32) Record {
     std::array<TilePoint, 3> corners;  // positive orientation
     std::array<Link, 3> links;         // links beyond edge k
-    std::int64_t key;                  // the owner's, at least 0; kOutside: not part of the domain
+    std::int64_t key;                  // for the owner, at least 0; kOutside: not part of the domain
   };
   static_assert(sizeof(Record) == 32);
   static constexpr std::int64_t kOutside = -1;
@@ -37,9 +36,9 @@ class TileMesh {
   static constexpr unsigned edge_of(Link link) { return link & 3; }
   static constexpr bool is_constrained(Link link) { return link != kBorder && (link & 4) != 0; }
 
-  /// The rectangle as two triangles, diagonal as in Triangulation. Keeps the memory of what was there before.
+  /// The rectangle as two triangles, diagonal as in Triangulation. Reuses the memory.
   void reset(std::int32_t cols, std::int32_t rows);
-  /// A triangulation of the same rectangle, its constraints and its outside; keys are 0.
+  /// Copies a triangulation of the same rectangle, with its constraints and outside triangles; keys are 0.
   void assign(const Triangulation& tin);
 
   std::size_t triangle_count() const { return records_.size(); }
@@ -49,26 +48,25 @@ class TileMesh {
   bool is_outside(Id t) const { return records_[t].key < 0; }
 
   /// The effect of inserting p: the triangles it removes, and those beyond them. Valid until the next call. REQUIRES: p
-  /// in the closed triangle t, no corner of it.
+  /// in the closed triangle t, but not a corner of it.
   struct Cavity {
-    std::span<const Id> removed;  ///< t first
+    std::span<const Id> removed;  ///< begins with t
     struct Side {
       TilePoint from, to;  ///< the cavity lies to the left
       Link beyond;
-      bool outside;  ///< for the removed triangle that the side belonged to
+      bool outside;  ///< state of the removed triangle at this side
     };
     std::span<const Side> sides;  ///< counter-clockwise around p
   };
   Cavity find_cavity(Id t, TilePoint p);
 
-  /// Replaces the cavity that find_cavity(t, p) found last by a fan around p; returns the new triangles, their keys 0
-  /// or kOutside. Removed ids are used again. Constraints and outsides are handed on.
+  /// Replaces the cavity of the last find_cavity(t, p) by a fan around p; returns the new triangles, with keys 0 or
+  /// kOutside. Reuses removed ids. Constraints and outside marks are inherited.
   std::span<const Id> fill_cavity(TilePoint p);
 
   /// Walks from `hint` to the triangle that holds p (closed).
   Id locate(TilePoint p, Id hint) const;
-  /// Inserts p wherever it lies; `hint` is any triangle. Returns one of the new triangles; where p is a vertex, one at
-  /// p.
+  /// Inserts p anywhere; `hint` is any triangle. Returns one of the new triangles, or one at p if p is a vertex.
   Id insert(TilePoint p, Id hint);
 
  private:

@@ -77,14 +77,14 @@ Triangulation::Location Triangulation::locate_in(Point p, Triangle t) const {
     if (orient(points_[corners_[h]], points_[corners_[next(h)]], p) == 0) on_edge = h;
   }
   if (on_edge == kNone) return {Location::Kind::kInside, 3 * t};
-  // The lower half-edge, so that the result does not depend on the side from which the point was found.
+  // The lower half-edge, so that the result does not depend on the side of the search.
   const HalfEdge other = twins_[on_edge];
   return {Location::Kind::kOnEdge, other != kNone && other < on_edge ? other : on_edge};
 }
 
 Triangulation::Location Triangulation::locate(Point p, Triangle hint) const {
-  // The walk tests the edges of each triangle from a varying first edge: with constraints a fixed order could run in
-  // circles. The variation is a fixed sequence, not a random one.
+  // The walk tests the edges of each triangle from a varying first edge: with constraints a fixed order could cycle.
+  // The variation is a fixed sequence, not random.
   std::uint32_t sequence = 12345;
   HalfEdge entered = kNone;
   for (Triangle t = hint;;) {

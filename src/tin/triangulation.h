@@ -17,31 +17,30 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Triangulation;
 
-/// Decides about edges in the place of the Delaunay property.
+/// Decides about edges instead of the Delaunay property.
 class FlipRule {
  public:
   virtual ~FlipRule() = default;
-  /// True if the diagonal of the quadrilateral around h shall change. h = a→b lies in (a, b, c), its twin in (b, a, d);
-  /// it is neither constrained nor on the border. After a flip triangle h / 3 is (c, d, b), its neighbour (d, c, a).
-  /// REQUIRES of the answer: true only where both of these are positive.
+  /// True if the diagonal h should be flipped. h = a→b lies in (a, b, c), its twin in (b, a, d). It is neither
+  /// constrained nor on the border. After a flip triangle h / 3 is (c, d, b), its neighbour (d, c, a). May be true only
+  /// if both new triangles are positive.
   virtual bool should_flip(const Triangulation& tin, HalfEdge h) = 0;
 };
 
 /// Flat arrays, 32-bit ids; half-edge 3t + k runs from corner k of triangle t to corner k + 1, all triangles positive
-/// (orient() > 0). The triangulation always covers the rectangle that it was made with. It knows points and
-/// constraints, no heights: what an edge or a triangle means is the business of those who ask.
+/// (orient() > 0). The triangulation always covers its initial rectangle. It has points and constraints but no heights;
+/// callers give edges and triangles their meaning.
 ///
-/// Constrained edges are never flipped; every other edge between two triangles is locally Delaunay (no
-/// corner strictly inside the neighbour's circle; cocircular ties keep the edge that is there), unless points were
-/// inserted under a rule of their own. No recursion, no
-/// tolerance, no randomness: the same insertions in the same order give the same arrays.
+/// Constrained edges are never flipped. Every other edge between two triangles is locally Delaunay (no corner strictly
+/// inside the neighbour's circle; cocircular ties keep the present edge), unless points were inserted under another
+/// rule. No recursion, no tolerance, no randomness: the same insertions in the same order give the same arrays.
 ///
-/// Triangle slots are reused: inserting a point changes the triangles around it and no others; at most two (on an
-/// interior edge or inside a triangle) ids are new, and they are the highest.
+/// Triangle slots are reused: inserting a point changes only the triangles around it and adds at most two ids (on an
+/// interior edge or inside a triangle), the highest.
 class Triangulation {
  public:
-  /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, the diagonal from the last
-  /// row's first sample to the first row's last: from south-west to north-east, as in the paper's program.
+  /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, with the diagonal from south-west to north-east
+  /// (from the last row's first sample to the first row's last), as in the paper's program.
   /// REQUIRES: cols, rows in 2 … kMaxCoordinate + 1.
   Triangulation(std::int32_t cols, std::int32_t rows);
 
@@ -69,7 +68,7 @@ class Triangulation {
   static HalfEdge previous(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
   bool is_constrained(HalfEdge h) const { return (flags_[h / 3] >> (h % 3)) & 1; }
-  /// Triangles marked outside are not part of the domain. Insertion hands the mark on.
+  /// Triangles marked outside are not part of the domain. Insertion preserves the mark.
   bool is_outside(Triangle t) const { return (flags_[t] & kOutside) != 0; }
   void set_outside(Triangle t, bool outside);
 
@@ -77,30 +76,30 @@ class Triangulation {
   struct Location {
     enum class Kind { kInside, kOnEdge, kOnVertex } kind = Kind::kInside;
     HalfEdge edge = 0;  ///< kInside: any half-edge of the triangle; kOnEdge: the edge (its lower half-edge); kOnVertex:
-                        ///< starts there
+                        ///< an edge that starts there
   };
   /// Walks from `hint` (any triangle) to the point. REQUIRES: p in the rectangle. Cost: expected O(√triangles), O(1)
   /// near the hint.
   Location locate(Point p, Triangle hint) const;
-  /// The same where t is known to contain p (closed).
+  /// Like locate(), for t known to contain p (closed).
   Location locate_in(Point p, Triangle t) const;
 
-  /// Inserts p and restores the Delaunay property, or what `rule` holds for one: it is asked about edges that face the
-  /// new vertex, and each flip adds a spoke to it, so the questions end. Returns the vertex that is there. An edge's
-  /// constraint holds on both halves; p may lie off it while the four triangles are positive. Cost: expected O(1).
+  /// Inserts p and restores the Delaunay property, or that of `rule`, which decides about edges opposite to the new
+  /// vertex; each flip adds a spoke, so this terminates. Returns the vertex at p. Both halves of a constrained edge
+  /// stay constrained; p may lie off it if all four triangles are positive. Cost: expected O(1).
   Vertex insert(Point p, Location location, FlipRule* rule = nullptr);
 
-  /// Asks the rule about the edges of the list, and again about the four edges around each one that it flips, until it
-  /// wants no more or has flipped `most`. Empties the list.
+  /// Applies the rule to the listed edges, and again to the four edges around each flip, until nothing flips or `most`
+  /// edges were flipped. Empties the list.
   void improve(std::vector<HalfEdge>& edges, FlipRule& rule, std::size_t most);
 
-  /// Multiplies all coordinates, so that points find room between those there are. REQUIRES: none comes to lie beyond
-  /// kMaxCoordinate. Edges between cocircular points stay.
+  /// Multiplies all coordinates to make room for points in between. REQUIRES: no coordinate exceeds kMaxCoordinate
+  /// afterwards. Edges between cocircular points do not change.
   void scale(std::int32_t factor) {
     for (Point& p : points_) p = {p.x * factor, p.y * factor};
   }
 
-  /// Triangles with v as a corner, in cyclic order (from border to border where v lies on the rectangle's border).
+  /// Triangles with v as a corner, in cyclic order (from border to border for v on the rectangle's border).
   void star(Vertex v, std::vector<Triangle>& triangles) const;
 
   /// Makes the segment between two vertices a chain of constrained edges; vertices on the segment become part of the
@@ -113,10 +112,9 @@ class Triangulation {
   /// A triangle at the vertex that was inserted last: a good hint for locate().
   Triangle last_touched() const { return last_; }
 
-  /// Give memory back. Without links, asking for twins or inserting is not allowed; without triangles only vertices
-  /// remain.
+  /// Release memory. Without links, twins and insertion are unavailable; without triangles only vertices remain.
   void drop_links() { twins_.release(); }
-  /// The corners of the triangles that are not outside, 3 each; only vertices are left. REQUIRES: no links.
+  /// Returns the corners of all inside triangles, 3 each, and keeps only vertices. REQUIRES: no links.
   Array<Vertex> take_corners();
 
   /// The half-edge from a to b, kNone if they are not neighbours. Cost: a walk to a, O(1) if it was touched last.
@@ -128,8 +126,8 @@ class Triangulation {
 
   Triangulation() = default;
 
-  /// The elements that a segment meets on its way from a vertex: the edges it crosses (each from its right end to its
-  /// left end), then the vertex it comes to first.
+  /// The path of a segment from a vertex: the edges it crosses (each from its right end to its left end), then the
+  /// first vertex it reaches.
   struct Passage {
     std::vector<HalfEdge> crossed;
     Vertex reached = kNone;
@@ -138,7 +136,7 @@ class Triangulation {
   Triangle new_triangle();
   void set_triangle(Triangle t, Vertex a, Vertex b, Vertex c, bool outside);
   void link(HalfEdge h, HalfEdge g);
-  /// Gives h the neighbour and the constraint of an edge that is being replaced.
+  /// The neighbour and constraint of an edge that is being replaced.
   struct Side {
     HalfEdge twin;
     bool constrained;

@@ -1,5 +1,5 @@
-/* The C library as a caller meets it: statuses and sentences, structs of earlier callers, null pointers, cancellation,
- * and the bytes of the program. Usage: door DEM PROGRAMS_GLB PROGRAMS_OBJ OUT. */
+/* The C library for its callers: statuses and messages, structs of earlier callers, null pointers, cancellation, and
+ * the bytes of the program. Usage: door DEM PROGRAMS_GLB PROGRAMS_OBJ OUT. */
 #include <math.h>
 #include <scarp_c.h>
 #include <stddef.h>
@@ -60,7 +60,7 @@ static void try_field(void) {
   EXPECT(fabs(scarp_mesh_positions_f32(mesh)[1] - scarp_mesh_positions(mesh)[1]) < 1e-3);
   EXPECT(scarp_mesh_normals(mesh) == NULL);
 
-  /* By name instead of by the struct, and with arrays of other threads counts: the same bytes. */
+  /* By name instead of by the struct, and with arrays on other numbers of threads: the same bytes. */
   scarp_options named = make_options(NAN);
   EXPECT(scarp_options_set(&named, "max_error", "3") == SCARP_OK);
   EXPECT(scarp_options_set(&named, "--num-threads", "1") == SCARP_OK);
@@ -74,7 +74,7 @@ static void try_field(void) {
   scarp_options_clear(&named);
   scarp_mesh_free(again);
 
-  /* An earlier caller, whose structs end sooner: what lies behind is not read. */
+  /* An earlier caller with shorter structs: bytes after them are not read. */
   scarp_options old = make_options(3);
   memset((char*)&old + offsetof(scarp_options, mask), 0x5a, sizeof old - offsetof(scarp_options, mask));
   old.struct_size = (uint32_t)offsetof(scarp_options, mask);
@@ -233,8 +233,7 @@ static void try_errors(void) {
   scarp_tiles_free(NULL);
 }
 
-/* Numbers that no memory can hold, and structs that were not made. */
-/* Structs that were not initialised. */
+/* Numbers too large for any memory, and structs that were not initialised. */
 static void try_unwritten(void) {
   scarp_mesh* mesh = NULL;
   scarp_field field = make_field();
@@ -366,7 +365,7 @@ static void try_lies(void) {
 }
 
 #ifdef IS_NEWEST
-/* A mesh as bytes and back, and words of the caller's own. */
+/* A mesh as bytes and back, and option names of the caller. */
 static void try_newest(void) {
   scarp_field field = make_field();
   field.unit = "ft";
@@ -484,7 +483,7 @@ static void try_points(void) {
   EXPECT(scarp_simplify_points(&points, &options, &mesh) == SCARP_INPUT);
 }
 
-/* 1 if the file holds these bytes. */
+/* 1 if the file has these bytes. */
 static int holds(const char* path, const scarp_bytes* bytes) {
   FILE* file = fopen(path, "rb");
   if (file == NULL) return 0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# CesiumJS in a browser: heights of both formats within the bound, the sag of a flat ocean, poles, the antimeridian, a plain
-# tileset, and one with an image on it; no sky below the horizon. SCARP_SHOTS=FOLDER keeps what it draws.
+# CesiumJS in a browser: heights of both formats within the bound, the sag of a flat ocean, poles, the antimeridian, a
+# plain tileset, and one with an image; no sky below the horizon. SCARP_SHOTS=FOLDER keeps the pictures.
 source "$(dirname "$0")/../program/lib.sh"
 need python3 gdal_translate node chromium
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
@@ -9,7 +9,7 @@ mkdir -p site "$shots"
 ln -s "$js/node_modules/cesium/Build/Cesium" site/cesium
 cp "$js/clients.html" site/
 
-# A whole planet that is smooth everywhere, so that a cliff or a spike at a pole or at 180 degrees is a fault.
+# A whole planet that is smooth everywhere: a cliff or spike at a pole or at 180 degrees is a fault.
 cat > planet.py << 'E2'
 import math
 def height(longitude, latitude):
@@ -24,7 +24,7 @@ for row in range(360):
     print(*(f"{height(-179.75 + 0.5 * column, 89.75 - 0.5 * row):.2f}" for column in range(720)))
 E2
 succeeds gdal_translate -q -ot Float32 -a_srs EPSG:4979 planet.asc planet.tif
-# Samples that lie on the nodes of level 11: nothing is interpolated, so the bounds at nodes hold for them.
+# Samples on the nodes of level 11: nothing is interpolated, so the bounds at nodes hold for them.
 python3 - > corners << 'E2'
 step = 180 / 2 ** 18
 west, north = round((11 + 180) / step) * step - 180, 90 - round((90 - 45) / step) * step
@@ -40,18 +40,18 @@ for format in qm 3dtiles; do
   succeeds "$scarp" tile land.tif "site/land.$format" --of "$format" --report "land.$format.json" -q
 done
 succeeds "$scarp" tile date.tif site/date.qm -q
-# The grid of web maps, whose tiles end at other latitudes: clients must decode what was judged.
+# The grid of web maps, whose tiles end at other latitudes: clients must decode the judged heights.
 succeeds "$scarp" tile planet.tif site/planet.web --grid mercator -e 20 --report planet.web.json -q
 python3 - > nodes << 'E2'
 import math
 from planet import height
-# Nodes of level 3, none on an edge of a tile. Cubic interpolation between half degrees is within a millimetre there.
+# Nodes of level 3, none on an edge of a tile. Between half degrees cubic interpolation is exact to a millimetre.
 for row in range(3, 1023, 4):
     latitude = math.degrees(math.atan(math.sinh(math.pi * (1 - row / 512))))
     longitude = -180 + 360 * ((row * 37 % 1024 | 1) / 1024)
     print(longitude, latitude, height(longitude, latitude))
 E2
-# An image that is red in the west and blue in the east, with squares that are darker.
+# An image, red in the west and blue in the east, with darker squares.
 make_image halves.tif '(200 if col < 201 else 30) * (1 if (col // 20 + row // 20) % 2 else 0.7)' '30' '(30 if col < 201 else 200) * (1 if (col // 20 + row // 20) % 2 else 0.7)'
 succeeds gdal_translate -q -a_srs EPSG:4326 -a_ullr "$west" "$north" "$east" "$south" halves.tif image.tif
 succeeds "$scarp" tile land.tif site/draped.3dtiles --of 3dtiles --drape image.tif -q
@@ -92,24 +92,24 @@ def drawn(answer, whole=True):
 
 
 for form in ("qm", "3dtiles"):
-    # Samples that are nodes. GLBs are bounded in space, where quantized-mesh is at nodes; the browser's numbers are rounded.
+    # Samples that are nodes. GLBs are bounded in space, quantized-mesh at nodes; the browser's numbers are rounded.
     for z in (9, 10, 11):
         bound = levels(f"land.{form}")[z]["node_error" if form == "qm" else "bound"] * 1.001 + 0.01
         job(lambda answer, bound=bound: near(answer["heights"], [place[2] for place in places], bound), kind="sample", of=form,
             url=f"land.{form}", level=z, places=places)
 
-    # The flat ocean, which sampling sees as flat: rays do not. Seen from where the level is the finest that is drawn.
+    # The flat ocean, which sampling sees as flat but rays do not. Seen from where the level is the finest drawn.
     for z, distance in ((0, 6e7), (1, 1.2e7), (3, 3e6)):
         def sag(answer, z=z, form=form):
             seen = [int(level) for level in drawn(answer, whole=False)["drawn"]]
             assert max(seen) == z, answer["drawn"]
-            # It is there, or nothing would have been tested.
+            # The sag exists, or nothing would be tested.
             assert min(answer["picked"]) < -levels(f"land.{form}")[z]["asked"] / 20, min(answer["picked"])
             return near(answer["picked"], [0] * len(answer["picked"]), max(levels(f"land.{form}")[k]["bound"] for k in seen))
         job(sag, kind="globe", of=form, url=f"land.{form}", pixels=2, **{"from": [8, 36, distance], "to": [8, 36, 0]},
             picks=[[8 + 1.3 * x, 36 + 1.3 * y] for x in range(-3, 4) for y in range(-3, 4)])
 
-    # Both poles and the antimeridian. Places exactly on a border lie in no tile for the client's single precision.
+    # Both poles and the antimeridian. With the client's single precision, places exactly on a border lie in no tile.
     around = [[longitude + 3, 90 - away] for longitude in range(-180, 180, 30) for away in (0.01, 0.1, 1, 5)]
     across = [[side * (180 - away), latitude] for latitude in range(-4, 15, 3) for away in (0.01, 0.1, 1) for side in (-1, 1)]
     for name, middle, picks in (("north", [0, 90], around), ("south", [0, -90], [[x, -y] for x, y in around]),
@@ -118,11 +118,11 @@ for form in ("qm", "3dtiles"):
             assert set(drawn(answer)["drawn"]) <= {"1", "2"}, answer["drawn"]
             bound = max(level["bound"] for level in levels(f"planet.{form}")[1:])
             return near(answer["picked"], [height(*place) for place in picks], bound)
-        # At 3 pixels nothing is drawn that CesiumJS makes of a level above.
+        # At 3 pixels CesiumJS draws nothing derived from a level above.
         job(smooth, kind="globe", of=form, url=f"planet.{form}", pixels=3, ramp=[-6000, 6000], picks=picks,
             shot=f"{name}_{form}", **{"from": [*middle, 3.5e6], "to": [*middle, 0]})
 
-# Web Mercator: at nodes, level by level, near the ends of the grid too; then around the antimeridian and the north.
+# Web Mercator: at nodes level by level, also near the ends of the grid; then around the antimeridian and the north.
 nodes = [list(map(float, line.split())) for line in open("nodes")]
 for z in (1, 2, 3):
     job(lambda answer, bound=levels("planet.web")[z]["node_error"] * 1.001 + 0.1: near(answer["heights"], [place[2] for place in nodes], bound),
@@ -155,7 +155,7 @@ def tileset(answer, most):
     return answer
 
 
-# From where the whole planet is a ball before the background, and near.
+# From a distance where the whole planet is a ball before the background, and from near.
 job(lambda answer: tileset(answer, 480 * 320 * 9 // 10), kind="tileset", url="planet.3dtiles", pixels=2, shot="tileset_planet",
     **{"from": [180, 20, 3e7], "to": [180, 20, 0]})
 middle = places[0][:2]
@@ -169,7 +169,7 @@ def closed(answer):
     return f"{answer['slits']} pixels of sky below the horizon"
 
 
-# Shown as terrain of both formats and as a plain tileset, along the ground.
+# Seen along the ground, as terrain of both formats and as a plain tileset.
 centre = [(a + b) / 2 for a, b in zip(rows[0][:2], rows[-1][:2])]
 for number, (away, high) in enumerate(((0.4, 12000), (0.3, 15000))):
     for form, words in (("qm", {"kind": "globe", "of": "qm"}), ("3dtiles", {"kind": "globe", "of": "3dtiles"}), ("3dtiles", {"kind": "tileset"})):

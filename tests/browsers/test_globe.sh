@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# The page of make globe in a browser: CesiumJS sees heights within the bounds of three levels.
+# The page of make globe in a browser: heights in CesiumJS are within the bounds of three levels.
 source "$(dirname "$0")/../program/lib.sh"
 need python3 gdal_translate node chromium
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
 
-# Samples that lie on the nodes of level 11: nothing is interpolated, so the bounds at nodes hold for them.
+# Samples on the nodes of level 11: nothing is interpolated, so the bounds at nodes hold for them.
 python3 - > corners << 'E2'
 step = 180 / 2 ** 18
 west, north = round((11 + 180) / step) * step - 180, 90 - round((90 - 45) / step) * step
@@ -37,7 +37,7 @@ assert "proven" in judged["says"], judged["says"]
 levels = {int(z): error for z, error in judged["levels"].items()}
 assert {9, 10, 11} <= set(levels), levels
 for z, error in levels.items():
-    # The browser's numbers are rounded, and points are sought by longitude and latitude.
+    # The browser's numbers are rounded, and points are found by longitude and latitude.
     assert error <= report["levels"][z]["node_error"] * 1.001 + 0.01, (z, error, report["levels"][z])
 assert abs(judged["picked"] - judged["expected"]) <= report["levels"][9]["bound"], judged
 print({z: (round(levels[z], 2), round(report["levels"][z]["node_error"], 2)) for z in (9, 10, 11)})

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The page of docs/guide/globe.md in a browser, as it stands, next to tiles that scarp serve serves; its lines for 3D
-# Tiles and nginx, and the lines in three.js of globe.md and games.md.
+# The unchanged page of docs/guide/globe.md in a browser, with tiles from scarp serve; its lines for 3D Tiles and nginx,
+# and the three.js lines of globe.md and games.md.
 source "$(dirname "$0")/../program/lib.sh"
 need python3 gdallocationinfo node chromium
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
@@ -9,7 +9,7 @@ mkdir -p "$shots"
 succeeds "$scarp" tile "$dem" globe --vertical egm96 -q --report r.json
 trap 'kill $servers 2> /dev/null; rm -rf "$root"' EXIT
 servers=
-# serve OUTPUT COMMAND...: a server whose address is the last word of a line of OUTPUT.
+# serve OUTPUT COMMAND...: a server whose address ends a line of OUTPUT.
 serve() {
   local output=$1
   shift
@@ -50,7 +50,7 @@ for answer in answers:
     assert abs(answer["height"] - (float(sys.argv[1]) - 31)) <= levels[8]["bound"], (answer, sys.argv)
 E2
 
-# Another server: the lines for nginx are understood.
+# Another server accepts the lines for nginx.
 if command -v nginx > /dev/null || [ -x /usr/sbin/nginx ]; then
   {
     printf 'pid %s/pid;\nerror_log stderr;\nevents {}\nhttp {\nserver {\nlisten unix:%s/socket;\nroot %s/globe;\n' "$PWD" "$PWD" "$PWD"
@@ -63,7 +63,7 @@ else
   echo "left out: nginx (not installed)"
 fi
 
-# three.js: a GLB, also a compressed one, and a local set of tiles.
+# three.js: a GLB, also compressed, and a local tileset.
 npm_judges three 3d-tiles-renderer esbuild || skip "npm could not fetch three.js"
 mkdir three
 cp "$js/guide_scene.mjs" three/

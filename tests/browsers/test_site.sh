@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The static site: every link and picture is there, and a browser opens its pages from disk without a request elsewhere.
+# The static site: all links and pictures exist, and a browser opens its pages from disk without external requests.
 source "$(dirname "$0")/../program/lib.sh"
 need python3 node npm
 [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ] || skip "needs the engine of make npm"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# view: the page and its refusals; then a real browser opens it from disk: the numbers of measure, no request, no error of
-# the console, axe-core, damaged files, a browser without WebAssembly. SCARP_SHOTS=FOLDER keeps the pictures.
+# view: the page and its refusals. Then a real browser opens it from disk: the numbers of measure, no request, no
+# console error, axe-core, damaged files, a browser without WebAssembly. SCARP_SHOTS=FOLDER keeps the pictures.
 source "$(dirname "$0")/../program/lib.sh"
 need python3 node npm
 "$SCARP_SOURCE/tools/build_viewer.sh" "$SCARP_BUILD" > build.log 2>&1 || skip "the viewer's page cannot be built: $(tail -1 build.log)"
@@ -16,7 +16,7 @@ succeeds "$scarp" generate smooth 2 2 two.tif -q
 succeeds "$scarp" simplify two.tif two.glb -e 0 -q
 succeeds "$scarp" simplify "$dem" bent.glb -e 20 --crs EPSG:32616 -q
 
-# Under an image: red in the north-west, green, blue, yellow in the south-east.
+# An image over it: red in the north-west, green, blue, yellow in the south-east.
 python3 - << 'E2'
 import struct, zlib
 width, height = 403, 344
@@ -52,7 +52,7 @@ PATH=$PWD/tools:$PATH succeeds "$scarp" view plain.glb -o opened.html --open
 printf '#!/bin/sh\nexit 3\n' > tools/xdg-open
 PATH=$PWD/tools:$PATH try "$scarp" view plain.glb -o opened.html --open --overwrite
 [ "$code" = 4 ] && grep -q 'open it in a browser' "$logs/err" || fail "a browser that does not open is not told"
-# A raster elsewhere: measure's own sentence, and no page.
+# A raster elsewhere: measure's message, and no page.
 succeeds gdal_translate -q -a_ullr 10 50 10.5 49.6 "$dem" elsewhere.tif
 try "$scarp" measure elsewhere.tif plain.glb
 [ "$code" = 3 ] && cp "$logs/err" measured.txt || fail "measure takes a raster elsewhere"
@@ -62,7 +62,7 @@ refuses 1 '(--band), and no RASTER' "$scarp" view plain.glb --band 2 -o x.html
 refuses 2 'no_such.glb' "$scarp" view no_such.glb
 refuses 2 'no_such.tif' "$scarp" view plain.glb no_such.tif -o x.html
 refuses 1 '--html cannot be combined with --solid' "$scarp" simplify "$dem" x.stl -e 20 --solid size=100mm --html x.html
-# Sets of tiles: the finest levels of a folder, or of one file.
+# Tilesets: the finest levels of a folder or file.
 succeeds "$scarp" tile "$dem" set --vertical egm96 -e 20 -q
 succeeds "$scarp" tile "$dem" set.3tz --of 3dtiles --vertical egm96 -e 20 -q
 succeeds "$scarp" view set/
@@ -72,7 +72,7 @@ succeeds "$scarp" view set.3tz -o archive.html
 succeeds "$scarp" generate fractal 150 150 no_place.tif -q
 succeeds "$scarp" tile no_place.tif plane --grid local --cell-size 90 -e 20 -q
 succeeds "$scarp" view plane
-# Under the same four colours, which do not cover tiles at the border.
+# With the same four colours, which do not cover tiles at the border.
 make_image quarters.tif '220 if (col < 202) == (row < 172) else 40' '200 if col >= 202 else 40' '230 if col < 202 and row >= 172 else 40'
 succeeds "$scarp" tile "$dem" draped --of 3dtiles --vertical egm96 --zoom 10 --drape quarters.tif --drape-format jpeg -q
 succeeds "$scarp" view draped
@@ -92,11 +92,11 @@ grep -q "the finest level of the page is 10 of 11.* 'scarp serve damaged'" "$log
 rm "$tile"
 succeeds "$scarp" view damaged -o thin.html
 grep -q "damaged is not whole: .* is announced, but missing; 'scarp tile check damaged'" "$logs/err" || fail "a missing tile is not told: $(cat "$logs/err")"
-# Elsewhere, without its page: a sentence that explains how to build it.
+# A program elsewhere without the page: the message explains how to build it.
 mkdir -p other/bin
 cp "$scarp" other/bin/
 refuses 2 "'make viewer'" other/bin/scarp view plain.glb -o x.html
-# Not more than text: what a name holds begins no script.
+# Only text: the contents of a name start no script.
 cp plain.glb '<!--<script>.glb'
 succeeds "$scarp" view '<!--<script>.glb' -o name.html
 if grep -qF '<!--<script>' name.html; then fail "a name begins a script"; fi
@@ -120,7 +120,7 @@ else
   echo "left out: Mesh.view() of Python (needs the C library, numpy and rasterio)"
 fi
 
-# With the engine of the npm package, where it was built.
+# With the engine of the npm package, if it was built.
 if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   succeeds node "$SCARP_BUILD/viewer/build.mjs" other/share/scarp/viewer.html "$SCARP_BUILD-wasm/npm"
   grep -q 'with the engine' "$logs/out" || fail "the page has no engine"
@@ -133,8 +133,8 @@ if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
   head -c 3000 "$dem" > cut.tif
   succeeds gdal_translate -q -ot Float32 -srcwin 0 0 60 50 -scale 0 10000 7 7 -a_nodata 7 "$dem" void.tif
   succeeds gdal_translate -q -srcwin 0 0 1 150 "$dem" column.tif
-  # A name that a shell must not read; samples without a cell; a colour picture; heights in feet; more samples than a
-  # page accepts.
+  # A name that a shell must not interpret; samples without a cell; a colour picture; heights in feet; more samples than
+  # a page accepts.
   succeeds gdal_translate -q -srcwin 0 0 60 50 "$dem" "; touch x \$(touch y) 'q' .tif"
   printf 'ncols 9\nnrows 8\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9\n' > stray.asc
   for row in 0 1 2 3 4 5 6 7; do
@@ -182,7 +182,7 @@ done
 succeeds "$scarp" measure "$dem" levels_lod2.glb --json
 cp "$logs/out" level2.json
 
-# Damaged files to drop: cut off, no GLB, a vertex that is NaN, a triangle that names no vertex.
+# Damaged files to drop: truncated, not a GLB, a vertex that is NaN, a triangle with an invalid vertex.
 head -c 4000 plain.glb > cut.glb
 head -c 4000 "$dem" > other.glb
 cp "$dem" raster.xyz

@@ -1,5 +1,4 @@
-# The questions to the browser about each page of test_view.sh, and what must be true of its answers: view_pages.py
-# [jobs].
+# The queries to the browser about each page of test_view.sh, and checks of its answers: view_pages.py [jobs].
 import base64, functools, json, os, subprocess, sys
 READ = "[document.getElementById('readout').innerText, document.title]"
 JUDGED = "scarpPage.shown.every(terrain => terrain.isJudged)"
@@ -41,7 +40,7 @@ def plain(values):
 
 
 CANVAS = "document.getElementById('canvas').toDataURL()"
-# Ahead is north there; one step to the right and two back end south-east of the middle, as far from it as before.
+# Ahead is north there: one step right and two back end south-east of the middle, at the same distance.
 MOVED = """(first => {
   const press = key => dispatchEvent(new KeyboardEvent('keydown', {key, shiftKey: true})), far = scarpPage.scene.orbit().distance;
   for (const key of ['ArrowRight', 'ArrowDown', 'ArrowDown']) press(key);
@@ -81,7 +80,7 @@ def unmoved(values):
     assert exaggeration == 1 and sun == [315, 40] and shown == 1 and orbit == first, values
 
 
-# A value that is no number in its range does not change the page's first state.
+# A value that is not a number in its range does not change the page's initial state.
 for fragment in ("#view=0,0,0,0,0,0&exaggeration=1,2&azimuth=NaN&altitude=&level=x", "#view=,,,,,&exaggeration=1e300", "#view=1e300,1,1,1,1,1&constructor=1"):
     job(unmoved, "plain.html", [{"until": READY, "read": "[scarpPage.look.exaggeration, Object.values(scarpPage.scene.orbit()).flat().map(x => x.toFixed(4)),"
                                  " Object.values(scarpPage.look.sun), scarpPage.level + 1, (scarpPage.scene.reset(), Object.values(scarpPage.scene.orbit()).flat()"
@@ -95,9 +94,9 @@ job(lambda values: same("packed.json", values[0][0]), "by_simplify.html", [{"unt
 
 def levels(values):
     count, (left, right, top, bottom) = values[0]
-    assert count == 3 and left > 0 and right < 390 and top > 0 and bottom < 780, values[0]  # all of it in sight
+    assert count == 3 and left > 0 and right < 390 and top > 0 and bottom < 780, values[0]  # everything is visible
     same("level2.json", values[2][0])
-    # Starts with the slider at the error of the level if the engine is inside.
+    # With the engine the slider starts at the level's error.
     without_engine, error = values[3]
     assert without_engine or abs(float(error) / json.load(open("level2.json"))["max_error"] - 1) < 0.01, values[3]
 
@@ -121,7 +120,7 @@ def tile_levels(name, values):
     numbers = [int(name.split()[-1]) for name, _ in levels]
     assert numbers == list(range(numbers[0], numbers[0] - len(levels), -1)), levels
     assert "flat map" in notes and "scarp view MESH RASTER" not in notes, notes
-    # The raster is 30 km wide: its heights are above the ellipsoid, 30 m lower here.
+    # The raster is 30 km wide; its heights above the ellipsoid are 30 m lower here.
     assert 15000 < reaches[0] < 60000 and reaches == sorted(reaches), reaches
     assert 980 < values[1] < 1070, values[1]
     assert all(outer > 0 and cracks == 0 for outer, cracks in values[2]), values[2]
@@ -129,7 +128,7 @@ def tile_levels(name, values):
 
 TILES = ("[scarpPage.document.levels.map(l => [l.name, l.triangles]), document.getElementById('notes').textContent,"
          " scarpPage.document.levels.map(l => l.reach)]")
-# Edges of one triangle, but for those around all tiles of a level.
+# Edges of only one triangle, except those around all tiles of a level.
 CRACKS = """scarpPage.document.levels.map(({positions, indices, firsts}) => {
   const used = new Map(), corner = k => firsts[indices[k]], ends = [0, 1].map(c => positions.reduce(([low, high], value, k) => k % 3 === c ? [Math.min(low, value), Math.max(high, value)] : [low, high], [Infinity, -Infinity]));
   const is_outer = (a, b) => [0, 1].some(c => ends[c].some(end => [a, b].every(v => Math.abs(positions[3 * v + c] - end) < 1e-3 * (ends[c][1] - ends[c][0]))));
@@ -154,8 +153,8 @@ for name in ("set", "archive"):
     job(functools.partial(tile_levels, name), f"{name}.html", [
         {"until": READY, "read": TILES, "shot": f"tiles_{name}"}, {"read": TOP}, {"read": CRACKS},
         {"do": COARSE, "until": "scarpPage.level === 2 && !scarpPage.scene.asked", "shot": f"tiles_{name}_coarse"}])
-# Colours as drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and
-# outside it; which parts of the page show the image.
+# Colours drawn in the middle of each quarter of the land, north-west, north-east, south-west, south-east, and outside;
+# and the parts of the page that show the image.
 QUARTERS = """(() => {
   const {scene, shown: [terrain], document: {place}} = scarpPage, land = [0, 1].map(c => terrain.positions.filter((_, k) => k % 3 === c && terrain.positions[k - c + 2] > 100).sort()), picture = document.createElement('canvas'), ratio = scene.canvas.width / scene.canvas.clientWidth;
   scene.draw();
@@ -196,7 +195,7 @@ if os.path.exists("python.html"):
         same("plain.json", values[0][0])
         assert values[-1] is True, "a notice"
 
-    # A page within a page, as notebooks show it; it writes no address a little later.
+    # A page within a page, as in notebooks; it writes no address later.
     job(within, "notebook.html", [
         {"until": "(({contentDocument: page, contentWindow: {scarpPage}}) => page.body && !page.body.classList.contains('empty') && "
                   f"scarpPage?.drawn > 0 && {JUDGED})(document.querySelector('iframe'))",
@@ -219,7 +218,7 @@ def alone(values):
 job(alone, "alone.html", [{"until": READY, "read": READ}])
 
 
-# The map from above of a mesh without an error: as white as the middle of the scale.
+# The map from above of a mesh without error: white like the middle of the scale.
 job(lambda values: values == [[242, 242, 242, 255]] or sys.exit(str(values)), "two.html", [
     {"until": READY}, {"keys": ["e", "w"], "until": "!document.getElementById('map').hidden",
                        "read": "[...document.getElementById('map').getContext('2d').getImageData(0, 0, 1, 1).data]", "shot": "exact"}], axe=True)
@@ -240,7 +239,7 @@ def sentences(values):
                         ("raster.xyz", "no file that this page reads")):
         told = values.pop(0)
         assert name in told and words in told, (name, told)
-    same("packed.json", values[0][0])  # a good file is shown after them, and judged by the same raster
+    same("packed.json", values[0][0])  # then shows a good file, judged by the same raster
     assert values[1] == "", values
 
 
@@ -258,7 +257,7 @@ open("empty.html", "w").write(empty)
 job(lambda values: values[0].index("here"), "empty.html", [{"until": NOTICE, "read": NOTICE}])
 
 
-# The file's normals, compared with those of the triangles: the mean cosine.
+# The file's normals against those of the triangles: the mean cosine.
 NORMALS = """(() => {
   const {terrain, surface: {geometry}} = scarpPage.scene.views[0], given = geometry.attributes.normal.array.slice();
   geometry.computeVertexNormals();
@@ -329,7 +328,7 @@ def ask(*words):
 
 
 def runs(command, page):
-    """The command of the page, as a shell reads it, makes the page's mesh."""
+    """The page's command, run in a shell, makes the page's mesh."""
     if os.path.exists("mesh.glb"):
         os.remove("mesh.glb")
     subprocess.run(["sh", "-ec", command + " -q"], check=True, env={"PATH": os.path.dirname(PROGRAM) + ":" + os.environ["PATH"]}, stderr=subprocess.DEVNULL)
@@ -349,7 +348,7 @@ def live(values):
     assert drag["command"].endswith(" --effort fast --order greedy"), drag
     for page in (drag, one, obj, two):
         runs(page["command"], page)
-    # The label is the bound of the command, to its last digit.
+    # The label equals the command's bound to the last digit.
     assert one["texts"][:3] == ["Download", "", ""] and f" -e {one['texts'][3].split()[0]} " in one["command"], one
     assert obj["command"] == one["command"] and "as GLB" in obj["texts"][2], obj
     assert two["texts"][:3] == ["Download high", "high: ", ""], two
@@ -362,7 +361,7 @@ def restored(values):
 
 REFUSED = (("thin.hgt", "no square"), ("cut.tif", "damaged or cut off"), ("head.tif", "no TIFF file"), ("wrong.xyz", "no file that this page reads"),
            ("broken.png", "no PNG image"), ("cut.png", "damaged or cut off"), ("void.tif", "holds no height"), ("column.tif", "1 x 150"), ("no_tile.png", "no PNG image"))
-# Name, text of the notes, decoding, and true if the program reads the same samples.
+# Name, text of the notes, decoding, and whether the program reads the same samples.
 OFFERED = (("dem.tif", "", "", True), ("N36W085.hgt", "", "", False), ("terrarium.png", "terrarium", "terrarium", True), ("mapbox.png", "mapbox", "mapbox", True),
            ("grey16.png", "Grey levels", "", True), ("interlaced.png", "Grey levels", "", False), ("; touch x $(touch y) 'q' .tif", "", "", True), ("stray.tif", "", "", True), ("terraces.tif", "", "", True), ("colour.tif", "red is taken", "", True),
            ("masked.tif", "", "", True), ("doubles.tif", "", "", True),
@@ -480,13 +479,14 @@ if os.path.exists("live.html"):
         steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
                    "after": "document.getElementById('notice').hidden = true"}]
     job(rasters, "try.html", steps, axe=True)
-    # After drops one after the other the last wins, however slow those before are.
+    # The last of consecutive drops wins, however slow the earlier ones are.
     drop = lambda name, path: {"drop": [{"name": name, "path": os.path.abspath(path)}]}
     job(overtaken, "try.html", [
         {"until": NOTICE, "do": "(load => { window.loads = []; scarpPage.load = files => void loads.push(load(files)); })(scarpPage.load)"},
         drop("dem.tif", "dem.tif"), drop("N36W085.hgt", "N36W085.hgt"),
         {"do": "Promise.all(loads).then(() => [document.title, scarpPage.document.name, " + NOTICE + ", Boolean(scarpPage.live.first?.worker)])"}])
-    # A page that began empty: without a mesh there is nothing to save; its address is for the first file, if that has as many samples.
+    # A page that began empty: without a mesh nothing can be saved. Its address belongs to the first file if that has as
+    # many samples.
     EMPTY = ("[...['save', 'format', 'picture'].map(id => document.getElementById(id).disabled), document.getElementById('notice').classList.contains('error')]")
     fragment = "#errors=1&error=50&both=1&count=1&samples=403,344&view=10,40,90000,0,0,0"
     job(first, "try.html", [
@@ -495,15 +495,15 @@ if os.path.exists("live.html"):
         fragment=fragment)
     job(anew, "try.html", [{"until": NOTICE}, {**drop("N36W085.hgt", "N36W085.hgt"), "until": "scarpPage.drawn > 0", "read": "[scarpPage.look.errors, scarpPage.shown.length, Math.round(scarpPage.scene.orbit().azimuth)]"}],
         fragment=fragment)
-    # The image lies over the engine's meshes, too.
+    # The image also covers the engine's meshes.
     job(image_kept, "image.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'", "read": NOW}, {"read": QUARTERS}])
     job(scaled, "scaled.html", [{"until": READY}, {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'"}, {"do": RELEASE, "until": HIGH}, {"do": COMMAND}])
-    # A worker that ends while it works: a sentence, and the next wish has a new one.
+    # If a worker ends during work: a message, and the next request has a new worker.
     job(killed, "live.html", [
         {"until": READY}, {"do": DRAG % 40 + "; scarpPage.live.quick.worker.dispatchEvent(new ErrorEvent('error', {message: 'out of memory', cancelable: true}))",
                            "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
         {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'", "read": NOW}])
-    # One that ends without an event, as browsers end a worker that uses too much memory: its lock shows it.
+    # A worker that ends without an event, as for excessive memory: its lock reveals it.
     job(ended, "live.html", [
         {"until": READY}, {"do": DRAG % 40, "until": "!document.getElementById('progress').hidden", "read": "document.getElementById('progress').textContent"},
         {"do": DRAG % 20, "until": "scarpPage.shown[0].name === 'greedy'", "read": NOW}], before="const { Blob: Whole } = window; window.Blob = class extends Whole"
@@ -512,7 +512,7 @@ if os.path.exists("live.html"):
     job(refused, "no_wasm.html", [{"until": READY}, {"do": DRAG % 20, "until": "!document.getElementById('progress').hidden",
                                                     "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
 
-# Each load replaces what the last one holds.
+# Each load replaces the contents of the last one.
 job(loads, "image.html", [{"until": READY}, {"do": """(async () => {
   const data = JSON.parse(document.getElementById('scarp-data').textContent), page = scarpPage, memory = page.scene.renderer.info.memory;
   const buffer = Uint8Array.from(atob(data.meshes[0].glb), letter => letter.charCodeAt(0)).buffer, seen = [];

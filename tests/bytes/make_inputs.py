@@ -1,6 +1,6 @@
-"""Writes four rasters and their companions into the working folder, with integers and arithmetic that every machine
-rounds alike: `fault` (the bundled DEM, 16 bits, degrees), `hills` (float32, no georeference), `coast` (float32 with
-nodata, UTM), `town` (16 bits, walls and flats). Raster formats are raw bytes with a header (EHdr, PPM): no library."""
+"""Writes four rasters and their companions into the working folder, in arithmetic that all machines round alike:
+`fault` (the bundled DEM, 16 bits, degrees), `hills` (float32, no georeference), `coast` (float32 with nodata, UTM),
+`town` (16 bits, walls and flats). The raster formats, raw bytes with a header (EHdr, PPM), need no library."""
 import json
 import pathlib
 import shutil

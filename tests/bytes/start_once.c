@@ -1,9 +1,9 @@
-// Preloaded into a program (LD_PRELOAD) it starts once and runs main() for each request, in a copy of the process: to load
-// GDAL's libraries, more than a hundred, needs 38 ms of CPU time, as long as a small mesh.
+// Preloaded into a program (LD_PRELOAD), it starts once and runs main() for each request in a copy of the process.
+// Loading GDAL's libraries, more than a hundred, costs 38 ms of CPU time, as much as a small mesh.
 //
-// A request on standard input: the number of bytes that follow, in 4 bytes; words, each ended by a zero byte, of which the
-// first is the file for messages and the others are main()'s. The answer on standard output: the status of wait(), in 4
-// bytes. The end of the input ends it.
+// A request on standard input: the number of following bytes, in 4 bytes; then words, each ended by a zero byte: the
+// file for messages, and the arguments of main(). The answer on standard output: the status of wait(), in 4 bytes. It
+// ends with the input.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>

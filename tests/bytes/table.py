@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The byte table: what the program writes for each set of options (options.txt) of each raster (make_inputs.py), in
-memory and streamed, as one hash of all files of the run. A run that fails stands there with its exit code.
+"""The byte table: one hash of all output files of a run, for each set of options (options.txt) and each raster
+(make_inputs.py), in memory and streamed. A failed run has its exit code there.
 
 usage: table.py PROGRAM DEM TABLE [--update]     in an empty folder
 
-SCARP_START_ONCE: the library of start_once.c, by which the program starts once a processor instead of once a run.
+SCARP_START_ONCE: the library of start_once.c; with it the program starts once per processor instead of once per run.
 
-Compares with TABLE, or writes it. The program's version, which stands in most files, is excluded from the hash."""
+Compares with TABLE or writes it. The hash excludes the program's version, which most files contain."""
 import concurrent.futures
 import hashlib
 import json
@@ -19,8 +19,8 @@ import sys
 import threading
 import zipfile
 
-# File, height of a step or ridge, and the --memory that has less room than the samples need: `hills` and `coast` stay
-# in their file, `fault` and `town` are kept in 16 bits.
+# File, height of a step or ridge, and a --memory too small for the samples: `hills` and `coast` stay in their file,
+# `fault` and `town` are kept in 16 bits.
 RASTERS = {"fault": ("fault.tif", 80, "72900k"), "hills": ("hills.bil", 200, "72500k"),
            "coast": ("coast.bil", 200, "72500k"), "town": ("town.bil", 8, "72500k")}
 FILES = {"lines": "lines.geojson", "hard": "hard.geojson", "river": "river.geojson", "pond": "pond.geojson", "site": "site.geojson",
@@ -28,7 +28,7 @@ FILES = {"lines": "lines.geojson", "hard": "hard.geojson", "river": "river.geojs
 
 
 def contents(path):
-    """Contents of a file, or of each file in an archive, whose checksums know the version."""
+    """Contents of a file, or of each file in an archive, whose checksums depend on the version."""
     if not zipfile.is_zipfile(path):
         return [(path.name, path.read_bytes())]
     with zipfile.ZipFile(path) as archive:
@@ -44,14 +44,14 @@ def hash_of(folder, version):
 
 
 class Program:
-    """Runs the program with words; a worker has its own."""
+    """Runs the program; one per worker."""
 
     def __init__(self, path):
         self.path, self.preloaded, self.own = path, os.environ.get("SCARP_START_ONCE"), threading.local()
         self.started = []
 
     def run(self, words, messages):
-        """The exit code; what the program prints on standard error is in the file `messages`."""
+        """Returns the exit code; standard error goes to the file `messages`."""
         if not self.preloaded:
             with open(messages, "wb") as file:
                 return subprocess.run([self.path, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file).returncode

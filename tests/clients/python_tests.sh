@@ -1,7 +1,8 @@
 # Source it after lib.sh.
 
-# passes_in PYTHON FOLDER WHEEL SHARE: the tests of tests/python pass in an environment of that Python, which FOLDER becomes, with
-# the wheel; of those with many cases one in SHARE. Without numpy what needs none runs. False where it makes no environment.
+# passes_in PYTHON FOLDER WHEEL SHARE: tests/python pass in that Python with the wheel, in an environment made in
+# FOLDER; tests with many cases run one in SHARE. Without numpy, tests that need it are skipped. False if no environment
+# can be made.
 passes_in() {
   local python=$1 folder=$2 wheel=$3 share=$4 version begin
   version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')

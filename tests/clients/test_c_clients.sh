@@ -1,5 +1,5 @@
 #!/bin/bash
-# The clients of the C library in examples/: each compiles and prints the same lines, where its tools are there.
+# The clients of the C library in examples/: each compiles and prints the same lines, if its tools are installed.
 . "$(dirname "$0")/../program/lib.sh"
 need cc pkg-config python3
 library=$SCARP_BUILD/bindings/c

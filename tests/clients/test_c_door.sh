@@ -1,12 +1,12 @@
 #!/bin/bash
-# The C library (bindings/c): what it exports, a C99 caller, an earlier caller's header, the bytes of the program.
+# The C library (bindings/c): its exports, a C99 caller, an earlier caller's header, the bytes of the program.
 . "$(dirname "$0")/../program/lib.sh"
 need cc nm
 library=$SCARP_BUILD/bindings/c
 [ -e "$library/libscarp_c.so" ] || skip "needs the C library: -DSCARP_BUILD_C=ON"
 export LD_LIBRARY_PATH=$library
 
-# 1. It shows the functions of its header and nothing else.
+# 1. It exports only the functions of its header.
 nm -D --defined-only "$library/libscarp_c.so" | awk '$2 == "T" { sub(/@.*/, "", $3); print $3 }' | sort > shown
 grep -oE '\bscarp_[a-z0-9_]+\(' "$SCARP_SOURCE/bindings/c/scarp_c.h" | tr -d '(' | sort -u |
   grep -vE '^scarp_(progress_fn|options_set)$' > declared
@@ -30,7 +30,7 @@ for header in "$SCARP_SOURCE/bindings/c" old; do
 done
 echo '#include <scarp_c.h>' > twice.cpp
 echo '#include <scarp_c.h>' >> twice.cpp
-# The padding of tiles is written before it is read, and nothing is lost: a client under memcheck prints no error.
+# The padding of tiles is written before it is read, and nothing leaks: memcheck finds no error in a client.
 if command -v valgrind > /dev/null; then
   succeeds cc "$SCARP_SOURCE/tests/abi/door.c" -o door "-I$SCARP_SOURCE/bindings/c" -DIS_NEWEST "${flags[@]}"
   try valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite ./door
@@ -41,7 +41,7 @@ else
 fi
 succeeds c++ -std=c++11 -Wall -Wextra -Werror -fsyntax-only "-I$SCARP_SOURCE/bindings/c" twice.cpp
 
-# 3. The library without GDAL: no GDAL in it, and sentences where it would be needed.
+# 3. The library without GDAL: it does not link GDAL, and prints a message where GDAL is needed.
 alone=$SCARP_BUILD/bindings/python
 if [ -e "$alone/libscarp_c.so" ]; then
   ldd "$alone/libscarp_c.so" | grep -q libgdal && fail "the library without GDAL is linked to it"

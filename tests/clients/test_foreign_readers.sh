@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Programs that are not ours read every format that we write, and count what our report counted: the Khronos glTF
-# validator, assimp, meshio, and admesh for closed solids. A judge that is not installed is named and skipped.
+# Foreign programs read every format that we write and count the same as our report: the Khronos glTF validator, assimp,
+# meshio, and admesh for closed solids. A missing program is named and skipped.
 source "$(dirname "$0")/../program/lib.sh"
 work=$scratch
 judges=0
@@ -26,7 +26,7 @@ solid_vertices=$(number "$work/solid.json" solid vertices)
 solid_triangles=$(number "$work/solid.json" solid triangles)
 echo "open: $open_vertices vertices, $open_triangles triangles; solid: $solid_vertices vertices, $solid_triangles triangles"
 
-# Colours, places in an image and channels: three meshes that differ in what they carry.
+# Colours, uvs and channels: three meshes with different attributes.
 read -r attribute_vertices attribute_triangles < <("$SCARP_BUILD/bin/scarp_attribute_meshes" "$work")
 
 # --- Khronos glTF validator -------------------------------------------------------------------------------------------
@@ -41,7 +41,7 @@ if npm_judges gltf-validator; then
     { cat "$work/validator.txt"; complain "the glTF validator has objections to attributes"; }
   sed 's/^/  /' "$work/validator.txt"
   [ "$(grep -c ': 0 errors, 0 warnings, 0 infos, 0 hints' "$work/validator.txt")" = 3 ] || complain "the glTF validator has remarks on attributes"
-  # A judge that never objects is none: it must notice an accessor that does not exist.
+  # A judge that never objects is useless: it must notice a missing accessor.
   LC_ALL=C sed 's/"POSITION":0/"POSITION":9/' "$work/open.glb" >"$work/bad.glb"
   if node "$js/validate_glb.cjs" "$work/bad.glb" >/dev/null; then complain "the glTF validator accepts a broken file"; fi
 fi
@@ -59,7 +59,7 @@ if command -v assimp >/dev/null; then
       fi
     done
   done
-  # Colours and places in the image are found where we put them: assimp writes what it read as text.
+  # assimp finds colours and uvs where we put them: it writes what it read as text.
   for format in glb obj ply; do
     assimp export "$work/colored.$format" "$work/again.ply" >/dev/null
     for property in red green blue; do
@@ -105,7 +105,7 @@ fi
 # --- admesh: solids are closed and outward ----------------------------------------------------------------------------
 if command -v admesh >/dev/null; then
   judges=$((judges + 1))
-  # before_repair TEXT: the figure of the file as it is
+  # before_repair TEXT: the figure of the unrepaired file
   before_repair() { awk -F: -v text="$1" 'index($0, text) {split($2, n, " "); print n[1]; exit}' "$work/admesh.txt"; }
   admesh "$work/solid.stl" >"$work/admesh.txt"
   same "admesh, facets" "$(before_repair 'Number of facets')" "$solid_triangles"

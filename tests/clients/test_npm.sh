@@ -4,7 +4,7 @@
 source "$(dirname "$0")/../program/lib.sh"
 source "$(dirname "$0")/npm_package.sh"
 
-# Sizes after brotli, as they go over the wire.
+# Sizes after brotli, as transferred.
 for limit in lite:53 scarp:260 full:336; do
   size=$(node -p 'require("node:zlib").brotliCompressSync(require("node:fs").readFileSync(process.argv[1])).length' "node_modules/scarp/${limit%:*}.wasm")
   echo "${limit%:*}.wasm: $((size / 1000)) kB after brotli"
@@ -29,7 +29,7 @@ wide fractal 200 2 500 5
 tall fractal 2 170 500 5
 smallest fractal 2 2 10 1
 RASTERS
-# NAME COLS ROWS ERROR OPTIONS: of the bundled raster, integers but where they are scaled; below the sea, far above it, and flat.
+# NAME COLS ROWS ERROR OPTIONS: from the bundled raster, integers unless scaled; below the sea, far above it, and flat.
 while read -r name cols rows error options; do
   succeeds gdal_translate -q -srcwin $options "$dem" "$name.tif"
   add "$name" "$cols" "$rows" "$error"
@@ -42,7 +42,7 @@ strip 150 3 4 10 300 150 3
 flat 40 30 1 0 0 40 30 -ot Float32 -scale 0 1000 7 7
 coarse 57 49 15 0 0 403 344 -r nearest -outsize 57 49
 CROPS
-# A hole, an island, and a border that is no line.
+# A hole, an island, and a border that is not straight.
 python3 - > voids.asc << 'E2'
 import math
 print("ncols 90\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999")
@@ -58,7 +58,7 @@ succeeds node same.mjs cases
 succeeds node --expose-gc api.mjs
 for part in pools refusals; do succeeds node $part.mjs; done
 
-# Its sentences print numbers as the program's do: by the fewest digits, or as C.
+# Its messages print numbers like the program's: with the fewest digits, or as in C.
 python3 - > numbers.json << 'E2'
 import json, random, struct
 float32 = lambda value: struct.unpack("f", struct.pack("f", value))[0]
@@ -79,7 +79,7 @@ E2
 succeeds node numbers.mjs numbers.json
 holds "$(cat "$logs/out") > 5000" || fail "few numbers were compared"
 
-# The guide's code, from top to bottom; the last block, tiles, has a module of its own.
+# The guide's code, from top to bottom; the last block, tiles, is a separate module.
 if npm_judges three; then
   [ -e node_modules/three ] || ln -s "$js/node_modules/three" node_modules/
   block() { python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/docs/guide/web.md" js "$1"; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The npm package with TypeScript, through bundlers, as a replacement of other packages, and in Chromium, where its meshes are
-# the program's, too.
+# The npm package with TypeScript, through bundlers, as a replacement of other packages, and in Chromium with the
+# program's meshes.
 source "$(dirname "$0")/../program/lib.sh"
 source "$(dirname "$0")/npm_package.sh"
 
@@ -17,7 +17,7 @@ if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vit
   for installed in "$js"/node_modules/*; do [ -e "node_modules/$(basename "$installed")" ] || ln -s "$installed" node_modules/; done
   succeeds node dropins.mjs
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022,dom --typeRoots none typed.mts
-  # Without types of a browser, and as older programs search for them.
+  # Without a browser's types, and with the module resolution of older programs.
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022 --typeRoots none plain.mts
   succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module esnext --moduleResolution node10 --target es2022 --lib es2022 --typeRoots none node10.ts
   told=$(node app.mjs)

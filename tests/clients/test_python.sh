@@ -1,6 +1,6 @@
 #!/bin/bash
-# Scarp for Python: the wheel is installed into a fresh environment, and its tests run there; the package is typed; the sdist
-# is whole; the guide's code runs.
+# Scarp for Python: the wheel is installed into a fresh environment, where its tests run. The package is typed, the
+# sdist is complete, and the guide's code runs.
 . "$(dirname "$0")/../program/lib.sh"
 need python3 cc
 [ -x /usr/bin/python3 ] || skip "needs /usr/bin/python3"
@@ -10,7 +10,7 @@ with_gdal=$SCARP_BUILD/bindings/c/libscarp_c.so
 package=$SCARP_SOURCE/bindings/python
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1 PYTHONDONTWRITEBYTECODE=1
 
-# 1. The wheel and the sdist: the same bytes each time, no folder of this machine in them.
+# 1. The wheel and the sdist: reproducible, without folders of this machine.
 succeeds "$SCARP_SOURCE/tools/build_python.sh" "$SCARP_BUILD" dist
 succeeds "$SCARP_SOURCE/tools/build_python.sh" "$SCARP_BUILD" dist2
 for file in dist/*; do cmp -s "$file" "dist2/${file#dist/}" || fail "$file differs from one build to the next"; done
@@ -25,7 +25,7 @@ diff -rq "$SCARP_SOURCE/src" sdist/source/src > "$logs/err" || fail "the sdist h
 source "$(dirname "$0")/python_tests.sh"
 passes_in /usr/bin/python3 env "$wheel" 10 || fail "the system's Python makes no environment"
 
-# 3. With the library that has GDAL: files are the program's, byte by byte.
+# 3. With the library with GDAL: files equal the program's byte by byte.
 if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
   export PYTHONPATH=$package/src
   (cd "$SCARP_SOURCE/tests/python" && SCARP_LIBRARY=$with_gdal SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
@@ -40,7 +40,7 @@ if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
   unset PYTHONPATH
 fi
 
-# The command of docs/guide/python.md, with the library that is built already.
+# The command of docs/guide/python.md, with the built library.
 install=$(python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$SCARP_SOURCE/docs/guide/python.md" sh)
 succeeds env/bin/python -m pip uninstall --quiet --yes scarp
 try env/bin/python -I -c 'import scarp'
@@ -48,7 +48,7 @@ try env/bin/python -I -c 'import scarp'
 (cd "$SCARP_SOURCE" && PATH=$scratch/env/bin:$PATH PIP_NO_INDEX=1 SCARP_C_LIBRARY=$(realpath "$alone") succeeds bash -c "$install")
 succeeds env/bin/python -c 'import scarp'
 
-# 4. It is typed, and its reference has every public name, explained.
+# 4. It is typed, and its reference explains every public name.
 succeeds python3 "$SCARP_SOURCE/tools/python_reference.py" reference.md
 succeeds python3 - "$SCARP_SOURCE/bindings/python/src/scarp/__init__.py" reference.md << 'E2'
 import ast, re, sys

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The wheel in every other Python from 3.8 on that is here.
+# The wheel in every other installed Python from 3.8 on.
 . "$(dirname "$0")/../program/lib.sh"
 source "$(dirname "$0")/python_tests.sh"
 need python3 cc

@@ -21,7 +21,7 @@ for key in name description version qgisMinimumVersion author email about tracke
   grep -qE "^$key=.+" plugins/scarp_processing/metadata.txt || fail "metadata.txt has no $key, which the plugin site wants"
 done
 [ "$(head -c 8 plugins/scarp_processing/icon.png | od -An -c | tr -d ' ')" = '211PNG\r\n032\n' ] || fail "the icon is no PNG"
-wants() {  # WORDS OPTION...: no plugin is packed without its publisher
+wants() {  # no plugin is packed without its publisher
   local words=$1
   shift
   try "$with_qgis" "$pack" "$scarp" x.zip "$@"
@@ -37,7 +37,7 @@ grep -qx 'tracker=https://home.net/scarp/issues' published.txt && grep -qx 'emai
 succeeds "$with_qgis" "$SCARP_SOURCE/tests/program/qgis_algorithms.py" plugins "$data" "$scarp"
 grep -q "do what they say" "$logs/out" || fail "the algorithms did not run to their end: $(tail -n 3 "$logs/out")"
 
-# Debian's wrapper passes a switch that its program does not know, so the program itself is called.
+# Calls the program itself, since Debian's wrapper passes a switch unknown to it.
 qgis_process=$(command -v qgis_process.bin || command -v qgis_process)
 export QGIS_PLUGINPATH=$PWD/plugins SCARP=$scarp
 succeeds "$qgis_process" plugins enable scarp_processing

@@ -1,4 +1,4 @@
-// The smallest user of the library: a hill in, a mesh within 0.5 out, judged once more through the door.
+// The smallest user of the library: simplifies a hill within 0.5 and judges the mesh.
 #include <scarp/scarp.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The core alone, without files: simplifies a field made here and prints a hash of each mesh, which is the same for
-// every machine, for WebAssembly and native code.
+// The core without files: simplifies a generated field and prints a hash of each mesh, the same on every machine, for
+// WebAssembly and native code.
 #include <cstdint>
 #include <cstdio>
 #include <string_view>

@@ -1,4 +1,4 @@
-// In place of JavaScript, which prints the numbers of the npm package's sentences.
+// Replaces JavaScript, which prints numbers in the npm package's messages.
 #include <cstdint>
 #include <cstdio>
 

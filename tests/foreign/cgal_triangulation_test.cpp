@@ -1,4 +1,4 @@
-// Arrangement and triangulation against CGAL's constrained Delaunay triangulation, which cuts and judges exactly.
+// Arrangement and triangulation against CGAL's exact constrained Delaunay triangulation.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ void add(Segments& segments, Point a, Point b) {
   if (before(b, a)) std::swap(a, b);
   segments.push_back({a.x, a.y, b.x, b.y});
 }
-/// Sorted, each once.
+/// Sorted, without duplicates.
 Segments tidy(Segments segments) {
   std::sort(segments.begin(), segments.end());
   segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
@@ -61,7 +61,7 @@ Segments constrained_edges(const Peer& peer) {
   return tidy(edges);
 }
 
-/// Triangles, as either side has them.
+/// Triangles of either library.
 struct Faces {
   static constexpr std::size_t kNowhere = ~std::size_t{0};
   struct Side {
@@ -71,7 +71,7 @@ struct Faces {
   std::vector<std::array<Side, 3>> sides;
   std::vector<std::int64_t> areas;  ///< doubled
 
-  /// The area of what lies behind 0, 1, 2, … constrained edges, seen from outside.
+  /// The areas behind 0, 1, 2, … constrained edges, seen from outside.
   std::vector<std::int64_t> areas_by_depth() const {
     std::vector<bool> is_seen(sides.size(), false);
     std::vector<std::size_t> here, behind;
@@ -136,7 +136,7 @@ Faces faces_of(const Peer& peer) {
 struct Soup {
   std::int32_t cols = 0, rows = 0;
   Polylines lines;
-  std::vector<Point> samples;  ///< vertices before there are lines
+  std::vector<Point> samples;  ///< vertices inserted before lines
 
   std::int32_t width() const { return (cols - 1) * kLatticeSteps; }
   std::int32_t height() const { return (rows - 1) * kLatticeSteps; }
@@ -194,7 +194,7 @@ RC_GTEST_PROP(cgal, a_constrained_triangulation_holds_the_edges_and_areas_of_cga
   Peer peer;
   for (Vertex v = 0; v < tin.vertex_count(); ++v) peer.insert(to_peer(tin.point(v)));
   for (const auto& [a, b] : graph.edges) peer.insert_constraint(to_peer(graph.points[a]), to_peer(graph.points[b]));
-  RC_ASSERT(peer.number_of_vertices() == tin.vertex_count());  // nothing was left to be cut
+  RC_ASSERT(peer.number_of_vertices() == tin.vertex_count());  // nothing was left to cut
   RC_ASSERT(constrained_edges(tin) == constrained_edges(peer));
   const Faces ours = faces_of(tin), theirs = faces_of(peer);
   RC_ASSERT(ours.areas.size() == theirs.areas.size());

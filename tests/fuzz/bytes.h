@@ -1,10 +1,10 @@
-// The input of a fuzzer as a row of choices.
+// The input of a fuzzer as a sequence of choices.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-/// Reads bytes one after the other; zeros after the end.
+/// Reads bytes in order; zeros after the end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
@@ -13,7 +13,7 @@ class Bytes {
     --left_;
     return *data_++;
   }
-  /// Two bytes' choice of 0 … n - 1.
+  /// A choice of 0 … n - 1 from two bytes.
   std::int32_t below(std::int32_t n) {
     const std::int32_t high = next();
     return (high << 8 | next()) % n;

@@ -1,5 +1,5 @@
-// Any lines on a small lattice, any outline: nothing crosses, rigid edges are straight, chains follow edges, and
-// arranging the edges again changes nothing. Bytes: the size, a dozen rigid segments or fewer, then a vertex each two.
+// Any lines on a small lattice with any outline: nothing crosses, rigid edges are straight, chains follow edges, and a
+// second arrangement changes nothing. Bytes: the size, at most a dozen rigid segments, then two for each vertex.
 #include <algorithm>
 #include <cstdlib>
 #include <vector>

@@ -1,8 +1,8 @@
 // Any lines on any small raster: breaklines hard and soft, lakes, rivers, cliffs, ridges, cutlines, shapes, with every
-// effort, to an error or a number of triangles. The mesh keeps its goal in the judge's eyes, against the raster as the
-// lines left it, is sound, and has each line as a chain of edges; or there is an error with words. Bytes: what is
-// asked, a height for each sample, then a vertex each three, two coordinates and a height; few places and many repeats,
-// so that lines meet, overlap and turn back.
+// effort, to an error or a number of triangles. Either the mesh keeps its goal by the judge, against the raster
+// modified by lines, is sound, and has each line as a chain of edges. Or there is an error with a message. Bytes: the
+// request, a height for each sample, then three for each vertex: two coordinates and a height. Few places with many
+// repeats make lines meet, overlap and turn back.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,13 +74,13 @@ Task read_task(Bytes& bytes) {
   return task;
 }
 
-/// Mostly a quarter of a sample, sometimes next to it, sometimes outside the raster.
+/// Mostly a multiple of a quarter sample, sometimes next to it, sometimes outside the raster.
 double coordinate(std::uint8_t byte, int samples) {
   const int place = byte % 64 % (4 * samples + 8) - 6;
   return place / 4.0 + (byte >= 192 ? (byte - 192) / 1000.0 : 0);
 }
 
-/// A vertex each three bytes; the third ends a line where it is below 64.
+/// A vertex for each three bytes; a third byte below 64 ends a line.
 std::vector<scarp::Line> read_lines(Bytes& bytes, const Task& task) {
   std::vector<scarp::Line> lines;
   scarp::Line line;
@@ -99,7 +99,7 @@ std::vector<scarp::Line> read_lines(Bytes& bytes, const Task& task) {
     const std::uint8_t last = bytes.next();
     const bool is_hard = task.are_hard && !task.is_cut && last % 8 != 0;
     const std::array<double, 3> point{x, y, is_hard ? last / 8 / 4.0 : kNone};
-    // No two successive points are equal.
+    // Successive points are distinct.
     if (line.points.empty() || line.points.back()[0] != x || line.points.back()[1] != y) line.points.push_back(point);
     if (last < 64) close();
   }
@@ -117,7 +117,7 @@ struct Piece {
   bool goes_on_before = false, goes_on_behind = false;
 };
 
-/// The part that lies in the raster and not next to its border, where a line that runs along it may come in anywhere.
+/// Clips the piece to the raster without its border, along which a line may enter anywhere.
 bool clip(const scarp::OwnedHeightField& field, Piece& piece) {
   const Plan whole = piece.p, way{piece.q[0] - whole[0], piece.q[1] - whole[1]};
   const Plan most{field.cols - 1.0, field.rows - 1.0};
@@ -139,7 +139,7 @@ bool clip(const scarp::OwnedHeightField& field, Piece& piece) {
   return true;
 }
 
-/// Walks lines over the edges of a mesh.
+/// Follows lines along the edges of a mesh.
 class Walk {
  public:
   explicit Walk(const scarp::Mesh& mesh) : neighbours_(mesh.vertex_count()) {
@@ -153,7 +153,7 @@ class Walk {
     }
   }
 
-  /// True if edges next to the piece, none farther than lines may move, lead from one end to the other.
+  /// True if edges within the reach of moved lines lead from one end to the other.
   bool follows(const Piece& piece) const {
     const Plan way{piece.q[0] - piece.p[0], piece.q[1] - piece.p[1]};
     const double length = std::hypot(way[0], way[1]);
@@ -217,7 +217,7 @@ void judge(const Task& task, const scarp::Simplified& result) {
 }
 
 void walk(const Task& task, const scarp::Mesh& mesh) {
-  if (task.has_nodata || task.is_cut) return;  // lines then have pieces
+  if (task.has_nodata || task.is_cut) return;  // lines are then cut into pieces
   const Walk walk(mesh);
   for (const scarp::Line& line : task.options.features.breaklines.lines) {
     if (scarp::is_wall(line) || scarp::is_ridge_line(line)) continue;
@@ -229,7 +229,7 @@ void walk(const Task& task, const scarp::Mesh& mesh) {
   }
 }
 
-/// Lakes and rivers are lines with heights, cliffs and ridges more lines; a cut is none.
+/// Lakes and rivers are lines with heights, cliffs and ridges more lines; a cut is not.
 bool constrain(Task& task, std::vector<scarp::Line> lines) {
   const std::array<double, 6>& affine = task.field.frame.affine;
   scarp::LineConstraints& constraints = task.options.features.breaklines;

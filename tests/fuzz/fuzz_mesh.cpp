@@ -1,11 +1,11 @@
-// Any bytes: a mesh whose parts agree and which can be written again, or an error with words.
+// Any bytes: a consistent mesh that can be written again, or an error with a message.
 #include <cmath>
 #include <cstdlib>
 
 #include "scarp/io.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto mesh = scarp::decode_mesh({data, size}, "fuzz.stl");  // the name sends damaged STL to its reader
+  const auto mesh = scarp::decode_mesh({data, size}, "fuzz.stl");  // the name selects the reader for damaged STL
   if (!mesh) {
     if (mesh.error().message.empty() || mesh.error().kind != scarp::ErrorKind::kInput) std::abort();
     return 0;
@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (mesh->channel_count < 0 || mesh->channels.size() != count * static_cast<std::size_t>(mesh->channel_count)) {
     std::abort();
   }
-  // A mesh that was read can be written; the contents of PLY and VTU, which is everything, read back the same.
+  // A mesh that was read can be written; PLY and VTU, which hold all contents, read back the same.
   for (const scarp::MeshFormatTraits* traits : scarp::mesh_formats()) {
     if (!traits->is_read) continue;
     const auto bytes = scarp::encode_mesh(*mesh, traits->format);

@@ -1,4 +1,4 @@
-// Any bytes as text of columns: points, or an error with words; what simplify_points() makes of them keeps its promise.
+// Any bytes as text of columns: points for which simplify_points() keeps its promise, or an error with a message.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // Any small raster, any goal, any effort and any strategy: the promise holds, every sample of the domain is covered,
-// and the mesh is sound; or an error with words. The bytes choose the size, the goals, how steep the heights are, and
-// then one height each: a few values stand for nodata and infinities, and few levels make ties the rule.
+// and the mesh is sound; or there is an error with a message. The bytes choose the size, the goals, the steepness, then
+// one height each: a few values mean nodata and infinities, and few levels cause many ties.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -46,7 +46,7 @@ void check_made(const scarp::HeightField& field, const scarp::SimplifyOptions& o
   const scarp::Measurement& proof = result->measurement;
   if (result->stop == scarp::StopReason::kMaxError) {
     require(options.goals.max_error || !options.tolerances.values.empty());
-    // Planes through vertices between samples are no numbers of double; the judge's own rounding is not the mesh's.
+    // Planes through vertices between samples are not exact in double; the judge's rounding is not the mesh's.
     const double rounding = result->vertices == scarp::Vertices::kFree ? 1e-12 * largest_height(field) : 0;
     if (options.goals.max_error) require(proof.max_error <= *options.goals.max_error + rounding);
   }
@@ -65,7 +65,7 @@ void check_made(const scarp::HeightField& field, const scarp::SimplifyOptions& o
   require(judged->nodata_cells_covered == 0 || options.domain.outline_tolerance > 0);
 }
 
-/// Two bytes choose a strategy; one that contradicts itself must be refused with words.
+/// Two bytes choose a strategy; a contradictory one must be refused with a message.
 void choose_strategy(Bytes& bytes, scarp::PaperOptions& options) {
   const std::uint8_t first = bytes.next(), second = bytes.next();
   options.strategy.algorithm = static_cast<scarp::Algorithm>(first % 3);

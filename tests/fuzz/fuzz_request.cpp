@@ -1,5 +1,5 @@
-// Any bytes as requests of HTTP, as they come: a result stays what it is when more bytes come, and what is refused has
-// words. The first byte chooses where the bytes are cut.
+// Any bytes as HTTP requests, cut anywhere: more bytes never change a result, and refusals have a message. The first
+// byte chooses where the bytes are cut.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Any bytes: steps within the raster, or an error with words.
+// Any bytes: steps within the raster, or an error with a message.
 #include <cstdlib>
 
 #include "io/raster/script.h"

@@ -1,4 +1,4 @@
-// Any bytes: a height field of the size it claims, or an error with words.
+// Any bytes: a height field of the declared size, or an error with a message.
 #include <cstdlib>
 
 #include "io/raster/stm.h"

@@ -1,5 +1,5 @@
-// Any bytes as a set of tiles in one file: a set that can be checked, read and written again, or an error with words.
-// The first byte chooses the container.
+// Any bytes as a tileset in one file: a set that can be checked, read and rewritten, or an error with a message. The
+// first byte chooses the container.
 #include <unistd.h>
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Gone with the process.
+/// Removed with the process.
 struct Scratch {
   std::string folder = (std::filesystem::temp_directory_path() / ("scarp-fuzz-" + std::to_string(getpid()))).string();
   Scratch() { std::filesystem::create_directory(folder); }

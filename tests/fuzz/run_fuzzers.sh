@@ -1,11 +1,11 @@
 #!/bin/bash
-# Fuzzes for a while and keeps what was learnt: BUILD/fuzz/NAME holds the corpus, a finding lies there as crash-*.
+# Fuzzes for a while and keeps its corpus in BUILD/fuzz/NAME, with findings as crash-*.
 #
 # usage: tests/fuzz/run_fuzzers.sh BUILD [NAME...]      all fuzzers of BUILD/bin where no name is given
-# SCARP_FUZZ_SECONDS: seconds for each (default 20). SCARP_FUZZ_SEED: where chance begins (default 1; 0: anywhere).
+# SCARP_FUZZ_SECONDS: seconds for each (default 20). SCARP_FUZZ_SEED: the random seed (default 1; 0: a fresh one).
 #
-# Starts from tests/fuzz/corpus/NAME and tests/fuzz/NAME.dict where they exist; findings that were mended are kept in
-# that corpus, so they are tried again in every run.
+# Starts from tests/fuzz/corpus/NAME and tests/fuzz/NAME.dict where they exist; fixed findings remain in that corpus and
+# are retried in every run.
 set -uo pipefail
 if [ $# -eq 0 ]; then
   echo "usage: $0 BUILD [NAME...]" >&2
@@ -24,7 +24,7 @@ failed=0
 for name in "$@"; do
   corpus=$build/fuzz/$name
   mkdir -p "$corpus"
-  # Without the entropic schedule, whose own arithmetic is most of a run of ours: fuzz_lines runs 5 times as often.
+  # Without the entropic schedule, whose arithmetic dominates our runs: fuzz_lines runs 5 times as often.
   arguments=(-entropic=0 -seed="${SCARP_FUZZ_SEED:-1}" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048
     -print_final_stats=1 -artifact_prefix="$corpus/")
   [ -f "$here/$name.dict" ] && arguments+=(-dict="$here/$name.dict")

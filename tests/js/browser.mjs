@@ -1,4 +1,4 @@
-// A page of headless Chromium that draws WebGL by software and reports failures.
+// A page of headless Chromium with software WebGL that reports failures.
 import { chromium } from 'playwright-core';
 
 const PATIENCE = 1200e3; // ms
@@ -22,9 +22,8 @@ export function launch(program = '/usr/bin/chromium') {
   });
 }
 
-/// `errors`: those of the console. `elsewhere`: what was asked of other addresses. The page has a context of its own, in
-/// `running` where a browser is given.
-/// A busy machine draws slowly: what waits for a page waits for as long as the test may run.
+/// `errors`: of the console. `elsewhere`: requests to other addresses. The page has a separate context, in the browser
+/// `running` if given. A busy machine draws slowly, so waits for a page last as long as the test may.
 export async function openPage(address, viewport, program, options = {}, running = undefined) {
   const browser = running ?? (await launch(program));
   const page = await browser.newPage({ viewport, ...options });

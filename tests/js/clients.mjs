@@ -1,7 +1,7 @@
-// Has CesiumJS do jobs in a real browser: clients.mjs ADDRESS JOBS.json SHOTS [CHROMIUM]
+// Runs jobs of CesiumJS in a real browser: clients.mjs ADDRESS JOBS.json SHOTS [CHROMIUM]
 //
 // JOBS.json: a list of {kind: "sample" | "globe" | "tileset", …}, which clients.html explains; a job with a "shot"
-// writes SHOTS/NAME.png. Prints JSON: the answers of the jobs, errors of the console, and what was asked of elsewhere.
+// writes SHOTS/NAME.png. Prints JSON: the answers of the jobs, console errors, and requests to other addresses.
 import { readFileSync } from 'node:fs';
 import { openPage } from './browser.mjs';
 

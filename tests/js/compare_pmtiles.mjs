@@ -1,6 +1,6 @@
 // Reads a PMTiles archive of terrain with the reference reader: node compare_pmtiles.mjs ARCHIVE FOLDER
-// Fails unless each z/x/y.terrain of the folder is in it, at zoom z + 1 (Mercator: z) with y from the north; prints
-// their number.
+// Fails unless it has each z/x/y.terrain of the folder, at zoom z + 1 (Mercator: z) with y from the north; prints their
+// number.
 import fs from 'node:fs';
 import zlib from 'node:zlib';
 import { PMTiles } from 'pmtiles';

@@ -1,5 +1,5 @@
 // The results of the viewer's page for GeoTIFFs: geotiffs.mjs SOURCES NPM_PACKAGE ERROR FILES. Prints a line of JSON
-// for each: its message (`sentence`), or the mesh of that error and where it lies.
+// for each: its message (`sentence`), or the mesh with that error and its place.
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';

@@ -1,7 +1,7 @@
 // Judges a globe in a real browser: globe.mjs ADDRESS POINTS.json SHOT.png [CHROMIUM]
 //
-// POINTS.json: a list of [longitude, latitude, height]. Prints JSON: of each level of the set with heights there the
-// largest |height that CesiumJS samples - height|, the page's text, errors of the console, and requests to elsewhere.
+// POINTS.json: a list of [longitude, latitude, height]. Prints JSON: for each level of the set with heights there the
+// largest |height that CesiumJS samples - height|, the page's text, console errors, and requests to other addresses.
 import { readFileSync } from 'node:fs';
 import { openPage } from './browser.mjs';
 
@@ -30,7 +30,7 @@ await page.waitForTimeout(2000);
 await page.waitForFunction(() => window.viewer.scene.globe.tilesLoaded);
 await page.waitForTimeout(1000);
 await page.screenshot({ path: shot });
-// A ray straight down from 20 km hits the ground that is drawn.
+// A ray straight down from 20 km hits the drawn ground.
 await page.evaluate(
   ([lon, lat]) =>
     window.viewer.camera.setView({

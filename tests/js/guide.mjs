@@ -1,7 +1,7 @@
 // Opens pages that show a globe as window.viewer: guide.mjs PLACE SHOTS CHROMIUM ADDRESS...
 //
-// PLACE: longitude,latitude. Prints JSON: of each page the errors of the console, and the height that it draws at the
-// place. Writes SHOTS/guide_0.png and so on.
+// PLACE: longitude,latitude. Prints JSON: for each page the console errors and the drawn height at the place. Writes
+// SHOTS/guide_0.png and so on.
 import { openPage } from './browser.mjs';
 
 const [where, shots, program, ...addresses] = process.argv.slice(2);

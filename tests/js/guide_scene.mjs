@@ -1,4 +1,4 @@
-// The setting before the lines of a guide: a scene with light, and a camera. Draws until something is seen.
+// The prelude to the lines of a guide: a scene with light and a camera. Draws until something is visible.
 import * as THREE from 'three';
 
 const renderer = new THREE.WebGLRenderer();
@@ -12,7 +12,7 @@ const pixels = new Uint8Array(4 * 400 * 300);
 const sphere = new THREE.Sphere();
 const draw = () => {
   if (window.tiles) {
-    // like in the guide: in the loop that draws
+    // the guide, too, does this in the drawing loop
     if (tiles.getBoundingSphere(sphere)) {
       sphere.applyMatrix4(tiles.group.matrixWorld);
       camera.position.set(0, sphere.radius, sphere.radius).add(sphere.center);

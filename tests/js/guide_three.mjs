@@ -1,7 +1,7 @@
 // The lines of a guide in three.js: guide_three.mjs SHOTS CHROMIUM ADDRESS...
 //
-// Each page draws as window.draw() does until window.drawn is not 0. Prints JSON: of each the errors of the console,
-// and how much of the picture is not background. Writes SHOTS/three_0.png and so on.
+// Each page draws as window.draw() does until window.drawn is not 0. Prints JSON: for each the console errors, and the
+// share of the picture that is not background. Writes SHOTS/three_0.png and so on.
 import { openPage } from './browser.mjs';
 
 const [shots, program, ...addresses] = process.argv.slice(2);

@@ -1,6 +1,6 @@
 // Decodes all tiles of a folder with @here/quantized-mesh-decoder and loaders.gl: read_quantized_mesh.mjs FOLDER OUTPUT
 //
-// Writes what the first decodes, as decode_tiles.cpp does; fails where the second sees other vertices or triangles.
+// Writes the first one's results, like decode_tiles.cpp; fails if the second finds other vertices or triangles.
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import zlib from 'node:zlib';
@@ -38,7 +38,7 @@ const names = fs
   .sort();
 for (const name of names) {
   const file = zlib.gunzipSync(fs.readFileSync(`${folder}/${name}`));
-  // Both decode in place, so each has bytes of its own.
+  // Both decode in place, so each gets a copy.
   const copy = () => file.buffer.slice(file.byteOffset, file.byteOffset + file.length);
   const tile = decode(copy());
   compare(name, copy(), tile);

@@ -1,7 +1,7 @@
 // Decodes the GLBs of a folder of 3D Tiles terrain with meshoptimizer's own decoder: read_tile_glbs.mjs FOLDER
 //
-// Fails where two neighbours of a level differ in a position or a normal of the edge that they share, and where a list
-// of CESIUM_tile_edges does not go clockwise around its tile, as CesiumJS expects it. Prints tiles and edges.
+// Fails if two neighbours of a level differ in a position or normal on their shared edge, or if CESIUM_tile_edges does
+// not list a tile's edges clockwise, as CesiumJS expects. Prints tiles and edges.
 import fs from 'node:fs';
 import { MeshoptDecoder } from 'meshoptimizer/decoder';
 
@@ -84,7 +84,7 @@ for (const [key, tile] of tiles) {
     const [a, b] = [tile[mine], neighbour[theirs].toReversed()];
     if (a.length !== b.length) throw new Error(`${key} and ${other}: ${a.length} and ${b.length} vertices on the edge`);
     a.forEach((vertex, k) => {
-      // The decoder's division by 65535 has an error as large as 16 bits of 65535 parts.
+      // The decoder's division by 65535 has a rounding error.
       const apart = Math.hypot(...vertex.place.map((value, part) => value - b[k].place[part]));
       if (apart > 1e-9 * Math.hypot(...vertex.place))
         throw new Error(`${key} and ${other}: vertex ${k} of the edge is ${apart} m apart`);

@@ -1,8 +1,8 @@
-// A set of 3D Tiles in 3d-tiles-renderer (three.js), as clients that are not CesiumJS load it, without a screen:
-//   three_tiles.mjs FOLDER PLACES.json
-// PLACES.json: [[longitude, latitude], …] in degrees, near each other. Views the first from above from 60 km until all
-// tiles of the finest level in sight are there. Prints JSON: heights above the ellipsoid where a ray straight down
-// meets the tiles (null: it meets none), the tiles that are drawn, and what could not be loaded.
+// A set of 3D Tiles in 3d-tiles-renderer (three.js), a client besides CesiumJS, without a screen: three_tiles.mjs
+//   FOLDER PLACES.json
+// PLACES.json: [[longitude, latitude], …] in degrees, near each other. Views the first from 60 km above until all
+// visible tiles of the finest level are loaded. Prints JSON: heights above the ellipsoid where a ray straight down
+// meets tiles (null: none), the drawn tiles, and failed loads.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 

@@ -1,10 +1,9 @@
 // Checks pages of the viewer in a real browser, from disk: viewer.mjs JOBS.json SHOTS [CHROMIUM]
 //
 // JOBS.json: a list of {page, folder, width, height, dark, forced_colors, no_script, before, steps, axe}. `folder`:
-// what may be asked of besides the page. `before` is run in the page before its own script; each step is {drop: [{name,
-// path}], do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one
-// answer a job: the values of `do` and `read`, errors of the console, what was asked of elsewhere, and what axe-core
-// objects to.
+// allowed requests besides the page. `before` runs in the page before its script; each step is {drop: [{name, path}],
+// do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one answer a job:
+// the values of `do` and `read`, console errors, requests to other addresses, and axe-core's objections.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { pathToFileURL } from 'node:url';
@@ -14,7 +13,7 @@ const [jobsFile, shots, program] = process.argv.slice(2);
 const browser = await launch(program);
 const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-/// Playwright's own function evaluates text in the page, which the page's policy forbids.
+/// Playwright's function evaluates text in the page, which the page's policy forbids.
 async function waitFor(page, condition) {
   while (!(await page.evaluate(condition))) await page.waitForTimeout(100);
 }

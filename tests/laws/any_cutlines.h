@@ -1,4 +1,4 @@
-// Polygons of any kind, and what a mesh that was cut to them must cover.
+// Arbitrary polygons, and the required cover of a mesh cut to them.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Draughtsman {
     return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
   }
 
-  /// Rings of any kind in columns and rows: bow-ties, slivers, on samples and far beyond the raster.
+  /// Arbitrary rings in columns and rows: bow-ties, slivers, on samples and far beyond the raster.
   Cutline rings(const Field& field) {
     Cutline cutline;
     const bool is_on_samples = below(3) == 0;
@@ -49,7 +49,7 @@ class Draughtsman {
     return cutline;
   }
 
-  /// Rectangles along the axes, their corners on the lattice.
+  /// Rectangles along the axes, with corners on the lattice.
   Cutline rectangles(const Field& field) {
     Cutline cutline;
     for (std::uint32_t polygon = static_cast<std::uint32_t>(1 + below(3)); polygon-- > 0;) {
@@ -120,7 +120,7 @@ inline int corners_of(const Field& field, std::int32_t col, std::int32_t row) {
   return corners;
 }
 
-/// How far inside the domain a point of a cell is, below 0 outside.
+/// Depth of a point of a cell inside the domain, negative outside.
 inline double depth_in_cell(const Field& field, double x, double y) {
   const auto col = static_cast<std::int32_t>(x), row = static_cast<std::int32_t>(y);
   const int corners = corners_of(field, col, row);
@@ -150,7 +150,7 @@ inline double doubled_area(const std::array<Corner, 3>& t) {
   return std::abs((t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x));
 }
 
-/// Heights of the triangles at a point; none where nothing covers it.
+/// Heights of all triangles at a point; empty if uncovered.
 inline std::vector<double> heights_at(const std::vector<std::array<Corner, 3>>& triangles, double x, double y) {
   std::vector<double> heights;
   for (const auto& t : triangles) {
@@ -167,8 +167,8 @@ inline std::vector<double> heights_at(const std::vector<std::array<Corner, 3>>& 
   return heights;
 }
 
-/// A place where triangles cover nodata or points outside the polygons, or miss points in them: of 200 places, the
-/// first; "" for none.
+/// The first of 200 places where triangles cover nodata or points outside the polygons, or miss points inside; "" if
+/// none.
 inline std::string find_wrong_cover(const Field& field, const Cutline& cutline,
                                     const std::vector<std::array<Corner, 3>>& triangles, Draughtsman& draughtsman) {
   constexpr double kDoubt = 1.0 / 64;
@@ -198,7 +198,7 @@ inline std::int64_t doubled_in_cell(const Field& field, std::int32_t col, std::i
     if (corners != (15 & ~(1 << k))) continue;
     x0 -= std::int64_t{col} * kLatticeSteps, x1 -= std::int64_t{col} * kLatticeSteps;
     y0 -= std::int64_t{row} * kLatticeSteps, y1 -= std::int64_t{row} * kLatticeSteps;
-    // So that the nodata corner is the last of both.
+    // Makes the nodata corner the last of both.
     if (k % 2 == 0) std::tie(x0, x1) = std::pair(kLatticeSteps - x1, kLatticeSteps - x0);
     if (k / 2 == 0) std::tie(y0, y1) = std::pair(kLatticeSteps - y1, kLatticeSteps - y0);
     return doubled_below(x0, x1, y0, y1, kLatticeSteps);
@@ -206,7 +206,7 @@ inline std::int64_t doubled_in_cell(const Field& field, std::int32_t col, std::i
   return 0;
 }
 
-/// Twice the area of polygons and domain, in lattice steps: rectangle by rectangle between all sides of all.
+/// Twice the area of polygons and domain, in lattice steps: summed over the rectangles between all sides.
 inline std::int64_t doubled_area(const Field& field, const Cutline& cutline) {
   std::vector<std::int64_t> xs, ys;
   for (std::int32_t col = 0; col < field.cols; ++col) xs.push_back(std::int64_t{col} * kLatticeSteps);

@@ -1,4 +1,4 @@
-// Rasters that RapidCheck chooses.
+// Rasters chosen by RapidCheck.
 #pragma once
 
 #include <rapidcheck/gtest.h>

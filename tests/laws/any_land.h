@@ -1,4 +1,4 @@
-// Land and tiles of the laws of tiles: heights from a hash, decoded edges, and the error at nodes by brute force.
+// Land and tiles for laws of tiles: heights from a hash, decoded edges, and errors at nodes by brute force.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -97,7 +97,7 @@ inline std::vector<EdgeVertex> edge_of(const QuantizedMesh& mesh, const std::vec
   return edge;
 }
 
-/// Single precision of 0 is the one exception: there clients may differ by 1.5e-11 m.
+/// Only at 0 in single precision clients may differ, by 1.5e-11 m.
 inline std::vector<EdgeVertex> without_dust(std::vector<EdgeVertex> edge) {
   for (auto& [place, height, normal] : edge) {
     if (std::abs(height) < 1e-10f) height = 0;
@@ -105,8 +105,7 @@ inline std::vector<EdgeVertex> without_dust(std::vector<EdgeVertex> edge) {
   return edge;
 }
 
-/// Positions of the rows of nodes of a tile in the degrees between its ends, as steps: by the library's own
-/// mathematics.
+/// Positions of a tile's rows of nodes in the degrees between its ends, as steps: by the library's formulas.
 inline std::vector<double> lines_of(TileId id, std::int32_t steps, const TileGrid& grid) {
   constexpr double kPi = 3.141592653589793;
   std::vector<double> degrees, lines;

@@ -1,4 +1,4 @@
-// Lines of any kind over a raster of any kind.
+// Arbitrary lines over arbitrary rasters.
 #pragma once
 
 #include <rapidcheck.h>
@@ -12,7 +12,7 @@
 
 namespace scarp::testing {
 
-/// Walks of any kind, within the raster and beyond, some with heights near those of the raster.
+/// Arbitrary walks in the raster and beyond, some with heights near the raster's.
 inline LineConstraints any_lines(const Field& field) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const auto between = [&](double low, double high) {

@@ -1,4 +1,4 @@
-// Soups of lines: what comes out crosses nowhere and stays where it was.
+// Soups of lines: the arranged lines do not cross and stay in place.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -91,11 +91,11 @@ class Cook {
           line.insert(line.end(), {p, {soup.width - p.x, soup.height - p.y}});
         }
         break;
-      case 2:  // along what is there
+      case 2:  // along existing lines
         for (int k = 0; k < 5 && !given.empty(); ++k)
           line.push_back(given[static_cast<std::size_t>(below(std::ssize(given)))]);
         break;
-      case 3: {  // in a corner
+      case 3: {  // into a corner
         const std::int32_t x = below(soup.width), y = below(soup.height);
         for (int k = 0; k < 8; ++k) line.push_back({x + below(6), y + below(6)});
         break;
@@ -199,7 +199,7 @@ std::string judge_chains(const Soup& soup, const Arrangement& result) {
   return "";
 }
 
-/// The lattice steps of segments that run along axes and diagonals, as disjoint stretches on their lines.
+/// The lattice steps of segments along axes and diagonals, as disjoint intervals on their lines.
 std::vector<std::array<std::int64_t, 4>> stretches(const std::vector<Segment>& segments) {
   std::vector<std::array<std::int64_t, 4>> sorted;
   for (Segment s : segments) {
@@ -317,8 +317,8 @@ TEST(arrangement, a_bow_tie_gets_a_knot) {
   EXPECT_EQ(result.stops_of(result.chains[0])[1].fraction, 0.5);
 }
 
-/// The line passes the corners of (1, 1), (4, 2) and (7, 3); the first and the last belong to these squares, since
-/// rigid segments run through them.
+/// The line passes the corners of (1, 1), (4, 2) and (7, 3). The first and the last belong to these squares because
+/// rigid segments cross them.
 TEST(arrangement, a_bent_piece_is_split_where_a_vertex_lies_on_it) {
   Polylines lines;
   lines.add(std::vector<Point>{{0, 0}, {9, 3}});
@@ -335,7 +335,7 @@ TEST(arrangement, a_bent_piece_is_split_where_a_vertex_lies_on_it) {
 TEST(arrangement, a_line_that_leaves_becomes_several_chains) {
   Polylines lines;
   lines.add(std::vector<Point>{{2, 2}, {2, -8}, {8, -8}, {8, 2}, {8, 2}, {9, 3}});
-  lines.add(std::vector<Point>{{-5, -5}, {-1, 20}, {0, 10}});  // touches the corner alone
+  lines.add(std::vector<Point>{{-5, -5}, {-1, 20}, {0, 10}});  // touches only the corner
   lines.add(std::vector<Point>{{4, 4}, {4, 4}});
   const Arrangement result = arrange(lines, {}, 10, 10);
   ASSERT_EQ(result.chains.size(), 2u);

@@ -1,4 +1,4 @@
-// Bounds of samples for laws, in memory and window by window.
+// Bounds of samples for laws, in memory and by windows.
 #pragma once
 
 #include <rapidcheck.h>
@@ -16,7 +16,7 @@ namespace scarp::testing {
 
 inline constexpr float kNoBound = std::numeric_limits<float>::infinity();
 
-/// Windows of an array as it is: an infinity is one.
+/// Windows of an unmodified array: infinities remain.
 class ArrayBounds : public SampleSource {
  public:
   ArrayBounds(std::span<const float> bounds, int cols) : bounds_(bounds), cols_(cols) {}
@@ -35,7 +35,7 @@ class ArrayBounds : public SampleSource {
   int cols_;
 };
 
-/// Blocks of one bound each, and samples strewn among them.
+/// Blocks with one bound each, and scattered samples in them.
 inline std::vector<float> any_bounds(int cols, int rows) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const int side = *rc::gen::element(1, 4, 9, 100);

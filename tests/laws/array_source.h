@@ -1,4 +1,4 @@
-// Samples in memory, given away window by window as a file's are.
+// Samples in memory, read by windows like a file's.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Borders between tiles: the bound on the line, and that both neighbours see the same vertices.
+// Borders between tiles: the bound on the line, and equal vertices in both neighbours.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -28,15 +28,14 @@ std::vector<std::int32_t> chain_of(const Field& field, const BorderLine& line, d
   return *simplify_border(field.view(), line, threshold);
 }
 
-/// Corners of a cell that are heights; 0 beyond the raster.
+/// Valid corners of a cell; 0 beyond the raster.
 int valid_corners_of(const Raster& raster, std::int32_t x, std::int32_t y) {
   if (x < 0 || y < 0 || x + 1 >= raster.cols || y + 1 >= raster.rows) return 0;
   return raster.is_valid({x, y}) + raster.is_valid({x + 1, y}) + raster.is_valid({x, y + 1}) +
          raster.is_valid({x + 1, y + 1});
 }
 
-// Heights with 8 bits after the point and thresholds with 10: the sums are whole numbers, by the compiler's arithmetic
-// alone.
+// Heights with 8 bits after the point and thresholds with 10: exact sums in integer arithmetic.
 RC_GTEST_PROP(border_chain, keeps_the_bound_on_the_line_exactly, ()) {
   Field field = any_field(3, 200);
   for (float& z : field.samples) z = std::round(z * 256) / 256;
@@ -54,7 +53,7 @@ RC_GTEST_PROP(border_chain, keeps_the_bound_on_the_line_exactly, ()) {
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     const std::int32_t a = places[k], b = places[k + 1];
     for (std::int32_t i = a + 1; i < b; ++i) {
-      // The surface: a whole cell next to the line, on either side of the sample.
+      // Surface: a whole cell next to the line, on either side of the sample.
       bool is_surface = false;
       for (const std::int32_t x : {i - 1, i})
         for (const std::int32_t y : {line.row - 1, line.row})
@@ -152,7 +151,7 @@ std::vector<TilePoint> border_of(const Field& field, const TileWindow& window, c
   return border;
 }
 
-// The rule about nodata: whatever outlines the two tiles have, their vertices on the shared side are the chain's.
+// The rule about nodata: whatever the outlines of two tiles, their vertices on the shared side are the chain's.
 RC_GTEST_PROP(border_chain, both_tiles_start_with_the_chain_and_the_corners_on_a_shared_side, ()) {
   const Field field = any_field(4, 50);
   const double threshold = any_threshold();

@@ -1,4 +1,4 @@
-// Efforts with bounds of samples: every sample keeps its own, be it 0, none, or a thousand times its neighbour's.
+// Efforts with bounds of samples: every sample satisfies its own, be it 0, none, or a thousand times its neighbour's.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -31,7 +31,7 @@ using testing::Relief;
 
 std::vector<float> any_bounds(const Field& field) { return testing::any_bounds(field.cols, field.rows); }
 
-/// The greedy mesh; nothing if the field has no surface.
+/// The greedy mesh; nothing without a surface.
 std::optional<Triangulation> refined(const Field& field, const std::vector<float>& bounds) {
   auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;
@@ -47,10 +47,10 @@ float bound_at(const Field& field, const std::vector<float>& bounds, Point p) {
   return bounds[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(p.x)];
 }
 
-/// A triangle on the lattice, by exact arithmetic and by doubles, at every sample of the field that lies in it.
+/// A triangle on the lattice, by exact arithmetic and by doubles, at every sample of the field in it.
 struct Oracle {
   bool keeps = true;
-  double energy = 0, stiffness = 0, push = 0, worst = 0;  // values of those whose bound is no less than `least`
+  double energy = 0, stiffness = 0, push = 0, worst = 0;  // over samples whose bound is at least `least`
 
   Oracle(const Field& field, const std::vector<float>& bounds, const std::array<Point, 3>& places,
          const std::array<float, 3>& heights, double least = 1e-2) {
@@ -192,7 +192,7 @@ RC_GTEST_PROP(bounds, that_are_all_the_same_are_a_threshold, ()) {
 TEST(bounds, that_are_all_but_one_the_same_take_as_many_triangles_as_a_threshold) {
   const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
   std::vector<float> bounds(field.samples.size(), 4.0f);
-  bounds[0] = 8;  // a corner, which is a vertex anyway
+  bounds[0] = 8;  // a corner, which is always a vertex
   for (const bool free : {false, true}) {
     const std::vector<FitDepth> depths =
         testing::kIsSanitized ? std::vector{FitDepth{}} : std::vector{FitDepth{}, kHighDepth};

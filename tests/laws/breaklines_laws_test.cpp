@@ -60,7 +60,7 @@ class Stage {
     return scene;
   }
 
-  /// Lines of any kind whose heights, where they have any, are `lift` above the plane.
+  /// Arbitrary lines whose heights, if any, are `lift` above the plane.
   void add_lines(Scene& scene, bool is_hard, double lift) {
     for (int count = 1 + below(6); count > 0; --count) {
       Line line;

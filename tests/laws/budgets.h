@@ -11,7 +11,7 @@
 
 namespace scarp::testing {
 
-/// Smooth, so that triangles grow as a power of the bound: nothing jumps.
+/// Smooth, so that triangles grow as a power of the bound without jumps.
 inline Field hills(int cols, int rows) {
   Field field{cols, rows, {}};
   for (int y = 0; y < rows; ++y) {
@@ -28,7 +28,7 @@ inline bool is_within(const Simplified& made, const SimplifyOptions& options) {
          made.mesh.triangle_count() <= options.goals.max_triangles.value_or(made.mesh.triangle_count());
 }
 
-/// For laws: the mesh keeps the budgets, is sound, and as near to the samples as reported and promised.
+/// Laws: the mesh satisfies the budgets, is sound, and has the reported and promised error.
 inline void check_budget(const Measurement& seen, const Simplified& made, const SimplifyOptions& options) {
   RC_ASSERT(is_within(made, options));
   RC_ASSERT(seen.is_sound());

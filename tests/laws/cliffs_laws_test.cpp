@@ -1,4 +1,4 @@
-// Lines along walls, and meshes that hold them.
+// Lines along walls, and meshes with them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using testing::Field;
 
-/// A slope with blocks that stand on it askew, each 10 higher than what it stands on, and some roughness.
+/// A slope with rotated blocks, each 10 above its ground, and some roughness.
 Field city(std::uint32_t seed, std::int32_t side, int blocks, double roughness) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {
@@ -82,7 +82,7 @@ std::vector<Piece> pieces_of(const std::vector<WallVertex>& line) {
 
 Point lattice_place(Point sample) { return {sample.x * kLatticeSteps, sample.y * kLatticeSteps}; }
 
-/// Checks that each way between two neighbours that crosses the line is a crack, its high sample on the line's left.
+/// Checks that every step between neighbours across the line is a crack, with the high sample on the line's left.
 void check_sides(const Raster& raster, double height, const std::vector<Piece>& line) {
   for (std::int32_t y = 0; y < raster.rows; ++y) {
     for (std::int32_t x = 0; x < raster.cols; ++x) {
@@ -166,7 +166,7 @@ RC_GTEST_PROP(CliffLaws, ChainsHoldEachCrackOnce, ()) {
 
 RC_GTEST_PROP(CliffLaws, OfASourceAreThoseOfTheSameSamplesInMemory, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-  // More rows than are read at once.
+  // More rows than one read.
   Field field = random_city(seed);
   while (field.rows < 150) {
     const Field more = random_city(seed + static_cast<std::uint32_t>(field.rows));

@@ -1,4 +1,4 @@
-// Laws of the concave hull of scattered points, and of meshes that end at it.
+// Laws of the concave hull of scattered points, and of meshes bounded by it.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -51,7 +51,7 @@ PointSet around_a_bay(std::uint32_t seed, int count) {
   return points;
 }
 
-/// From a tenth of the mean distance of the points to all of their extent.
+/// From a tenth of the mean distance between points to their extent.
 double any_length(const PointSet& points) {
   const auto extent = [](const std::vector<double>& values) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -76,7 +76,7 @@ int side(Point a, Point b, Point p) {
   return turn > 0 ? 1 : turn < 0 ? -1 : 0;
 }
 
-/// Edges meet in common corners only.
+/// True if edges meet only in common corners.
 bool is_simple(const SnappedPoints& points, const Ring& ring) {
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -90,7 +90,7 @@ bool is_simple(const SnappedPoints& points, const Ring& ring) {
   return true;
 }
 
-/// p in the polygon or on its edges: the textbook's ray to the east.
+/// True if p is in the polygon or on its edges, by a ray to the east.
 bool holds(const SnappedPoints& points, const Ring& ring, Point p) {
   bool is_in = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -110,7 +110,7 @@ double area_of(const SnappedPoints& points, const Ring& ring) {
   return static_cast<double>(twice / 2) * points.lattice.step * points.lattice.step;
 }
 
-/// Triangles whose circle holds no point, of all triples; nothing where four points lie on one circle.
+/// Triangles of all triples whose circle contains no point; nothing if four points lie on one circle.
 std::optional<std::vector<Corners>> delaunay_by_brute_force(const SnappedPoints& points) {
   const auto count = static_cast<std::uint32_t>(points.size());
   std::vector<Corners> triangles;
@@ -135,7 +135,7 @@ std::optional<std::vector<Corners>> delaunay_by_brute_force(const SnappedPoints&
   return triangles;
 }
 
-/// The boundary of the triangles as one ring through no point twice that omits no point; nothing where there is none.
+/// The boundary of the triangles as one ring without repeated or missing points; nothing if there is none.
 std::optional<std::map<std::uint32_t, std::uint32_t>> boundary_of(const std::vector<Corners>& triangles,
                                                                   std::size_t count) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -157,8 +157,7 @@ std::optional<std::map<std::uint32_t, std::uint32_t>> boundary_of(const std::vec
   return next;
 }
 
-/// The chi-shape by its definition: removes the triangle at the longest edge that can go, and examines everything
-/// again.
+/// The chi-shape by definition: removes the triangle at the longest removable edge, then examines everything again.
 std::map<std::uint32_t, std::uint32_t> chi_by_brute_force(const SnappedPoints& points, std::vector<Corners> triangles,
                                                           double longest) {
   for (;;) {
@@ -309,7 +308,7 @@ TEST(concave, hull_takes_no_length_that_is_none) {
   }
 }
 
-/// `place` gives x and y, in centimetres rounded, of each of them.
+/// `place` returns x and y of each, rounded to centimetres.
 template <class Place>
 PointSet on_hills(int count, const Place& place) {
   PointSet points;

@@ -50,7 +50,7 @@ testing::Field make_land() {
   return land;
 }
 
-/// The common parts of all runs, and one run's field and options.
+/// The common parts of all runs, with the field and options of one.
 struct Scene {
   testing::Field land = make_land();
   std::vector<float> mask = std::vector<float>(land.samples.size(), 0.5f);
@@ -70,7 +70,7 @@ struct Scene {
     if (levels.count > 1) fields.add(Field::kLevels);
     return fields;
   }
-  /// REQUIRES: no conflict, where there is a strategy; its options have no place for one.
+  /// REQUIRES: no conflict if there is a strategy, since its options cannot express one.
   Result<Simplified> run() const {
     if (levels.count > 1) {
       auto made = simplify_levels(field, options, levels);
@@ -204,7 +204,7 @@ std::vector<float> bounds_of(const Scene& scene, bool keeps_error, double factor
   return bounds;
 }
 
-/// In the eyes of the judge, and of what was asked for.
+/// Checks with the judge and the requested bound.
 void expect_kept(const Scene& scene, const Simplified& made, double tolerance = kTolerance) {
   testing::Field land = scene.land;
   for (const SampleEdit& edit : made.edits)
@@ -242,7 +242,7 @@ void expect_kept(const Scene& scene, const Simplified& made, double tolerance = 
   EXPECT_EQ(made.mesh.normals.size(), options.output.normals ? made.mesh.positions.size() : 0u);
 }
 
-/// Settings of which one brings the other along.
+/// True if one setting implies the other.
 bool brings(Field one, Field other) {
   return ((one == Field::kWalls || one == Field::kRidges) && other == Field::kBreaklines) ||
          (one == Field::kLevels && other == Field::kBorder) ||
@@ -257,7 +257,7 @@ bool names(const Conflict& conflict, Field one, Field other) {
 /// Goals with which two settings may be combined.
 const Field kGoals[] = {Field::kMaxError, Field::kMaxTriangles};
 
-/// Runs a pair, with the first goal that allows it. True if it is refused with all of them.
+/// Runs a pair with the first goal that allows it. True if all goals refuse it.
 bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
   bool is_named = false;
   for (const Field goal : kGoals) {
@@ -301,7 +301,7 @@ bool is_alone_refused(const Setting& setting) {
   return false;
 }
 
-/// A factor of all tolerances is searched for, or the table explains why not.
+/// A factor of all tolerances is searched for, or the table explains the refusal.
 void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   SCOPED_TRACE(std::string(name_of(setting.field)) + (is_streamed ? ", streamed" : ", in memory"));
   Scene scene;

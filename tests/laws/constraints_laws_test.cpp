@@ -1,4 +1,4 @@
-// Laws of lines in a mesh: whatever is inserted, removed or moved, they stay, and so does the bound.
+// Laws of lines in a mesh: they and the bound survive any insertion, removal or move.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,7 +12,8 @@ namespace {
 
 using testing::Field;
 
-/// Some edges of a triangulation of any lattice points: they cross nowhere. Heights are near those of the raster.
+/// Some edges of a triangulation of arbitrary lattice points, so they do not cross. Heights are near those of the
+/// raster.
 ConstraintGraph any_graph(const Field& field) {
   Triangulation tin(testing::in_steps(field.cols), testing::in_steps(field.rows));
   const int count = *rc::gen::inRange(0, 30);
@@ -49,7 +50,7 @@ std::optional<Vertex> find_vertex(const Triangulation& tin, Point p) {
   return tin.origin(location.edge);
 }
 
-/// The first edge of the graph that is no chain of edges of the mesh.
+/// The first edge of the graph that is not a chain of edges of the mesh.
 std::string find_lost_line(const Triangulation& tin, const ConstraintGraph& graph) {
   for (const auto& [a, b] : graph.edges) {
     const Point p = graph.points[a], q = graph.points[b];
@@ -76,7 +77,7 @@ std::string find_lost_line(const Triangulation& tin, const ConstraintGraph& grap
   return "";
 }
 
-/// The first point of the graph that is elsewhere or has another height, which is the sample's where there is one.
+/// The first point of the graph with a wrong place or height; the height must be the sample's, if any.
 std::string find_moved_point(const Fitted& fitted, const ConstraintGraph& graph, const Raster& raster) {
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
     const Point p = graph.points[i];

@@ -1,4 +1,4 @@
-// Laws of cutlines: what lies in the polygons and has data is covered, once, and nothing else; the bound holds there.
+// Laws of cutlines: exactly the points in the polygons with data are covered, once, and satisfy the bound.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -59,7 +59,7 @@ RC_GTEST_PROP(cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_
   }
 }
 
-/// The judge's own measurement, which finds the bound kept and the mesh whole.
+/// The judge's measurement, which finds a sound mesh within the bound.
 Measurement judged(const Field& field, const SimplifyOptions& options, const Simplified& result) {
   MeasureOptions judge;
   judge.cutline = &options.features.cutline;

@@ -1,4 +1,4 @@
-// The locally dominant order against its definition, and the promise it keeps on one tile.
+// The locally dominant order against its definition, and its promise on one tile.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -44,7 +44,7 @@ RC_GTEST_PROP(dominant, ends_with_every_sample_within_the_bound, ()) {
   RC_ASSERT(broken == "");
 }
 
-// Rounding is all that there is to see: errors that float32 computes as 0 are errors all the same.
+// Only rounding errors occur: errors that float32 computes as 0 still count.
 RC_GTEST_PROP(dominant, reproduces_slopes_that_float32_cannot_hold, ()) {
   const Field field =
       testing::sloping_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 40), *rc::gen::inRange(2, 40));
@@ -67,7 +67,7 @@ RC_GTEST_PROP(dominant, gives_the_same_mesh_by_every_kernel_and_every_time, ()) 
   }
 }
 
-/// The triangles that insertion of the candidate of t removes, and those beyond them, have no larger key.
+/// True if no triangle that the candidate of t removes, nor one beyond them, has a larger key.
 bool is_local_maximum(TileMesh& mesh, TileMesh::Id t) {
   const std::int64_t key = mesh[t].key;
   const TileMesh::Cavity cavity = mesh.find_cavity(t, candidate_of(key));
@@ -93,7 +93,7 @@ std::optional<TileMesh::Id> find_maximum(TileMesh& mesh, std::optional<TilePoint
   return std::nullopt;
 }
 
-// The definition: whatever is inserted was, in a mesh scanned from scratch, the worst candidate near it.
+// The definition: each inserted sample was, in a mesh scanned from scratch, the worst candidate near it.
 RC_GTEST_PROP(dominant, inserts_local_maxima_only_and_leaves_none, ()) {
   const Field field = testing::any_tile_field(22);
   const double threshold = testing::any_tile_threshold();
@@ -115,7 +115,7 @@ RC_GTEST_PROP(dominant, inserts_local_maxima_only_and_leaves_none, ()) {
     RC_ASSERT(slow.mesh.vertex_count() == refined.vertex_count());  // cocircular ties
 }
 
-// Any order of local maxima will do: the first that is found, instead of the one at the end of a walk.
+// Any order of local maxima is valid: uses the first one found instead of the end of a walk.
 TEST(dominant, another_order_of_local_maxima_keeps_the_bound_with_as_many_vertices) {
   for (const Relief relief : testing::kReliefs) {
     for (const double threshold : {0.5, 4.0}) {

@@ -1,4 +1,4 @@
-// Efforts at the public door where more counts than heights on the exact outline: channels, simplified outlines.
+// Efforts in the public interface beyond heights on the exact outline: channels, simplified outlines.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -38,7 +38,7 @@ struct Coloured {
 
 Coloured any_coloured(std::int32_t largest) {
   Coloured made{any_field(largest), {}, {}, *rc::gen::element(1.0, 1.0, 0.0, 2.0, 0.25)};
-  // No channels: heights alone, that count otherwise.
+  // No channels: heights alone, with another weight.
   const auto count = *rc::gen::inRange(made.height_scale == 1 || made.height_scale == 0 ? 1 : 0, 4);
   for (int k = 0; k < count; ++k) {
     made.layers.push_back(testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), made.heights.cols,
@@ -49,7 +49,7 @@ Coloured any_coloured(std::int32_t largest) {
   return made;
 }
 
-/// Norm of a sample, by brute force; NaN where no triangle holds it.
+/// Norm of a sample by brute force; NaN if uncovered.
 double norm_at(const Mesh& mesh, const HeightField& view, Norm norm, int col, int row) {
   double sum = 0, squares = 0, largest = 0;
   for (int k = -1; k < static_cast<int>(view.channels.size()); ++k) {

@@ -1,4 +1,4 @@
-// Laws of efforts at the public door: whatever is removed, moved or lifted, the promise is that of refinement.
+// Laws of efforts in the public interface: with all removals and moves, the promise is that of refinement.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -28,7 +28,7 @@ SimplifyOptions with_effort(double max_error, Effort effort, Vertices vertices =
   return options;
 }
 
-/// A frame with cells that no float32 offset fits.
+/// A frame whose cells have no exact float32 offsets.
 HeightField odd_cells(const Field& field) {
   HeightField view = field.view();
   view.frame.kind = Frame::Kind::kSource;

@@ -22,7 +22,7 @@ struct Field {
 
 enum class Relief { kTies, kFlat, kCliff, kReal, kRidges };
 
-/// Heights with the troubles of real rasters: few distinct values (ties), plateaus, cliffs, arbitrary floats.
+/// Heights with the difficulties of real rasters: few distinct values (ties), plateaus, cliffs, arbitrary floats.
 /// `nodata_share` of the samples are NaN, in blobs.
 inline Field random_field(std::uint32_t seed, std::int32_t cols, std::int32_t rows, Relief relief,
                           double nodata_share = 0) {
@@ -69,7 +69,7 @@ inline Field random_field(std::uint32_t seed, std::int32_t cols, std::int32_t ro
   return field;
 }
 
-/// Columns for rows.
+/// Swaps columns and rows.
 inline Field transposed(const Field& field) {
   Field turned{field.rows, field.cols, {}};
   for (int y = 0; y < field.cols; ++y)

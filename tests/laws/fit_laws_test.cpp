@@ -1,4 +1,4 @@
-// Fitting: a mesh with fewer vertices that keeps the bound, the domain and the constraints of the one before.
+// Fitting: a mesh with fewer vertices and the same bound, domain and constraints.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -167,7 +167,7 @@ TEST(fit, halves_a_greedy_mesh) {
   const auto before_fit = refined(field, 4)->triangle_count();
   const auto whole = *fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2});
   EXPECT_LT(static_cast<double>(whole.tin.triangle_count()), 0.75 * static_cast<double>(before_fit));
-  // Borders of patches cost next to nothing once the second round has freed them.
+  // Borders of patches cost almost nothing after the second round has released them.
   const auto patches = *fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2, .patch_side = 64});
   EXPECT_LT(static_cast<double>(patches.tin.triangle_count()), 1.02 * static_cast<double>(whole.tin.triangle_count()));
 }
@@ -191,7 +191,7 @@ std::int64_t area_of(const FitCorner& a, const FitCorner& b, const FitCorner& c)
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
 }
 
-/// The verdict, the energies and the pull by scanning every sample of the raster.
+/// The verdict, energies and pull by scanning every sample of the raster.
 struct Oracle {
   bool keeps = true;
   double energy = 0, eighth = 0, worst = 0;  // worst: in thresholds
@@ -351,8 +351,8 @@ testing::ShapeOracle shape_of(const FitCorner& a, const FitCorner& b, const FitC
   return {{Point{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}, 1};
 }
 
-/// The least energy over all triangulations of the corners first … last of a ring, by trying each, whose shapes are
-/// not below the floor; infinite if none.
+/// The least energy over all triangulations of the corners first … last of a ring whose shapes are not below the floor,
+/// by trying all; infinite if none.
 double least_energy(const TriangleError& error, const std::vector<FitCorner>& ring, std::size_t first, std::size_t last,
                     const testing::ShapeOracle& floor) {
   if (last == first + 1) return 0;
@@ -368,7 +368,7 @@ double least_energy(const TriangleError& error, const std::vector<FitCorner>& ri
   return best;
 }
 
-/// Corners around a hub at the middle of the field, in positive order: a polygon whose inside the hub sees.
+/// Corners around a hub at the middle of the field, in positive order: a star-shaped polygon seen from the hub.
 std::vector<FitCorner> any_ring(const Field& field, FitCorner hub) {
   std::vector<FitCorner> ring;
   const auto count = *rc::gen::inRange(3, 9);

@@ -1,4 +1,4 @@
-// Meshes to be fitted, and what to ask of them before and after.
+// Meshes to fit, and checks before and after.
 #pragma once
 
 #include <rapidcheck.h>
@@ -33,7 +33,7 @@ inline Field any_field() {
 
 inline double any_threshold() { return *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6); }
 
-/// The greedy mesh; nothing if the field has no surface.
+/// The greedy mesh; nothing without a surface.
 inline std::optional<Triangulation> refined(const Field& field, double threshold) {
   auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;
@@ -88,7 +88,7 @@ inline FitCorner any_corner(const Field& field) {
   return corner;
 }
 
-/// The first sample that breaks the bound by exact arithmetic, whose triangles have corners on the lattice.
+/// The first sample that breaks the bound by exact arithmetic, for triangles with corners on the lattice.
 inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted, double threshold) {
   for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
     if (fitted.tin.is_outside(t)) continue;
@@ -111,7 +111,7 @@ inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted,
   return "";
 }
 
-/// Sum of the errors at samples, those on edges once for each triangle.
+/// Sum of squared errors at samples; those on edges count once per triangle.
 inline double sum_of_squares(const Raster& raster, const Fitted& fitted) {
   double sum = 0;
   for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
@@ -135,7 +135,7 @@ inline double sum_of_squares(const Raster& raster, const Fitted& fitted) {
   return sum;
 }
 
-/// Height over longest edge as a fraction; exact as long as products of two are whole numbers below 2⁵³.
+/// Height over longest edge as a fraction; exact if products of two are integers below 2⁵³.
 struct ShapeOracle {
   double area = 1, longest = 1;
 
@@ -158,7 +158,7 @@ inline ShapeOracle worst_shape(const Triangulation& tin, double aspect, ShapeOra
   return most;
 }
 
-/// A side of the rectangle that vertices on the lattice of fitting live in.
+/// Side of the rectangle of fitting's lattice vertices.
 inline std::int32_t in_steps(std::int32_t side) { return (side - 1) * kLatticeSteps + 1; }
 
 }  // namespace scarp::testing

@@ -1,7 +1,6 @@
-// Laws choose the same random cases in every run, so that one that fails does so again for whoever repeats it. A set
-// RC_PARAMS has its way instead, all of it: "seed=7 max_success=1000"; without a seed RapidCheck uses a fresh one.
-// SCARP_LAW_CASES: the number of cases of each law (100; in sanitized builds 8). SCARP_LAW_SIZE: RapidCheck's largest
-// size of a case (100).
+// Laws use the same random cases in every run, so that failures are reproducible. RC_PARAMS, if set, overrides all of
+// this: "seed=7 max_success=1000"; without a seed RapidCheck uses a fresh one. SCARP_LAW_CASES: the number of cases of
+// each law (100; in sanitized builds 8). SCARP_LAW_SIZE: RapidCheck's largest size of a case (100).
 #include <stdlib.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// Laws of surfaces that heights are above: the built-in geoid is PROJ's, and a grid's surface is the textbook's.
+// Laws of height datums: the built-in geoid is PROJ's, and a grid's surface is the textbook's.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -22,7 +22,7 @@ double height_at(const HeightZero& zero, double longitude, double latitude) {
   return height;
 }
 
-/// The way of PROJ through its own grid of EGM96; null where the grid is not on this machine.
+/// PROJ's interpolation of its own EGM96 grid; null if the grid is not on this machine.
 std::shared_ptr<const HeightZero> proj_egm96() {
   RasterInfo info;
   info.crs = "EPSG:4326";
@@ -42,7 +42,7 @@ TEST(Egm96, HasTheHeightsThatEverybodyKnows) {
   const auto geoid = egm96();
   EXPECT_NEAR(height_at(*geoid, 0, 90), 13.61, 0.005);
   EXPECT_NEAR(height_at(*geoid, 123, -90), -29.53, 0.005);
-  // NGA's test points of EGM96, which uses all of its 360 degrees there; 15 minutes of arc smooth them.
+  // NGA's test points of EGM96, computed with all 360 degrees of the model; 15 minutes of arc smooth them.
   EXPECT_NEAR(height_at(*geoid, 269.7791550, 38.6281550), -31.628, 0.1);
   EXPECT_NEAR(height_at(*geoid, 305.0211140, -14.6212170), -2.969, 0.1);
   EXPECT_NEAR(height_at(*geoid, 102.4487290, 46.8743190), -43.575, 0.1);
@@ -69,7 +69,7 @@ RC_GTEST_PROP(egm96_law, is_what_proj_makes_of_its_grid_to_6_mm, ()) {
   const double ours = height_at(*egm96(), longitude, latitude);
   const double other = height_at(*theirs, longitude, latitude);
   RC_ASSERT(std::abs(ours - other) < 0.006);
-  // A turn more is the same place.
+  // Another turn is the same place.
   RC_ASSERT(std::abs(ours - height_at(*egm96(), longitude + 360, latitude)) < 1e-9);
 }
 
@@ -85,7 +85,7 @@ RC_GTEST_PROP(grid_zero_law, is_bilinear_between_its_nodes, ()) {
   RC_ASSERT(made.has_value());
   const double col = any_degrees(0, cols) - 0.5, row = any_degrees(0, rows) - 0.5;
   const double found = height_at(**made, west + col * cell, north - row * cell);
-  // The textbook: all four, weights of 0 omitted.
+  // The textbook: all four nodes, except those with weight 0.
   const double at_col = goes_round ? col : std::clamp(col, 0.0, cols - 1.0), at_row = std::clamp(row, 0.0, rows - 1.0);
   double height = 0;
   for (const int down : {0, 1}) {
@@ -97,7 +97,7 @@ RC_GTEST_PROP(grid_zero_law, is_bilinear_between_its_nodes, ()) {
       height += weight * double{nodes[static_cast<std::size_t>(static_cast<int>(y) * cols + wrapped)]};
     }
   }
-  // On a node's own line rounding may ask for the nodes next to it.
+  // On a node's line rounding may require adjacent nodes.
   if (std::isnan(height) || std::isnan(found)) {
     const bool is_on_line =
         std::abs(at_col - std::round(at_col)) < 1e-6 || std::abs(at_row - std::round(at_row)) < 1e-6;

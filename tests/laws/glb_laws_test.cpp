@@ -1,4 +1,4 @@
-// Laws of compressed GLB: what is promised of a mesh is kept by the bytes, as they decode.
+// Laws of compressed GLB: the decoded bytes keep the mesh's promises.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

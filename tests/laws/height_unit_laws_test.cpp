@@ -1,4 +1,4 @@
-// Laws of units: a height, a distance and a bound are as long in every frame as they are on the ground.
+// Laws of units: a height, a distance and a bound have their length on the ground in every frame.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -44,7 +44,7 @@ Place any_place() {
                                                 {"", "100, 2, 0, 50, 0, -2", 0}});
 }
 
-/// A VRT over floats, and what they are.
+/// A VRT over floats, and its properties.
 struct Raster {
   testing::ScratchFolder folder;
   std::vector<float> values;
@@ -90,7 +90,7 @@ RC_GTEST_PROP(height_units, heights_and_distances_are_those_on_the_ground, ()) {
     RC_ASSERT(std::abs(height - raster.physical(k)) <=
               field->sample_rounding * info.unit_in_metres + 1e-9 * std::abs(raster.physical(k)));
   }
-  // The word is that of the unit, and there is one where somebody has named it.
+  // The word names the unit, if a unit was declared.
   RC_ASSERT(info.unit == (is_metric && raster.metres() != 1 ? "m" : raster.unit.name));
   RC_ASSERT(!is_metric || raster.metres() == 1 || !info.warnings.empty());
   if (raster.place.metres > 0 && frame != "grid") {
@@ -98,7 +98,7 @@ RC_GTEST_PROP(height_units, heights_and_distances_are_those_on_the_ground, ()) {
     const double on_ground = (raster.place.crs == "EPSG:32616" ? 10 : 30) * raster.place.metres;
     RC_ASSERT(std::abs(cell / on_ground - 1) < 1e-5);
   }
-  // Who knows the factor and the unit of the result reads the same again.
+  // With the factor and the unit of the result, reading gives the same again.
   ReadOptions again = options;
   again.z_scale = info.z_scale;
   again.z_unit = info.unit;

@@ -1,5 +1,5 @@
-// Every set of the judge's kernels gives the bits of the scalar twin, whatever the samples, the triangles and what is
-// asked of the samples that count most.
+// Every set of the judge's kernels gives the bits of the scalar one, for all samples, triangles and questions about the
+// worst samples.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -28,7 +28,7 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 enum class Places { kSamples, kLattice, kFree, kSlivers };
 
-/// A band of a field, its arrays padded with what a reader must not notice.
+/// A band of a field, padded with values that a reader must ignore.
 struct TestBand {
   std::vector<float> heights;
   std::vector<double> errors;
@@ -49,7 +49,7 @@ struct TestBand {
   }
 };
 
-/// Handles samples that count like the judge: errors from the largest so far on are settled, and become the largest.
+/// Handles samples like the judge: errors from the largest so far on are settled and become the largest.
 struct Looker {
   const Facet& facet;
   const FacetTask& task;
@@ -155,7 +155,7 @@ RC_GTEST_PROP(judge_kernels_laws, facets_agree_to_the_bit, ()) {
   const auto expected = judge_all(judge::available_judge_kernels().back(), field, facets, is_on_lattice, watch);
   for (const JudgeKernels& kernels : judge::available_judge_kernels())
     RC_ASSERT(have_same_bits(judge_all(kernels, field, facets, is_on_lattice, watch), expected));
-  // The short cut for corners on the lattice changes nothing.
+  // The shortcut for corners on the lattice changes nothing.
   if (is_on_lattice)
     RC_ASSERT(have_same_bits(judge_all(judge::judge_kernels(), field, facets, false, watch), expected));
 }

@@ -1,4 +1,4 @@
-// The lazy order keeps the promise of the dominant one, whatever its estimates are.
+// The lazy order keeps the dominant order's promise for any estimates.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -52,7 +52,7 @@ RC_GTEST_PROP(lazy_levels, ends_with_every_sample_within_the_bound_and_every_tri
   RC_ASSERT(unsound == "");
   const std::string broken = testing::find_broken_bound(field.raster(), started.mesh, threshold);
   RC_ASSERT(broken == "");
-  // The promise of the dominant order is the same: it finds nothing left to do.
+  // The promise of the dominant order: it finds nothing left to do.
   RC_ASSERT(refine_dominant(started.mesh, scanner).insertions == 0u);
 }
 

@@ -1,4 +1,5 @@
-// Laws of budgets with lines: what fits is kept to, what cannot fit is named, and every mesh is that of some max error.
+// Laws of budgets with lines: sufficient budgets are kept, insufficient ones named, and every mesh is that of some max
+// error.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -22,7 +23,7 @@ using testing::Field;
 using testing::hills;
 using testing::is_within;
 
-/// Lines, or polygons, or both, and a budget that may be too small.
+/// Lines, polygons or both, and a budget that may be too small.
 SimplifyOptions any_lines_and_budget(const Field& field) {
   SimplifyOptions options;
   options.features.breaklines = any_lines(field);
@@ -54,7 +55,7 @@ Field edited(Field field, const Simplified& made) {
   return field;
 }
 
-/// The number that is enough according to the sentence.
+/// The sufficient number according to the message.
 std::uint64_t needed(const std::string& sentence) {
   const auto at = sentence.find(" need ");
   return at == std::string::npos ? 0 : std::stoull(sentence.substr(at + 6));

@@ -1,4 +1,4 @@
-// Laws of breaklines at the public door.
+// Laws of breaklines in the public interface.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

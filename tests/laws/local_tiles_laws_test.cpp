@@ -1,4 +1,4 @@
-// Laws of tiles on a plane: samples are nodes, tiles end where the raster does, neighbours meet, and bounds hold of the
+// Laws of tiles on a plane: samples are nodes, tiles end with the raster, neighbours meet, and bounds hold for the
 // bytes.
 #include <gtest/gtest.h>
 
@@ -110,7 +110,7 @@ TEST_P(LocalTiles, have_all_samples_within_the_bound_and_end_with_the_raster) {
   const double west = static_cast<double>(raster.centre_col()), south = static_cast<double>(raster.centre_row());
   std::vector<std::vector<bool>> is_met(plan_.levels.size());
   for (auto& met : is_met) met.resize(heights_.size());
-  // Normals are in bytes, which a wall's may lean over by.
+  // Normals are in bytes, so a wall's may lean over.
   const double lean = GetParam().steepness > 1 ? 1.0 / 127 : 0;
   for (const auto& [key, bytes] : tiles_) {
     const auto& [z, y, x] = key;
@@ -150,7 +150,7 @@ TEST_P(LocalTiles, have_all_samples_within_the_bound_and_end_with_the_raster) {
           is_met[level][static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.cols) +
                         static_cast<std::size_t>(col)] = true;
           const double mesh = a[2] + to_b * (b[2] - a[2]) + to_c * (c[2] - a[2]);
-          // Rows of cells that are not square move with their lattice: then the distance in space counts, not this one.
+          // Non-square cells move with their lattice: there the distance in space counts, not this one.
           if (raster.cell_x != raster.cell_y) continue;
           EXPECT_LE(std::abs(mesh - sample(col, row)), bound * (1 + 1e-12) + 1e-9);
         }

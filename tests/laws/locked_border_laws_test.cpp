@@ -1,4 +1,4 @@
-// Laws of locked borders: what lies on the edge of the raster is a function of the edge, and no effort touches it.
+// Laws of locked borders: vertices on the raster's edge depend only on the edge, and no effort changes them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -27,14 +27,14 @@ using testing::Relief;
 
 constexpr float kNodata = std::numeric_limits<float>::quiet_NaN();
 
-/// The textbook for whole heights and 511 · `unit` of room: every pair of samples, in whole numbers.
+/// The textbook for integer heights and a room of 511 · `unit`: every pair of samples, in integers.
 class Textbook {
  public:
   Textbook(const std::vector<float>& heights, std::int64_t unit) : room_(511 * unit) {
     for (const float z : heights) heights_.push_back(std::llround(z));
   }
 
-  /// From `first` to `last`, all heights.
+  /// From `first` to `last`, all valid.
   std::vector<std::int32_t> find(std::size_t first, std::size_t last) const {
     std::vector<int> segments(last + 1, std::numeric_limits<int>::max());
     std::vector<std::size_t> before(last + 1, first);
@@ -93,7 +93,7 @@ TEST(simplify_edge, spans_a_long_level_edge_in_few_segments) {
   EXPECT_EQ(simplify_edge(sea, 1).size(), 4u);
 }
 
-/// An edge of a field: its samples, and the row of samples behind it.
+/// An edge of a field: its samples and the row behind.
 struct Edge {
   std::vector<Point> points;
   std::vector<float> heights, behind;
@@ -124,7 +124,7 @@ std::vector<Edge> edges_of(const Field& field) {
   return edges;
 }
 
-/// A vertex on an edge: its height, and its normal where the mesh has any.
+/// A vertex on an edge: its height, and its normal if any.
 struct OnEdge {
   double z = 0;
   std::array<float, 3> normal{};
@@ -234,7 +234,7 @@ std::vector<float> column(const Field& field, std::int32_t x) {
   return samples;
 }
 
-// Cut at a column or at a row; with the samples beyond or without; with nodata.
+// Cuts at a column or a row, with or without the samples beyond, with nodata.
 RC_GTEST_PROP(locked_border, has_the_same_normals_on_both_sides, ()) {
   const auto relief = *rc::gen::element(Relief::kTies, Relief::kFlat, Relief::kCliff, Relief::kReal, Relief::kRidges);
   const Field field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(4, 40),
@@ -261,7 +261,7 @@ RC_GTEST_PROP(locked_border, has_the_same_normals_on_both_sides, ()) {
   if (!left || !right) return;  // no surface
   const auto here = vertices_on(left->mesh, first, edges_of(first)[side]);
   for (const auto& [step, vertex] : vertices_on(right->mesh, second, edges_of(second)[side_second])) {
-    // If nodata is next to the edge, one of both may have a vertex more, also between samples.
+    // With nodata next to the edge, one of both may have another vertex, also between samples.
     if (step >= edges_of(second)[side_second].points.size()) continue;
     if (const auto same = here.find(step); same != here.end()) RC_ASSERT(same->second == vertex);
   }
@@ -288,7 +288,7 @@ TEST(locked_border, has_the_normals_of_the_whole_raster_where_it_knows_what_is_b
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(same->second.normal[k], vertex.normal[k], 1e-6f);
   }
   EXPECT_GT(compared, 10u);
-  // And level across the edge where it does not know it.
+  // Level across the edge if the samples beyond are unknown.
   for (const auto& [step, vertex] : vertices_on(apart->mesh, west, middle)) level += vertex.normal[0] == 0;
   EXPECT_GT(level, 10u);
   options.domain.border.beyond.right.pop_back();
@@ -460,7 +460,7 @@ TEST(locked_border, stays_that_of_the_max_error_when_a_budget_allows_less) {
             "the border's max error must lie in 0 … 1, that of the mesh, not 2");
 }
 
-/// The largest error by every triangle and every sample.
+/// The largest error over all triangles and samples.
 double find_largest_error(const Mesh& mesh, const Field& field) {
   double largest = 0;
   for (std::int32_t row = 0; row < field.rows; ++row) {

@@ -11,8 +11,8 @@ namespace scarp::testing {
 
 enum class Edges { kDelaunay, kAny };
 
-/// The first law that is broken, "" if none: (1) twins point at each other along the same edge, constraints agree; (2)
-/// triangles are positive; (3) Euler: the areas add up to the rectangle and V − E + F = 1; (4) locally Delaunay but
+/// The first broken law, "" if none: (1) twins point at each other along the same edge, constraints agree; (2)
+/// triangles are positive; (3) Euler: the areas add up to the rectangle and V − E + F = 1; (4) locally Delaunay except
 /// across constraints (unless `edges` is kAny); (5) the mark "outside" changes only across constraints.
 inline std::string verify_triangulation(const Triangulation& tin, std::int32_t cols, std::int32_t rows,
                                         Edges edges_are = Edges::kDelaunay) {
@@ -59,7 +59,7 @@ inline bool is_same(const Triangulation& a, const Triangulation& b) {
   return true;
 }
 
-/// The segment from a to b is a chain of constrained edges.
+/// True if the segment from a to b is a chain of constrained edges.
 inline bool is_constrained_chain(const Triangulation& tin, Vertex a, Vertex b) {
   for (Vertex v = a; v != b;) {
     Vertex next = kNone;

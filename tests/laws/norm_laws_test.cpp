@@ -1,4 +1,4 @@
-// Fitting where heights and channels count together: it accepts the same triangles as the error metric of refinement.
+// Fitting with norms of heights and channels: it accepts the same triangles as refinement's error metric.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -24,7 +24,7 @@ using testing::Field;
 using testing::is_same;
 using testing::Relief;
 
-/// Heights, channels of other reliefs, and how they count.
+/// Heights, channels with other reliefs, and their scales.
 struct Stack {
   std::vector<Field> layers;  // the first is the heights
   std::vector<MetricField> judged;
@@ -74,7 +74,7 @@ Stack any_stack(std::int32_t largest) {
     const bool counts = k > 0 || *rc::gen::arbitrary<bool>();
     if (counts) stack.judged.push_back({stack.layers[k].samples.data(), scale});
   }
-  // Channels may be anything at nodata heights.
+  // Channels may have any value at nodata heights.
   for (std::size_t i = 0; i < stack.layers[0].samples.size(); ++i) {
     if (std::isnan(stack.layers[0].samples[i])) stack.layers[1].samples[i] = std::numeric_limits<float>::infinity();
   }
@@ -92,7 +92,7 @@ FitCorner at_sample(const Stack& stack, Point p) {
   return {p.x * kLatticeSteps, p.y * kLatticeSteps, stack.heights().raster().at(p)};
 }
 
-/// Three valid samples, counter-clockwise; nothing if all lie on a line, or too many do.
+/// Three valid samples, counter-clockwise; nothing if all are collinear or too many are.
 std::optional<std::array<Point, 3>> any_corners(const Stack& stack) {
   std::vector<Point> valid;
   for (Point p{0, 0}; p.y < stack.heights().rows; ++p.y) {
@@ -110,7 +110,7 @@ std::optional<std::array<Point, 3>> any_corners(const Stack& stack) {
   return std::nullopt;
 }
 
-/// In double, sample by sample.
+/// Computes in double, sample by sample.
 struct Oracle {
   double worst = 0, energy = 0;         // in bounds
   std::vector<double> stiffness, push;  // for each field
@@ -261,7 +261,7 @@ RC_GTEST_PROP(norms, are_kept_by_every_effort_on_any_number_of_threads, ()) {
   RC_ASSERT(is_same(again.tin, first.tin));
 }
 
-// Channels without new information: as many as there are, they count like heights.
+// Channels without new information: they count like heights.
 TEST(norms, of_the_same_field_thrice_take_as_many_triangles_as_heights_alone) {
   const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
   Stack stack{{field}, {}, Norm::kMax, 4, {}};

@@ -70,8 +70,8 @@ inline PointSet random_points(std::uint32_t seed, int count, Scatter scatter, He
   return points;
 }
 
-/// Points that no triangle covers, and the largest error of the others, by the textbook: every point
-/// against every triangle, in barycentric coordinates.
+/// Number of points that no triangle covers, and the largest error of the others, by the textbook: every point against
+/// every triangle, in barycentric coordinates.
 inline std::pair<int, double> judge_by_brute_force(const PointSet& points, const Mesh& mesh) {
   int missed = 0;
   double worst = 0;

@@ -1,4 +1,4 @@
-// Laws of scattered points: the promise, the oracle, the judge, and the raster that is a set of points.
+// Laws of scattered points: the promise, the oracle, the judge, and a raster as a set of points.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -29,7 +29,7 @@ PointSet any_points(int most, Scatter scatter, Heights heights) {
   return testing::random_points(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(3, most), scatter, heights);
 }
 
-/// False where all points lie on one line: nothing can be promised there.
+/// False if all points are collinear, for which nothing is promised.
 bool has_area(const PointSet& points) {
   const auto snapped = snap_points(points, DuplicatePolicy::kFirst);
   return snapped && build_domain(*snapped).has_value();
@@ -145,7 +145,7 @@ RC_GTEST_PROP(points, are_inserted_in_the_order_of_brute_force, ()) {
   if (goal > 0) {
     RC_ASSERT(domain.point_of == expected);
   } else {
-    // Points that a plane explains up to rounding are distinguished exactly by the engine only.
+    // Only the engine distinguishes points that a plane explains within rounding.
     const std::size_t common = std::min(domain.point_of.size(), expected.size());
     RC_ASSERT(
         std::equal(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(common), domain.point_of.begin()));
@@ -250,7 +250,7 @@ RC_GTEST_PROP(points, of_a_raster_give_the_mesh_of_the_raster, ()) {
   RC_ASSERT(a == b);
 }
 
-// Slivers of millimetres along the hull, across which the surface rises by metres: a step of float32 is felt there.
+// Slivers of millimetres along the hull, across which the surface rises by metres: a float32 step matters there.
 TEST(points, keep_their_bound_where_slivers_along_the_hull_are_steep) {
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     std::mt19937 random(seed);

@@ -143,7 +143,7 @@ TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_til
     const auto tiles = find_tiles(made->plan, &land);
     ASSERT_TRUE(tiles) << tiles.error().message;
     EXPECT_EQ(*tiles, made->report.tiles);
-    // Without reading nodes: at least these.
+    // At least these, without reading nodes.
     const auto perhaps = find_tiles(made->plan, nullptr);
     ASSERT_TRUE(perhaps);
     for (std::size_t z = 0; z < tiles->size(); ++z)
@@ -213,7 +213,7 @@ TEST(pyramid_laws, every_tile_with_heights_is_there_with_its_ancestors_and_sibli
   expected.insert({0, 1, 0});
   for (const Kept::Key& key : expected) {
     const auto [z, x, y] = key;
-    // A corner of a tile may hold none of its nodes.
+    // A corner of a tile may contain none of its nodes.
     if (made->kept.files.count(key) == 0) {
       const auto tile = make_tile(made->plan, {z, x, y}, land);
       ASSERT_TRUE(tile);
@@ -275,7 +275,7 @@ TEST(pyramid_laws, neighbours_in_a_pyramid_decode_to_the_same_edge) {
   if (!testing::kIsSanitized) expect_same_edges(kIsland, 300);
   if (!testing::kIsSanitized) expect_same_edges(kIsland, 100, kGrids[1]);
   expect_same_edges(kIsland, 300, {}, kRivers);
-  // Around the antimeridian, up to where the grid ends.
+  // Around the antimeridian, up to the end of the grid.
   expect_same_edges({170, 78, 190, 90}, 50, kGrids[1]);
 }
 

@@ -1,4 +1,4 @@
-// The promise on real terrain: every open raster that is small enough to be judged sample by sample.
+// The promise on real terrain: every open raster that is small enough to judge sample by sample.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The engine against its textbook twins, and the laws of what it makes.
+// The engine against its textbook twins, and the laws of its meshes.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -65,7 +65,7 @@ RC_GTEST_PROP(oracle, algorithms_one_two_and_three_insert_the_same_points, ()) {
   }
 }
 
-// The public door in the greedy order: the same vertices as the textbook, at any number of threads.
+// The public interface in the greedy order: the textbook's vertices on any number of threads.
 RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices, ()) {
   const Case c = random_case(18);
   const Raster raster = c.field.raster();
@@ -93,7 +93,7 @@ RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices,
   RC_ASSERT(found == expected);
 }
 
-// The promise, by integers and without any scan: every valid sample of every triangle that contains it.
+// The promise in integers without scanning: every valid sample of every triangle that contains it.
 RC_GTEST_PROP(refinement, keeps_the_bound_exactly_and_covers_every_cell, ()) {
   const Case c = random_case(22);
   const Raster raster = c.field.raster();
@@ -140,7 +140,7 @@ RC_GTEST_PROP(refinement, keeps_the_bound_exactly_and_covers_every_cell, ()) {
   RC_ASSERT(domain_area2 >= cells_area2);
 }
 
-// A field of cliffs at any threshold ends, and threshold 0 inserts exactly the samples that planes cannot explain.
+// Refinement of cliffs ends at any threshold, and threshold 0 inserts exactly the samples that planes cannot explain.
 TEST(refinement, a_plane_needs_no_vertex_but_the_corners) {
   Field field{40, 30, std::vector<float>(1200)};
   for (std::int32_t y = 0; y < 30; ++y)

@@ -1,4 +1,4 @@
-// Removal with repair, and what it is made of: moves, flips, and undoing all of them.
+// Removal with repair, and its parts: moves, flips, and undoing all of them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -36,7 +36,7 @@ using testing::Points;
 using testing::refined;
 using testing::Relief;
 
-/// Constrained edges within the rectangle, from the end that comes first.
+/// Constrained edges within the rectangle, from their first end.
 std::set<std::pair<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>>> constraints_of(
     const Triangulation& tin) {
   std::set<std::pair<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>>> edges;
@@ -158,7 +158,7 @@ RC_GTEST_PROP(repair, threads_change_nothing, ()) {
   }
 }
 
-/// True from its nth question on, whoever asks.
+/// True from the nth call on, by any caller.
 std::function<bool()> up_after(int questions) {
   auto left = std::make_shared<std::atomic<int>>(questions);
   return [left] { return left->fetch_sub(1) <= 0; };
@@ -250,7 +250,7 @@ TEST(repair, heights_and_triangles_beyond_its_arithmetic_are_left_alone) {
   EXPECT_EQ(fit({samples.data(), cols, 2}, std::move(tin), options)->counts.removed, 0u);
 }
 
-/// A patch that holds the whole of a mesh.
+/// A patch that contains a whole mesh.
 struct Bench {
   Field field = any_field();
   double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0);
@@ -273,7 +273,7 @@ struct Bench {
 
 bool is_alive(const Patch& patch, Patch::Id f) { return patch.face(f).corners[0] != kNone; }
 
-/// The first law of a patch that is broken: triangles are positive, links mutual and along the same edge.
+/// The first broken law of a patch: triangles are positive, links mutual and along the same edge.
 std::string verify(const Patch& patch) {
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     if (!is_alive(patch, f)) continue;
@@ -302,7 +302,7 @@ std::string verify(const Patch& patch) {
   return "";
 }
 
-/// Everything that can be seen of a patch.
+/// The complete visible state of a patch.
 struct Picture {
   std::vector<Patch::Face> faces;
   std::vector<FitCorner> places;
@@ -380,7 +380,7 @@ RC_GTEST_PROP(patch, changes_stay_sound_and_can_be_taken_back, ()) {
   }
 }
 
-/// By how much the energy has risen; faces that are as they were count for exactly nothing.
+/// The increase of energy; unchanged faces contribute exactly nothing.
 double rise_of_energy(const Patch& patch, const Picture& before) {
   double sum = 0;
   for (Patch::Id f = 0; f < patch.face_count(); ++f)
@@ -396,7 +396,7 @@ bool was_over(const Patch& patch, const Picture& before, Patch::Id v, double thr
                      [&](Patch::Id f) { return before.faces[f].worst > threshold; });
 }
 
-/// True if no changed face is below the floor and worse than all that they were before.
+/// True if no changed face is below the floor and worse than all faces before.
 bool keeps_shape(const Patch& patch, const Picture& before, const ShapeRule& rule) {
   testing::ShapeOracle floor(rule.floor), worst(1.0);
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
@@ -418,13 +418,13 @@ bool keeps_shape(const Patch& patch, const Picture& before, const ShapeRule& rul
   return !(worst < floor);
 }
 
-/// Every face is measured, within the bound, and its measure true.
+/// True if every face is measured correctly and within the bound.
 bool is_measured(const Patch& patch, const TriangleError& error) {
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     const auto& [a, b, c] = patch.face(f).corners;
     const auto verdict = error.assess(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
     if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) return false;
-    // The order of the corners decides about the last bits.
+    // The order of the corners determines the last bits.
     const float energy = patch.face(f).energy;
     if (std::abs(verdict.energy - energy) > 1e-3f * (1 + energy)) return false;
   }
@@ -487,14 +487,14 @@ RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_where_vert
   RC_ASSERT(is_measured(patch, error));
 }
 
-/// Each vertex is tried between two pictures of the whole patch; a fifth of them under sanitizers.
+/// Tries each vertex between two pictures of the whole patch; a fifth of them under sanitizers.
 constexpr Patch::Id kStride = testing::kIsSanitized ? 15 : 1;
 
 RC_GTEST_PROP(vertex_step, that_seeks_room_lets_the_energy_rise_only_where_the_star_breaks_the_bound, ()) {
   Bench bench;
   RC_PRE(bench.cut());
   Patch& patch = bench.patch;
-  // A bound that the mesh keeps is within the slack of a smaller one.
+  // The mesh keeps this bound, which is within the slack of a smaller one.
   const TriangleError error =
       TriangleError(bench.field.raster(), patch.window().first, bench.threshold / 1.5, {2, ErrorRule::Power::kEight});
   for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);

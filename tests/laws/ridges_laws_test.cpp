@@ -1,4 +1,4 @@
-// Ridges and valleys that are found in rasters, and meshes that prefer or hold them.
+// Ridges and valleys in rasters, and meshes that prefer or preserve them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -32,7 +32,7 @@ Field negated(Field field) {
   return field;
 }
 
-/// Hills with crests and beds, on some of them nodata.
+/// Hills with crests and beds, some with nodata.
 Field hills(std::uint32_t seed) {
   const auto side = static_cast<std::int32_t>(30 + seed % 20);
   return testing::random_field(seed, side, side + 3, testing::Relief::kRidges, seed % 3 == 0 ? 0.02 : 0);
@@ -47,7 +47,7 @@ std::vector<std::vector<std::array<double, 2>>> places_of(const std::vector<Line
   return places;
 }
 
-/// A roof, askew by `turn`, is one ridge of two vertices, and no valley.
+/// A roof rotated by `turn` is one ridge with two vertices, and no valley.
 void expect_one_ridge(double turn, double fall) {
   const double right = std::cos(turn), down = std::sin(turn);
   const auto beside = [&](double x, double y) { return right * (x - 20.3) + down * (y - 30.1); };
@@ -166,7 +166,7 @@ RC_GTEST_PROP(RidgeLaws, LinesRunOverValidSamplesAndSetNoHeights, ()) {
 
 RC_GTEST_PROP(RidgeLaws, OfASourceAreThoseOfTheSameSamplesInMemory, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-  // More rows than are read at once.
+  // More rows than one read.
   const Field field = testing::random_field(seed, 20 + static_cast<std::int32_t>(seed % 30), 150,
                                             testing::kReliefs[seed % 5], seed % 2 == 0 ? 0.02 : 0);
   Line line;
@@ -248,7 +248,7 @@ bool is_chain(const std::vector<std::array<double, 4>>& edges, std::array<double
   for (const auto& [x0, y0, x1, y1] : edges) {
     const auto beside = [&](double x, double y) { return std::abs((x - a[0]) * dy - (y - a[1]) * dx) / length; };
     const auto along = [&](double x, double y) { return ((x - a[0]) * dx + (y - a[1]) * dy) / length; };
-    // Lines that cross others move by the lattice's 3/512.
+    // Lines that cross others are moved by 3/512, by the lattice.
     if (beside(x0, y0) > 0.01 || beside(x1, y1) > 0.01) continue;
     const double from = along(x0, y0), to = along(x1, y1);
     if (from < to && from > -0.01 && to < length + 0.01) covered += to - from;

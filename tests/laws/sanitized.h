@@ -1,5 +1,5 @@
-// True in a sanitized build, many times slower: such a build searches for faults of memory and arithmetic on the way,
-// not for rare cases, and does with fewer cases and samples than Release.
+// True in a sanitized build, which is many times slower. It searches for memory and arithmetic faults, not for rare
+// cases, so fewer cases and samples suffice.
 #pragma once
 
 #if defined(__has_feature)

@@ -1,4 +1,4 @@
-// Every set of scan kernels gives the bits of the scalar twin, whatever the tile, the triangles and the hints.
+// Every set of scan kernels gives the bits of the scalar one, for all tiles, triangles and hints.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(scan_kernels_laws, agree_on_the_largest_tile) {
   expect_agreement(field, 5, 12, {3, 80, 1000});
 }
 
-/// Heights of wild magnitudes, many of them alike.
+/// Heights of extreme magnitudes, many of them equal.
 Field wild_field(std::uint32_t seed, std::int32_t cols, std::int32_t rows) {
   std::mt19937 random(seed);
   const int scale = static_cast<int>(random() % 160) - 80, spread = 1 + static_cast<int>(random() % 40);
@@ -87,8 +87,8 @@ RC_GTEST_PROP(scan_kernels_laws, agree_on_wild_heights, ()) {
   expect_agreement(field, seed, 30, {0, threshold});
 }
 
-// The error as a real number: heights · area is a sum of products that long double holds for heights of few bits, and
-// nearly holds otherwise (2⁻⁶⁴); the guard includes that room.
+// The error as a real number: heights · area is a sum of products that long double represents exactly for heights of
+// few bits, otherwise almost (2⁻⁶⁴). The guard includes this error.
 RC_GTEST_PROP(scan_kernels_laws, guard_bounds_the_rounding, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   std::mt19937 random(seed);

@@ -1,4 +1,4 @@
-// Tiles of their own buffers, and triangles in them, for the laws of the scan kernels.
+// Tiles with buffers, and triangles in them, for the laws of the scan kernels.
 #pragma once
 
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace scarp::testing {
 
-/// Padding holds what a reader must not notice.
+/// The padding contains values that a reader must ignore.
 class ScanTile {
  public:
   explicit ScanTile(const Field& field) {
@@ -49,7 +49,7 @@ class ScanTile {
   std::uint64_t nodata_ = 0;
 };
 
-/// Triangles within the tile whose corners are heights, anywhere or all near each other, counter-clockwise.
+/// Triangles within the tile with valid corners, anywhere or all near each other, counter-clockwise.
 inline std::vector<std::array<TilePoint, 3>> random_triangles(const ScanTile& tile, std::mt19937& random, int count) {
   const TileView& view = tile.view();
   std::vector<std::array<TilePoint, 3>> triangles;

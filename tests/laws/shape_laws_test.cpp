@@ -1,4 +1,4 @@
-// Laws of shapes: the bound, angles, lengths and their growth hold in the mesh that is given back, whatever the raster.
+// Laws of shapes: the returned mesh satisfies the bound, angles, lengths and their growth for any raster.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -32,7 +32,7 @@ double angle(const Mesh& mesh, std::size_t corner) {
   return std::acos(std::clamp((b * b + c * c - a * a) / (2 * b * c), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-/// Triangles with an angle below this; counted with other arithmetic than the engine's.
+/// Triangles with an angle below this, counted independently of the engine.
 std::uint64_t count_below(const Mesh& mesh, double degrees) {
   std::uint64_t below = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -58,7 +58,7 @@ void visit_edges(const Mesh& mesh, Visit&& visit) {
     visit(mesh.triangles[k], mesh.triangles[k % 3 == 2 ? k - 2 : k + 1]);
 }
 
-/// The largest length of an edge over what a grade allows, by the definition: sizes spread along edges until none
+/// The largest ratio of an edge to its length allowed by a grade, by definition: sizes spread along edges until none
 /// falls.
 double worst_growth(const Mesh& mesh, double grade, double least) {
   std::vector<double> sizes(mesh.vertex_count(), std::numeric_limits<double>::infinity());
@@ -93,7 +93,7 @@ SimplifyOptions any_run() {
   return options;
 }
 
-/// Samples that are no squares, in a frame that may turn.
+/// Non-square samples in a frame that may be rotated.
 Frame any_frame(int rows) {
   Frame frame = grid_frame(rows);
   if (*rc::gen::inRange(0, 3) > 0) return frame;
@@ -123,7 +123,7 @@ std::vector<Line> any_two_lines(const Field& field) {
   return lines;
 }
 
-/// The mesh, of samples in memory or of a source; the bound, soundness and its report are checked.
+/// Simplifies samples in memory or of a source; checks the bound, soundness and the report.
 Simplified simplified(const HeightField& field, SimplifyOptions options) {
   const testing::ArraySource source(field);
   const bool is_streamed = *rc::gen::arbitrary<bool>();
@@ -151,10 +151,10 @@ RC_GTEST_PROP(shape, angles_that_theory_grants_hold_without_an_exception, ()) {
   view.frame = any_frame(field.rows);
   SimplifyOptions options = any_run();
   options.quality.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
-  // A goal that comes after angles costs none.
+  // A goal of lower priority than angles does not harm them.
   if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_edge = *rc::gen::element(0.5, 2.0, 5.0);
   const Simplified result = simplified(view, options);
-  // Corners of nodata have 45 degrees at least where samples are squares.
+  // Corners of nodata have at least 45 degrees if samples are square.
   const bool has_squares = view.frame.kind == Frame::Kind::kGrid && view.frame.affine[1] == -view.frame.affine[5] &&
                            view.frame.affine[2] == 0 && view.frame.affine[4] == 0;
   RC_CLASSIFY(has_squares);
@@ -184,7 +184,7 @@ RC_GTEST_PROP(shape, edges_grow_no_faster_than_asked, ()) {
   SimplifyOptions options = any_run();
   options.quality.shape.grade = *rc::gen::element(0.05, 0.2, 1.0);
   if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_angle = 25;
-  // A goal that comes after grade costs none.
+  // A goal of lower priority than grade does not harm it.
   if (*rc::gen::arbitrary<bool>())
     options.quality.shape.min_edge = longer_side(view.frame) * *rc::gen::element(0.7, 2.0, 6.0);
   if (*rc::gen::element(false, false, true)) {
@@ -220,7 +220,7 @@ TEST(shape, lines_that_are_halved_stay_where_they_are) {
   options.features.breaklines.affine = {0, 1, 0, 0, 0, 1};
   const auto result = simplify(field.view(), options);
   ASSERT_TRUE(result.has_value()) << result.error().message;
-  // The way along the line, by vertices within a step and a half of it that have its height.
+  // Positions along the line of vertices within 1.5 steps of it at its height.
   std::vector<double> along;
   const double dx = 50.7 - 3.3, dy = 33.9 - 2.1, size = std::hypot(dx, dy);
   for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
@@ -263,7 +263,7 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
   EXPECT_NE(result.error().message.find("the angles and edges alone need"), std::string::npos);
 }
 
-/// Edges below this, each once.
+/// Edges shorter than this, each once.
 std::uint64_t count_shorter(const Mesh& mesh, double least) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   visit_edges(mesh, [&](std::uint32_t v, std::uint32_t w) {
@@ -272,7 +272,7 @@ std::uint64_t count_shorter(const Mesh& mesh, double least) {
   return edges.size();
 }
 
-/// Any goals together, and lines.
+/// Any combination of goals, and lines.
 void ask_anything(const Field& field, SimplifyOptions& options) {
   ShapeGoals& goals = options.quality.shape;
   goals.min_angle = *rc::gen::element(0.0, 10.0, 20.0, 25.0, 30.0);
@@ -331,7 +331,7 @@ RC_GTEST_PROP(shape, edges_that_are_too_short_are_counted_and_cost_no_promise, (
 }
 
 TEST(shape, vertices_for_angles_and_lengths_make_no_short_edge) {
-  // A plane with a peak: the bound needs its foot and its top, four samples apart; angles would continue from there.
+  // A plane with a peak: the bound needs its foot and its top, four samples apart; angles would require more.
   Field field = testing::random_field(1, 81, 81, testing::Relief::kRidges);
   std::fill(field.samples.begin(), field.samples.end(), 0.0f);
   field.samples[40 * 81 + 40] = 10;

@@ -1,4 +1,4 @@
-// Laws of the public door: goals, budgets, nodata, frames, determinism.
+// Laws of the public interface: goals, budgets, nodata, frames, determinism.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -133,8 +133,8 @@ TEST(simplify, heights_times_a_power_of_two_give_the_same_triangles) {
   EXPECT_EQ(one->mesh.triangles, two->mesh.triangles);
 }
 
-// Without ties in height the rule has nothing to prefer rows for: a transposed raster keeps the same bound with the
-// same first vertices.
+// Without ties in height the rule cannot prefer rows: a transposed raster keeps the same bound with the same first
+// vertices.
 TEST(simplify, the_first_vertices_do_not_depend_on_transposition) {
   const Field field = testing::random_field(8, 24, 31, Relief::kReal);
   Field transposed{31, 24, std::vector<float>(field.samples.size())};
@@ -216,7 +216,7 @@ TEST(simplify, long_rasters_are_exact_beyond_the_limits_of_32_bits) {
   }
 }
 
-/// A frame with cells that no float32 offset fits.
+/// A frame whose cells have no exact float32 offsets.
 HeightField odd_cells(const Field& field, double cell) {
   HeightField view = field.view();
   view.frame.kind = Frame::Kind::kSource;
@@ -275,7 +275,7 @@ TEST(simplify, rotated_and_south_up_frames_face_up) {
   }
 }
 
-/// A projection of sorts: bends straight lines, keeps orientation.
+/// A pseudo-projection: bends straight lines, preserves orientation.
 class Bend : public PointTransform {
  public:
   bool apply(std::span<double> x, std::span<double> y) const override {
@@ -384,7 +384,7 @@ TEST(simplify, normals_are_those_of_the_samples) {
 }
 
 TEST(simplify, a_simplified_outline_loses_no_sample) {
-  // Smooth ground, so that the outline is what costs triangles.
+  // Smooth terrain, so that the outline causes the triangles.
   Field field = testing::random_field(15, 80, 80, Relief::kRidges, 0.3);
   for (std::size_t k = 0; k < field.samples.size(); ++k) {
     if (!std::isnan(field.samples[k])) field.samples[k] = static_cast<float>(k % 80) / 4;

@@ -1,5 +1,5 @@
-// Solids and print tiles of random terrains: closed for those who know places only, as large as what lies under the
-// surface, and within the bound.
+// Solids and print tiles of random terrains: closed for readers of positions only, with the volume below the surface,
+// and within the bound.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -33,7 +33,7 @@ double lowest_of(const Mesh& terrain) {
   return lowest;
 }
 
-/// The part above `base`, in its place on a print of a few millimetres a cell.
+/// The part above `base`, placed on a print with a few millimetres a cell.
 Placement any_placement(double base) {
   const double scale = *rc::gen::element(0.25, 1.0, 0.3, 1.7);
   return {{0, 0, base}, {scale, scale, scale * *rc::gen::element(1.0, 0.1, 2.5)}};
@@ -53,7 +53,7 @@ RC_GTEST_PROP(SolidLaws, ClosedAndAsLargeAsWhatLiesUnderTheSurface, ()) {
   const SolidFacts facts = measure_solid(*solid);
   RC_ASSERT(facts.is_solid());
   RC_ASSERT(std::abs(facts.volume - expected) <= 1e-5 * expected);
-  // The files hold the same solid, and hold its position.
+  // The files contain the same solid and its position.
   for (const MeshFormat format : {MeshFormat::kStl, MeshFormat::k3mf}) {
     const auto bytes = encode_mesh(*solid, format);
     RC_ASSERT(bytes.has_value());

@@ -1,4 +1,4 @@
-// Laws of sources: who asks for samples window by window sees what lies in memory, and judges alike.
+// Laws of sources: reading by windows gives the same samples and verdicts as memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -60,7 +60,7 @@ void expect_same(const Measurement& a, const Measurement& b) {
   }
 }
 
-/// A mesh of another field of the same size: errors of all sizes, samples without a triangle, covered nodata, gaps.
+/// A mesh of another field of the same size: errors of all sizes, uncovered samples, covered nodata, gaps.
 RC_GTEST_PROP(sources, are_judged_as_the_same_samples_in_memory, ()) {
   const Field field = any_field(2, 90);
   Field other = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), field.cols, field.rows, Relief::kRidges,

@@ -1,4 +1,4 @@
-// Meshes of a budget with a small squared error, and what they are made of.
+// Meshes of a budget with a small squared error, and the steps to them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -121,7 +121,7 @@ RC_GTEST_PROP(squares, insertion_leaves_a_sound_patch, ()) {
   const FitCorner p = patch.at(a), q = patch.at(b), r = patch.at(c);
   const bool is_on_edge = *rc::gen::arbitrary<bool>();
   if (is_on_edge && Patch::is_border(patch.face(face).links[0])) return;
-  // Corners are samples: halves and thirds of their distances are lattice points, or nearly.
+  // Corners are samples: halves and thirds of their distances are (almost) lattice points.
   const FitCorner place = is_on_edge ? FitCorner{(p.x + q.x) / 2, (p.y + q.y) / 2, 1}
                                      : FitCorner{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, 1};
   const std::size_t before = patch.face_count();
@@ -150,7 +150,7 @@ SimplifyOptions within(std::uint64_t triangles, Effort effort, Objective objecti
   return options;
 }
 
-/// Land of very unlike curvature: a volcano on a plain of low waves.
+/// Land of very different curvature: a volcano on a plain with low waves.
 Field volcano() {
   Field field{200, 150, {}};
   for (int y = 0; y < field.rows; ++y) {
@@ -188,7 +188,7 @@ TEST(squares, have_a_cap_which_is_that_of_fast_effort_or_the_one_that_was_asked_
     EXPECT_EQ(made.stop, StopReason::kMaxError);
     EXPECT_GE(made.mesh.triangle_count(), 990u);
   }
-  // No mesh of the budget has so small an error: then the budget comes first.
+  // No mesh within the budget has so small an error: the budget has priority.
   options.goals.max_error = 0.05 * fast.measurement.max_error;
   const auto made = *simplify(field.view(), options);
   EXPECT_LE(made.mesh.triangle_count(), 1000u);

@@ -1,5 +1,5 @@
-// Laws of stacks of sources: each node has the height of the first source that has one there, and tiles end where no
-// source asks for more.
+// Laws of stacks of sources: each node has the height of the first source with one, and tiles end where no source
+// requires more.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-/// Waves and holes in a box, whose eastern end may lie beyond 180°.
+/// Waves and holes in a box that may extend east beyond 180°.
 class Patch final : public NodeSource {
  public:
   Patch(DegreeBox box, std::uint32_t seed, float base) : box_(box), seed_(seed), base_(base) {}
@@ -153,7 +153,7 @@ RC_GTEST_PROP(stacked_nodes, make_tiles_that_fit_and_end_where_no_source_asks_fo
   const auto report = make_pyramid(*plan, *stack.nodes, kept, run);
   RC_ASSERT(report.has_value());
 
-  // Blocks in another order, by one thread, make the same.
+  // Blocks in another order on one thread give the same.
   Kept again;
   std::vector<BlockReport> blocks;
   std::vector<TileId> order = find_blocks(*plan);

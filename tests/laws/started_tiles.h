@@ -1,4 +1,4 @@
-// Tiles at the moment where an order of refinement begins.
+// Tiles at the start of a refinement order.
 #pragma once
 
 #include <rapidcheck/gtest.h>
@@ -16,7 +16,7 @@ struct StartedTile {
   TileMesh mesh;
 };
 
-/// False where no cell is surface.
+/// False without surface cells.
 inline bool start(const Field& field, StartedTile& started) {
   return started.tile.load(field.view(), {0, 0, field.cols, field.rows}) &&
          start_tile(started.tile, {}, started.mesh) &&

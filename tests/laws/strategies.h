@@ -1,4 +1,4 @@
-// Random strategies, and errors by the definition: every sample against every triangle that holds it.
+// Random strategies, and errors by definition: every sample against every triangle that contains it.
 #pragma once
 
 #include <rapidcheck.h>
@@ -34,7 +34,7 @@ inline Importance any_importance() {
   return importance;
 }
 
-/// Everything that may be combined, at a small scale.
+/// Everything that can be combined, at a small scale.
 inline PaperOptions any_strategy() {
   PaperOptions options;
   options.run.threads = 1;
@@ -55,8 +55,8 @@ inline PaperOptions any_strategy() {
   return options;
 }
 
-/// Values of the mesh's surface at a sample of a field in the grid frame, one for each triangle that holds it (closed):
-/// the height (channel < 0) or a channel.
+/// Values of the mesh's surface at a sample in the grid frame, one per triangle that contains it (closed): the height
+/// (channel < 0) or a channel.
 inline std::vector<double> surface_at(const Mesh& mesh, const HeightField& field, int col, int row, int channel = -1) {
   std::vector<double> values;
   const auto [x, y] = field.frame.apply_affine(col, row);
@@ -81,7 +81,7 @@ inline std::vector<double> surface_at(const Mesh& mesh, const HeightField& field
   return values;
 }
 
-/// Largest |surface − value| over the triangles that hold the sample; NaN if there is none.
+/// Largest |surface − value| over the triangles that contain the sample; NaN if none.
 inline double error_at(const Mesh& mesh, const HeightField& field, int col, int row, int channel = -1) {
   const auto index =
       static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(col);

@@ -1,4 +1,4 @@
-// Whatever is chosen, the promise holds: laws of importance, weights, tolerances, scripts, algorithms and batches.
+// The promise holds for all choices: laws of importance, weights, tolerances, scripts, algorithms and batches.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -177,7 +177,7 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
         largest = std::max(largest, error);
       }
       if (!covered) continue;
-      // The test uses each field's worst triangle at a shared sample; all agree there up to rounding.
+      // The test uses each field's worst triangle at a shared sample, where all agree up to rounding.
       const double norm = options.goals.norm == Norm::kSum       ? sum
                           : options.goals.norm == Norm::kSquares ? std::sqrt(squares)
                                                                  : largest;
@@ -188,7 +188,7 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
   RC_ASSERT(result->combined_max_error <= *options.goals.max_error * (1 + 1e-6));
 }
 
-// One field of scale 1 under one bound is what the plain metric measures: the general one must not see it otherwise.
+// The plain metric measures one field with scale 1 under one bound: the general one must agree.
 RC_GTEST_PROP(metrics, the_general_one_agrees_with_the_plain_one, ()) {
   const Field field = any_field(22);
   const Raster raster = field.raster();
@@ -377,8 +377,8 @@ TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
                   1.5f);
 }
 
-/// A spike next to a corner, and a lower bump far from all corners: by the error the spike comes first, by the error
-/// times the distance the bump. One pass cannot rank by what depends on the mesh.
+/// A spike next to a corner, and a lower bump far from corners: errors rank the spike first, errors times distance the
+/// bump. One pass cannot rank by features of the mesh.
 TEST(features, distance_attenuates_errors_near_vertices) {
   Field field{33, 33, std::vector<float>(33 * 33, 0.0f)};
   field.samples[1 * 33 + 2] = 10;

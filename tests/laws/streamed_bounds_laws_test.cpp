@@ -1,5 +1,5 @@
-// Laws of tolerances read in windows: each sample satisfies its own across all strips, and results report the same as
-// for an array.
+// Laws of tolerances read in windows: each sample satisfies its own across all strips, and reports equal those for an
+// array.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -32,7 +32,7 @@ using testing::kNoBound;
 using testing::Relief;
 using testing::with_source;
 
-/// A field that is read window by window, and so are its bounds.
+/// A field and bounds, both read by windows.
 struct Scene {
   Field field = testing::any_field(50);
   std::vector<float> bounds = testing::any_bounds(field.cols, field.rows);
@@ -53,7 +53,7 @@ struct Scene {
   }
   Scene(const Scene&) = delete;
 
-  /// The bound promised at each sample, and a little for the judge's arithmetic.
+  /// The bound promised at each sample, plus the judge's arithmetic error.
   std::vector<float> promised() const {
     std::vector<float> all = bounds;
     for (float& bound : all) {
@@ -85,7 +85,7 @@ void expect_kept(const Measurement& m) {
   RC_ASSERT(m.is_sound());
 }
 
-/// In strips of tiles of a side.
+/// In strips of tiles with that side.
 Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const FieldLines* lines) {
   const double most = scene.options.goals.max_error.value_or(HUGE_VAL),
                threshold = scene.options.goals.max_error.value_or(0);
@@ -150,7 +150,7 @@ RC_GTEST_PROP(streamed_bounds, make_the_same_mesh_on_any_number_of_threads, ()) 
   RC_ASSERT(testing::is_same((*first)->domain.tin, (*again)->domain.tin));
 }
 
-/// In memory and in the public interface, where all is one row: results report the same samples.
+/// In memory and in the public interface, with a single row: reports name the same samples.
 RC_GTEST_PROP(streamed_bounds, are_promised_and_counted_as_those_in_memory, ()) {
   Scene scene;
   HeightField view = scene.field.view();
@@ -180,7 +180,7 @@ RC_GTEST_PROP(streamed_bounds, are_promised_and_counted_as_those_in_memory, ()) 
   if (scene.options.goals.max_error || scene.options.quality.effort != Effort::kFast ||
       !scene.field.raster().is_valid({0, 0}))
     return;
-  // Rows are refined as all is in memory.
+  // Rows are refined like everything in memory.
   RC_ASSERT(made->mesh.triangle_count() == held->mesh.triangle_count());
   RC_ASSERT(std::abs(made->weighted_max_error - held->weighted_max_error) <= 1e-6 * held->weighted_max_error);
 }
@@ -225,7 +225,7 @@ RC_GTEST_PROP(streamed_bounds, of_a_border_are_kept_by_what_splits_it, ()) {
   RC_ASSERT(split_border(field.view(), line, kept, LineBound(own))->empty());
 }
 
-/// So much memory that there are several strips.
+/// Memory for several strips.
 TEST(streamed_bounds, take_about_as_many_triangles_as_in_memory_at_the_public_door) {
   Field field{400, 500, {}};
   std::vector<float> bounds;

@@ -1,4 +1,4 @@
-// Laws of budgets where samples come strip by strip: an error is searched for, so what fits is kept to.
+// Laws of budgets with samples read by strips: the search for an error keeps sufficient budgets.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,4 +1,4 @@
-// Laws of shapes where samples are not in memory as a whole: bands of a few rows, windows for patches.
+// Laws of shapes with samples not entirely in memory: bands of a few rows, windows for patches.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -47,7 +47,7 @@ RC_GTEST_PROP(streamed_shapes, samples_are_those_of_the_raster_whether_rows_are_
   }
 }
 
-/// A mesh that knows no sample but those of the outline, all lattice points with their heights.
+/// A mesh with only the outline's samples, all lattice points with heights.
 struct Start {
   Triangulation tin;
   VertexLattice lattice{kLatticeSteps, {}, {}};

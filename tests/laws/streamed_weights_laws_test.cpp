@@ -1,4 +1,4 @@
-// Weights, ignored samples and normals of rasters that are read window by window.
+// Weights, ignored samples and normals of rasters read by windows.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -24,7 +24,7 @@ using testing::kNoBound;
 using testing::Relief;
 using testing::with_source;
 
-/// Weights by blocks, some samples that a script ignores, and a field, of several strips where there are many rows.
+/// Weights by blocks, some ignored samples, and a field that has several strips if it has many rows.
 struct Scene {
   Field field;
   std::vector<float> weights = any_weights();
@@ -54,7 +54,7 @@ struct Scene {
       all.push_back(blocks[static_cast<std::size_t>(k / field.cols / 9 * 17 + k % field.cols / 9)]);
     return all;
   }
-  /// The bounds that a max error means, and a little for the judge's arithmetic.
+  /// The bounds implied by a max error, plus the judge's arithmetic error.
   std::vector<float> promised(double max_error) const {
     std::vector<float> all(weights.size());
     for (std::size_t k = 0; k < all.size(); ++k) {

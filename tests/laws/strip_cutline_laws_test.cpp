@@ -1,5 +1,4 @@
-// Laws of cutlines where samples come strip by strip: the same surface stays as in memory, within the
-// same bound.
+// Laws of cutlines with samples read by strips: the same remaining surface and bound as in memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -37,7 +36,7 @@ using testing::Field;
 using testing::Relief;
 using testing::with_source;
 
-/// A field that is read window by window, and polygons that end its surface.
+/// A field read by windows, and polygons that bound its surface.
 struct CutScene {
   Field field;
   ArraySource source{field.view()};
@@ -59,7 +58,7 @@ struct CutScene {
     options.features.breaklines = testing::any_lines(field);
     options.features.breaklines.affine = options.features.cutline.affine;
   }
-  /// A town within a polygon, whose walls stay away from its ring. Returns how many there are.
+  /// Adds a town within a polygon, with walls away from its ring. Returns the number of walls.
   std::uint64_t add_town() {
     constexpr float kBlock = 50;
     const double width = field.cols - 1, height = field.rows - 1;
@@ -106,7 +105,7 @@ struct CutScene {
   }
 };
 
-/// The surface is that of the polygons that has data, sound and within the bound.
+/// The surface is the part of the polygons with data, sound and within the bound.
 void check_cut(CutScene& scene) {
   const auto lines = scene.lines();
   const auto made = lines ? scene.refine(*lines) : tl::unexpected(lines.error());
@@ -189,7 +188,7 @@ RC_GTEST_PROP(strip_cutlines, in_one_strip_are_those_of_a_raster_in_memory, ()) 
   const auto held = prepare_lines(scene.field.view(), scene.options.features.breaklines, scene.options.features.cutline,
                                   *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() || !held.has_value());
-  // Next to nodata the outline is cut at every sample.
+  // Next to nodata the outline has a vertex at every sample.
   const bool is_whole =
       std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
   RC_PRE(held.has_value() && is_whole);
@@ -277,7 +276,7 @@ TEST(strip_cutlines, say_what_the_source_says) {
   EXPECT_EQ(stop.error().kind, ErrorKind::kCancelled);
 }
 
-/// By the definition: samples stay in and around cells that the outline passes or that have a corner in the polygons.
+/// By definition: samples remain in and around cells that the outline crosses or that have a corner in the polygons.
 TEST(strip_cutlines, leave_two_samples_beyond_the_polygons) {
   const Field field = testing::random_field(5, 40, 30, testing::Relief::kRidges);
   const ArraySource source(field.view());
@@ -321,7 +320,7 @@ TEST(strip_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memor
   SimplifyOptions options;
   options.goals.max_error = 5;
   options.run.memory.limit = 2'200'000;  // strips meet at the rows 233 and 466
-  // Along a row that tiles share, and across one, with a hole.
+  // Along a row shared by tiles, and across one, with a hole.
   options.features.cutline.rings = {
       ring_of(LineRole::kOuter, 0, {{20, 150, 0}, {200, 150, 0}, {200, 233, 0}, {20, 233, 0}}),
       ring_of(LineRole::kOuter, 1, {{30.5, 300, 0}, {290.25, 450.75, 0}, {40, 620, 0}}),

@@ -1,4 +1,4 @@
-// Laws of efforts where samples come strip by strip: the promise is that of refinement.
+// Laws of efforts with samples read by strips: the promise is that of refinement.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -101,7 +101,7 @@ RC_GTEST_PROP(strips, are_fitted_alike_by_any_number_of_threads, ()) {
   RC_ASSERT((*first)->seams == (*again)->seams);
 }
 
-/// So much that there are several strips.
+/// Memory for several strips.
 SimplifyOptions in_little_memory(const HeightField& field, double max_error, Effort effort) {
   SimplifyOptions options;
   options.goals.max_error = max_error;

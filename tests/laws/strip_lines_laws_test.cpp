@@ -1,5 +1,4 @@
-// Laws of lines where samples come strip by strip: they are chains of edges across all strips, and the
-// promise is that of lines in memory.
+// Laws of lines with samples read by strips: chains of edges across all strips, with the promise of lines in memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -33,7 +32,7 @@ using testing::ArraySource;
 using testing::Field;
 using testing::with_source;
 
-/// A field that is read window by window, and its lines cut where strips meet.
+/// A field read by windows, and its lines split where strips meet.
 struct StripScene {
   Field field = any_field(50);
   ArraySource source{field.view()};
@@ -75,7 +74,7 @@ struct StripScene {
   }
 };
 
-/// True if the middle of two points lies in the surface, or on its outline.
+/// True if the middle of two points lies in the surface or on its outline.
 bool is_on_surface(const Triangulation& tin, Point a, Point b) {
   const auto twice = [&](Vertex v) { return Point{2 * tin.point(v).x, 2 * tin.point(v).y}; };
   const Point middle{a.x + b.x, a.y + b.y};
@@ -87,8 +86,8 @@ bool is_on_surface(const Triangulation& tin, Point a, Point b) {
   return false;
 }
 
-/// Each edge of the graph whose ends are vertices of the domain is a chain of edges as far as there is surface, but for
-/// those that need not stay.
+/// True if each edge of the graph between vertices of the domain is a chain of edges on the surface, except removable
+/// edges.
 bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph, bool with_starts) {
   const Triangulation& tin = tiled.domain.tin;
   std::map<std::pair<std::int32_t, std::int32_t>, Vertex> vertices;
@@ -175,7 +174,7 @@ RC_GTEST_PROP(strip_lines, in_one_strip_are_those_of_a_raster_in_memory, ()) {
   RC_ASSERT(streamed.has_value() == held.has_value());
   if (!held) return;
   RC_ASSERT(streamed->inserted == held->inserted);
-  // Next to nodata the outline is cut at every sample.
+  // Next to nodata the outline has a vertex at every sample.
   const bool is_whole =
       std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
   if (!is_whole) return;

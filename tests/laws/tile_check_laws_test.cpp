@@ -1,5 +1,5 @@
-// Laws of the check of sets: a set that was made well passes with every node, and each planted fault is found, with the
-// name of its tile.
+// Laws of the check of sets: a good set passes with every node, and each planted fault is found with the name of its
+// tile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ class Shelf final : public TileSetReader, public TileSetWriter {
   std::vector<std::vector<std::uint64_t>> levels_;
 };
 
-/// Waves, noise, cliffs and voids in a box of degrees, which may reach across the antimeridian.
+/// Waves, noise, cliffs and voids in a box of degrees, possibly across the antimeridian.
 class Land final : public NodeSource {
  public:
   Land(DegreeBox box, double relief, double noise, bool has_voids)
@@ -126,7 +126,7 @@ struct Made {
     EXPECT_TRUE(checked) << checked.error().message;
     return *checked;
   }
-  /// A tile with heights, of the finest level, that has neighbours.
+  /// A tile of the finest level with heights and neighbours.
   TileId inner_tile() const {
     const auto& finest = shelf.tiles().back();
     const std::uint64_t place = finest[finest.size() / 2];
@@ -169,7 +169,7 @@ Compared expect_made_well(TileFormat format, const TileGrid& grid = {}) {
     for (const CheckedLevel& level : check.levels) {
       compared.edges += level.edges;
       EXPECT_TRUE(level.promised_bound && level.distance);
-      // All that was promised is needed somewhere: the nodes were really checked.
+      // Errors reach the promised ones somewhere: nodes were really checked.
       if (format == TileFormat::kQuantizedMesh && &level == &check.levels.back()) {
         EXPECT_NEAR(level.node_error.value_or(-1), level.promised_node_error.value_or(-2), 1e-6);
       }
@@ -204,7 +204,7 @@ TEST(tile_check, threads_change_nothing) {
   }
 }
 
-/// A tile of quantized-mesh, unpacked, changed and packed again.
+/// Changes a tile of quantized-mesh: unpacks and repacks it.
 void change(Bytes& tile, const std::function<void(Bytes&)>& how) {
   Bytes bytes = *decompress_gzip(tile, 1 << 24);
   how(bytes);
@@ -236,7 +236,7 @@ std::size_t edges_at(const Bytes& bytes) {
   return indices_at(bytes) + 6 * number_at<std::uint32_t>(bytes, indices_at(bytes) - 4);
 }
 
-/// Moves a vertex that is on no edge, up by so many steps.
+/// Lifts a vertex that is on no edge by so many steps.
 void lift_inner_vertex(Bytes& bytes, int steps) {
   const auto mesh = *decode_quantized_mesh(bytes, "tile");
   for (std::size_t v = 0; v + 1 < mesh.u.size(); ++v) {
@@ -280,7 +280,7 @@ const Planted kPlanted[] = {
      }},
     {"a triangle turned over", TileFaultKind::kCoverage,
      [](Bytes& b) {
-       // The second triangle, two of whose corners were there before.
+       // The second triangle, two of whose corners exist already.
        const std::size_t at = indices_at(b);
        const auto mesh = *decode_quantized_mesh(b, "tile");
        std::vector<std::uint32_t> corners = mesh.triangles;
@@ -396,7 +396,7 @@ TEST(tile_check, finds_what_is_planted_in_3d_tiles) {
   less.insert(error, "1e-9, \"before\": ");
   made.shelf.texts.at("tileset.json").assign(less.begin(), less.end());
   expect(made, TileFaultKind::kTileset, "clients take");
-  // A tile of another place.
+  // A tile from another place.
   made = good;
   const std::uint64_t first = made.shelf.tiles().back().front();
   made.bytes_of(id) = made.bytes_of({id.z, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first >> 32)});
@@ -440,7 +440,7 @@ TEST(tile_check, finds_skirts_that_hang_badly) {
   changed = placed;
   changed.feet[2].pop_back();
   expect(changed, "leaves out a part of an edge");
-  // Like other programs' tiles.
+  // Like tiles from other programs.
   changed = placed;
   changed.feet = {};
   Made made = good;

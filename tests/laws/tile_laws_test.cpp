@@ -1,4 +1,4 @@
-// Laws of tiles, of every grid: two neighbours decode to the same edge, and a tile's bound is that of all its nodes.
+// Laws of tiles on every grid: two neighbours decode to the same edge, and a tile's bound holds for all its nodes.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -64,7 +64,7 @@ RC_GTEST_PROP(tile_laws, the_bound_is_that_of_all_nodes_as_clients_decode_them, 
   RC_ASSERT(tile->node_error <= plan.levels[static_cast<std::size_t>(z)].max_error);
 }
 
-/// Nodes at which the tile's decoded triangles err, by the judge of finished meshes.
+/// Errors of the tile's decoded triangles at nodes, by the judge of finished meshes.
 Measurement judge(const TerrainTile& tile, const TileNodes& nodes, double limit) {
   std::vector<float> heights;
   for (std::int32_t row = 0; row <= nodes.steps(); ++row)
@@ -89,7 +89,7 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   const std::int32_t steps = nodes_of(plan, z);
   const TileNodes nodes = *TileNodes::read(plan, id, steps, normal_reach(steps), land);
   TerrainTile tile = *make_tile(plan, id, land);
-  // Some vertices go astray, so that nodes around them are beyond the limit.
+  // Displaces some vertices, so that nodes around them exceed the limit.
   const double limit = plan.levels[static_cast<std::size_t>(z)].max_error;
   const auto far = static_cast<std::int32_t>(3 * limit / tile.quantum);
   const auto astray = *rc::gen::inRange(0, 5);
@@ -98,7 +98,7 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   const Measurement judged = judge(tile, nodes, limit);
   RC_ASSERT(errors.uncovered == 0u);
   RC_ASSERT(std::abs(errors.largest - judged.max_error) <= 1e-9 * (1 + judged.max_error));
-  // Both name the worst node of a triangle; one that is that of two triangles may be named once or twice.
+  // Both name a triangle's worst node; the worst node of two triangles may be named once or twice.
   const auto places = [](const auto& nodes) {
     std::set<std::pair<std::int32_t, std::int32_t>> all;
     for (const auto& node : nodes) all.insert({node.row, node.col});
@@ -106,7 +106,7 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   };
   RC_ASSERT(places(errors.worst) == places(judged.offenders));
   tile.triangles.resize(tile.triangles.size() - 3);
-  // The judge forgives a node that lies outside a triangle by less than a 256th of a step.
+  // The judge tolerates a node outside a triangle by less than a 256th of a step.
   RC_ASSERT(scan_nodes(tile, nodes, limit).uncovered >= judge(tile, nodes, limit).uncovered);
 }
 
@@ -126,7 +126,7 @@ RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bou
   const double asked = plan.levels[static_cast<std::size_t>(z)].max_error;
   RC_ASSERT(kept->tile.max_error >= asked);
   if (free->bytes.size() <= plan.max_tile_bytes) RC_ASSERT(kept->bytes == free->bytes);
-  // A tile that does not fit has nothing more to omit.
+  // A tile that exceeds the limit has nothing more to omit.
   if (kept->bytes.size() > plan.max_tile_bytes) {
     plan.max_tile_bytes = 1;
     const auto least = make_tile(plan, id, land, encode);
@@ -161,7 +161,7 @@ std::vector<DegreeLine> any_lines(TileId id) {
   return lines;
 }
 
-/// True if no edge of the mesh passes the straight way from one node of the level to another, but by rounding.
+/// True if, within rounding, no edge of the mesh crosses the segment between two nodes of the level.
 bool is_chain_of_edges(const QuantizedMesh& mesh, const std::array<TileLines::Node, 2>& step, int cells) {
   std::array<double, 4> way{};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -242,13 +242,14 @@ TEST(grid_laws, a_raster_beyond_the_grids_end_is_refused_and_one_across_it_is_cu
   const auto across = plan_pyramid(SourceFacts{{10, 80, 20, 89}, 1000, 0, 100}, settings);
   ASSERT_TRUE(across);
   EXPECT_EQ(across->covered.north, settings.grid.bounds().north);
-  // Twice the error and half the tiles across of the geographic grid's level; so fine a level is one more.
+  // The error is twice, and the tiles across are half, those of the geographic grid's level: equal resolution is one
+  // level finer.
   EXPECT_EQ(settings.grid.geometric_error(5), TileGrid{}.geometric_error(4));
   const SourceFacts equator{{10, -1, 20, 1}, 30, 0, 100};
   const auto web = plan_pyramid(equator, settings), degrees = plan_pyramid(equator);
   EXPECT_EQ(web->max_zoom(), degrees->max_zoom() + 1);
   EXPECT_EQ(web->levels.back().max_error, degrees->levels.back().max_error);
-  // Rows of a block that crowd at the end of the grid keep places of their own.
+  // Rows of a block that crowd at the end of the grid keep distinct places.
   settings.cells = 256;
   settings.max_zoom = 5;
   EXPECT_GT(plan_pyramid(SourceFacts{{-180, -90, 180, 90}, 1000, 0, 100}, settings)->block_level, 0);
@@ -286,7 +287,7 @@ TEST(globe_laws, triangles_lie_below_the_ellipsoid_by_no_more_than_the_sag) {
         for (int b = 0; a + b <= 8; ++b) {
           const Space p =
               sum(sum(scaled(corners[0], a / 8.0), scaled(corners[1], b / 8.0)), scaled(corners[2], (8 - a - b) / 8.0));
-          // Depth below the ellipsoid, along the way to the centre: less than along the vertical.
+          // Depth below the ellipsoid towards the centre, less than along the vertical.
           const double f = 1 / 298.257223563, polar = 6378137 * (1 - f);
           const double scale =
               std::sqrt((p[0] * p[0] + p[1] * p[1]) / (6378137.0 * 6378137.0) + p[2] * p[2] / (polar * polar));

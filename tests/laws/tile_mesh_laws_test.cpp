@@ -32,7 +32,7 @@ Point random_point(std::mt19937& random, std::int32_t cols, std::int32_t rows, L
   return {below(cols), below(rows)};
 }
 
-/// Inserts the same points into both; hints are as good or as bad as they come.
+/// Inserts the same points into both, with good and bad hints.
 void insert_into_both(TileMesh& mesh, Triangulation& tin, std::mt19937& random, std::int32_t cols, std::int32_t rows,
                       Lie lie, int count) {
   for (int k = 0; k < count; ++k) {
@@ -42,7 +42,7 @@ void insert_into_both(TileMesh& mesh, Triangulation& tin, std::mt19937& random, 
   }
 }
 
-/// Lattice steps of all constrained edges, each once: chains that are split keep their sum.
+/// Lattice steps of all constrained edges, each once: splitting chains preserves their sum.
 template <class Visit>
 void visit_constrained(const TileMesh& mesh, Visit&& visit) {
   for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {

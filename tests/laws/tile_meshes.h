@@ -1,4 +1,4 @@
-// The laws of every mesh of a tile, written once, with access to its parts.
+// The laws of tile meshes, with access to their parts.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,10 +17,9 @@
 
 namespace scarp::testing {
 
-/// The first law that is broken, "" if none: (1) links are mutual, along the same edge, constraints agree; (2)
-/// triangles are positive; (3) edges without a neighbour lie on the rectangle's border; (4) the areas add up to the
-/// rectangle and V − E + F = 1; (5) locally Delaunay but across constraints; (6) outside changes only across
-/// constraints.
+/// The first broken law, "" if none: (1) links are mutual, along the same edge, constraints agree; (2) triangles are
+/// positive; (3) edges without a neighbour lie on the rectangle's border; (4) the areas add up to the rectangle and V −
+/// E + F = 1; (5) locally Delaunay except across constraints; (6) outside changes only across constraints.
 inline std::string verify_tile_mesh(const TileMesh& mesh, std::int32_t cols, std::int32_t rows) {
   std::int64_t area2 = 0;
   std::size_t border = 0;
@@ -84,7 +83,7 @@ inline std::vector<NamedTriangle> triangles_of(const Triangulation& tin) {
   return triangles;
 }
 
-/// Four corners on one circle around a free edge: then there is more than one Delaunay triangulation.
+/// True if four corners around a free edge lie on a circle: then the Delaunay triangulation is not unique.
 inline bool has_ties(const Triangulation& tin) {
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     if (tin.twin(h) == kNone || tin.is_constrained(h)) continue;
@@ -112,7 +111,7 @@ inline std::int64_t outside_area2(const Triangulation& tin) {
 }
 
 /// True if a height of the triangle's plane, a mean of its corners' heights, is within the threshold by more than a few
-/// roundings: exact arithmetic gives up where magnitudes differ wildly.
+/// roundings. Exact arithmetic fails where magnitudes differ extremely.
 inline bool is_clearly_kept(const std::array<Point, 3>& corners, const std::array<float, 3>& heights, Point p,
                             double sample, double threshold) {
   double sum = 0, magnitude = std::abs(sample);
@@ -124,8 +123,8 @@ inline bool is_clearly_kept(const std::array<Point, 3>& corners, const std::arra
   return error + 0x1p-48 * magnitude < threshold;
 }
 
-/// A sample of the closed triangle that breaks the bound as a real number, or a corner that is nodata; "" if there is
-/// none. By scanning every sample of the bounding box.
+/// A sample of the closed triangle that breaks the bound as a real number, or a corner that is nodata; "" if none.
+/// Scans every sample of the bounding box.
 inline std::string find_broken_bound(const Raster& raster, const std::array<Point, 3>& corners, double threshold) {
   std::array<float, 3> heights;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -164,7 +163,7 @@ inline std::string find_broken_bound(const Raster& raster, const Triangulation& 
   return "";
 }
 
-/// A slope in float32: rounding alone distinguishes its samples from a plane's.
+/// A slope in float32: only rounding distinguishes its samples from a plane.
 inline Field sloping_field(std::uint32_t seed, std::int32_t cols, std::int32_t rows) {
   std::mt19937 random(seed);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };

@@ -1,4 +1,4 @@
-// The order that suits a tile depends on its samples alone.
+// The choice of a tile's order depends only on its samples.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(tile_order, is_dominant_where_the_mesh_is_dense_or_small) {
 }
 
 TEST(tile_order, is_dominant_where_nothing_can_be_told) {
-  EXPECT_EQ(order_of(noise(16, 4000)), TileOrder::kDominant);  // no sample has others far enough from it
+  EXPECT_EQ(order_of(noise(16, 4000)), TileOrder::kDominant);  // no sample is far enough from others
   Field empty = noise(257, 257);
   for (float& sample : empty.samples) sample = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(order_of(empty), TileOrder::kDominant);

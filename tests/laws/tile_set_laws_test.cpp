@@ -1,5 +1,5 @@
-// Laws of containers: what goes into a set comes out of it, whatever the container and the order; nothing else is
-// replaced; damaged files are refused or read without harm.
+// Laws of containers: a set read back equals the written one, for every container and order; nothing else is replaced;
+// damaged files are refused or read safely.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <sqlite3.h>
@@ -34,7 +34,7 @@ const std::string kEndings[] = {"", ".pmtiles", ".mbtiles", ".3tz"};
 
 bool is_before(const TileId& a, const TileId& b) { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); }
 
-/// A folder of its own for each test, gone with it.
+/// A folder for each test, removed with it.
 class Scratch {
  public:
   Scratch() {
@@ -151,7 +151,7 @@ RC_GTEST_PROP(tile_sets, what_goes_in_comes_out_in_any_order, ()) {
     RC_ASSERT(write_set(set, scratch.path("b" + ending)));
     if (!ending.empty()) RC_ASSERT(read_whole(scratch.path("a" + ending)) == read_whole(scratch.path("b" + ending)));
   }
-  RC_ASSERT(scratch.count() == 8u);  // nothing temporary
+  RC_ASSERT(scratch.count() == 8u);  // no temporary files
 }
 
 TEST(tile_sets, thousands_of_tiles_have_leaves_in_pmtiles) {
@@ -192,7 +192,7 @@ TEST(tile_sets, threads_read_at_once) {
 TEST(tile_sets, what_is_there_stays) {
   std::mt19937 random(4);
   AnySet set = any_set(random, 5);
-  set.files.erase("notes.txt");  // folders with such a file are not Scarp's alone
+  set.files.erase("notes.txt");  // folders with such a file are not only Scarp's
   set.files.erase("empty");
   const Scratch scratch;
   for (const std::string& ending : kEndings) {
@@ -269,7 +269,7 @@ TEST(tile_sets, folders_of_other_programs_open) {
   }
 }
 
-/// All that a reader can be asked.
+/// Calls everything that a reader offers.
 void read_all(const std::string& path) {
   const auto reader = open_tile_set(path);
   if (!reader) {
@@ -361,7 +361,7 @@ TEST(pmtiles, numbers_are_those_of_the_specification) {
     EXPECT_EQ(find_pmtiles_id(pmtiles_number(last, grid), grid), last);
   }
   EXPECT_FALSE(find_pmtiles_id(0, geographic));
-  EXPECT_FALSE(find_pmtiles_id(2, geographic));  // 1/0/1, of the southern half of a square world
+  EXPECT_FALSE(find_pmtiles_id(2, geographic));  // 1/0/1, in the southern half of a square world
   EXPECT_EQ(find_pmtiles_id(0, mercator), (TileId{0, 0, 0}));
 }
 

@@ -1,5 +1,4 @@
-// Laws of water in the nodes of tiles: a node is a function of its place alone, whatever window asks for it, and it
-// follows the polygons.
+// Laws of water in the nodes of tiles: a node depends only on its place, not on the window, and follows the polygons.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -45,7 +44,7 @@ class Slope final : public HeightZero {
 
 double any_place(double low, double high) { return low + (high - low) * (*rc::gen::inRange(0, 100003)) / 100003.0; }
 
-/// A star around a place, perhaps across the antimeridian.
+/// A star around a place, possibly across the antimeridian.
 TileLake any_lake(double level) {
   TileLake lake;
   lake.level = level;
@@ -60,8 +59,8 @@ TileLake any_lake(double level) {
   return lake;
 }
 
-/// 1 in the polygon, −1 outside, 0 too near to decide: flatten_lakes() includes nodes within a 128th of an edge's line,
-/// just beyond its ends, too.
+/// 1 in the polygon, −1 outside, 0 if too close: flatten_lakes() also includes nodes within a 128th of an edge's line,
+/// and just beyond its ends.
 int side_of(const TileLake& lake, double col, double row) {
   bool is_inside = false, is_near = false;
   const auto& ring = lake.rings.front();
@@ -102,7 +101,7 @@ RC_GTEST_PROP(tile_water_laws, a_node_is_the_same_in_every_window, ()) {
     NodeWindow part{kTurn / stride, whole.col / stride + col, whole.row / stride + row, 0, 0};
     part.cols = *rc::gen::inRange(1, steps - col + 1);
     part.rows = *rc::gen::inRange(1, steps - row + 1);
-    // A turn more or less is the same place.
+    // Another turn is the same place.
     part.col += *rc::gen::element<std::int64_t>(-1, 0, 1) * part.per_turn;
     std::vector<float> some(static_cast<std::size_t>(part.cols) * static_cast<std::size_t>(part.rows));
     RC_ASSERT(nodes->read(part, some).has_value());
@@ -110,7 +109,7 @@ RC_GTEST_PROP(tile_water_laws, a_node_is_the_same_in_every_window, ()) {
       for (int i = 0; i < part.cols; ++i) {
         const float one = some[static_cast<std::size_t>(j * part.cols + i)];
         const float other = all[static_cast<std::size_t>((row + j) * stride * 256 + (col + i) * stride)];
-        // Zeros are interpolated between other places where nodes are farther apart.
+        // Zeros are interpolated between other places if nodes are farther apart.
         if (std::isnan(other)) {
           RC_ASSERT(std::isnan(one));
         } else if (zero == nullptr) {
@@ -138,7 +137,7 @@ RC_GTEST_PROP(tile_water_laws, nodes_are_what_the_polygons_say, ()) {
                   is = heights[static_cast<std::size_t>(j * 256 + i)];
       RC_ASSERT(std::isnan(own) == std::isnan(is));
       if (std::isnan(own)) continue;
-      // The antimeridian is column 0 of this window's turn: lakes lie on both sides of it.
+      // The antimeridian is column 0 of this window's turn, with lakes on both sides.
       const int first = side_of(waters->lakes[0], col, row), second = side_of(waters->lakes[1], col, row);
       if (first == 0 || second == 0) continue;
       if (first == 1 || second == 1) {

@@ -1,4 +1,4 @@
-// The tiled engine: pieces make one triangulation, and the whole keeps what the greedy engine promises.
+// The tiled engine: pieces form one triangulation, which keeps the greedy engine's promise.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -22,7 +22,7 @@ using testing::Field;
 using testing::is_same;
 using testing::Relief;
 
-/// A tile's mesh with the border that the neighbours have too, and a few points of its own.
+/// A tile's mesh with the border of its neighbours, and a few inner points.
 TilePiece random_piece(std::mt19937& random, const TileWindow& window, const SharedSides& shared, PieceMaker& maker) {
   TileMesh mesh;
   mesh.reset(window.cols, window.rows);
@@ -105,7 +105,7 @@ TiledOptions any_options() {
   return options;
 }
 
-/// A free edge that is not Delaunay though both triangles of the other diagonal would keep the bound; "" if none.
+/// A free edge that is not Delaunay though both triangles of the other diagonal would satisfy the bound; "" if none.
 std::string find_needless_edge(const Triangulation& tin, const ErrorMetric& metric) {
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     const HalfEdge g = tin.twin(h);

@@ -1,4 +1,4 @@
-// Laws of 3D Tiles: neighbours share vertices to the bit, bounds hold in space, and subtrees list the tiles.
+// Laws of 3D Tiles: neighbours share vertices exactly, bounds hold in space, and subtrees list the tiles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], 
 double times(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double length(const Point& a) { return std::sqrt(times(a, a)); }
 
-/// Waves and steps with noise on them, all round the globe or within a box.
+/// Waves and steps with noise, around the globe or within a box.
 class Land final : public NodeSource {
  public:
   explicit Land(DegreeBox covered, double relief = 900) : covered_(covered), relief_(relief) {}
@@ -65,7 +65,7 @@ class Land final : public NodeSource {
   double relief_;
 };
 
-/// A GLB tile as clients decode it, z up again.
+/// A GLB tile as clients decode it, turned back to z up.
 struct Decoded {
   std::vector<Point> positions;
   std::vector<std::array<float, 3>> normals;
@@ -221,7 +221,7 @@ Made make_set(const DegreeBox& covered, int threads) {
 
 const DegreeBox kIsland{10.3, 34.1, 31.9, 50.2};
 
-/// Place and normal, to the bit.
+/// Exact place and normal.
 using EdgeVertex = std::pair<Point, std::array<float, 3>>;
 
 std::vector<EdgeVertex> edge_of(const Decoded& tile, const std::vector<std::uint32_t>& vertices) {
@@ -230,7 +230,7 @@ std::vector<EdgeVertex> edge_of(const Decoded& tile, const std::vector<std::uint
   return edge;
 }
 
-/// A list of a neighbour goes the other way.
+/// A neighbour's list is reversed.
 std::vector<EdgeVertex> edge_back(const Decoded& tile, const std::vector<std::uint32_t>& vertices) {
   return edge_of(tile, {vertices.rbegin(), vertices.rend()});
 }
@@ -302,7 +302,7 @@ TEST(tiles3d_laws, uncompressed_tiles_have_the_same_triangles) {
       for (std::size_t k = 0; k < from.triangles.size(); k += 3) {
         std::array<Point, 3> corners{};
         for (std::size_t c = 0; c < 3; ++c) corners[c] = from.positions[from.triangles[k + c]];
-        // At a pole two corners of a triangle are one place: the least of its three orders, whatever is equal.
+        // At a pole two corners of a triangle coincide: uses the least of its three orders.
         std::array<Point, 3> least = corners;
         for (int turn = 0; turn < 2; ++turn) {
           std::rotate(corners.begin(), corners.begin() + 1, corners.end());
@@ -386,7 +386,7 @@ TEST(tiles3d_laws, every_node_is_within_the_bound_of_the_decoded_triangles) {
 
 bool is_set(std::span<const std::uint8_t> bits, std::size_t at) { return (bits[at / 8] >> (at % 8) & 1) != 0; }
 
-/// A subtree, read by the specification.
+/// Reads a subtree by the specification.
 class SubtreeReader {
  public:
   explicit SubtreeReader(const std::vector<std::uint8_t>& bytes) {
@@ -485,7 +485,7 @@ TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
       EXPECT_LE(length(minus(at, {facts.sphere[0], facts.sphere[1], facts.sphere[2]})), facts.sphere[3]);
     for (const double value : facts.horizon_point) EXPECT_TRUE(std::isfinite(value));
   }
-  // The proven error of each level is no more than the error given to clients.
+  // The proven error of each level is at most the error given to clients.
   const double error = tileset["root"]["children"][0]["geometricError"];
   for (std::size_t z = 0; z < made.report.levels.size(); ++z) {
     EXPECT_GE(std::ldexp(error, -static_cast<int>(z)),
@@ -549,7 +549,7 @@ TEST(tiles3d_laws, vertices_lie_in_the_texture_where_they_lie_in_the_tile) {
     const Decoded decoded = reader.decode();
     EXPECT_EQ(reader.json()["images"][0]["mimeType"], "image/png");
     ASSERT_EQ(decoded.places.size(), tile->u.size());
-    // Vertices are in another order in the file: as sets.
+    // Vertices have another order in the file: compares sets.
     std::multiset<std::pair<int, int>> found, wanted;
     const auto thousandths = [](double pixels) { return static_cast<int>(std::floor(pixels * 50 + 0.5)); };
     for (const auto& [u, v] : decoded.places) {

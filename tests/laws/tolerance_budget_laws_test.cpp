@@ -1,5 +1,5 @@
-// Budgets where samples have bounds of their own: bounds that fit are kept, and one factor gives the bound that every
-// sample keeps.
+// Budgets with individual bounds of samples: sufficient budgets satisfy them; otherwise one factor gives the bound that
+// every sample satisfies.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -65,7 +65,7 @@ Field edited(Field field, const Simplified& made) {
   return field;
 }
 
-/// By the checker, which does not know how the mesh was made.
+/// Checks independently of how the mesh was made.
 void expect_kept(const Scene& scene, const Simplified& made) {
   RC_ASSERT(is_within(made, scene.options));
   RC_ASSERT(made.tolerance_factor >= 1);
@@ -73,7 +73,7 @@ void expect_kept(const Scene& scene, const Simplified& made) {
   std::vector<float> kept = scene.bounds;
   for (float& bound : kept) {
     const double asked = std::min(double{bound}, scene.options.goals.max_error.value_or(HUGE_VAL));
-    // A tolerance of 0 that no factor keeps is reported as an infinite factor.
+    // A tolerance of 0 that no factor can satisfy is reported as an infinite factor.
     const double least =
         std::isinf(asked) || std::isinf(made.tolerance_factor) ? HUGE_VAL : made.tolerance_factor * asked;
     bound = static_cast<float>(least * (1 + 1e-7) + 1e-9);
@@ -114,7 +114,7 @@ RC_GTEST_PROP(tolerance_budget, effort_is_never_worse_than_insertion, ()) {
   }
   if (fast->stop == StopReason::kMaxError) {
     RC_ASSERT(made->stop == StopReason::kMaxError);
-    // For the squared error the bounds are a cap, and the whole budget of use, but where samples are streamed.
+    // For the squared error bounds are only a cap, and the whole budget is useful, unless samples are streamed.
     const bool has_no_more = made->mesh.triangle_count() <= fast->mesh.triangle_count();
     const bool is_better =
         scene.options.goals.objective == Objective::kRms && made->judged_rmse <= fast->judged_rmse;
@@ -236,7 +236,7 @@ TEST(tolerance_budget, that_has_room_for_the_tolerances_ends_with_them) {
   options.tolerances.values = bounds;
   const auto bounded = *simplify(field.view(), options);
   options.quality.effort = Effort::kFast;
-  // Less than insertion needs for them, so that the search has to find out.
+  // Fewer than insertion needs for them, so that the search must find out.
   const std::uint64_t budget = bounded.mesh.triangle_count() * 11 / 10;
   ASSERT_LT(budget, simplify(field.view(), options)->mesh.triangle_count());
   options.goals.max_triangles = budget;

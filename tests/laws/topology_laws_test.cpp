@@ -31,7 +31,7 @@ Counts count(const Mesh& mesh, const judge::Connections& connections) {
           judge::count_t_junctions(mesh, connections), connections.edges.loops, connections.edges.open.size()};
 }
 
-/// By the border where that is enough, and by the search over all. Returns whether it was enough.
+/// Compares the border, if it suffices, with the search over all. Returns whether it sufficed.
 bool expect_agreement(const Mesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!looks_up(mesh, t)) return false;
@@ -45,7 +45,7 @@ bool expect_agreement(const Mesh& mesh) {
   return quick.is_single_layer;
 }
 
-/// A ramp of `turns` around a column, each step a pair of triangles; it goes outwards by `outwards` a turn.
+/// A ramp of `turns` around a column, each step a pair of triangles; its radius grows by `outwards` a turn.
 Mesh spiral(double turns, double outwards, double width, double tilt) {
   Mesh mesh;
   const int steps = std::max(3, static_cast<int>(turns * 40));
@@ -61,7 +61,7 @@ Mesh spiral(double turns, double outwards, double width, double tilt) {
   return mesh;
 }
 
-/// Squares of two triangles each, turned by `tilt`; some triangles are omitted, some vertices are moved.
+/// Squares of two triangles each, rotated by `tilt`; some triangles are omitted and some vertices moved.
 Mesh moth_eaten(std::mt19937& random, int side, unsigned holes, double moved, double tilt) {
   Mesh mesh;
   for (int y = 0; y <= side; ++y) {

@@ -1,5 +1,4 @@
-// Laws of views: several rasters as one, a part of one and coarser cells have the values of the rasters, sample by
-// sample.
+// Laws of views: several rasters as one, parts, and coarser cells have the values of the rasters, sample by sample.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -31,7 +30,7 @@ struct Said {
 struct Place {
   std::string crs = "EPSG:32617";
   double west = 500000, top = 4000000,
-         cell = 30;  // the cell's height is below 0 where the first row is the northern one
+         cell = 30;  // the cell's height is negative if the first row is the northern one
   double down = -30;
   bool is_point = false;
 };
@@ -95,7 +94,7 @@ Said any_said() {
   said.unit = *rc::gen::elementOf(std::vector<std::string>{"", "m", "metre", "ft", "US survey foot", "fathom"});
   std::tie(said.scale, said.offset) =
       *rc::gen::elementOf(std::vector<std::pair<double, double>>{{1, 0}, {1, 0}, {0.1, 0}, {0.3048, -20}, {-2, 1000}});
-  // Some are among the values, and some no value of the type.
+  // Some equal values, and some are not values of the type.
   const double nodata =
       *rc::gen::elementOf(std::vector<double>{-1, 0, 3, 7, -9999, 255, 4e9, -3.4028234663852886e38, kNone});
   if (*rc::gen::arbitrary<bool>()) said.nodata = nodata;
@@ -148,12 +147,12 @@ void expect_one_said(const RasterInfo& view, const RasterInfo& raster) {
   RC_ASSERT(view.scale == raster.scale);
   RC_ASSERT(view.offset == raster.offset);
   RC_ASSERT(view.nodata.has_value() == raster.nodata.has_value());
-  // GDAL moves values next to the largest float to it; what is nodata there is meant by magnitude.
+  // GDAL changes values next to the largest float to it; nodata there is compared by magnitude.
   const auto moved = [](double nodata) { return std::abs(nodata) < 3.4e38 ? nodata : double{static_cast<float>(nodata)}; };
   if (view.nodata) RC_ASSERT(text(moved(*view.nodata)) == text(moved(*raster.nodata)));
 }
 
-/// Either a value from outside replaces the declared one, or not.
+/// An external value may replace the declared one.
 ReadOptions any_options() {
   ReadOptions options;
   options.crs = "source";

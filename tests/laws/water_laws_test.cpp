@@ -1,5 +1,5 @@
-// Laws of lakes: each sample is what lakes, one after the other, make of it; flat areas are those that a flood finds;
-// and where the samples stay in a source all of it is as in memory.
+// Laws of lakes: each sample is the result of all lakes in order; flat areas are those of a flood fill; streamed
+// samples give the same as memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -39,7 +39,7 @@ OwnedHeightField in_memory(const Field& field) {
   return owned;
 }
 
-/// The same, window by window.
+/// The same by windows.
 OwnedHeightField in_source(const Field& field) {
   OwnedHeightField owned = in_memory(field);
   owned.samples.clear();
@@ -72,7 +72,7 @@ bool are_same(const std::vector<Lake>& a, const std::vector<Lake>& b) {
   });
 }
 
-/// Polygons of any kind, with and without holes, on one another, across the border and outside the raster.
+/// Arbitrary polygons, with and without holes, overlapping, across the border and outside the raster.
 std::vector<Line> any_lakes(const Field& field) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const auto between = [&](double low, double high) {
@@ -116,7 +116,7 @@ Flattened flatten(OwnedHeightField field, const std::vector<Line>& lines) {
   return {std::move(field), std::move(*lakes)};
 }
 
-/// Lake after lake, sample after sample: counts, and the samples.
+/// Processes lake by lake, sample by sample: counts and samples.
 class SlowWater {
  public:
   explicit SlowWater(const Field& field) : field_(field), is_water_(field.samples.size(), false) {}
@@ -218,7 +218,7 @@ RC_GTEST_PROP(water, that_rivers_meet_in_a_source_is_that_in_memory, ()) {
   }
 }
 
-/// The expected result of find_flats(), by flooding, each area's outline traced in a raster of its own.
+/// The expected result of find_flats(), by flood fill, with each area's outline traced in a separate raster.
 std::vector<Lake> flood_flats(const Field& field, std::uint64_t min_samples) {
   std::vector<bool> is_seen(field.samples.size(), false);
   const auto index = [&](Point p) { return static_cast<std::size_t>(p.y * field.cols + p.x); };
@@ -263,7 +263,7 @@ RC_GTEST_PROP(flats, are_those_that_a_flood_finds_in_memory_and_in_a_source, ())
   const auto relief = *rc::gen::element(testing::Relief::kTies, testing::Relief::kFlat, testing::Relief::kCliff);
   Field field =
       testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, relief, *rc::gen::element(0.0, 0.1, 0.5));
-  // Two heights only: large areas that wind around each other.
+  // Only two heights: large areas that wind around each other.
   if (*rc::gen::arbitrary<bool>()) {
     for (float& z : field.samples) z = std::isnan(z) ? z : static_cast<float>(z > 1);
   }
@@ -287,7 +287,7 @@ Field terrace() {
   return field;
 }
 
-/// Triangles whose centre is in a box, rows counted from above, are level at this height.
+/// Number of triangles at this height with their centre in a box, rows counted from above.
 std::size_t count_level(const Mesh& mesh, const Field& field, std::array<double, 4> box, double level) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {

@@ -4,7 +4,7 @@
 usage: header_examples.py FOLDER_OF_HEADERS PAGE OUT
 
 A header begins with a comment, whose lines after "// Example:" are the body of a function that returns a Result. Each
-source includes its header first, so that it shows, too, that the header compiles alone. The page is to name all headers.
+source includes its header first, which also shows that the header compiles alone. The page must name all headers.
 """
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The lines of docs/tiles.md that make a set with Dask, on a scheduler and two workers, one of which is killed.
+# The lines of docs/tiles.md that make a set with Dask, on a scheduler and two workers. One worker is killed.
 source "$(dirname "$0")/../program/lib.sh"
 need gdal_translate
 "$python_program" -c 'import distributed' 2> /dev/null || skip "needs Debian's python3-distributed"
@@ -8,7 +8,7 @@ gdal_translate -q -r bilinear -outsize 200% 200% -ot Float32 -a_srs EPSG:4979 -a
 few=(--cells 16 --effort fast --zoom 14)
 succeeds "$scarp" tile dem.tif whole.pmtiles "${few[@]}" -q
 succeeds "$scarp" tile plan dem.tif world.json "${few[@]}" -q
-# Eight shares in place of 200.
+# Eight shares instead of 200.
 sed -n '/^    from distributed import Client$/,/^    subprocess.run.*finish/s/^    //p' "$SCARP_SOURCE/docs/tiles.md" |
   sed 's/200/8/; s/201/9/; s/"world"\]/"world.pmtiles"]/' > shares.py
 [ "$(grep -c . shares.py)" = 6 ] || fail "docs/tiles.md has not the lines that are to run"
@@ -31,7 +31,7 @@ for worker in 1 2; do
 done
 
 "$python_program" shares.py > shares.log 2>&1 & client=$!
-# The process that works for the first worker's nanny dies once a block is on the disk; the nanny starts another.
+# The process under the first worker's nanny dies once a block is on disk; the nanny starts another.
 for _ in $(seq 1200); do
   if [ -n "$(find world.parts -name '*.part' -size +8k 2> /dev/null)" ]; then break; fi
   kill -0 $client 2> /dev/null || break

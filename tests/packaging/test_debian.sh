@@ -1,7 +1,7 @@
 #!/bin/bash
-# Debian's packages: built from a tarball of this checkout, without a word from lintian, unpacked and used, installed
-# and removed again. Then the shared library of that build in a prefix that moves: found by CMake, by pkg-config, and by
-# the program next to it. Where Debian's tools are missing, the second alone.
+# Debian packages: built from a tarball of this checkout without lintian messages, unpacked and used, installed and
+# removed again. Then the shared library of that build in a moved prefix: found by CMake, by pkg-config, and by the
+# program next to it. Without Debian's tools only the second part runs.
 . "$(dirname "$0")/../program/lib.sh"
 need c++ cmake
 source_tree=$SCARP_SOURCE
@@ -26,7 +26,7 @@ use_library() {
   LD_LIBRARY_PATH=$2 succeeds ./c_client
 }
 
-# The packages as a user's machine would have them: unpacked into a folder.
+# The packages as on a user's machine: unpacked into a folder.
 use_packages() {
   local root=$scratch/root libraries package
   for package in "$work"/*.deb; do succeeds dpkg-deb -x "$package" "$root"; done
@@ -48,7 +48,7 @@ assert scarp.simplify(sys.argv[2], 60, of="obj").encode() == open("of_build.obj"
   use_library "$root/usr" "$libraries"
 }
 
-# dpkg on a copy of this machine that is thrown away: an overlay in a namespace of its own.
+# dpkg on a temporary copy of this machine: an overlay in a separate namespace.
 install_packages() {
   mkdir copy
   cat > install.sh <<'SCRIPT'
@@ -92,7 +92,7 @@ if has_debian; then
       fail "$package is no Build-Depends"
   done
   succeeds "$source_tree/tools/source_tarball.sh" .
-  # Code that is not optimized compiles in a third of the time.
+  # Unoptimized code compiles in a third of the time.
   export DEB_BUILD_OPTIONS="nocheck noopt noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$scratch/page.html
   echo "<!DOCTYPE html>" > "$SCARP_VIEWER_PAGE"
   JOBS=$jobs try "$source_tree/tools/debian_packages.sh" "scarp-$version-source.tar.gz" "$work"

@@ -1,8 +1,7 @@
 #!/bin/bash
-# For `make soak`, since it runs as long as a build. Each source of the library and the program includes what it needs:
-# elsewhere sources are compiled in batches, where one lives on the headers of its neighbours until the batches change.
-# tools/check_includes.py finds most missing includes in a second. The compiler only checks (-fsyntax-only), half the
-# time of compiling; a second run checks files that have changed since.
+# Each source of the library and the program includes what it needs; batches hide missing includes behind neighbours'
+# headers. Runs as long as a build, so it is for `make soak`; tools/check_includes.py finds most missing includes in a
+# second. The compiler only checks (-fsyntax-only), in half the time; a second run checks changed files.
 set -euo pipefail
 folder=$SCARP_BUILD/each_source
 touch_target="<CMAKE_COMMAND> -E touch <TARGET>"

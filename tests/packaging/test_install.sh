@@ -1,6 +1,6 @@
 #!/bin/bash
-# The files of `make install` are complete and usable from outside the tree: by find_package, by pkg-config, by hand.
-# Scarp inside another project (add_subdirectory) works without GDAL; illegal options fail to configure.
+# `make install` is complete and usable outside the tree: by find_package, pkg-config and by hand. Scarp inside another
+# project (add_subdirectory) works without GDAL; illegal options fail to configure.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 build=${SCARP_BUILD:?}
@@ -26,7 +26,7 @@ pkgconfig=$(dirname "$(find "$prefix" -name scarp.pc)")
 grep -rlF -e "$source_tree" -e "$build" "$package" "$pkgconfig" "$prefix/include" && fail "installed files name the build"
 "$prefix/bin/scarp" --version | grep -q '[0-9]\.[0-9]' || fail "the installed program does not run"
 
-# 2. Each public header compiles alone, and so does the example that it begins with.
+# 2. Each public header compiles alone, as does its example.
 examples=$scratch/examples
 python3 "$source_tree/tests/packaging/header_examples.py" "$prefix/include/scarp" "$source_tree/docs/guide/library.md" "$examples" ||
   fail "the examples of the headers"
@@ -53,7 +53,7 @@ if command -v pkg-config >/dev/null; then
   # shellcheck disable=SC2046
   c++ -std=c++20 "$source_tree/docs/guide/library.cpp" -o "$scratch/guide" $(pkg-config --cflags --libs scarp)
   (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./guide) || fail "the program of docs/guide/library.md"
-  # The examples of the headers, in a folder with the files that they name.
+  # The examples of the headers, in a folder with their files.
   # shellcheck disable=SC2046
   c++ "$examples"/*.o -o "$examples/run" $(pkg-config --libs scarp)
   cp -L "$source_tree"/data/examples/* "$examples/"

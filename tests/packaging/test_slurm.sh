@@ -10,11 +10,11 @@ host=${host%%.*}
 mkdir -p slurm/state slurm/log slurm/run
 export SLURM_CONF=$PWD/slurm/slurm.conf
 
-# A cluster on loopback. A machine without control groups, or with those of systemd, starts its nodes too: the plugin
-# that is asked for uses none before it is needed.
+# A cluster on loopback. It also starts on machines without control groups or with systemd's: the requested plugin uses
+# none before it is needed.
 configure() {
   read -r -a ports <<< "$(python3 - <<'PYTHON'
-# Four free ports, below those that the system gives to whoever asks for any.
+# Four free ports below the system's ephemeral range.
 import random, socket
 free = []
 while len(free) < 4:
@@ -75,7 +75,7 @@ ends=$(trap -p EXIT | sed "s/^trap -- '//; s/' EXIT$//")
 trap 'stop; eval "$ends"' EXIT
 
 all_idle() { sinfo -h -o '%t %D' 2> /dev/null | grep -q "^idle 3"; }
-# Another program may open a port before its daemon does: three attempts.
+# Another program may open a port before its daemon: three attempts.
 for _ in 1 2 3; do
   configure
   slurmctld -D > slurm/log/ctld.out 2>&1 & daemons+=($!)
@@ -96,7 +96,7 @@ succeeds gdal_translate -q -r bilinear -outsize 300% 300% -a_srs EPSG:4979 -a_ul
 succeeds "$scarp" tile placed.tif whole --cells 16 --effort fast -q
 succeeds "$scarp" tile plan placed.tif plan.json --cells 16 --effort fast --slurm run.sh --shards 3 -q
 
-# The program, but for the first share on the second node: it stands still once it has made a block.
+# The program; for the first share on the second node it stops once it has made a block.
 cat > wrapped <<W
 #!/bin/bash
 if [ "\$SLURMD_NODENAME" = n2 ] && mkdir "$PWD/once" 2> /dev/null; then
@@ -118,7 +118,7 @@ done
 [ -s caught ] || fail "no share came to the second node: $(squeue 2>&1) $(sinfo -N 2>&1)"
 share=$(cat caught)
 
-# The node dies with all that runs on it: its daemon, the job's processes, and the step that watches them.
+# The node dies with everything on it: its daemon, the job's processes, and the step that watches them.
 lost=("${daemons[2]}")
 for process in /proc/[0-9]*; do
   if grep -qsz '^SLURMD_NODENAME=n2$' "$process/environ" && grep -qsz "^SLURM_CONF=$SLURM_CONF$" "$process/environ"; then
@@ -131,11 +131,11 @@ done
 kill -KILL "${lost[@]}" 2> /dev/null || true
 wait "${daemons[2]}" 2> /dev/null || true
 
-# SLURM misses the node after some 20 seconds.
+# SLURM notices the lost node after some 20 seconds.
 for ((k = 0; k < 900; ++k)); do
   if [ -e globe/layer.json ]; then break; fi
   [ -n "$(squeue -h -j "$shares,$finish" -o '%i' 2> /dev/null)" ] || break
-  # A share that is run again would wait two minutes.
+  # A requeued share would wait two minutes.
   for id in $(squeue -h -t PENDING -j "$shares" -o '%F_%K' 2> /dev/null); do
     scontrol update JobId="$id" StartTime=now > /dev/null 2>&1 || true
   done

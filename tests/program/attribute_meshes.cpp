@@ -1,5 +1,4 @@
-// Writes a small terrain with colours, places in an image and channels in every format, for programs that are not ours:
-// attribute_meshes FOLDER
+// Writes a small terrain with colours, uvs and channels in every format, for foreign programs: attribute_meshes FOLDER
 #include <cstdio>
 #include <limits>
 
@@ -11,11 +10,11 @@ int main(int argc, char** argv) {
   scarp::Mesh colored = scarp::test::grid_mesh(
       20, 30, [](int, int) { return true; }, true);
   scarp::test::add_attributes(colored, 4);
-  scarp::Mesh photo = colored;  // channels that its colours hold
+  scarp::Mesh photo = colored;  // channels contained in its colours
   photo.channel_count = 3;
   photo.channels.assign(photo.colors.begin(), photo.colors.end());
   photo.uvs.clear();
-  scarp::Mesh bare = colored;  // channels alone, one value missing
+  scarp::Mesh bare = colored;  // only channels, with one missing value
   bare.colors.clear();
   bare.channels[7] = std::numeric_limits<float>::quiet_NaN();
   for (const char* extension : {"glb", "obj", "ply", "stl", "tin", "vtu", "vtp"}) {

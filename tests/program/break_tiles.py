@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants a fault in a set of tiles, without any of Scarp's code.
+"""Plants a fault in a tileset without Scarp's code.
 
   break_tiles.py FAULT PATH: changes the file (a tile of quantized-mesh, or a set in one file) by FAULT.
 """
@@ -10,7 +10,7 @@ import sqlite3
 import struct
 import sys
 
-HIGH, RADIUS, HORIZON, COUNT = 28, 56, 64, 88  # bytes of a header
+HIGH, RADIUS, HORIZON, COUNT = 28, 56, 64, 88  # byte offsets in a header
 
 
 def of_tile(change):
@@ -26,13 +26,13 @@ def add(data, at, kind, change):
 
 
 def heights(data):
-    """All a metre higher."""
+    """Raises all heights by a metre."""
     for at in (HIGH - 4, HIGH):
         add(data, at, "<f", lambda h: h + 1)
 
 
 def normals(data):
-    """Normals of all vertices: a bit of the last bytes."""
+    """Changes a bit in the last bytes: normals of all vertices."""
     count, = struct.unpack_from("<I", data, COUNT)
     for at in range(len(data) - 2 * count, len(data), 2):
         data[at] ^= 16
@@ -68,7 +68,7 @@ def directory_of_pmtiles(path):
 
 
 def swap_in_pmtiles(path):
-    """Two tiles of one level change places: the last two entries of the directory get each other's lengths and bytes."""
+    """Swaps two tiles of a level: the last two entries of the directory exchange their lengths and bytes."""
     data = bytearray(path.read_bytes())
     root, root_size = struct.unpack_from("<2Q", data, 8)
     tiles, = struct.unpack_from("<Q", data, 56)
@@ -95,7 +95,7 @@ def swap_in_pmtiles(path):
         packed.append(number)
     packed = gzip.compress(bytes(packed), 9)
     assert len(packed) <= root_size + 64
-    # Behind everything else, where there is room for it.
+    # At the end of the file, where there is room.
     struct.pack_into("<2Q", data, 8, len(data), len(packed))
     path.write_bytes(bytes(data) + packed)
 

@@ -1,4 +1,4 @@
-// Decodes the tiles of a folder as the library does, into one stream that tests/js/read_quantized_mesh.mjs writes, too:
+// Decodes the tiles of a folder with the library into a stream in the format of tests/js/read_quantized_mesh.mjs:
 // decode_tiles FOLDER > OUTPUT
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,4 @@
-"""GeoTIFFs as GDAL writes them: the viewer's page makes of each the mesh that the program makes, or explains in a
-sentence why not.
+"""GeoTIFFs written by GDAL: the viewer's page makes the program's mesh of each, or explains why not.
 
 usage: dropped_geotiffs.py DEM SCARP NODE GEOTIFFS.MJS SOURCES NPM_PACKAGE
 """
@@ -34,7 +33,7 @@ def read_glb(name):
 
 
 def make(name, *words, source="base.tif", says=None):
-    """`says`: part of the sentence about a file that the page refuses."""
+    """`says`: part of the message about a refused file."""
     gdal("gdal_translate", *words, source, f"{name}.tif")
     if says:
         refused[f"{name}.tif"] = says
@@ -51,7 +50,7 @@ grid("real.asc", lambda col, row: 300 + 80 * math.sin(col / 9) * math.cos(row / 
 subprocess.run(["gdalbuildvrt", "-q", "-separate", "both.vrt", "base.tif", "shown.asc"], check=True)
 subprocess.run(["gdalbuildvrt", "-q", "-separate", "many.vrt", "base.tif", "base.tif", "base.tif", "shown.asc"], check=True)
 
-# Masks inside the file, of one bit or eight, and alpha bands.
+# Masks in the file, with one bit or eight, and alpha bands.
 INSIDE = ("--config", "GDAL_TIFF_INTERNAL_MASK", "YES")
 make("mask", "-b", "1", "-mask", "2", *INSIDE, source="both.vrt")
 make("mask_deflate", "-b", "1", "-mask", "2", *INSIDE, *create("COMPRESS=DEFLATE", "TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=32"), source="both.vrt")
@@ -77,7 +76,7 @@ for packing in ("NONE", "LZW", "DEFLATE", "PACKBITS", "ZSTD", "LERC", "LERC_DEFL
             tiled = ("TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16") if (kind == "Int16") == (order == "BIG") else ("BLOCKYSIZE=7",)
             predictor = () if packing not in ("LZW", "DEFLATE", "ZSTD") else ("PREDICTOR=2",) if kind == "Int16" else ("PREDICTOR=3",)
             if order == "BIG" and kind == "Float64":
-                predictor = ()  # GDAL 3.6 itself reads it as other numbers than it was given
+                predictor = ()  # GDAL 3.6 itself reads back other numbers
             says = "big-endian numbers packed by LERC" if order == "BIG" and "LERC" in packing else None
             make(f"{packing}_{kind}_{order}", "-ot", kind, *create(f"COMPRESS={packing}", f"ENDIANNESS={order}", *tiled, *predictor), source="real.asc", says=says)
 for order in ("LITTLE", "BIG"):
@@ -96,7 +95,7 @@ gdal("gdal_translate", "-outsize", "300", "280", "base.tif", "wide.tif")
 make("cog", "-of", "COG", *create("BLOCKSIZE=128"), source="wide.tif")
 make("cog_zstd", "-of", "COG", "-ot", "Float32", *create("BLOCKSIZE=128", "COMPRESS=ZSTD", "PREDICTOR=YES"), source="wide.tif")
 
-# Nodata, scale and offset; blocks that were never written.
+# Nodata, scale and offset; blocks never written.
 make("nodata", "-a_nodata", "-9999", source="holes.asc")
 make("nan", "-ot", "Float32", "-a_nodata", "nan", source="real.asc")
 make("nodata_as_nan", "-ot", "Float32", "-a_nodata", "300.1", source="holes.asc")
@@ -140,7 +139,7 @@ whole = open("DEFLATE_Float32_BIG.tif", "rb").read()
 open("cut_off.tif", "wb").write(whole[:len(whole) * 2 // 3])
 refused["cut_off.tif"] = "damaged or cut off"
 whole = open("NONE_Float32_LITTLE.tif", "rb").read()
-sample_format = struct.pack("<HHI", 339, 3, 1)  # text in its place
+sample_format = struct.pack("<HHI", 339, 3, 1)  # contains text instead
 assert whole.count(sample_format) == 1
 open("odd_tag.tif", "wb").write(whole.replace(sample_format, struct.pack("<HHI", 339, 2, 1)))
 refused["odd_tag.tif"] = "damaged or cut off"

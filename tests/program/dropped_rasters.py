@@ -1,4 +1,5 @@
-"""Writes rasters of one terrain to drop on the viewer's page: .hgt, tiles of the web, PNG of 16 bits, one interlaced, one cut off."""
+"""Writes rasters of a terrain to drop on the viewer's page: .hgt, web tiles, 16-bit PNGs, one interlaced, one
+truncated."""
 import math
 import struct
 import zlib
@@ -16,7 +17,7 @@ WHOLE, INTERLACED = ((0, 0, 1, 1),), ((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), 
 
 
 def write_png(name, depth, color, bytes_a_pixel, pixel_of, passes=WHOLE):
-    """Each row is filtered in another way. Passes: first column and row, and the steps."""
+    """Each row has another filter. Passes: first column and row, and the steps."""
     def filtered(kind, row, above):
         out = bytearray()
         for k, byte in enumerate(row):

@@ -14,8 +14,8 @@ mkdir "$root/run" "$logs"
 trap 'rm -rf "$root"' EXIT
 cd "$root/run"
 
-# The system's interpreter, without packages of others: the substitute of a version manager, and what a machine adds to
-# site-packages, need longer to start than most programs here to run. With them: $python_program.
+# The system's interpreter without other packages: version managers' wrappers and a machine's site-packages need longer
+# to start than most programs here to run. With packages: $python_program.
 python_program=$(command -pv python3 || command -v python3 || true)
 if [ -n "$python_program" ]; then python3() { "$python_program" -S "$@"; }; fi
 
@@ -41,8 +41,8 @@ need() {
   done
 }
 
-# npm_judges PACKAGE...: the foreign readers of tests/js, which npm installs into $js once for all tests; false, and a
-# line that reports it, where they cannot be had.
+# npm_judges PACKAGE...: the foreign readers of tests/js, which npm installs into $js once for all tests. If
+# unavailable: false, and a message.
 js=$SCARP_BUILD/js
 npm_judges() {
   local package
@@ -74,7 +74,7 @@ succeeds() {
   [ "$code" = 0 ] || fail "exit code $code instead of 0: $*"
 }
 
-# await PROCESS COMMAND...: waits until the command succeeds, however slow the machine is; fails where the process ends first.
+# await PROCESS COMMAND...: waits until the command succeeds, on machines of any speed; fails if the process ends first.
 await() {
   local process=$1
   shift
@@ -84,14 +84,14 @@ await() {
   done
 }
 
-# names_port FILE: a server has printed its address there; $port is its port.
+# names_port FILE: true once a server has printed its address there; sets $port.
 names_port() {
   port=$(sed -n 's#^  at  *http://127\.0\.0\.1:\([0-9]*\)/$#\1#p' "$1")
   [ -n "$port" ]
 }
 
-# run_within MEGABYTES COMMAND...: the command's exit code, and a failure if it uses more memory at any moment. A
-# sanitizer's memory is not the program's, and not checked.
+# run_within MEGABYTES COMMAND...: the command's exit code; fails if it ever uses more memory. Not checked with
+# sanitizers, which need more.
 run_within() {
   local most=$1
   shift
@@ -110,8 +110,8 @@ within() { succeeds run_within "$@"; }
 # files_here: every file with its checksum, and every folder.
 files_here() { find . -type f -exec cksum {} +; find . ! -type f; }
 
-# refuses CODE WORDS COMMAND...: the exit code, exactly one line on stderr, which begins with "scarp: " and holds WORDS,
-# nothing on stdout, and not one file more, less or changed.
+# refuses CODE WORDS COMMAND...: the exit code, exactly one line on stderr that begins with "scarp: " and contains
+# WORDS, nothing on stdout, and no file added, removed or changed.
 refuses() {
   local want=$1 words=$2 before after
   shift 2
@@ -126,8 +126,8 @@ refuses() {
   [ "$before" = "$after" ] || fail "files have changed: $*"
 }
 
-# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing. JSON is an
-# expression of Python with three more names; to import its module needs as long as to start the interpreter.
+# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails if a key is missing. Reads JSON as
+# a Python expression with three more names, since importing its module is as slow as starting the interpreter.
 json() {
   python3 -I - "$@" <<'PYTHON'
 import sys
@@ -154,7 +154,7 @@ PYTHON
 }
 
 # by_threads RASTER MESH OPTION...: simplify makes the same bytes on one thread and on three, in $within megabytes if
-# that is set, and the mesh is sound; its report is r.json.
+# set, and the mesh is sound; its report is r.json.
 by_threads() {
   local raster=$1 mesh=$2 threads
   shift 2
@@ -166,19 +166,19 @@ by_threads() {
   mv "1.$mesh" "$mesh"
 }
 
-# holds EXPRESSION: a comparison of numbers, by awk.
+# holds EXPRESSION: a comparison of numbers in awk.
 holds() {
   awk "BEGIN { exit !($1) }" || fail "does not hold: $1"
 }
 
-# Makes a raster that keeps the engine busy for some seconds: the bundled one, enlarged 10 x 10.
+# Makes a raster that occupies the engine for some seconds: the bundled one, enlarged 10 x 10.
 make_big_raster() {
   need gdal_translate
   gdal_translate -q -r cubic -ot Float32 -outsize 1000% 1000% "$dem" "$1"
 }
 
-# make_raster NAME EXPRESSION [TYPE]: a raster on the grid of $dem (also its place), whose value at (col, row) is the
-# expression of Python; nan is nodata.
+# make_raster NAME EXPRESSION [TYPE]: a raster on the grid of $dem (at its place), whose value at (col, row) is the
+# Python expression; nan is nodata.
 make_raster() {
   need gdal_translate python3
   python3 - "$1" "$2" <<'PYTHON'
@@ -198,7 +198,8 @@ PYTHON
   rm "$1.bil" "$1.hdr"
 }
 
-# make_image NAME EXPRESSION...: an image of bytes on the same grid, a band for each expression; three are red, green, blue.
+# make_image NAME EXPRESSION...: an image of bytes on the same grid, with a band for each expression; three are red,
+# green, blue.
 make_image() {
   local name=$1 bands=() options=() expression
   shift
@@ -213,7 +214,7 @@ make_image() {
   rm bands.vrt "${bands[@]}"
 }
 
-# The options of gdal_translate that put a raster where another one lies.
+# The options of gdal_translate that place a raster where another one lies.
 corners_of() {
   gdalinfo -json "$1" | python3 -c '
 import json, sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Stands for PDAL's `translate` where that is not installed: LAS 1.2 to text, with the options of its writers.text alone."""
+"""Replaces PDAL's `translate` if that is not installed: LAS 1.2 to text, with only the options of its writers.text."""
 import re
 import struct
 import sys

@@ -36,7 +36,7 @@ registry = QgsApplication.processingRegistry()
 
 
 class Feedback(QgsProcessingFeedback):
-    """Keeps its messages; cancels at the first progress if asked to."""
+    """Stores messages; cancels at the first progress on request."""
 
     def __init__(self, cancels=False):
         super().__init__()
@@ -76,7 +76,7 @@ def refused(algorithm, parameters, *words, feedback=None):
 ids = [one.id() for one in registry.providerById("scarp").algorithms()]
 assert ids == ["scarp:measuremesh", "scarp:pointstomesh", "scarp:rastertomesh", "scarp:rastertotiles"], ids
 
-# Every option of the program that QGIS does not answer itself is a parameter, with the program's own help.
+# Every option of the program that QGIS does not provide is a parameter, with the program's help.
 rows = json.loads(run_scarp("help", "--json"))["options"]
 offered = {one.name(): one for one in registry.algorithmById("scarp:rastertomesh").parameterDefinitions()}
 taken = {"--help", "--help-all", "--version", "--quiet", "--timing", "--json-progress", "--report", "--overwrite",
@@ -88,7 +88,7 @@ for row in rows:
     assert (name in offered) == (row["group"] != "Scattered points"), name
     assert name not in offered or offered[name].help() == row["help"], name
 
-# A mesh layer with as many faces as in the report; the file is the one that the program makes.
+# A mesh layer with as many faces as the report; the file equals the program's.
 feedback = Feedback()
 made = processing.run(
     "scarp:rastertomesh",
@@ -103,7 +103,7 @@ assert layer.dataProvider().vertexCount() == made["VERTICES"], made
 assert made["ERROR"] <= 20, made
 assert "refine" in feedback.passes and "write" in feedback.passes, feedback.passes
 
-# Loaded as a layer: its CRS is set, for 2DM has no place for one, and its triangles are drawn.
+# Loaded as a layer: the CRS, which 2DM cannot hold, is set, and triangles are drawn.
 context = QgsProcessingContext()
 project = QgsProject()
 context.setProject(project)
@@ -130,7 +130,7 @@ colours = {picture.pixel(x, y) for x in range(0, 640, 3) for y in range(0, 560, 
 assert len(colours) > 100, f"a picture of {len(colours)} colours"
 picture.save("shown.png")
 
-# Lakes of a file, breaklines of a layer in memory, and an extent of the project.
+# Lakes from a file, breaklines from a memory layer, and an extent of the project.
 lines = QgsVectorLayer("LineString?crs=EPSG:4326", "walls", "memory")
 feature = QgsFeature()
 feature.setGeometry(QgsGeometry.fromWkt("LineString (-84.35 36.30, -84.25 36.35)"))
@@ -155,7 +155,7 @@ run_scarp("simplify", DEM, "te.2dm", "-e", "20", "--effort", "fast", "--te", "-8
 assert filecmp.cmp("part.2dm", "te.2dm", shallow=False)
 assert part["TRIANGLES"] < bare["TRIANGLES"]
 
-# The program's sentences come out, and nothing is left behind.
+# The program's messages are shown, and nothing is left behind.
 refused("scarp:rastertomesh", {"INPUT": DEM, "MAX_ERROR": 20, "OUTPUT": "x.abc"}, "x.abc", ".glb")
 # In the words of the dialog.
 refused("scarp:rastertomesh", {"INPUT": DEM, "OUTPUT": "x.2dm"}, "no goal is given", '"Max error" 1', '"Max triangles" or')

@@ -1,5 +1,5 @@
-// Reads a 3MF file by the 3MF consortium's library: a line for each object, "vertices triangles manifold", where the
-// last is 1 for what the library calls manifold and oriented. Exit code 1 with its complaint, 2 with warnings.
+// Reads a 3MF file with the 3MF consortium's library and prints a line for each object, "vertices triangles manifold";
+// the last is 1 if the library calls it manifold and oriented. Exit code 1 with its error, 2 with warnings.
 #include <Model/COM/NMR_DLLInterfaces.h>
 
 #include <cstdio>

@@ -1,10 +1,10 @@
-"""Every remedy that a sentence of Scarp names works.
+"""Every remedy in Scarp's messages works.
 
 usage: remedies.py SCARP SOURCE EXAMPLES [NAME...]     (in an empty folder)
 
 Each row of remedies_table.py makes a situation, runs Scarp, extracts the remedy from its output, applies it, and
-continues to a result. Then each sentence of the sources that names a command or an option must have been printed by
-some row.
+continues to a result. Then each message in the sources that names a command or an option must have been printed by some
+row.
 """
 import os
 import pathlib
@@ -48,7 +48,7 @@ def fill(command, values):
 
 
 def replaced(command):
-    """The file that a command reads and the one that it makes."""
+    """The file that a command reads and the one it makes."""
     words = shlex.split(command.split("&& gdal_edit.py")[0].split("&&")[-1])
     if words[0] == "ogr2ogr":
         return words[-1].removeprefix("CSV:"), words[-2]
@@ -66,7 +66,7 @@ def replaced(command):
 
 
 def run_clean(command, folder):
-    """The exit code and what is printed; the folder is then as before."""
+    """Returns the exit code and the output; restores the folder."""
     there = set(folder.iterdir())
     result = shell(command, folder)
     for path in set(folder.iterdir()) - there:
@@ -75,7 +75,7 @@ def run_clean(command, folder):
 
 
 def run_first(row, command, folder, results={}):
-    """Before any remedy. Rows that make the same situation share the result."""
+    """The run before remedies. Rows with the same situation share the result."""
     key = row["make"], command
     if key not in results:
         results[key] = run_clean(command, folder)
@@ -83,7 +83,7 @@ def run_first(row, command, folder, results={}):
 
 
 def follow(row, folder):
-    """Remedy after remedy, as a user would, until the run ends well and no longer names the first."""
+    """Applies remedies like a user, until the run succeeds and no longer names the first."""
     run, first = row["run"], None
     for step in range(5):
         code, text = run_first(row, run, folder) if step == 0 else run_clean(run, folder)
@@ -134,7 +134,7 @@ LEFT_OUT = re.compile(r"option_rows_|command_table|/help\.cpp|cannot be combined
 
 
 def sentences():
-    """The text of the sources that names a command or an option, by place."""
+    """The messages in the sources that name a command or an option, by place."""
     for part in ("src", "apps"):
         for path in sorted((source / part).rglob("*.cpp")):
             if LEFT_OUT.search(str(path)):
@@ -157,7 +157,7 @@ def main():
     chosen = sys.argv[4:]
     base = root / "base"
     base.mkdir()
-    (root / "programs").mkdir()  # stand-ins for programs that are not installed
+    (root / "programs").mkdir()  # stand-ins for missing programs
     shutil.copy(source / "tests/program/pdal.py", root / "programs/pdal")
     (root / "programs/pdal").chmod(0o755)
     for file in examples.iterdir():

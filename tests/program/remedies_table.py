@@ -1,14 +1,14 @@
-"""The remedies that Scarp's sentences name, each with a situation. remedies.py describes how a row is tried.
+"""The remedies in Scarp's messages, each with a situation. remedies.py describes how rows are tried.
 
-C: a command. It is extracted from the output of `run` (the one with the number `way`), `fill` stands for its words in
-capitals, it is done, and `run` is repeated with the new file in place of the old one, or `then`. O: an option. The
-output of `run` holds `says`, and `then`, which follows it, succeeds.
+C: a command. The output of `run` contains it (at index `way`), `fill` replaces its words in capitals, and it is
+executed. Then `run` is repeated with the new file instead of the old one, or `then` runs. O: an option. The output of
+`run` contains `says`, and `then`, which follows the advice, succeeds.
 """
 
 import json
 import math
 
-# Made once, in the folder that each row gets a copy of.
+# Made once and copied into each row's folder.
 BASE = """
 gdal_translate -q -srcwin 100 100 40 36 whole.tif dem.tif
 gdal_translate -q -srcwin 200 100 40 36 whole.tif east.tif
@@ -116,7 +116,7 @@ C("parts of a stack", "scarp tile dem.tif utm.tif g -e 20 --zoom 9 --vertical eg
   then="scarp tile NEW.tif utm.tif g -e 20 --zoom 9 --vertical egm96")
 C("a local grid of two", "scarp tile utm.tif fine.tif g --grid local -e 20 --vertical ellipsoid", "gdal_translate -q -outsize 200% 200% utm_east.tif fine.tif", then="scarp tile NEW.tif g --grid local -e 20 --vertical ellipsoid")
 
-# Mosaics: what differs is named, unless Scarp joins it by itself.
+# Mosaics: differences are named, unless Scarp resolves them.
 M("two zones", "scarp simplify utm.tif zone17.tif o.glb -e 20")
 M("one without CRS", "scarp simplify utm.tif bare.tif o.glb -e 20", "gdal_translate -q -of AAIGrid utm_east.tif b.asc; rm -f b.prj b.asc.aux.xml; gdal_translate -q -ot Int16 b.asc bare.tif")
 M("the first without CRS", "scarp simplify bare.tif utm.tif o.glb -e 20", "gdal_translate -q -of AAIGrid utm_east.tif b.asc; rm -f b.prj b.asc.aux.xml; gdal_translate -q -ot Int16 b.asc bare.tif")
@@ -271,7 +271,7 @@ O("GLB in feet", "scarp simplify plane.tif o.glb -e 20 --crs source", "leave --c
 O("a goal in feet", SIMPLIFY + "o.obj -e 20ft", "--z-unit names another", SIMPLIFY + "o.obj -e 20ft --z-unit m")
 C("feet without a CRS", "scarp simplify 'no crs.vrt' o.glb -e 20", "gdal_translate -q -a_ullr 740000 4020000 743600 4016760 none.tif a.tif; " + unit("a.tif", "no crs.vrt", "ft"), {"EPSG:CODE": "EPSG:32616"}, says="x and y have no CRS and stay")
 
-# Options that need, or end, another.
+# Options that require or exclude another.
 for name, given, says, then in (
     ("lods in one", "o.glb -e 20 --lods-in-one", "needs --lods", "o.glb -e 20 --lods 2 --lods-in-one"),
     ("soft breaklines", "o.glb -e 20 --soft-breaklines", "needs --breaklines", "o.glb -e 20 --soft-breaklines --breaklines stream.geojson"),
@@ -371,10 +371,10 @@ O("a raster that becomes too large", HUGE + " --memory 72M", "leave --memory out
 O("the size of a synthetic raster", "scarp generate smooth 9 9 a.tif -tr 1", "change the raster first", "scarp generate smooth 9 9 a.tif && gdal_translate -q -r average -outsize 5 0 a.tif b.tif")
 O("the extent of a synthetic raster", "scarp generate smooth 9 9 a.tif --te 1 2 3 4", "gdal_translate -projwin|unknown", "scarp generate smooth 9 9 a.tif")
 
-# Parts of sentences that other tests make, or that name no way out.
+# Parts of messages from other tests, or without a remedy.
 NOT_RUN = [
-    "filling its nodata needs all samples in memory",  # message of the library: the program refuses --nodata-policy
-                                                       # before
+    "filling its nodata needs all samples in memory",  # message of the library that the program's refusal of
+                                                       # --nodata-policy precedes
     # Messages of view, whose page is built by npm: test_view.sh.
     "is too large for a page", "the finest level of the page is", "is not whole:", "and a page judges by a raster alone",
     "an option of a raster is given", "is a set of tiles, which is shown without a raster",

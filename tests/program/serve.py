@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Asks a server of tiles as clients do, and as they should not.
+"""Sends correct and incorrect requests to a tile server.
 
-  serve.py PORT FOLDER [ARCHIVE]: the server serves the set that the folder holds, perhaps from the archive.
+  serve.py PORT FOLDER [ARCHIVE]: the server serves the set in the folder, possibly from the archive.
 """
 
 import gzip
@@ -39,7 +39,7 @@ def raw(data):
 names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.terrain"))
 kept = {name: (folder / name).read_bytes() for name in names}
 
-# All tiles, over one connection, as they are kept.
+# All tiles over one connection, as stored.
 connection = http.client.HTTPConnection("127.0.0.1", port, timeout=600)
 for name in names:
     connection.request("GET", f"/{name}?v=1", headers={"Accept-Encoding": "gzip, deflate, br"})
@@ -50,7 +50,7 @@ for name in names:
     assert "immutable" in answer.getheader("Cache-Control")
 connection.close()
 
-# The header decides on compression; each form has a tag of its own.
+# The header decides about compression; each form has its own tag.
 name = names[len(names) // 2]
 packed = ask("/" + name, Accept_Encoding="gzip")
 for refused in ("", "br", "gzip;q=0", "identity, gzip;q=0.000"):
@@ -77,13 +77,13 @@ assert b'id="scarp-data"' in page.data or b"<svg" in page.data
 assert ask("/", If_None_Match=page.getheader("ETag")).status == 304
 assert layer.getheader("Date").endswith(" GMT")
 
-# A browser asks before it asks.
+# A browser's preflight request.
 answer = ask("/" + name, "OPTIONS", Origin="http://example.org", Access_Control_Request_Method="GET")
 assert answer.status == 204 and "GET" in answer.getheader("Access-Control-Allow-Methods")
 assert ask("/" + name, "POST").status == 405 and ask("/" + name, "DELETE").status == 405
 assert ask("/" + name, "PURGE").status == 501
 
-# Not there, with a reason; nothing outside the set.
+# Missing files with a reason; nothing outside the set.
 answer = ask("/3/0/0.terrain")
 assert answer.status == 404 and b"no tile 3/0/0.terrain" in answer.data
 assert answer.getheader("Access-Control-Allow-Origin") == "*"
@@ -112,7 +112,7 @@ if archive:
     for header in ("bytes=9-5", "lines=1-2", "bytes=0-1,5-6", "bytes=x", "bytes=-"):
         assert ask(url, Range=header).data == whole, header
 
-# No requests, and bytes that two programs could read in two ways: one answer, and the connection ends, whatever follows.
+# Invalid requests, and bytes with two readings: one answer, and the connection ends, whatever follows.
 behind = b"GET /nothing HTTP/1.1\r\nHost: x\r\n\r\n"
 for broken, status in (
         (b"nonsense\r\n\r\n", 400),
@@ -137,7 +137,7 @@ for broken, status in (
     assert b"Connection: close" in answer
 assert raw(b"GET /layer.json HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 200 ")
 assert raw(b"GET http://elsewhere/layer.json HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 200 ")
-# Two requests at once get two answers, in order; a body is no request.
+# Two requests at once get two answers in order; a body is not a request.
 last = b"GET /nothing HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
 two = raw(f"GET /{name} HTTP/1.1\r\nHost: x\r\nAccept-Encoding: gzip\r\n\r\n".encode() + last)
 assert two.index(b"HTTP/1.1 200") == 0 and two.rindex(b"HTTP/1.1 404") > len(kept[name])
@@ -146,7 +146,7 @@ for first in (b"Content-Length: %d\r\n\r\n%s" % (len(behind), behind),
     two = raw(b"GET /layer.json HTTP/1.1\r\nHost: x\r\n" + first + last)
     assert two.startswith(b"HTTP/1.1 200") and two.count(b"\nDate: ") == 2 and two.count(b"HTTP/1.1 404") == 1, first
 
-# Slow clients hold up no other client, and are dropped.
+# Slow clients block no other client, and are dropped.
 idle = [socket.create_connection(("127.0.0.1", port), timeout=600) for _ in range(200)]
 slow = socket.create_connection(("127.0.0.1", port), timeout=600)
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A server full of clients that never read: the others are served.
+"""A server full of clients that never read still serves the others.
 
-  serve_fair.py PORT FOLDER LARGE PID: the server with that PID has 1,000 places and serves the folder, which holds the
-  file LARGE of some megabytes.
+  serve_fair.py PORT FOLDER LARGE PID: the server with that PID has 1,000 places and serves the folder with the file
+  LARGE of some megabytes.
 
-Counts are fixed, and nothing is timed: what the deaf ones do is interleaved with what the others do.
+Counts are fixed, and nothing is timed: actions of deaf and other clients are interleaved.
 """
 
 import http.client
@@ -66,7 +66,7 @@ def ask(one):
         answer += part
 
 
-# Another address keeps its places however many come from the first one.
+# Another address keeps its places, however many requests the first one sends.
 want = (folder / names[0]).read_bytes()
 friends = [connect("127.0.0.2") for _ in range(100)]
 for one in friends:
@@ -75,14 +75,14 @@ asked = time.monotonic()
 add_deaf(DEAF, largest)
 files = len(list(pathlib.Path(f"/proc/{server}/fd").iterdir()))
 assert files < PLACES / 2 + len(friends) + 50, f"{files} files are open for one address and {len(friends)} friends"
-# Without a request for 10 seconds a friend goes, too; a machine so slow proves nothing here.
+# After 10 seconds without a request good clients are dropped, too; so slow a machine proves nothing here.
 if time.monotonic() - asked < 8:
     for one in friends:
         ask(one)
 check_served("127.0.0.1", 10)
 check_served("127.0.0.2", 10)
 
-# A slow download ends, though more deaf ones come all the time, from its own address, than there are places.
+# A slow download completes, though more deaf clients than places keep coming from its own address.
 add_deaf(DEAF, large)
 slow = connect("127.0.0.1", 32768)
 slow.sendall(request(large))

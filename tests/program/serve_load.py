@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Thousands of clients at once, most of them bad ones.
+"""Thousands of concurrent clients, most of them malicious.
 
-  serve_load.py PORT FOLDER ARCHIVE PID: the server with that PID serves the set that the folder holds, from the archive.
+  serve_load.py PORT FOLDER ARCHIVE PID: the server with that PID serves the folder's set from the archive.
 
-Counts are fixed, and nothing is timed: a client that were not answered would end the test by its own limit of a minute.
+Counts are fixed, and nothing is timed: an unanswered client fails the test after a minute.
 """
 
 import http.client
@@ -22,7 +22,7 @@ kept = {name: (folder / name).read_bytes() for name in names}
 hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
 hard = 20000 if hard == resource.RLIM_INFINITY else hard
 resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
-# 5,000 connections at most, if the system allows this process so many.
+# At most 5,000 connections, if the system allows the process so many.
 share = min(1.0, (hard - 100) / 6000)
 
 
@@ -52,7 +52,7 @@ def request(path, more=b""):
 
 
 def read_answer(one):
-    """Status and body of one answer of a connection that stays."""
+    """Status and body of one answer on a persistent connection."""
     data = b""
     while b"\r\n\r\n" not in data:
         part = one.recv(65536)
@@ -69,7 +69,7 @@ def read_answer(one):
 
 
 def drain(one):
-    """All that comes until the server closes, or breaks off."""
+    """All bytes until the server closes or breaks off."""
     data = b""
     try:
         while part := one.recv(65536):
@@ -93,7 +93,7 @@ def check_health(rounds):
 check_health(50)
 memory, threads, files = of_server("VmHWM"), of_server("Threads"), files_of_server()
 
-# Two thousand who keep their connections and ask one after another, twice; the second time all ask before one listens.
+# Two thousand persistent connections ask in turn, twice; the second time all ask before any reads.
 friends = []
 for k in range(count(2000)):
     friends.append(connect())
@@ -109,21 +109,21 @@ for k, one in enumerate(friends):
     try:
         answer = read_answer(one)
     except (AssertionError, OSError):
-        # On a slow machine it may have been idle for too long: like a browser it comes again.
+        # On a slow machine it may have been idle for too long: like a browser it reconnects.
         one.close()
         one = friends[k] = connect()
         one.sendall(request("/" + want))
         answer = read_answer(one)
     assert answer == (200, kept[want])
 
-# Next to them: clients that send a byte now and then, heads without an end, and headers without number;
+# Meanwhile: clients that send a byte now and then, endless heads, and countless headers;
 slow = [connect() for _ in range(count(500))]
 for letter in b"GET /layer.json HT":
     for one in slow:
         try:
             one.sendall(bytes([letter]))
         except OSError:
-            pass  # dropped after 10 seconds, on a slow machine
+            pass  # dropped after 10 seconds on a slow machine
 check_health(20)
 endless = [connect() for _ in range(count(300))]
 for one in endless:
@@ -134,24 +134,24 @@ for one in endless:
 for one in endless:
     answer = drain(one)
     assert not answer or answer.startswith(b"HTTP/1.1 431 "), answer[:60]
-# who ask for the archive, megabytes of it, and never read a byte of the answer;
+# clients that request the archive, megabytes of it, and never read the answer;
 deaf = [connect(SO_RCVBUF=4096) for _ in range(count(300))]
 for one in deaf:
     one.sendall(request("/" + archive.name) + request("/" + names[-1]) * 20)
-# who close one half, which is no reason not to be answered;
+# clients that close one half, and must be answered nevertheless;
 for k in range(count(200)):
     half = connect()
     half.sendall(request("/" + names[k % len(names)]))
     half.shutdown(socket.SHUT_WR)
     assert read_answer(half) == (200, kept[names[k % len(names)]])
     half.close()
-# who go away with a reset in the middle of a request, or of the answer;
+# clients that reset the connection in the middle of a request or answer;
 for k in range(count(300)):
     gone = connect()
     gone.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     gone.sendall(request("/" + archive.name)[: 9 + k % 60])
     gone.close()
-# and who send no requests, or want what is outside the set.
+# and clients that send invalid requests or paths outside the set.
 for broken in (b"\0" * 100 + b"\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\xff\xfe / HTTP/1.1\r\nConnection: close\r\n\r\n",
                b"GET / HTTP/1.1\r\nno colon\r\n\r\n", b"GET /%00 HTTP/1.1\r\n\r\n", b"\x16\x03\x01\x02\x00\x01\r\n\r\n",
                b"GET / HTTP/1.1\r\nTransfer-Encoding : chunked\r\n\r\n", b"PUT /x HTTP/1.1\r\nContent-Length: 99\r\n\r\n"):
@@ -167,7 +167,7 @@ for path in ("/../secret", "/..%2fsecret", "/%2e%2e/%2e%2e/etc/passwd", "/layer.
     assert re.match(rb"HTTP/1.1 40[04] ", answer) and b"mine" not in answer and b"root:" not in answer, path
 check_health(50)
 
-# More than an address has room for: those who have made no progress for the longest go, and who asks is answered.
+# More connections than an address may have: the longest idle are dropped, and active ones are answered.
 crowd = [connect() for _ in range(count(2400))]
 check_health(50)
 for k in range(0, count(2400), 8):
@@ -180,7 +180,7 @@ grown = of_server("VmHWM") - memory
 assert grown < 160_000, f"memory grew by {grown} kB"
 assert of_server("Threads") == threads, "threads grow with clients"
 
-# All go, and nothing is left of them.
+# All leave, and nothing remains of them.
 for one in friends + slow + deaf + crowd:
     one.close()
 for _ in range(600):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Asks a server that makes tiles when they are asked for.
+"""Requests tiles from a server that makes them on demand.
 
-  serve_raster.py PORT FOLDER [PID]: the folder holds the finished set of the same options. With the server's PID it has
-  room to prepare its coarse levels; then all tiles are asked for again, and many clients ask at once.
+  serve_raster.py PORT FOLDER [PID]: the folder holds the finished set of the same options. With PID the server has room
+  to prepare its coarse levels; then all tiles are requested again, and many clients ask at once.
 """
 
 import http.client
@@ -38,7 +38,7 @@ names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.t
 kept = {name: (folder / name).read_bytes() for name in names}
 finished = json.loads((folder / "layer.json").read_text())
 
-# The same tiles, and the bound of each where all nodes were examined.
+# The same tiles, and the bound of each whose nodes were all examined.
 connection = connect()
 layer = json.loads(ask(connection, "/layer.json").data)
 assert layer["available"] == finished["available"] and layer["bounds"] == finished["bounds"]
@@ -47,7 +47,7 @@ blocks = max(layer["maxzoom"] - 5, 0)
 
 
 def compare_all():
-    """Returns the levels where some bound is not known."""
+    """Returns the levels with unknown bounds."""
     estimated, bounds = set(), {}
     for name in names:
         answer = ask(connection, f"/{name}?v={layer['version']}")
@@ -62,7 +62,7 @@ def compare_all():
     return estimated
 
 
-# Holds before the coarse levels are prepared, and surely afterwards.
+# Holds before the coarse levels are prepared, and even more afterwards.
 assert compare_all() <= set(range(blocks))
 if server is not None:
     deadline = time.monotonic() + 600
@@ -81,7 +81,7 @@ print(len(names))
 if server is None:
     sys.exit()
 
-# Many who ask at once, who dawdle, who go away before the answer, and who send nonsense.
+# Many clients at once: slow ones, some that leave before the answer, and some that send nonsense.
 before = of_server("VmHWM")
 wrong = []
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""A set that is replaced while it is served.
+"""Replaces a set while it is served.
 
-  serve_replaced.py PORT OLD NEW COMMAND...: OLD and NEW are folders with the tiles of the two sets; the command puts the
-  new one in place. Both are asked for all the time; afterwards only the new one is there.
+  serve_replaced.py PORT OLD NEW COMMAND...: OLD and NEW are folders with the tiles of the two sets; the command puts
+  the new one in place. Both are requested all the time; afterwards only the new one is served.
 """
 
 import http.client

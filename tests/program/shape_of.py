@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The shape of a mesh, from its file: python3 shape_of.py MESH.2dm|MESH.obj
+"""Measures the shape of a mesh file: python3 shape_of.py MESH.2dm|MESH.obj
 
 Prints the number of triangles, the smallest angle in degrees, the shortest and the longest edge, seen from above.
 """

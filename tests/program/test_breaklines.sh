@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # --breaklines: every line is a chain of edges of the mesh, hard ones at their own heights, and the bound holds against
-# the raster as the lines left it.
+# the raster modified by the lines.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -47,7 +47,7 @@ succeeds "$scarp" simplify hills.tif level.obj -e 12 --up z --breaklines soft.ge
 succeeds "$scarp" simplify hills.tif both.glb -e 12 --breaklines soft.geojson --breaklines ring.geojson --report r.json --overwrite
 [ "$(json r.json breaklines laid)" = 4 ] || fail "not all lines of two files are inserted"
 
-# Lines without heights: reported in numbers, with a way out that works.
+# Lines without heights: reported with their number and a remedy that works.
 python3 - <<'PYTHON'
 import json
 def line(points): return {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": points}}
@@ -68,7 +68,7 @@ succeeds "$scarp" simplify high.tif zero.obj -e 12 --breaklines zero.geojson --s
 ! grep -q "from the raster" "$logs/err" || fail "a line on the raster is warned of"
 succeeds "$scarp" measure high.tif zero.obj --fail-above 12 -q
 
-# Impossible requests are refused, by name.
+# Impossible requests are refused by name.
 refuses 2 "cross.geojson" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson
 for rule in first mean highest; do
   succeeds "$scarp" simplify hills.tif "$rule.obj" -e 12 --up z --breaklines cross.geojson --line-conflict "$rule"
@@ -77,7 +77,7 @@ refuses 1 "--breaklines conflict odd is unknown" "$scarp" simplify hills.tif x.g
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict mean
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --edges data --breaklines soft.geojson
 refuses 1 "--importance cannot be combined with --breaklines" "$scarp" simplify hills.tif x.glb -e 12 --importance local --breaklines soft.geojson
-# Zeros need not lie far from low land.
+# Zeros may lie close to low land.
 succeeds gdal_translate -q -ot Float32 -scale 0 1000 4 4.8 hills.tif low.tif
 succeeds "$scarp" simplify low.tif low.obj -e 0.5 --breaklines zero.geojson --soft-breaklines
 [ ! -s "$logs/err" ] || fail "lines without heights are warned of"
@@ -91,7 +91,7 @@ succeeds "$scarp" simplify low.tif low.obj -e 0.5 --breaklines low.geojson --ove
 grep -Eq "warning: --breaklines: low.geojson feature 0 lies up to 4[0-9.]* from the raster, and all its heights are 0" "$logs/err" ||
   fail "a line at height 0 on low land cuts a trench without a word"
 
-# A height that no float32 holds; lines far from the raster, which is reported; a file that declares its CRS undefined.
+# A height that no float32 holds; lines far from the raster, which are reported; a file that declares its CRS undefined.
 python3 - <<'PYTHON'
 import json
 def line(name, points):
@@ -113,7 +113,7 @@ fi
 
 refuses 2 "missing.gpkg" "$scarp" simplify hills.tif x.glb -e 12 --breaklines missing.gpkg
 
-# No line is straight on a bent grid: the option is named, and the way out.
+# Lines are not straight on a curved grid: the option and the remedy are named.
 python3 - <<'PYTHON'
 import json
 line = {"type": "LineString", "coordinates": [[-84.40, 36.20], [-84.10, 36.40]]}

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Budgets with --memory: of a raster that stays in its file a mesh is made that uses them, with lines too, within the
-# limit, and the bytes are those of any number of threads.
+# Budgets with --memory: a raster that stays in its file becomes a mesh that uses the budget, also with lines, within
+# the limit and with the same bytes on any number of threads.
 source "$(dirname "$0")/lib.sh"
 need python3
 

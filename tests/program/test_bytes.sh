@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The byte table: what some 80 sets of options make of four rasters, in memory and streamed, has the bytes that it had.
-# A row that differs is a change to argue in its commit; then: tests/bytes/table.py PROGRAM DEM TABLE --update
+# The byte table: outputs of some 80 sets of options for four rasters, in memory and streamed, have the same bytes as
+# before. A commit must explain changed rows; to update: tests/bytes/table.py PROGRAM DEM TABLE --update
 source "$(dirname "$0")/lib.sh"
 need python3
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# --cliff: walls need tens of triangles, the bound holds, and the report lists them.
+# --cliff: walls need tens of triangles, the bound holds, and the report lists the walls.
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# A house 60 x 36 samples large that stands askew on a slope.
+# A rotated house of 60 x 36 samples on a slope.
 python3 - <<'PYTHON'
 def height(x, y):
     u, v = 0.932 * (x - 50) + 0.362 * (y - 48), 0.932 * (y - 48) - 0.362 * (x - 50)
@@ -30,14 +30,14 @@ grep -Eq 'cliffs +1 wall \([0-9]+ vertices\)' "$logs/out" || fail "the summary d
 succeeds "$scarp" simplify house.asc two.glb -e 0.5 --cliff 3 -j 2
 cmp one.glb two.glb || fail "-j 2 makes another mesh"
 
-# No step is that high: the same mesh as without.
+# No step is that high: the same mesh as without --cliff.
 succeeds "$scarp" simplify house.asc high.obj -e 0.5 --cliff 30 --report high.json
 grep -q '^scarp: warning: --cliff 30: no wall was found' "$logs/err" || fail "no word on walls that are not there"
 succeeds "$scarp" simplify house.asc none.obj -e 0.5
 [ "$(json high.json cliffs walls)" = 0 ] || fail "a wall where there is none"
 [ "$(grep -vc '^#' high.obj)" = "$(grep -vc '^#' none.obj)" ] || fail "--cliff changes a mesh without cliffs"
 
-# With other lines: walls stay away from them.
+# With other lines, walls keep away from them.
 cat > road.geojson << 'JSON'
 {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
   {"type": "LineString", "coordinates": [[1002, 2010], [1190, 2160]]}}]}

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# --cliff with --memory: walls are found in a file by rows, cross strips, and need few triangles there too; the bound
-# holds, the bytes are those of any number of threads, and the memory of walls counts.
+# --cliff with --memory: walls are found in a file by rows, cross strips, and need few triangles, too. The bound holds,
+# any number of threads gives the same bytes, and the memory of walls counts.
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# A village of 33 houses askew, each 60 x 36 samples, some next to nodata.
+# A village of 33 rotated houses, each 60 x 36 samples, some next to nodata.
 python3 - <<'PYTHON'
 from array import array
 def height(x, y):

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Masks, tolerances and scripts: kept sample by sample, judged alike by simplify and measure, refused when they do not fit.
+# Masks, tolerances and scripts: satisfied sample by sample, judged alike by simplify and measure, refused on other
+# grids.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalinfo
 
@@ -18,7 +19,7 @@ for key in sys.argv[3:]:
 PYTHON
 }
 
-# A mask: weight times error is bounded; where the weight is 0 nothing is.
+# A mask: weight times error is bounded, except where the weight is 0.
 for mask in weights.tif percent.tif; do
   succeeds "$scarp" simplify "$dem" masked.glb -e 20 --mask "$mask" --report s.json --overwrite
   succeeds "$scarp" measure "$dem" masked.glb --mask "$mask" --fail-above 20 --json
@@ -30,25 +31,25 @@ for mask in weights.tif percent.tif; do
 done
 grep -q -- '--mask percent.tif' <(strings masked.glb) || fail "the metadata does not name the mask"
 
-# A colour picture has three bands and one of them counts.
+# A colour picture has three bands, one of which is used.
 gdal_translate -q -of PNG -ot Byte -b 1 -b 1 -b 1 -colorinterp red,green,blue percent.tif picture.png
 succeeds "$scarp" simplify "$dem" pictured.glb -e 20 --mask picture.png
 grep -q '^scarp: warning: picture.png: this is a colour picture, and its first band alone, red, is taken for the values$' \
   "$logs/err" || fail "a picture is a mask without a word"
 
-# A mask that is 1 everywhere changes next to nothing: bounds are rounded downwards to float32.
+# A mask of 1 everywhere changes almost nothing: bounds are rounded downwards to float32.
 make_raster ones.tif 1 Byte
 succeeds "$scarp" simplify "$dem" plain.obj -e 20 --effort fast --report plain.json
 succeeds "$scarp" simplify "$dem" ones.obj -e 20 --mask ones.tif --report ones.json
 holds "$(json ones.json max_error) <= 20 && $(json ones.json triangles) < 1.02 * $(json plain.json triangles)"
 
-# Values that float32 rounds by up to 32 keep weighted bounds that are hardly larger.
+# Values rounded to float32 by up to 32 keep weighted bounds that are hardly larger.
 gdal_translate -q -ot Float64 -scale 236 1076 1000000000.3 1000084000.7 "$dem" fine.tif
 make_raster half.tif 0.5
 succeeds "$scarp" simplify fine.tif fine.glb -e 1000 --mask half.tif --report s.json --overwrite
 holds "$(json s.json max_error) + $(json s.json sample_rounding) <= 2000"
 
-# Tolerances are a goal of their own, alone or with an error.
+# Tolerances are a goal, alone or with an error.
 succeeds "$scarp" simplify "$dem" t.glb --tolerance bounds.tif --report s.json --overwrite
 grep -q '^Kept every tolerance, after [0-9.]* s$' "$logs/out" || fail "the summary does not tell that tolerances are kept"
 succeeds "$scarp" measure "$dem" t.glb --tolerance bounds.tif --json
@@ -67,12 +68,12 @@ succeeds "$scarp" simplify "$dem" coarse.glb -t 3000
 try "$scarp" measure "$dem" coarse.glb --tolerance bounds.tif
 [ "$code" = 3 ] && grep -qE '[0-9,]+ samples are above their tolerance, the worst [0-9.]+ times at column' "$logs/err" ||
   fail "broken tolerances pass"
-# A tolerance of 0 keeps the sample; everywhere, it keeps all.
+# A tolerance of 0 keeps a sample; 0 everywhere keeps all.
 make_raster exact.tif '0 if (col, row) == (200, 100) else nan'
 succeeds "$scarp" simplify "$dem" exact.obj --tolerance exact.tif --crs grid
 grep -qE "^v 200 [0-9.]+ -243" exact.obj || fail "a sample of tolerance 0 is no vertex"
 
-# No value means E; where nothing has a value, the raster changes nothing. Infinite tolerances are no heights.
+# No value means E; a raster without values changes nothing. Infinite tolerances are valid.
 make_raster none.tif nan
 succeeds "$scarp" simplify "$dem" bare.obj -e 20 --crs grid
 succeeds "$scarp" simplify "$dem" none.obj -e 20 --tolerance none.tif --crs grid --report s.json --overwrite
@@ -88,20 +89,20 @@ gdal_translate -q -a_scale 1e38 tiny.tif endless.tif
 succeeds "$scarp" simplify "$dem" endless.obj --tolerance endless.tif
 grep -q '^scarp: warning: endless.tif: 688 values are infinite or too large for a float32 and taken as no value$' "$logs/err" ||
   fail "the warning does not tell of the file's values"
-# A budget without room for samples of tolerance 0 breaks some, and reports it.
+# A budget too small for the samples with tolerance 0 breaks some, and reports it.
 make_raster strict.tif '0 if row % 3 == 0 else nan'
 succeeds "$scarp" simplify "$dem" strict.obj -t 500 --tolerance strict.tif --report s.json --overwrite
 [ "$(json s.json tolerance_factor)" = '"inf"' ] || fail "samples of tolerance 0 are said to be kept"
 grep -q '^scarp: warning: the budget has no room for all samples of tolerance 0' "$logs/err" || fail "no word about broken tolerances"
 
-# Scripts: what is inserted is a vertex, what is ignored has no bound.
+# Scripts: inserted samples are vertices, ignored ones have no bound.
 printf '# a corner of the map\ns 10 20\n\ns 11 20\ni 300 300\nu 301 300\n' > steps.txt
 succeeds "$scarp" simplify "$dem" scripted.obj -t 40 --script steps.txt --crs grid --report s.json --overwrite
 grep -qE "^v 10 [0-9.]+ -323" scripted.obj && grep -qE "^v 11 [0-9.]+ -323" scripted.obj || fail "the script's samples are no vertices"
 holds "$(json s.json ignored) == 2"
 succeeds "$scarp" simplify "$dem" scripted.ply -e 20 --script steps.txt
 grep -q 'ignored  *2 samples without a bound' "$logs/out" || fail "the summary does not tell what is ignored"
-# If the script is right that a sample is an outlier, the rest is bounded, whatever else weighs.
+# If a script correctly marks an outlier, everything else is bounded, whatever its weight.
 make_raster spiked.tif '900 if (col, row) == (150, 150) else 300 + col / 4 + row % 3'
 printf 'i 150 150\n' > steps.txt
 for more in "" "--mask ones.tif" "--batch const"; do
@@ -111,7 +112,7 @@ for more in "" "--mask ones.tif" "--batch const"; do
   holds "$(json s.json max_error) > 500 && $(json s.json triangles) < 10 && $(json s.json p999) < 5"
   grep -qE 'without a bound; max error of the others [0-4]' "$logs/out" || fail "the summary is about the outlier"
   holds "$(json s.json bounded_max_error) <= 5 && $(json s.json bounded_max_error) > 0"
-  # The judge agrees, given the same script.
+  # With the same script the judge agrees.
   # shellcheck disable=SC2086
   succeeds "$scarp" measure spiked.tif flat.obj --script steps.txt ${more%--batch*} --fail-above 5 --json
   cp "$logs/out" m.json
@@ -153,7 +154,7 @@ succeeds "$scarp" measure "$dem" masked.glb --mask weights.tif --json
 cp "$logs/out" m.json
 same max_error bounded_max_error
 
-# A file that does not fit is refused, with the way out.
+# A file on another grid is refused with a remedy.
 gdal_translate -q -outsize 100 100 weights.tif small.tif
 refuses 2 "--mask small.tif is 100 x 100 samples instead of 403 x 344" simplify -e 20 --mask small.tif
 refuses 2 "first (gdalwarp -te -84.41375" simplify -e 20 --mask small.tif

@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
 # --mask, --script, --normals, --error-raster, --map and --preview with --memory: weights, ignored samples and
-# neighbours are read in windows while heights stay in their file, errors and pictures go to their files by rows. Their
-# results for a mesh are those in memory, to the last bit; the bytes are those of any number of threads; the memory is
-# enough.
+# neighbours are read in windows while heights stay in their file; errors and pictures are written by rows. Results for
+# a mesh equal those in memory to the last bit. Any number of threads gives the same bytes, and the memory suffices.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalinfo
 
 succeeds "$scarp" generate smooth 500 600 smooth.tif --seed 3 --range 300 -q
-# Nodata in bands along contours, among heights and among weights.
+# Nodata in bands along contours, in heights and weights.
 gdal_translate -q -ot Int16 -a_nodata 255 smooth.tif whole.tif
 gdal_translate -q -ot Float32 whole.tif hills.tif
 succeeds "$scarp" generate smooth 500 600 other.tif --seed 8 --range 300 -q
@@ -23,7 +22,7 @@ with open("long.txt", "w") as script:
 PYTHON
 
 small=74 # the samples, 1.2 MB, may use 1 of it, so they stay in their file, and strips are low
-check() { # check EFFORT OPTION...: a mesh in little memory, judged in little memory and in much
+check() { # check EFFORT OPTION...: a mesh in little memory, judged in little and in much memory
   local effort=$1
   shift
   within=$small by_threads hills.tif one.obj -e 20 "$@" --effort "$effort" --normals --memory "${small}M"
@@ -49,7 +48,7 @@ check fast --script ignored.txt
 check normal --script ignored.txt --mask weights.tif
 check normal --script ignored.txt --tolerance weights.tif
 
-# Errors and pictures of one mesh, in little memory and in much: the same bytes.
+# Errors and pictures of one mesh have the same bytes in little and in much memory.
 within "$small" "$scarp" simplify hills.tif made.obj -e 20 --normals --memory "${small}M" --error-raster made.tif \
   --preview made.png --report made.json
 within "$small" "$scarp" measure hills.tif made.obj --error-raster little.tif --map little.png --memory "${small}M" -j 2
@@ -69,7 +68,7 @@ grep -q "cannot write full.tif" "$logs/err" || fail "the sentence does not name 
 [ "$(wc -l < "$logs/err")" = 1 ] || fail "not one line on stderr"
 [ -z "$(find . -name '.scarp-*' -o -name 'full*' -o -name w.tif)" ] || fail "files are left"
 
-# Blocks of other sizes than the heights' with them: of weights that are read, and of what is written.
+# Block sizes that differ from the heights': of weights that are read, and of output.
 gdal_translate -q -ot Int16 -a_nodata none -co TILED=YES -outsize 1500 6000 smooth.tif tall.tif
 gdal_translate -q -ot Byte -a_nodata none -co TILED=YES -scale 0 300 0 200 -outsize 1500 6000 smooth.tif heavy.tif
 within 86 "$scarp" simplify tall.tif tall.obj -e 20 --error-raster tall_errors.tif --memory 86M -j 2
@@ -91,7 +90,7 @@ assert len(valid) > 290000 and len({near for _, near, _ in valid}) > 1000
 assert all(abs(near - z - error) < 1e-3 and abs(error) <= 20 for z, near, error in valid)
 PYTHON
 
-# A mesh that keeps no weights is found out, by as many samples.
+# A mesh that violates weights is detected, with the same number of samples.
 succeeds "$scarp" simplify hills.tif coarse.obj -e 60 -q
 for memory in "--memory ${small}M" ""; do
   # shellcheck disable=SC2086

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# A compressed GLB is a fraction of the bytes, and keeps the promise as it decodes: measure reads it, and agrees.
+# A compressed GLB has a fraction of the bytes and keeps the promise when decoded: measure reads it and agrees.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalbuildvrt gdalinfo
 
 make_image ortho.tif '(col * 255) // 402' '128 + 100 * math.sin(col * row / 40000)' '200 if (col // 50 + row // 50) % 2 else 40'
 make_raster holes.tif 'nan if (col // 40 + row // 30) % 5 == 0 else 300 + 40 * math.sin(col / 9) * math.cos(row / 13)'
 
-# packed RASTER ERROR SHARE OPTION...: the bytes are below SHARE percent of the plain file's, the judge's error is the report's.
+# packed RASTER ERROR SHARE OPTION...: the bytes are below SHARE percent of the plain file's, and the judge's error is
+# the report's.
 packed() {
   local raster=$1 error=$2 share=$3
   shift 3

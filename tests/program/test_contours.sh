@@ -37,7 +37,7 @@ refuses 2 "no attribute 'Z_M'" "$scarp" simplify contours.gpkg x.glb -e 5 --z-fi
 succeeds "$scarp" info contours.gpkg
 grep -q '^  lines ' "$logs/out" || fail "info does not count the lines"
 
-# Impossible requests, in one sentence.
+# Impossible requests, with one message each.
 collection() { echo "{\"type\":\"FeatureCollection\",\"features\":[$1]}"; }
 line() { echo "{\"type\":\"Feature\",\"properties\":{\"ELEV\":$1},\"geometry\":{\"type\":\"LineString\",\"coordinates\":$2}}"; }
 collection "$(line 10 '[[0,0],[1,1]]'),$(line 20 '[[0,1],[1,0]]')" >crossing.geojson
@@ -57,7 +57,7 @@ grep -q 'warning: partly.geojson: 1 point has exactly the height 0, far below al
 collection "$(line 10 '[[0,0],[1,1]]'),{\"type\":\"Feature\",\"properties\":{\"ELEV\":4},\"geometry\":null},$(line 20 '[[0,3],[1,4]]')" >none.geojson
 succeeds "$scarp" info none.geojson --z-field ELEV --crs source
 grep -q 'warning: 1 feature of none.geojson has no point and was left out' "$logs/err" || fail "one feature is several"
-# The number that the refusal of -e 0 names holds.
+# The number in the refusal of -e 0 can be kept.
 ogr2ogr -t_srs EPSG:4326 degrees.gpkg contours.gpkg
 refuses 3 "a max error of 0 cannot be kept" "$scarp" simplify degrees.gpkg exact.obj -e 0
 least=$(sed -n 's/.*ask for at least \([^,]*\), or split.*/\1/p' "$logs/err")

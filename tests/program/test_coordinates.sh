@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Coordinates that every viewer shows: near 0, in metres, the right way up, with the way back to the source in numbers.
+# Coordinates for every viewer: near 0, in metres, the right way up, with numbers that map them back to the source.
 source "$(dirname "$0")/lib.sh"
 need python3 gdalwarp gdal_translate
 
@@ -51,7 +51,7 @@ for format in glb obj ply stl; do
   *) y0=$a0 y1=$a1 z0=$b0 z1=$b1 ;; esac
   holds "$x0 < -14000 && $x0 > -25000 && $x1 > 14000 && $x1 < 25000 && $y0 < -14000 && $y1 > 14000 && $y1 < 25000"
   holds "$z0 >= 200 && $z0 < 300 && $z1 > 1000 && $z1 < 1100"
-  # The numbers lead back to where the raster's own coordinates are.
+  # The numbers map back to the raster's own coordinates.
   place="$(json r.json frame origin) $(json r.json frame to_source)"
   python3 - "$place" "$x0 $x1 $y0 $y1" "${source[*]}" <<'PYTHON' || fail "$format: $place leads elsewhere"
 import json, sys
@@ -77,7 +77,7 @@ refuses 1 "--double is for PLY" "$scarp" simplify utm.tif out.glb -e 20 --double
 succeeds "$scarp" simplify utm.tif there.obj -e 20 --crs 3857 --report r.json --overwrite
 [ "$(json r.json frame crs) $(json r.json frame to_source)" = '"EPSG:3857" null' ] || fail "3857 is not EPSG:3857"
 
-# The axis that is up, and files that do not declare it.
+# The up axis, and files that do not declare it.
 for format in obj ply stl; do
   for up in y z; do
     succeeds "$scarp" simplify utm.tif up.$format -e 20 --up $up --overwrite
@@ -100,7 +100,7 @@ for frame in source local; do
   succeeds "$scarp" measure utm.tif <(grep -v '^#' $frame.obj) --fail-above 20
 done
 
-# Formats for maps: the raster's CRS, and a .prj file that is never another's.
+# Formats for maps: the raster's CRS, and a .prj file that never replaces another's.
 for format in 2dm dxf xml tin; do
   rm -f map.prj
   succeeds "$scarp" simplify utm.tif map.$format -e 50 --report r.json --overwrite
@@ -128,7 +128,7 @@ cp deg.prj deg.before
 refuses 1 "deg.prj is a file that deg.asc is made of" "$scarp" simplify deg.asc deg.2dm -e 50 --crs EPSG:32616 --overwrite
 cmp deg.prj deg.before || fail "the raster's own .prj file is lost"
 
-# Heightmaps: width of a cell, scale and offset of heights, the same streamed.
+# Heightmaps: cell width, scale and offset of heights; streamed, the same.
 gdal_translate -q -of PNG -ot UInt16 -scale 236 1076 0 60000 -outsize 300 200 "$dem" map.png
 rm -f map.png.aux.xml
 succeeds "$scarp" simplify map.png needle.glb -e 500
@@ -160,7 +160,7 @@ wide="--cell-size 9 --z-scale 0.014 --z-offset 236"
 succeeds "$scarp" simplify wide.png whole.glb -e 60 $wide --effort fast -q
 succeeds "$scarp" measure wide.png whole.glb --fail-above 60 --json
 cp "$logs/out" whole.json
-for memory in 115M 95M; do  # in memory as 16-bit codes, and from the file: the same heights, as the judge has them
+for memory in 115M 95M; do  # in memory as 16-bit codes, and from the file: the same heights by the judge
   succeeds "$scarp" simplify wide.png streamed.glb -e 60 $wide --effort fast --memory $memory -q --overwrite
   succeeds "$scarp" measure wide.png streamed.glb --fail-above 60 -q
   succeeds "$scarp" measure wide.png whole.glb --memory $memory --json

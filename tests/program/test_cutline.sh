@@ -23,8 +23,8 @@ layer("beyond.geojson", ("Polygon", [ring([[-90, 30], [-80, 30], [-80, 40], [-90
 layer("point.geojson", ("Point", [x, y]))
 PYTHON
 
-# Facts about an OBJ: its plan area, triangles, those whose height is below a tenth of their longest edge, and of these
-# the ones with no corner on the border.
+# Facts about an OBJ: plan area, triangles, thin triangles (height below a tenth of their longest edge), and thin ones
+# without a corner on the border.
 cat > mesh.py <<'PYTHON'
 import sys
 vertices, faces = [], []
@@ -50,7 +50,7 @@ for f in faces:
 print(repr(area), len(faces), thin, free)
 PYTHON
 
-# GDAL's results for the polygons: their area, and the samples in them.
+# GDAL's results for the polygons: area and samples inside.
 burn() { # FILE OUT
   rm -f "$2"
   succeeds gdal_rasterize -q -burn 1 -init 0 -ot Byte -tr 0.000833333333333 0.000833333333333 \
@@ -75,7 +75,7 @@ errors, inside = column("errors.xyz"), column("inside.xyz")
 assert len(errors) == len(inside) and 20000 < sum(inside) < 40000, (len(errors), sum(inside))
 covered = [e == e and abs(e) < 1e30 for e in errors]
 other = sum(c != (i > 0) for c, i in zip(covered, inside))
-assert other <= 40, other  # on the boundary itself either answer will do
+assert other <= 40, other  # on the boundary itself either answer is valid
 assert max(abs(e) for e, c in zip(errors, covered) if c) <= 20
 PYTHON
   read -r area triangles thin free < <(python3 mesh.py cut.obj)
@@ -94,7 +94,7 @@ ogr_area=$(area_of star.geojson star)
 [ -n "$ogr_area" ] || fail "GDAL says no area"
 holds "($ogr_area - $area) ^ 2 < (1e-4 * $ogr_area) ^ 2"
 
-# The same bytes on any number of threads, and judged as a whole without the cutline it fails.
+# The same bytes on any number of threads; judged without the cutline the mesh fails.
 succeeds "$scarp" simplify "$dem" one.glb -e 20 --cutline star.geojson -j 1
 succeeds "$scarp" simplify "$dem" two.glb -e 20 --cutline star.geojson -j 2
 cmp one.glb two.glb || fail "-j 2 makes another mesh"
@@ -118,7 +118,7 @@ succeeds "$scarp" simplify "$dem" solid.stl -e 20 --cutline star.geojson --base 
 succeeds "$scarp" simplify "$dem" lines.glb -e 20 --cutline star.geojson --breaklines open.geojson --soft-breaklines --breaklines bow.geojson
 succeeds "$scarp" measure "$dem" lines.glb --cutline star.geojson --fail-above 20
 
-# Along samples: what GDAL burns, and with a budget.
+# Along samples: like GDAL's burning, and with a budget.
 succeeds "$scarp" simplify "$dem" mask.glb -t 2000 --cutline star.geojson --mask-outside --report mask.json --error-raster masked.tif
 holds "$(json mask.json triangles) <= 2000"
 [ "$(json mask.json cutline mask_outside)" = true ] || fail "the report does not tell of --mask-outside"
@@ -131,33 +131,33 @@ assert other <= 60, other  # on the boundary, and samples without a cell
 PYTHON
 succeeds "$scarp" measure "$dem" mask.glb --cutline star.geojson --mask-outside --fail-above 1000
 
-# Moved inwards: fewer samples, and with a distance below 0 more.
+# Moved inwards: fewer samples; with a negative distance more.
 succeeds "$scarp" simplify "$dem" in.glb -e 20 --cutline star.geojson --inset 200 --report in.json
 succeeds "$scarp" measure "$dem" in.glb --cutline star.geojson --inset 200 --fail-above 20
 succeeds "$scarp" simplify "$dem" out.glb -e 20 --cutline star.geojson --inset=-200 --report out.json
 holds "$(json in.json cutline samples_outside) > $(json cut.json cutline samples_outside)"
 holds "$(json out.json cutline samples_outside) < $(json cut.json cutline samples_outside)"
 
-# A distance that coordinates cannot hold is none.
+# A distance too small for coordinates has no effect.
 succeeds "$scarp" simplify "$dem" tiny.glb -e 20 --cutline star.geojson --inset 1e-300 --report tiny.json
 holds "$(json tiny.json cutline samples_outside) == $(json cut.json cutline samples_outside)"
 
 refuses 2 "open.geojson feature 0 is an open line" "$scarp" simplify "$dem" x.glb -e 20 --cutline open.geojson
 refuses 2 "beside the raster" "$scarp" simplify "$dem" x.glb -e 20 --cutline away.geojson
 refuses 2 "lies in the polygons" "$scarp" simplify "$dem" x.glb -e 20 --cutline away.geojson --mask-outside
-# A strip that holds samples and no cell.
+# A strip with samples but without a cell.
 echo '{"type":"Polygon","coordinates":[[[-84.3,36.2998],[-84.1,36.2998],[-84.1,36.3004],[-84.3,36.2998]]]}' > strip.geojson
 refuses 2 "no cell with three heights" "$scarp" simplify "$dem" x.glb -e 20 --cutline strip.geojson --mask-outside
 refuses 2 "point.geojson" "$scarp" simplify "$dem" x.glb -e 20 --cutline point.geojson
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --cutline nothing.gpkg
 refuses 2 "nothing of the polygons is left" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset 20000
-# A print of what lies in the polygon, whole and in print tiles.
+# A print of the part in the polygon, whole and in print tiles.
 succeeds "$scarp" simplify "$dem" print.stl -e 20 --cutline star.geojson --solid size=100mm
 succeeds "$scarp" measure "$dem" print.stl --cutline star.geojson --fail-above 20
 grep -q "closed solid" "$logs/out" || fail "the print is not closed"
 succeeds "$scarp" simplify "$dem" sheet.stl -e 20 --cutline star.geojson --solid size=100mm --split 2x1
 
-# Shapes up to the boundary, and walls within it.
+# Shape goals up to the boundary, and walls inside.
 for effort in fast high; do
   succeeds "$scarp" simplify "$dem" shape.ply -e 20 --crs local --min-angle 25 --max-edge 2000 --effort "$effort" \
     --cutline star.geojson --report shape.json --overwrite
@@ -168,7 +168,7 @@ for effort in fast high; do
   succeeds "$scarp" measure "$dem" walls.ply --cutline star.geojson --fail-above 5
 done
 
-# It is unknown where rings from so far away enter the raster.
+# The places where such distant rings enter the raster are unknown.
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
  {"type": "Polygon", "coordinates": [[[1, 1], [1e17, 5], [-1e17, 1e17], [1, 1]]]}}]}' >far.geojson
 refuses 2 "feature 0 has a vertex at 1e+17, 5, too far away to be placed" "$scarp" simplify "$dem" x.glb -e 20 --cutline far.geojson

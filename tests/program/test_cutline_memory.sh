@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# --cutline, --inset and --mask-outside with --memory: polygons cross strips whose samples stay in their file, and
-# the surface that stays is the one that would stay in memory.
+# --cutline, --inset and --mask-outside with --memory: polygons cross strips whose samples stay in their file, and the
+# remaining surface is the same as in memory.
 source "$(dirname "$0")/lib.sh"
 need python3 ogrinfo
 
@@ -13,7 +13,7 @@ def collection(name, *polygons):
         for rings in polygons]}, open(name, "w"))
 star = [[550 + r * math.cos(a), 400 + 0.85 * r * math.sin(a)] for k in range(14) for a, r in [(k * math.pi / 7, 430 if k % 2 else 260)]]
 hole = [[460.3, 330.2], [640.1, 370.7], [520.6, 530.4]]
-# All along a sample's rows and columns, and where strips may meet.
+# Along whole rows and columns of samples, and where strips may meet.
 blocks = [[[[10, y], [110, y], [110, y + h], [10, y + h]]] for y, h in [(20, 80), (125, 125), (266, 1), (532, 250)]]
 collection("star.geojson", [star, hole], *blocks)
 collection("away.geojson", [[[-90, -90], [-80, -90], [-80, -80]]])
@@ -51,7 +51,7 @@ succeeds "$scarp" measure hills.tif cut1.obj "${cut[@]}" --fail-above 12 --json
 mv "$logs/out" measured.json
 agree streamed.json measured.json max_error rmse samples "cutline samples_outside"
 
-# With breaklines, moved inwards, with flats and goals for angles, and nothing at all.
+# With breaklines, moved inwards, with flats and angle goals, and with an empty result.
 succeeds "$scarp" simplify hills.tif lines.obj -e 12 --up z "${cut[@]}" --breaklines line.geojson --inset 3 --memory "$small" --report lines.json
 succeeds "$scarp" measure hills.tif lines.obj "${cut[@]}" --inset 3 --fail-above 12 --memory "$small"
 holds "$(json lines.json cutline samples_outside) > $(json held.json cutline samples_outside)"
@@ -62,7 +62,7 @@ succeeds "$scarp" measure hills.tif flats.obj "${cut[@]}" --fail-above 12.5 --me
 refuses 2 "beside the raster" "$scarp" simplify hills.tif x.obj -e 12 --up z --memory "$small" \
   --cutline away.geojson
 
-# Along cells of the grid: what is nodata in memory is nodata here.
+# Along cells of the grid: nodata as in memory.
 succeeds "$scarp" simplify hills.tif mask1.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --memory "$small" --report mask1.json
 succeeds "$scarp" simplify hills.tif mask2.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --report mask2.json
 agree mask1.json mask2.json "cutline samples_outside" samples "input valid" "input min" "input max"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The default effort is normal wherever that runs; where it is fast, summary and report explain why.
+# The default effort is normal where possible; where it is fast, summary and report explain why.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -21,7 +21,7 @@ run() {
   shift
   succeeds "$scarp" simplify part.tif out.obj "$@" ${effort:+--effort "$effort"} --report r.json --overwrite
 }
-check() { # check OPTION...: the default is the mesh of normal, keeps all that fast keeps, and is smaller
+check() { # check OPTION...: the default is normal's mesh, keeps everything that fast keeps, and is smaller
   run fast "$@"
   local fast
   fast=$(json r.json triangles)

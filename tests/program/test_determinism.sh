@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The same bytes from every run, whatever the threads, the folder, the name and the other outputs.
+# The same bytes from every run, independent of threads, folder, name and other outputs.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate
 
-# A raster with nodata and a bound that needs some thousand vertices.
+# A raster with nodata and a bound that requires some thousand vertices.
 gdal_translate -q -a_nodata 300 "$dem" holes.tif
 for format in glb obj ply stl; do
   mkdir "$format"
@@ -19,7 +19,7 @@ for format in glb obj ply stl; do
     cmp "$first" "$format/$name.again.$format" || fail "a second run or another output changes $format"
   done
 done
-# Every instruction set; names that the machine has not are ignored.
+# Every instruction set; unsupported names are ignored.
 for kernel in scalar ssse3 sse4 avx2 avx3 neon unknown; do
   SCARP_KERNEL=$kernel succeeds "$scarp" simplify holes.tif "kernel.$kernel.glb" -e 20
   cmp glb/holes.1.glb "kernel.$kernel.glb" || fail "the instruction set $kernel changes the mesh"
@@ -32,7 +32,7 @@ mkdir elsewhere
 cp "$dem" elsewhere/
 (cd elsewhere && succeeds "$scarp" simplify jacksboro_fault.tif mesh -e 20 --of glb)
 cmp glb/jacksboro_fault.1.glb elsewhere/mesh || fail "the folder or --of changes the bytes"
-# Options that add something.
+# Options that add content.
 for options in "--normals" "--crs EPSG:32616" "--crs source" "-t 3000" "-p 900"; do
   # shellcheck disable=SC2086
   succeeds "$scarp" simplify "$dem" a.glb -e 20 $options -j 1 --overwrite
@@ -43,7 +43,7 @@ done
 succeeds "$scarp" simplify "$dem" a.stl -e 20 --base 0 -j 1
 succeeds "$scarp" simplify "$dem" b.stl -e 20 --base 0 -j 7
 cmp a.stl b.stl || fail "threads change the solid"
-# The judge and the pictures as well.
+# Also the judge and the pictures.
 for threads in 1 7; do
   "$scarp" measure "$dem" a.glb --json --map "map.$threads.png" -j "$threads" |
     grep -v -e '"command"' -e '"read"' -e '"measure"' -e '"total"' > "judged.$threads"

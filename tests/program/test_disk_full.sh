@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A full disk and a file-size limit: exit code 4, one sentence, no half file.
+# A full disk and a file-size limit: exit code 4, one message, no partial file.
 source "$(dirname "$0")/lib.sh"
 
 # 8 blocks of 1024 bytes: less than these files need. The logs of the test stay below it.
@@ -18,14 +18,14 @@ fi
 echo mine > old.glb
 refuses 4 "old.glb" limited "$scarp" simplify "$dem" old.glb -e 20 --overwrite
 
-# The first file fits and the second does not: they belong together, and neither is left.
+# The first file fits and the second does not: they belong together, so both are removed.
 try limited "$scarp" simplify "$dem" tiny.ply -p 20 --preview big.png
 [ "$code" = 4 ] || fail "exit code $code instead of 4 for the preview"
 [ "$(wc -l < "$logs/err")" = 1 ] || fail "not one line on stderr"
 grep -q big.png "$logs/err" || fail "the sentence does not name the preview"
 [ "$(find . -type f | sort | tr '\n' ' ')" = "./old.glb " ] || fail "files are left: $(find . -type f)"
 
-# A tiny file system, where this user may mount one.
+# A tiny file system, if this user may mount one.
 mkdir disk
 if mount -t tmpfs -o size=64k none disk 2> /dev/null; then
   trap 'cd /; umount "$root/run/disk"; rm -rf "$root"' EXIT

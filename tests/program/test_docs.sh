@@ -1,7 +1,7 @@
 #!/bin/bash
-# One table of options gives the same text to --help, the man page, the completions and the page of all options, and
-# the choices that it lists are those that the program accepts; the library's table of conflicts gives a page. The words of
-# comments, help and docs are checked.
+# One table of options defines the text of --help, the man page, the completions and the page of all options, and the
+# program accepts exactly its choices. The library's table of conflicts defines a page. The words of comments, help and
+# docs are checked.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need python3
 succeeds python3 "$SCARP_SOURCE/tools/generate_docs.py" "$scarp" share
@@ -9,14 +9,14 @@ man=share/man/man1/scarp.1
 bash_completions=share/bash-completion/completions/scarp
 zsh_completions=share/zsh/site-functions/_scarp
 fish_completions=share/fish/vendor_completions.d/scarp.fish
-# The build has made the same; a folder that holds the program alone has none.
+# The build has made the same; a folder with only the program has none.
 if [ -e "$SCARP_BUILD/CMakeCache.txt" ]; then
   for file in $(cd share && find . -type f); do
     cmp "share/$file" "$SCARP_BUILD/share/$file" || fail "the build has made another $file"
   done
 fi
 
-# Words that stand for themselves: not the beginning of a longer option.
+# Whole words: not the beginning of a longer option.
 names_option() { grep -Eq -- "(^|[^[:alnum:]-])$1([^[:alnum:]-]|\$)" "$2"; }
 # The man page with its escapes undone.
 sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
@@ -49,14 +49,14 @@ for command in $commands; do
     done
   done
 
-  # bash: what is offered after the command is exactly what --help lists.
+  # bash offers after the command exactly the options of --help.
   offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp "$2" --); COMP_CWORD=2; _scarp; printf "%s\n" "${COMPREPLY[@]}"' \
     _ "$bash_completions" "$command" | sort)
   [ "$command" != classic ] || offered=$(comm -12 <(echo "$offered") <(sort <<<"$options")) # it has those of simplify, too
   [ "$offered" = "$(sort <<<"$options")" ] || fail "bash offers after $command: $offered"
 done
-# The first page fits a screen: goals first, eight examples, and the way to the rest, in which they stand last that few
-# will need.
+# The first page fits a screen: goals first, eight examples, and the reference to the rest, which lists rare options
+# last.
 "$scarp" simplify -h >help.txt
 for command in $commands; do
   [ "$("$scarp" "$command" -h | wc -l)" -le 40 ] || fail "scarp $command -h is longer than a screen"
@@ -78,7 +78,7 @@ for text in man.txt "$zsh_completions" fish.txt; do
   done
 done
 
-# The page of conflicts names options of commands, and a pair of its table is refused for its reason.
+# The page of conflicts names options of commands, and a pair of its table is refused for that reason.
 conflicts=share/doc/scarp/conflicts.md
 grep -qF '| `--lods` | `--time-limit` |  | the finest level would take the time of all |' "$conflicts" || fail "no row on --lods"
 grep -qF '| `--drape` | `--grid local` | images are' "$conflicts" || fail "no row on tiles"
@@ -96,7 +96,7 @@ if command -v groff >/dev/null; then
   [ ! -s man.log ] || fail "groff warns about the man page: $(head -n 3 man.log)"
 fi
 
-# A table of options that can be relied upon, and the choices that the program itself names.
+# A stable table of options, with the choices that the program names.
 "$scarp" help --json >table.json
 python3 - table.json >choices.txt <<'END' || fail "the table of options is wrong"
 import json, re, sys
@@ -144,7 +144,7 @@ while read -r command option choices; do
   [ "$named" = "$(tr ' ' '\n' <<<"$choices" | sort | xargs)" ] || fail "$command $option: $choices, but the program says $named"
 done <choices.txt
 
-# Sentences name an option by its row: few names stand in the sources as text.
+# Messages name options by row: few names are literals in the sources.
 literals=$(cd "$SCARP_SOURCE" && grep -rhE '"--[a-z]' --include='*.cpp' --include='*.h' --exclude='option_rows_*' src apps bindings/c |
   grep -vcE '^ *//|//.*"--[a-z]')
 [ "$literals" -le 60 ] || fail "$literals names of options stand outside of the table, more than 60"

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Images inside a GLB: every pixel in its place, whatever the image's own grid and CRS; normals of the full raster.
+# Images inside a GLB: every pixel in its place for any grid and CRS of the image; normals of the full raster.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalbuildvrt gdalinfo gdalwarp
 
 make_image chess.tif '255 if (col // 13 + row // 13) % 2 else 0' '(col * 255) // 402' '(row * 255) // 343'
 glb() { python3 "$SCARP_SOURCE/tests/program/glb.py" "$@"; }
 
-# pixels FILE IMAGE: the image's pixels as raw bytes in `raw`, red green blue one after the other, its size in `size`.
+# pixels FILE IMAGE: writes the image's RGB bytes to `raw` and its size to `size`.
 pixels() {
   glb "$1" image "$2" image.bin
   gdal_translate -q -of ENVI -co INTERLEAVE=BIP image.bin raw
   size=$(gdalinfo -json image.bin | python3 -c 'import json, sys; print(*json.load(sys.stdin)["size"])')
 }
 
-# A pixel a sample: at each vertex, the image holds the colour of the vertex's own sample.
+# One pixel per sample: at each vertex the image has the colour of the vertex's sample.
 succeeds "$scarp" simplify "$dem" a.glb -e 20 --effort normal --crs grid --drape chess.tif --drape-format png -q
 pixels a.glb 0
 [ "$size" = "403 344" ] || fail "the image has $size pixels"
@@ -30,7 +30,7 @@ for (x, _, z), (u, v) in zip(*(glb.floats(document, binary, attributes[name]) fo
     assert tuple(image[at:at + 3]) == (255 if (col // 13 + row // 13) % 2 else 0, col * 255 // 402, row * 255 // 343), (col, row)
 PYTHON
 
-# Another CRS, another grid: the middle of each square is where it was.
+# Another CRS and grid: the middle of each square has not moved.
 agrees() {
   python3 - $size <<'PYTHON'
 import sys
@@ -67,7 +67,7 @@ grep -q 'covers 49.6 % of the raster: the rest is white' "$logs/err" || fail "no
 printf 'P6 4 3 255\n%s' "$(head -c 36 /dev/zero | tr '\0' 'a')" > flat.ppm
 succeeds "$scarp" simplify flat.pgm e.glb -e 500 --drape flat.ppm -q
 
-# An image without a place over a raster that has a place, of equal size: as if it had that place.
+# An image without a place over a raster of equal size with one is treated as if it had that place.
 gdal_translate -q -of PNG chess.tif twin.png
 rm -f twin.png.aux.xml
 succeeds "$scarp" simplify "$dem" twin.glb -e 20 --drape twin.png --drape-format png

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# --effort normal, high: half and a third of the triangles, the same promise, the same bytes on any number of threads.
+# --effort normal, high: half and a third of the triangles, the same promise, and the same bytes on any number of
+# threads.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
-# The mesh is smaller by as much as bench/quality.md lists, and every sample keeps the bound.
+# The mesh shrinks as listed in bench/quality.md, and every sample satisfies the bound.
 for error in 84 16.8 8.4; do
   succeeds "$scarp" simplify "$dem" fast.glb -e "$error" --effort fast --report fast.json --overwrite
   succeeds "$scarp" simplify "$dem" normal.glb -e "$error" --effort normal --report normal.json --overwrite
@@ -29,8 +30,8 @@ assert passes["fit"]["removals"] > 1000 and passes["tiles"]["removals"] == 0, pa
 PYTHON
 grep -aq -- '--effort normal"' normal.glb || fail "the metadata does not tell the effort"
 
-# max goes deeper; its result within a limit depends on the machine, but never falls behind refinement. After a limit
-# that is over before removal begins the result is refinement's mesh, or removal's so far.
+# max goes deeper. Its result within a time limit depends on the machine but is never worse than refinement. After a
+# limit before removal begins, the result is refinement's mesh, or removal's so far.
 succeeds "$scarp" simplify "$dem" max.glb -e 168 --effort max --report max.json --overwrite
 succeeds "$scarp" simplify "$dem" high.glb -e 168 --effort high --report high.json --overwrite
 holds "$(json max.json triangles) < $(json high.json triangles)"
@@ -45,11 +46,11 @@ holds "$(json short.json triangles) <= 1.01 * $(json fast.json triangles)"
 for mesh in max longer; do succeeds "$scarp" measure "$dem" "$mesh.glb" --fail-above 168; done
 succeeds "$scarp" measure "$dem" short.glb --fail-above 8.4
 
-# A limit that is not reached changes nothing but for max.
+# A limit that is not reached has no effect, except on max.
 succeeds "$scarp" simplify "$dem" limited.glb -e 168 --effort high --time-limit 1000000 --report limited.json
 holds "$(json limited.json triangles) == $(json high.json triangles)"
 
-# Floors of shapes: the thinnest angles go.
+# Shape floors remove the smallest angles.
 thinnest() { python3 - "$1" <<'PYTHON'
 import struct, sys
 data = open(sys.argv[1], "rb").read()
@@ -73,7 +74,7 @@ holds "$(thinnest shape0.2.stl) >= 0.1999 || $(thinnest shape0.2.stl) >= 0.999 *
 holds "$(thinnest shape0.stl) < $(thinnest shape0.2.stl)"
 
 for effort in normal high; do
-  # Solids, projections and formats continue from there.
+  # Solids, projections and formats work on the result.
   succeeds "$scarp" simplify "$dem" solid.stl -e 20 --effort "$effort" --base -100 --overwrite
   succeeds "$scarp" measure "$dem" solid.stl --fail-above 20
   succeeds "$scarp" simplify "$dem" utm.glb -e 20 --effort "$effort" --crs EPSG:32616 --overwrite
@@ -83,14 +84,14 @@ for effort in normal high; do
   succeeds "$scarp" simplify "$dem" exact.ply -e 0 --effort "$effort" --overwrite
   succeeds "$scarp" measure "$dem" exact.ply --fail-above 0
 
-  # Threads change nothing.
+  # Any number of threads gives the same bytes.
   for threads in 1 2 7; do
     succeeds "$scarp" simplify "$dem" "threads$threads.glb" -e 8 --effort "$effort" -j "$threads" --overwrite
     cmp threads1.glb "threads$threads.glb" || fail "-j $threads makes another mesh with $effort effort"
   done
 done
 
-# Bounds of samples are kept, and spent where they are large.
+# Bounds of samples are satisfied, and used where they are large.
 make_raster falling.tif '5 + 45 * col / 402'
 make_raster steep.tif '0 if row < 5 else nan if row < 40 else 0.5 if col < 200 else 500'
 make_raster weights.tif '0 if row < 40 else 1 - col / 1000'
@@ -118,7 +119,7 @@ holds "$(json masked.json triangles) <= 2000"
 succeeds "$scarp" simplify "$dem" masked.glb -t 2000 --script ignored.txt --effort high --report masked.json --overwrite
 holds "$(json masked.json triangles) <= 2000"
 
-# A budget that has no room for the tolerances: one factor, smaller with every effort, that every sample keeps.
+# A budget too small for the tolerances: one factor, smaller with higher effort, that every sample satisfies.
 last=1e9
 for effort in fast normal high; do
   succeeds "$scarp" simplify "$dem" few.glb -t 2000 --tolerance falling.tif --effort "$effort" --report few.json --overwrite
@@ -132,7 +133,7 @@ succeeds "$scarp" simplify "$dem" few.glb -t 2000 --tolerance falling.tif --repo
 [ "$(json few.json strategy effort)" = '"normal"' ] || fail "tolerances beside a budget take $(json few.json strategy effort)"
 grep -q 'kept: tolerances times ' "$logs/out" || fail "the summary does not tell the factor"
 
-# Settings that removal has no place for are named.
+# Settings without support for removal are named.
 for strategy in "--importance local" "--importance local --one-pass" "--algorithm heap" "--batch const" "--edges data"; do
   # shellcheck disable=SC2086
   refuses 1 "${strategy%% *}" "$scarp" simplify "$dem" never.glb -e 20 --effort normal $strategy
@@ -147,7 +148,7 @@ refuses 1 "--effort fast cannot be combined with --time-limit" "$scarp" simplify
 refuses 1 "--time-limit cannot be combined with --max-triangles beside --effort max" \
   "$scarp" simplify "$dem" never.glb -t 2000 --effort max --time-limit 3
 refuses 1 "--time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort high --time-limit soon
-# If fast effort is the default, settings that ask for more get it.
+# If fast is the default effort, settings that require more still get it.
 for reason in "--mask weights.tif" "--script /dev/null" "--order greedy" "--memory 1G"; do
   # shellcheck disable=SC2086
   succeeds "$scarp" simplify "$dem" shaped.glb -e 60 --min-shape 0.1 $reason --report shaped.json --overwrite

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# --effort with -t and -p: the smallest error for a budget, never more than it, the same bytes on any number of threads.
+# --effort with -t and -p: the smallest error within the budget, and the same bytes on any number of threads.
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# At least 97 % is used; greedy insertion is surpassed by as much as bench/quality.md lists.
+# At least 97 % is used; greedy insertion is beaten as listed in bench/quality.md.
 for budget in 2000 8000; do
   succeeds "$scarp" simplify "$dem" fast.glb -t "$budget" --effort fast --report fast.json --overwrite
   for effort in normal high; do
@@ -29,7 +29,7 @@ succeeds "$scarp" simplify "$dem" points.glb -p 2000 --effort high --report poin
 holds "0.97 * 2000 <= $(json points.json vertices) && $(json points.json vertices) <= 2000"
 [ "$(json points.json stopped_by)" = '"max_points"' ] || fail "stopped by $(json points.json stopped_by)"
 
-# A max error that fits ends the run, though greedy insertion does not reach it; one that does not fit gives way.
+# A feasible max error ends the run even if greedy insertion misses it; an infeasible one yields.
 succeeds "$scarp" simplify "$dem" error.glb -e 20 --effort high --report error.json
 budget=$(($(json error.json triangles) * 11 / 10))
 succeeds "$scarp" simplify "$dem" both.glb -e 20 -t "$budget" --effort high --report both.json
@@ -38,24 +38,24 @@ succeeds "$scarp" simplify "$dem" both.glb -e 20 -t "$budget" --effort high --re
 succeeds "$scarp" simplify "$dem" both.glb -e 1 -t 3000 --effort normal --report both.json --overwrite
 [ "$(json both.json stopped_by)" = '"max_triangles"' ] || fail "stopped by $(json both.json stopped_by)"
 
-# Room for all: every sample is reproduced.
+# Enough for all: every sample is reproduced.
 succeeds "$scarp" simplify "$dem" exact.ply -t 1000000 --effort normal --report exact.json
 [ "$(json exact.json stopped_by)" = '"exact"' ] || fail "stopped by $(json exact.json stopped_by)"
 succeeds "$scarp" measure "$dem" exact.ply --fail-above 0
 
-# The RMSE as what counts.
+# RMSE as the objective.
 succeeds "$scarp" simplify "$dem" rms.glb -t 3000 --effort high --objective rms --report rms.json
 succeeds "$scarp" simplify "$dem" high.glb -t 3000 --effort high --report high.json --overwrite
 holds "$(json rms.json rmse) <= $(json high.json rmse)"
 [ "$(json rms.json strategy objective)" = '"rms"' ] || fail "the report does not tell the objective"
 
-# Threads change nothing.
+# Any number of threads gives the same bytes.
 for threads in 1 2 7; do
   succeeds "$scarp" simplify "$dem" "threads$threads.glb" -t 2000 --effort high -j "$threads"
   cmp threads1.glb "threads$threads.glb" || fail "-j $threads makes another mesh"
 done
 
-# One pass of progress, which never falls.
+# One pass of progress that never decreases.
 succeeds "$scarp" simplify "$dem" seen.glb -t 4000 --effort high --json-progress
 python3 - "$logs/err" <<'PYTHON'
 import json, sys
@@ -70,7 +70,7 @@ refuses 1 "--effort fast cannot be combined with --objective rms" "$scarp" simpl
 refuses 1 "--objective" "$scarp" simplify "$dem" never.glb -t 3000 --effort high --objective least
 refuses 1 "1 triangle is too few" "$scarp" simplify "$dem" never.glb -t 1 --effort high
 
-# With tolerances the objective is of |error| / tolerance.
+# With tolerances the objective is |error| / tolerance.
 make_raster rising.tif '1 + 9 * col / 402'
 for objective in max rms; do
   succeeds "$scarp" simplify "$dem" shares.glb -t 3000 --tolerance rising.tif --objective "$objective" --report "$objective.json" --overwrite

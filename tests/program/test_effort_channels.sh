@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# --effort with textures, images and simplified outlines: fewer triangles, the same bounds on norms, on any number of threads.
+# --effort with textures, images and simplified outlines: fewer triangles, the same bounds on norms, and the same bytes
+# on any number of threads.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
 waves='128 + 60 * math.sin(col / 17) * math.cos(row / 13)'
 make_image photo.tif "$waves + 40 * math.sin(col * row / 4000)" "$waves" '60 + row // 4 + 30 * math.sin((col + row) / 9)'
 
-# compare INPUT BOUND OPTION...: the mesh of each level has fewer triangles, and keeps what it was made for.
+# compare INPUT BOUND OPTION...: the mesh of each effort has fewer triangles and keeps its bound.
 compare() {
   local input=$1 bound=$2 level last=fast
   shift 2
@@ -27,7 +28,7 @@ compare photo.tif 30 --image --norm l1
 compare "$dem" 60 --texture photo.tif --texture-weight 0.3
 compare "$dem" 60 --texture photo.tif --norm l2 --channel-weights 1,0,3
 
-# It is the default; single bands, bounds of 0 and percents go the same way.
+# It is the default, also for single bands, bounds of 0 and percentages.
 succeeds "$scarp" simplify photo.tif default.glb -e 8 --image --report default.json
 [ "$(json default.json strategy effort)" = '"normal"' ] || fail "the default effort of images is $(json default.json strategy effort)"
 gdal_translate -q -srcwin 100 100 60 50 photo.tif crop.tif
@@ -36,7 +37,7 @@ succeeds "$scarp" measure crop.tif exact.ply --image --fail-above 0
 succeeds "$scarp" simplify photo.tif grey.ply -e 2% --image --band 2 --effort high --report grey.json
 succeeds "$scarp" measure photo.tif grey.ply --image --band 2 --fail-above "$(json grey.json goal max_error)"
 
-# Budgets lower the norm; bounds of samples are kept with textures.
+# Budgets reduce the norm; with textures, bounds of samples hold.
 for level in fast normal high; do
   succeeds "$scarp" simplify photo.tif "$level.ply" -t 1000 --image --effort "$level" --report "$level.json" --overwrite
   holds "$(json "$level.json" triangles) <= 1000"
@@ -47,7 +48,7 @@ make_raster falling.tif '40 + 100 * col / 402'
 succeeds "$scarp" simplify "$dem" bounded.glb --tolerance falling.tif --texture photo.tif --effort high
 succeeds "$scarp" measure "$dem" bounded.glb --tolerance falling.tif --texture photo.tif
 
-# Simplified outlines, with free vertices and without; the surface is the same.
+# Simplified outlines, with and without free vertices; the surface is the same.
 make_raster island.tif '200 + 100 * math.sin(col / 9) * math.cos(row / 11) if math.hypot(col - 201, row - 172) < 150 + 9 * math.sin(col / 9) else nan'
 last=0
 for level in fast "high --vertices samples" high normal; do

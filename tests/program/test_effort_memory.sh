@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# --effort with --memory: strips are fitted while their samples are there; the same promise, the same bytes on any
-# number of threads, fewer triangles.
+# --effort with --memory: strips are fitted while their samples are in memory. The same promise, fewer triangles, and
+# the same bytes on any number of threads.
 source "$(dirname "$0")/lib.sh"
 need python3
-small=80M # less than the samples need: they stay in their file, and strips are low
+small=80M # too small for the samples: they stay in their file, and strips are low
 
 succeeds "$scarp" generate smooth 1500 1400 smooth.tif -q
 for raster in smooth.tif "$dem"; do
@@ -26,7 +26,7 @@ passes = {p["name"]: p for p in json.load(open(sys.argv[1]))["passes"]}
 assert passes["fit"]["removals"] > 1000 and passes["tiles"]["removals"] == 0, passes
 PYTHON
 
-# On samples, with a floor of shapes, a time that is over at once, in a frame whose grid is not regular.
+# On samples, with a shape floor, an expired time limit, in a frame with an irregular grid.
 for more in "--vertices samples" "--min-shape 0.2" "--time-limit 0" "--crs EPSG:32616"; do
   # shellcheck disable=SC2086
   succeeds "$scarp" simplify "$dem" more.ply -e 10 --effort high --memory 72.8M $more --overwrite

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Bad input and bad options: one clear sentence, the right exit code, and no output.
+# Invalid input and options: one clear message, the right exit code, and no output.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gdal_create python3
 
@@ -113,7 +113,7 @@ refuses 1 "EPSG:999999" "$scarp" simplify "$dem" out.glb -e 1 --crs EPSG:999999
 refuses 1 "--fail-above -1" "$scarp" measure "$dem" out.glb --fail-above -1
 refuses 1 "--fail-above nan" "$scarp" measure "$dem" out.glb --fail-above nan
 
-# Names of outputs, before anything is read: the raster here does not even exist.
+# Names of outputs, checked before reading: the raster does not even exist.
 refuses 1 "out.xyz" "$scarp" simplify missing.tif out.xyz -e 1
 refuses 1 "out" "$scarp" simplify missing.tif out -e 1
 refuses 1 "--of fbx" "$scarp" simplify missing.tif out.glb -e 1 --of fbx
@@ -172,14 +172,14 @@ printf 'P2 3 3 255\n1 2 3 4 x 6 7 8 9\n' > letters.pgm
 refuses 2 "letters.pgm" "$scarp" simplify letters.pgm out.glb -e 1
 refuses 2 "" "$scarp" simplify "$dem" out.glb -e 1 --decode terrarium
 
-# A machine that does not answer, and a name that is nearly right.
+# A machine that does not answer, and a name that is almost right.
 refuses 2 "http://127.0.0.1:1/x.tif: cannot be read: CURL error: Failed to connect" "$scarp" info http://127.0.0.1:1/x.tif
 cp "$dem" near.tif
 refuses 2 "near.tiff: no such file: did you mean near.tif?" "$scarp" info near.tiff
 refuses 2 "naer.tif: no such file: did you mean near.tif?" "$scarp" simplify naer.tif out.glb -e 1
 refuses 1 "OUTPUT - is standard output" "$scarp" simplify near.tif - -e 1
 
-# More than the machine's memory: refused with the figure, before the work.
+# More than the machine's memory: refused before the work, with the figure.
 echo '<VRTDataset rasterXSize="2000000" rasterYSize="2000000"><VRTRasterBand dataType="Float32" band="1"/></VRTDataset>' > huge.vrt
 refuses 2 "TiB of memory" "$scarp" simplify huge.vrt out.glb -e 1
 refuses 2 "TiB of memory" "$scarp" info huge.vrt
@@ -195,11 +195,11 @@ done
 refuses 2 "text.tif" "$scarp" measure "$dem" text.tif
 refuses 2 "empty.tif" "$scarp" measure "$dem" empty.tif
 
-# An OBJ file that was cut has no mark of its end; what is left of it cannot pass for the whole.
+# A truncated OBJ file has no end mark; its rest must not pass for the whole.
 try "$scarp" measure "$dem" half.obj --fail-above 100
 [ "$code" = 2 ] || [ "$code" = 3 ] || fail "half an OBJ file passes"
 
-# A write that fails is reported, not lost.
+# A failed write is reported.
 if [ -w /dev/full ]; then
   try bash -c '"$1" info "$2" > /dev/full' - "$scarp" "$dem"
   [ "$code" = 4 ] || fail "a full standard output ends with $code instead of 4"
@@ -220,7 +220,7 @@ try bash -c '"$1" info "$2" >&-' - "$scarp" "$dem"
 try bash -c '"$1" simplify "$2" closed.glb -e 100 --json-progress <&- >&- 2>&-' - "$scarp" "$dem"
 [ "$code" = 0 ] || fail "closed streams, which nobody reads, end with $code though the mesh is written"
 succeeds "$scarp" measure "$dem" closed.glb --fail-above 100 -q
-# A folder that may not be written (root may write all: then as somebody else).
+# A read-only folder (root may write everywhere, so another user is used).
 mkdir locked
 chmod 555 locked
 if [ "$(id -u)" != 0 ]; then

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The floors of docs/design.md hold in this tree, each source includes what it uses, and the scripts that check both notice
-# planted violations.
+# This tree satisfies the floors of docs/design.md, each source includes what it uses, and the scripts that check both
+# find planted violations.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }
@@ -15,7 +15,7 @@ done < <("$python" "$check" --table)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# expect_fault FILE LINE WORDS: a copy of the tree where LINE is added to FILE is refused with WORDS.
+# expect_fault FILE LINE WORDS: a copy of the tree with LINE added to FILE is refused with WORDS.
 expect_fault() {
   rm -rf "$scratch/tree"
   mkdir "$scratch/tree"
@@ -55,7 +55,7 @@ expect_fault src/simplify/run.cpp 'bool fits = options.quality.effort != Effort:
 expect_fault src/geom/plane.h "$(printf '// line\\n%.0s' $(seq 600))" 'more than 600'
 mkdir -p "$scratch/empty"
 if "$python" "$check" "$scratch/empty" 2>/dev/null; then echo "an empty tree passed"; exit 1; fi
-# expect_missing FILE INCLUDE WORDS: a copy of the tree where FILE lacks the line INCLUDE is refused with WORDS.
+# expect_missing FILE INCLUDE WORDS: a copy of the tree without the line INCLUDE in FILE is refused with WORDS.
 "$python" "$source_tree/tools/check_includes.py"
 expect_missing() {
   rm -rf "$scratch/tree"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Files that others made, or made to harm: each is read, or refused in one sentence, and no file remains next to it.
+# Foreign and malicious files: each is read or refused with one message, and no file is left next to it.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gzip python3
 
-# XML whose entities would grow to gigabytes is never given to a driver that expands them.
+# XML whose entities would expand to gigabytes is never given to a driver that expands them.
 python3 - <<'PYTHON'
 entities = ['<!ENTITY e0 "lol">'] + [f'<!ENTITY e{k} "{f"&e{k - 1};" * 10}">' for k in range(1, 10)]
 bomb = ('<?xml version="1.0"?>\n<!-- a < b -->\n<!DOCTYPE x [\n' + "\n".join(entities) + ']>\n'
@@ -20,7 +20,7 @@ for bomb in bomb.xml bomb16.xml; do
 done
 rm ./*.xml
 
-# A name that rasters and points share goes by what the file holds.
+# For a name shared by rasters and points the contents decide.
 gdal_translate -q -of ENVI "$dem" raster.dat
 printf 'x y z\n0 0 1\n1 0 2\n0 1 3\n1 1 5\n' > points.dat
 cp points.dat points.txt
@@ -51,7 +51,7 @@ done
 [ "$(ls)" = "$before" ] || fail "files appear beside inputs: $(ls)"
 rm ./*
 
-# --overwrite never replaces what an input is made of.
+# --overwrite never replaces a file that is part of an input.
 cp "$dem" a.tif
 cp "$dem" b.tif
 gdal_translate -q -of VRT a.tif inner.vrt
@@ -65,7 +65,7 @@ refuses 1 "--error-raster a.tif is a file that inner.vrt is made of" \
 succeeds "$scarp" simplify inner.vrt b.tif -e 50 --overwrite
 rm ./*
 
-# A JPEG that was cut off has no grey rows in place of what it lacks.
+# A truncated JPEG does not end in grey rows.
 gdal_translate -q -of JPEG -ot Byte -scale "$dem" whole.jpg
 head -c 9000 whole.jpg > cut.jpg
 refuses 2 "cut.jpg: rows" "$scarp" simplify cut.jpg cut.glb -e 5
@@ -89,12 +89,12 @@ printf 'ENVI\nsamples = 2\nlines = 2\nbands = 1\ndata type = 5\nbyte order = 0\n
 refuses 2 "huge.dat: none of its 2 x 2 samples is a height: 4 are infinite or beyond what a float32 holds (3.4e38), so give them in a larger unit first" \
   "$scarp" info huge.dat
 
-# Whoever has closed standard output wants the file alone.
+# With standard output closed, only the file is written.
 "$scarp" simplify "$dem" closed.glb -e 50 >&- 2>&- || fail "exit code $? with closed standard streams"
 succeeds "$scarp" measure "$dem" closed.glb --fail-above 50
 if "$scarp" info "$dem" >&- 2>&-; then fail "info succeeds without a place for its table"; fi
 
-# Cells of a micrometre, far from the origin: doubles hardly distinguish one from the next.
+# Cells of a micrometre far from the origin: doubles hardly separate them.
 gdal_translate -q -a_srs EPSG:32617 -a_ullr 500000 4000000.000344 500000.000403 4000000 "$dem" micro.tif
 succeeds "$scarp" simplify micro.tif micro.obj -e 20 --effort high
 succeeds "$scarp" measure micro.tif micro.obj --fail-above 20

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The four formats, frames and encodings of input: what simplify promises, measure finds in the file.
+# The four formats, frames and encodings of input: measure confirms simplify's promise for the file.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -8,14 +8,14 @@ for format in glb obj ply stl; do
   "$scarp" measure "$dem" "hills.$format" --fail-above 20 --json > judged.json || fail "$format breaks the promise"
   [ "$(json "$format.json" triangles)" = "$(json judged.json triangles)" ] || fail "$format has other triangles"
   holds "$(json judged.json rmse) - $(json "$format.json" rmse) < 1e-6 && $(json "$format.json" rmse) - $(json judged.json rmse) < 1e-6"
-  # By --of, whatever the extension; upper case is understood.
+  # By --of, whatever the extension; upper case is accepted.
   succeeds "$scarp" simplify "$dem" "named.$format.bin" -e 20 --of "${format^^}"
   cmp "hills.$format" "named.$format.bin" || fail "--of $format differs from the extension"
 done
 succeeds "$scarp" simplify "$dem" HILLS.GLB -e 20
 cmp hills.glb HILLS.GLB || fail "the case of the extension matters"
 
-# Frames. The mesh remembers which one it has; measure needs no --crs, and may be given one.
+# Frames. The mesh stores its frame, so measure needs no --crs but accepts one.
 for crs in source local grid EPSG:32616 EPSG:3857; do
   for format in glb obj ply; do
     out=${crs#*:}.$format
@@ -24,7 +24,7 @@ for crs in source local grid EPSG:32616 EPSG:3857; do
     succeeds "$scarp" measure "$dem" "$out" --fail-above 20 --crs "$crs"
   done
 done
-# Degrees need more digits than a float32 offset from the origin keeps exactly; STL has the offsets only.
+# Degrees need more digits than float32 offsets from the origin hold; STL has only offsets.
 succeeds "$scarp" simplify "$dem" utm.stl -e 20 --crs EPSG:32616
 succeeds "$scarp" measure "$dem" utm.stl --fail-above 20 --crs EPSG:32616
 try "$scarp" measure "$dem" grid.obj --fail-above 20 --crs source
@@ -60,7 +60,7 @@ for scheme in terrarium mapbox; do
   succeeds "$scarp" measure $scheme.ppm $scheme.glb --decode $scheme --fail-above 0
 done
 
-# Colours that were resampled or compressed with a loss after heights were packed into them.
+# Colours that were resampled or lossily compressed after packing heights.
 gdal_translate -q -of ENVI -ot Float32 "$dem" heights.img
 python3 - <<'PYTHON'
 import array

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# generate: synthetic rasters that read back as what they are, the same on every run; refusals.
+# generate: reproducible synthetic rasters that read back unchanged; refusals.
 source "$(dirname "$0")/lib.sh"
 need python3 gdalinfo
 
@@ -14,7 +14,7 @@ for style in cliff step sharp-step diagonal-step sharp-diagonal-step parabola pa
   [ "$(json info.json input valid)" = 2400 ] || fail "$style has missing samples"
 done
 
-# genstm's letters; PGM holds the same whole heights.
+# genstm's letters; PGM has the same integer heights.
 succeeds "$scarp" generate X 60 40 letter.pgm
 succeeds "$scarp" generate X 60 40 letter.tif
 cmp letter.tif sharp-step.tif || fail "X is not sharp-step"

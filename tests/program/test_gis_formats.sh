@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Formats for maps, hydraulics and civil engineering: those of the table whose coordinates are not local by default. Each
-# is judged as the file it is, and programs that are not ours find the very triangles that our OBJ has.
+# Formats for maps, hydraulics and civil engineering: those of the table whose coordinates are not local by default.
+# Each file is judged, and foreign programs find exactly the triangles of our OBJ.
 source "$(dirname "$0")/lib.sh"
 need python3 gdalwarp ogrinfo
 "$scarp" help --json > table.json
-# formats_that CONDITION: the usual endings of the formats f for which it holds
+# formats_that CONDITION: the usual endings of the formats f that satisfy it
 formats_that() {
   python3 -c "import json
 print(*(f['endings'][0][1:] for f in json.load(open('table.json'))['formats'] if f['frame'] != 'local' and ($1)))"
@@ -16,7 +16,7 @@ degree_formats=$(formats_that "f['degrees']")
 # among WORD LIST
 among() { [[ " $2 " = *" $1 "* ]]; }
 
-# python_with MODULE: an interpreter that has it: the system's or that of a version manager.
+# python_with MODULE: an interpreter with that module: the system's or a version manager's.
 python_with() {
   local python
   for python in "$python_program" "$(type -P python3)"; do
@@ -54,7 +54,7 @@ print(next(f['title'] if f['title'] == 'LandXML' else f['name'] for f in json.lo
   cmp named.bin utm.$format || fail "--of $name differs from the extension, or from the run before"
 done
 
-# Degrees: maps keep them, and measure knows; all others are local metres.
+# Degrees: maps use them, and measure handles them; all others use local metres.
 awk '$1 == "ND" && !($3 > -85 && $3 < -83 && $4 > 36 && $4 < 37) { exit 1 }' deg.2dm || fail "deg.2dm is not in degrees"
 for format in $(formats_that "f['frame'] == 'metric'"); do
   succeeds "$scarp" simplify "$dem" local.$format -e 20
@@ -67,12 +67,12 @@ succeeds "$scarp" simplify "$dem" there.xml -e 20 --crs EPSG:32616 -q
 succeeds "$scarp" measure "$dem" there.xml --fail-above 20
 succeeds "$scarp" simplify "$dem" there.gpkg -e 20 --crs EPSG:32616 -q
 ogrinfo -so there.gpkg terrain | grep -q 'ID\["EPSG",32616\]' || fail "there.gpkg is not in the CRS asked for"
-# Without a place there is a grid, for maps too.
+# Without a place the grid is used, also for maps.
 printf 'P2 4 3 99\n1 2 3 4 9 8 7 6 5 5 9 5\n' > flat.pgm
 for format in $formats; do succeeds "$scarp" simplify flat.pgm flat.$format -e 1; done
 for format in $read_formats; do succeeds "$scarp" measure flat.pgm flat.$format --fail-above 1; done
 
-# The same triangles, in order, at exactly the same places, counter-clockwise: by readers that are not ours.
+# The same triangles, in order, at exactly the same places, counter-clockwise: by foreign readers.
 cat > judge.py <<'PYTHON'
 import sys
 
@@ -198,7 +198,7 @@ agree python3 landxml utm.xml utm.obj
 if python=$(python_with meshio); then
   known=$("$python" -c "import meshio; print(*meshio.extension_to_filetypes)")
   for format in $formats; do
-    [ $format != xml ] || continue  # to meshio an .xml is of DOLFIN
+    [ $format != xml ] || continue  # meshio treats .xml as DOLFIN
     among .$format "$known" || continue
     for raster in utm deg; do agree "$python" by_meshio $raster.$format $raster.obj; done
   done
@@ -216,7 +216,7 @@ else
   echo "left out: GDAL's Python (python3-gdal)"
 fi
 
-# Contents of VTK's formats in addition to positions.
+# Contents of VTK's formats besides positions.
 succeeds "$scarp" simplify utm.tif n.vtu -e 20 --normals --uvs
 if python=$(python_with meshio); then
   "$python" - <<'PYTHON' || fail "meshio finds other normals or places in the image"
@@ -225,7 +225,7 @@ mesh = meshio.read("n.vtu")
 normals, places = mesh.point_data["Normals"], mesh.point_data["TCoords"]
 assert normals.shape == mesh.points.shape and (normals[:, 2] > 0).all()
 assert abs((normals ** 2).sum(axis=1) - 1).max() < 1e-5
-# East is to the right and north is up: the image begins at the bottom.
+# East is right and north is up: the image begins at the bottom.
 assert places[mesh.points[:, 0].argmax(), 0] > 0.99 and places[mesh.points[:, 1].argmax(), 1] > 0.99
 PYTHON
 fi
@@ -242,16 +242,16 @@ for format in $read_formats; do
   [ "$(json judged.json triangles)" = "$(json solid.json solid triangles)" ] || fail "the solid in $format has other triangles"
 done
 
-# The same bytes later, and with other threads: once the clock shows another second than when utm.gpkg was written.
+# The same bytes later and with other threads, once the clock shows another second than that of utm.gpkg.
 until [ "$(date +%s)" -gt "$(stat -c %Y utm.gpkg)" ]; do sleep 0.1; done
 for format in $formats; do
   succeeds "$scarp" simplify utm.tif later.$format -e 20 -j 1
   cmp later.$format utm.$format || fail "time or threads change $format"
 done
 
-# Damage is found.
+# Damage is detected.
 for format in $formats; do
-  [ $format != tin ] || continue  # no end mark: a part of it is a smaller mesh
+  [ $format != tin ] || continue  # no end mark: a part is a smaller mesh
   for part in 3 2; do
     head -c $(($(wc -c < utm.$format) / part)) utm.$format > half.$format
     refuses 2 "half.$format is not a usable mesh" "$scarp" measure utm.tif half.$format

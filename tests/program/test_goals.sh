@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Goals: which one ends the run, and that budgets are upper bounds.
+# Goals: which one ends the run; budgets are upper bounds.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_create
 
@@ -30,7 +30,7 @@ run -p 1000
 holds "$(json r.json vertices) <= 1000 && $(json r.json vertices) >= 930"
 grep -qE '^Reached the point budget of 1000, after [0-9.]+ s$' <<< "$last" || fail "the last line is: $last"
 
-# The first that is reached ends the run.
+# The first goal reached ends the run.
 run -e 20 -t 500
 [ "$(json r.json stopped_by)" = '"max_triangles"' ] || fail "-e 20 -t 500 is stopped by $(json r.json stopped_by)"
 holds "$(json r.json triangles) <= 500 && $(json r.json max_error) > 20"
@@ -39,7 +39,7 @@ run -e 20 -t 1000000 -p 1000000
 [ "$(json r.json stopped_by)" = '"max_error"' ] || fail "a large budget stops the run"
 [ "$(json r.json triangles)" = "$by_error" ] || fail "a large budget changes the mesh"
 
-# More triangles than there are samples for: every sample is reproduced.
+# More triangles than the samples allow: every sample is reproduced.
 gdal_create -q -of GTiff -outsize 30 20 -bands 1 -burn 7 plain.tif
 succeeds "$scarp" simplify plain.tif plain.obj -t 100000 --report r.json --overwrite
 [ "$(json r.json stopped_by)" = '"exact"' ] || fail "a plain is stopped by $(json r.json stopped_by)"
@@ -47,7 +47,7 @@ succeeds "$scarp" simplify plain.tif plain.obj -t 100000 --report r.json --overw
 tail -n 1 "$logs/out" | grep -qE '^Reproduced every sample, after [0-9.]+ s$' || fail "the last line is: $(tail -n 1 "$logs/out")"
 succeeds "$scarp" simplify plain.tif plain.obj -e 1% --overwrite
 
-# A budget below what the outline needs.
+# A budget below the outline's minimum.
 refuses 1 "" "$scarp" simplify "$dem" small.glb -t 1
 refuses 1 "" "$scarp" simplify "$dem" small.glb -p 3
 

@@ -1,5 +1,5 @@
 #!/bin/bash
-# tools/guard.py fails a commit that is slower or larger by more than a ratio and an amount, and no other.
+# tools/guard.py fails exactly the commits that are slower or larger by more than a ratio and an amount.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }
@@ -65,7 +65,7 @@ unittest.main()
 PYTHON
 PYTHONDONTWRITEBYTECODE=1 "$python" "$scratch/test_verdict.py" "$source_tree/tools"
 
-# Whole runs on programs that only pretend: `fake FOLDER SECONDS` knows no options but the error.
+# Whole runs on fake programs: `fake FOLDER SECONDS` accepts no options but the error.
 command -v gdal_translate >/dev/null || { echo "skipped: needs gdal_translate"; exit 77; }
 fake() {
   mkdir "$scratch/$1"

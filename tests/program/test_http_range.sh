@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A raster over HTTP: read by ranges from a local server, and the same mesh as from the file.
+# A raster over HTTP: read by ranges from a local server, with the same mesh as from the file.
 set -euo pipefail
 nginx=$(command -v nginx || command -v /usr/sbin/nginx || true)
 gdal_translate=$(command -v gdal_translate || true)
@@ -13,7 +13,7 @@ trap 'if [ -f "$work/nginx.pid" ]; then kill "$(cat "$work/nginx.pid")" 2>/dev/n
 chmod 755 "$work"
 mkdir -p "$work/www" "$work/tmp"
 
-# A 700 x 700 hill as cloud-optimised GeoTIFF: several tiles, so that a range is less than the file.
+# A 700 x 700 hill as cloud-optimised GeoTIFF: several tiles, so that a range is smaller than the file.
 awk 'BEGIN {
   print "ncols 700\nnrows 700\nxllcorner 500000\nyllcorner 4000000\ncellsize 10";
   for (r = 0; r < 700; ++r) {
@@ -52,7 +52,7 @@ fi
 
 "$scarp" simplify "http://127.0.0.1:$port/hill.tif" "$work/remote.stl" -e 5
 "$scarp" simplify "$work/www/hill.tif" "$work/local.stl" -e 5
-# STL holds no command line: equal rasters give equal bytes behind its 80-byte header.
+# STL has no command line: equal rasters give equal bytes after the 80-byte header.
 cmp <(tail -c +81 "$work/remote.stl") <(tail -c +81 "$work/local.stl")
 "$scarp" simplify "http://127.0.0.1:$port/hill.tif" "$work/out.glb" -e 5
 test -s "$work/out.glb"

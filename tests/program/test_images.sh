@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Images and stacks of bands as coloured triangles: bounds in grey levels, agreement of the judge, what is refused.
+# Images and stacks of bands as coloured triangles: bounds in grey levels, agreement with the judge, refusals.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalbuildvrt gdalinfo
 
@@ -21,7 +21,7 @@ for a, b in zip(s["channels"], m["channels"]):
 PYTHON
 }
 
-# -e is in grey levels: no colour of any pixel is off by more.
+# -e is in grey levels: no colour of a pixel is off by more.
 for format in glb ply obj; do
   succeeds "$scarp" simplify photo.tif "p.$format" -e 8 --image --report s.json --overwrite
   succeeds "$scarp" measure photo.tif "p.$format" --image --fail-above 8 --json
@@ -46,11 +46,11 @@ PYTHON
 succeeds "$scarp" simplify photo.tif percent.ply -e 10% --image --report s.json --overwrite
 holds "$(json s.json goal max_error) == 25.5"
 
-# y is up as the image is seen, and the first row is the top.
+# y is up in the image, and the first row is the top.
 succeeds "$scarp" simplify photo.png up.ply -p 500 --image --effort fast --report s.json --overwrite
 [ "$(json s.json frame kind)" = '"grid"' ] || fail "an image without a place is not in the grid frame"
 
-# More is better in refinement, and the picture of an exact mesh is the image.
+# Refinement improves with the budget, and the picture of an exact mesh is the image.
 last=0
 for points in 100 400 1600; do
   succeeds "$scarp" simplify photo.png r.ply -p $points --image --effort fast --render r.png --report s.json --overwrite
@@ -62,7 +62,7 @@ succeeds "$scarp" simplify flat.tif r.ply -e 0 --image --effort fast --render r.
 [ "$(json s.json psnr)" = '"inf"' ] || fail "an exact mesh does not look like its image"
 gdalinfo r.png | grep -q 'Size is 403, 344' || fail "the rendering has another size"
 
-# Norms and weights: bounds of sums, of single bands.
+# Norms and weights: bounds on sums and on single bands.
 succeeds "$scarp" simplify photo.tif w.glb -e 20 --image --norm l1 --report s.json --overwrite
 succeeds "$scarp" measure photo.tif w.glb --image --norm l1 --fail-above 20 --json
 cp "$logs/out" m.json
@@ -73,7 +73,7 @@ cp "$logs/out" m.json
 agree
 holds "$(json s.json channels 0 max_error) <= 20 && $(json s.json channels 2 max_error) <= 5 && $(json s.json channels 1 max_error) > 20"
 
-# A stack of other bands, not bytes: all are brought to the largest range. One band of it. A grey image.
+# A stack of other bands, not bytes: all are scaled to the largest range. A single band; a grey image.
 make_raster b1.tif 'col * 10.5'
 make_raster b2.tif 'math.sin(col / 30) + row / 400'
 gdalbuildvrt -q -separate stack.vrt b1.tif b2.tif b1.tif b2.tif b2.tif
@@ -97,7 +97,7 @@ gdal_translate -q -b 2 photo.tif grey.tif
 succeeds "$scarp" simplify grey.tif grey.obj -e 8 --image
 succeeds "$scarp" measure grey.tif grey.obj --image --fail-above 8 -q
 
-# Missing pixels are holes; masks weigh colours as they weigh heights; errors are a raster.
+# Missing pixels are holes; masks weight colours like heights; errors as a raster.
 gdal_translate -q -a_nodata 200 photo.tif holes.tif
 succeeds "$scarp" simplify holes.tif holes.ply -e 8 --image
 succeeds "$scarp" measure holes.tif holes.ply --image --fail-above 8 --json

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# info: what is in the raster, and errors that keep what they suggest.
+# info: facts about the raster, and suggested errors that keep their promise.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -10,7 +10,7 @@ for words in '403 columns x 344 rows' '236 to 1076' 'relief 840' 'GTiff, Int16' 
 done
 [ "$(grep -c -- '-e [0-9.]*$' "$logs/out")" = 3 ] || fail "not three suggestions"
 
-# Each suggested error gives a mesh within its share, and uses most of it.
+# Each suggested error gives a mesh within its share and uses most of it.
 succeeds "$scarp" info "$dem" --json
 cp "$logs/out" info.json
 for k in 0 1 2; do
@@ -21,7 +21,7 @@ for k in 0 1 2; do
 done
 [ "$(json info.json suggestions_are_estimates)" = false ] || fail "a small raster is estimated"
 
-# Beyond 2 million samples: an estimate, which is marked as one.
+# Beyond 2 million samples: an estimate, marked as such.
 gdal_translate -q -r cubic -ot Float32 -outsize 1612 1376 -a_nodata 300 "$dem" large.tif
 succeeds "$scarp" info large.tif
 grep -q 'an estimate from windows' "$logs/out" || fail "the estimate is not called one"
@@ -39,7 +39,7 @@ gdal_translate -q -a_nodata 300 "$dem" holes.tif
 succeeds "$scarp" info holes.tif
 grep -q 'missing .*%, nodata 300' "$logs/out" || fail "nodata is not told"
 
-# The facts come before the engine runs, and alone if nothing else is wanted.
+# The facts are printed before the engine runs, and alone on request.
 succeeds "$scarp" info "$dem" --no-suggest
 grep -q 'relief 840' "$logs/out" || fail "--no-suggest leaves out the facts"
 if grep -q 'Suggested' "$logs/out"; then fail "--no-suggest suggests"; fi
@@ -51,7 +51,7 @@ import os, signal, subprocess, sys
 run = subprocess.Popen([sys.argv[1], "info", sys.argv[2]], stdout=subprocess.PIPE)
 seen = b""
 while b"mesh frame" not in seen:
-    piece = os.read(run.stdout.fileno(), 65536)  # the end would be empty
+    piece = os.read(run.stdout.fileno(), 65536)  # at the end it would be empty
     assert piece, seen
     seen += piece
 assert b"Suggested" not in seen, "both came at once"
@@ -88,7 +88,7 @@ for words in 'attributes  *normals, uvs' 'command  *scarp simplify jacksboro_fau
   "z  *$heights"; do
   grep -q "$words" "$logs/out" || fail "info of a mesh does not tell '$words': $(cat "$logs/out")"
 done
-# The axes and the origin of the file's own numbers.
+# The up axis and the origin of the file's numbers.
 for given in "y.obj|--up y|y is up" "z.obj|--up z|z is up" "y.ply|--up y|y is up" "z.ply||z is up" "y.stl|--up y|y is up" \
   "z.stl||z is up" "a.glb||y is up"; do
   IFS='|' read -r name option words <<< "$given"

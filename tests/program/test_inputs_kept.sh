@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# No output replaces a file that any option reads, nor what such a file is made of or lies in.
+# No output replaces a file that any option reads, nor its parts or its archive.
 source "$(dirname "$0")/lib.sh"
 need ogr2ogr gdal_translate gzip tar python3
 
@@ -11,7 +11,7 @@ cp tile.png texture.png
 cp tile.png drape.png
 echo "s 3 3" > script.txt
 
-# Every option of the table that names a file to read: one that is new must be named here too.
+# Every option of the table that names an input file; a new one must be added here.
 options=$("$scarp" help --json simplify | python3 -c '
 import json, sys
 rows = json.load(sys.stdin)["options"]
@@ -33,7 +33,7 @@ for option in $options; do
   rm report.json p.png
 done
 
-# Layers, and the parts of a file that has several.
+# Layers, and parts of multi-part files.
 ogr2ogr -q v.gpkg lakes.geojson -nln lakes
 ogr2ogr -q sh.shp lakes.geojson
 for option in --water --breaklines --cutline --rivers; do
@@ -48,7 +48,7 @@ refuses 1 "OUTPUT v.gpkg is a file that v.gpkg:lakes is made of" \
   "$scarp" simplify dem.tif v.gpkg -e 20 --roi v.gpkg:lakes=5 --overwrite
 refuses 1 "--report sh.dbf is a file that sh.shp is made of" \
   "$scarp" simplify dem.tif o.glb -e 20 --roi sh.shp=5 --report sh.dbf --overwrite
-# A driver's name before the file.
+# A driver's prefix before the file.
 for name in GPKG:v.gpkg GPKG:v.gpkg:lakes GeoJSON:lakes.geojson; do
   file=${name#*:}
   refuses 1 "--report ${file%:lakes} is a file that $name is made of" \
@@ -63,7 +63,7 @@ cp lakes.geojson cut.tif
 refuses 1 "--error-raster cut.tif is an input file" \
   "$scarp" measure dem.tif o.glb --cutline cut.tif --error-raster cut.tif --overwrite
 
-# The archive that a file lies in.
+# The archive that contains a file.
 python3 -c 'import zipfile; zipfile.ZipFile("z.zip", "w").write("dem.tif")'
 mkdir in
 cp z.zip in/deep.zip
@@ -80,7 +80,7 @@ keeps /vsigzip/mask.tif.gz mask.tif.gz
 keeps "/vsisubfile/0_$(wc -c < dem.tif),dem.tif" dem.tif
 keeps z.vrt z.zip
 
-# Standard output that was opened on an input.
+# Standard output opened on an input.
 for output in - /dev/stdout; do
   cksum dem.tif > before
   code=0
@@ -92,7 +92,7 @@ done
 "$scarp" simplify dem.tif - --of glb -e 20 > new.glb 2> "$logs/err" || fail "no file for standard output"
 cmp o.glb new.glb
 
-# Two outputs that are one file, which is not there yet.
+# Two outputs that are the same file, which does not exist yet.
 ln -s p.png q.png
 refuses 1 "--preview and --render name the same file, q.png" \
   "$scarp" simplify dem.tif twice.glb -e 20 --preview p.png --render q.png

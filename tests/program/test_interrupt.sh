@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Ctrl-C: exit code 5, one sentence, and no file, half or whole.
+# Ctrl-C: exit code 5, one message, and no file, partial or complete.
 source "$(dirname "$0")/lib.sh"
 make_big_raster big.tif
 
-# start COMMAND...: in the background, with the number $pid.
+# start COMMAND...: runs in the background with PID $pid.
 start() {
   : > "$logs/err"  # the last run's messages are not this one's
   # A background job of a script ignores SIGINT unless job control is on.
@@ -13,7 +13,7 @@ start() {
   set +m
 }
 
-# is_ready SIGNAL: the program handles the signal itself. If the system does not show it: it has begun to work.
+# is_ready SIGNAL: the program handles the signal itself; if the system does not show this: it has started to work.
 is_ready() {
   local caught
   if [ ! -r "/proc/$pid/status" ]; then is_in_pass; return; fi
@@ -22,10 +22,10 @@ is_ready() {
   (((0x${caught:-0} >> ($(kill -l "$1") - 1)) & 1))
 }
 
-# is_in_pass [NAME]: the run, with --json-progress, works, at this pass.
+# is_in_pass [NAME]: the run, with --json-progress, is in this pass.
 is_in_pass() { grep -q "\"pass\":\"${1-}" "$logs/err"; }
 
-# stop SIGNAL: the exit code goes to $code, all messages but progress to $logs/said.
+# stop SIGNAL: sets $code to the exit code and writes all messages except progress to $logs/said.
 stop() {
   kill "-$1" "$pid" 2> /dev/null || fail "the run ended by itself"
   code=0
@@ -48,7 +48,7 @@ for signal in INT TERM HUP; do
   done
 done
 
-# Even what arrives while libraries make themselves ready, before main(); sanitizers are not ready then themselves.
+# Even a signal during initialization of libraries, before main(); sanitizers are not ready then.
 if [ "$(uname)" = Linux ] && command -v cc > /dev/null && bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1; then
   printf '#include <signal.h>\n__attribute__((constructor)) static void first(void) { raise(SIGINT); }\n' > "$logs/early.c"
   cc -shared -fPIC -o "$logs/early.so" "$logs/early.c"
@@ -57,7 +57,7 @@ if [ "$(uname)" = Linux ] && command -v cc > /dev/null && bash -c 'ulimit -v 100
   grep -q '^scarp: interrupted; nothing was written$' "$logs/err" || fail "the sentence is missing before main()"
 fi
 
-# The second signal does not wait for the run to notice the first; it may still come too late to matter.
+# The second signal does not wait for the reaction to the first; it may still come too late to matter.
 for wait in 0 0.01 0.05; do
   start "$scarp" simplify big.tif out.glb -e 0 --json-progress
   await "$pid" is_in_pass refine
@@ -79,7 +79,7 @@ stop INT
 [ "$(cat out.glb)" = mine ] || fail "the old file is gone"
 [ "$(find . -type f | sort | tr '\n' ' ')" = "./big.tif ./out.glb " ] || fail "files are left"
 
-# A long effort ends with the mesh so far, but stops without one as long as there is none, and where there is a budget.
+# A long effort ends with the mesh so far; without a mesh, or with a budget, it stops.
 succeeds "$scarp" generate fractal 500 500 hills.tif --seed 7
 cut_short() {
   local signal=$1 effort=$2
@@ -103,7 +103,7 @@ for option in "-t 20000" "-e 0.2% --memory 200M"; do
   [ ! -e cut.glb ] || fail "a file is left with $option"
 done
 
-# measure and info stop as well, as long as they run.
+# measure and info stop as well.
 start "$scarp" info big.tif
 until is_ready INT || ! kill -0 "$pid" 2> /dev/null; do :; done
 kill -INT "$pid" 2> /dev/null || true

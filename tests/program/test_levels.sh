@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# --lock-border: rasters simplified apart meet. --lods: levels of detail on one outline, in files or in one GLB.
+# --lock-border: separately simplified rasters meet. --lods: levels of detail with a common outline, in files or in one
+# GLB.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
-# meet.py DIGITS NORTH_WEST NORTH_EAST SOUTH_WEST SOUTH_EAST: OBJs of rasters that share a row and a column; how many
-# vertices on a shared line one of two neighbours has and the other has not, and how many there are. Heights are
-# compared to the last bit, places too where DIGITS is 17: origins of parts in degrees are rounded by gdal_translate. A
-# vertex that only one has does not count where its surface ends: there it has a border edge that departs from the line.
+# meet.py DIGITS NORTH_WEST NORTH_EAST SOUTH_WEST SOUTH_EAST: for OBJs of rasters that share a row and a column, counts
+# vertices on shared lines, and those of only one neighbour. Heights are compared to the last bit, as are places if
+# DIGITS is 17: gdal_translate rounds origins of parts in degrees. A vertex of one mesh does not count where its surface
+# ends: there it has a border edge that leaves the line.
 cat > meet.py <<'PYTHON'
 import sys
 digits = int(sys.argv[1])
@@ -37,7 +38,7 @@ for a, b, axis in ((north_west, north_east, 0), (south_west, south_east, 0), (so
 print(differ, shared)
 PYTHON
 
-# cut RASTER COLS ROWS: into 2 x 2, which share the column and the row in the middle.
+# cut RASTER COLS ROWS: into 2 x 2 parts that share the middle column and row.
 cut() {
   local col=$(($2 / 2)) row=$(($3 / 2))
   succeeds gdal_translate -q -srcwin 0 0 $((col + 1)) $((row + 1)) "$1" nw.tif
@@ -46,7 +47,7 @@ cut() {
   succeeds gdal_translate -q -srcwin $col $row $(($2 - col)) $(($3 - row)) "$1" se.tif
 }
 
-# Ground with cliffs, and voids across the lines that the parts share.
+# Terrain with cliffs, and voids across the shared lines.
 python3 - <<'PYTHON'
 import math
 rows = []
@@ -79,7 +80,8 @@ check_meeting made 1.5 17
 cut "$dem" 403 344
 check_meeting dem 10 10
 
-# Normals on a shared side are equal: of rasters apart from the side alone, of parts of one mosaic those of the whole.
+# Normals on a shared side are equal: separate rasters derive them from the side alone; parts of one mosaic have those
+# of the whole.
 cat > shades.py <<'PYTHON'
 import math, sys
 def read(path):
@@ -90,7 +92,7 @@ def read(path):
 west, east, whole = map(read, sys.argv[1:])
 shared = west.keys() & east.keys()
 unequal = sum(west[v] != east[v] for v in shared)
-# Y is up. At the ends of the side the whole knows samples that lie beyond both.
+# Y is up. At the ends of the side the whole raster has samples that both parts lack.
 last = sorted(shared, key=lambda v: v[2])
 off = [math.degrees(math.dist(west[v], whole[v])) for v in last[1:-1] if v in whole]  # acos() is coarse near 1
 print(len(shared), unequal, len(off), max(off))
@@ -111,7 +113,7 @@ for source in made.tif "nw.tif ne.tif"; do
     fail "of $source: $unequal of $shared normals differ, up to $off degrees from the whole's"
 done
 
-# Any -j, and strips are refused.
+# Any -j; strips are refused.
 succeeds "$scarp" simplify "$dem" one.glb -e 10 --effort high --lock-border -j 1
 succeeds "$scarp" simplify "$dem" two.glb -e 10 --effort high --lock-border -j 2
 cmp one.glb two.glb || fail "threads change a mesh with a locked border"
@@ -119,7 +121,7 @@ refuses 1 "--lock-border needs --max-error" "$scarp" simplify "$dem" x.glb -t 50
 refuses 1 "the locked border and the outline of the valid data alone need" \
   "$scarp" simplify "$dem" x.glb -e 10 -t 50 --lock-border
 
-# One tile in the dominant order, unless the other is asked for.
+# One tile in the dominant order, unless the other is requested.
 succeeds "$scarp" simplify "$dem" tile.glb -e 10 --lock-border --report tile.json
 [ "$(json tile.json strategy order)" = '"dominant"' ] || fail "a locked border takes $(json tile.json strategy order)"
 succeeds "$scarp" simplify "$dem" worst.glb -e 10 --lock-border --order greedy --effort normal --report worst.json
@@ -128,7 +130,7 @@ succeeds "$scarp" measure "$dem" tile.glb --fail-above 10 -q
 holds "$(json tile.json triangles) < 1.03 * $(json worst.json triangles)"
 holds "$(json worst.json triangles) < 1.03 * $(json tile.json triangles)"
 
-# Levels: each keeps its own bound in the eyes of measure, and all have the finest one's outline.
+# Levels: each keeps its bound by measure, and all have the finest level's outline.
 succeeds "$scarp" simplify "$dem" hills.ply -e 5 --lods 3 --report levels.json
 for k in 0 1 2; do
   error=$((5 << k))
@@ -156,7 +158,7 @@ assert gltf["nodes"][0]["extras"]["MSFT_screencoverage"] == [0.25, 0.0625, 0]
 assert gltf["scenes"][0]["nodes"] == [0] and len(gltf["meshes"]) == 3 and "MSFT_lod" in gltf["extensionsUsed"]
 PYTHON
 
-# Every level of a mesh on a map has its .prj file, and y is up in every level where it is asked for.
+# Every level of a mesh on a map has its .prj file, and y is up in every level on request.
 succeeds "$scarp" simplify made.tif map.2dm -e 3 --lods 2
 for k in 0 1; do grep -q WGS map_lod$k.prj || fail "level $k has no .prj file"; done
 [ ! -e map.prj ] || fail "a .prj file has no mesh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Budgets of meshes with lines, water, walls and cutlines: they are kept, the mesh is that of the error that was found, and
-# what is too small is refused with the least that will do.
+# Budgets of meshes with lines, water, walls and cutlines: they are kept, and the mesh is that of the error found. Too
+# small a budget is refused with the least sufficient one.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -15,14 +15,14 @@ collection("soft.geojson", [("LineString", [[5.3, 7.1], [90.7, 33.2], [110.2, 80
 collection("lake.geojson", [("Polygon", [[[30, 20], [45, 22], [40, 36], [30, 20]]])])
 collection("river.geojson", [("LineString", [[5, 60], [60, 55], [110, 70]])])
 collection("ring.geojson", [("Polygon", [[[10.2, 5], [110, 15.5], [90, 70], [60, 80.5], [10.2, 5]]])])
-# A house of two storeys, askew.
+# A rotated house with two storeys.
 rows = []
 for y in range(60):
     rows.append(" ".join(str(20 + 0.02 * (x * y % 17) if abs(x - 30 + 0.3 * y) < 12 and 10 < y < 50 else 2 + 0.3 * ((x * x + 3 * y * y) % 7)) for x in range(60)))
 open("house.asc", "w").write("ncols 60\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + "\n".join(rows) + "\n")
 PYTHON
 
-# check RASTER OPTIONS...: 400 triangles are kept, on any number of threads; fast effort's mesh is that of its error.
+# check RASTER OPTIONS...: 400 triangles are kept on any number of threads; fast effort's mesh is that of its error.
 check() {
   local raster=$1 effort
   shift
@@ -51,14 +51,14 @@ check house.asc --cliff 3
 holds "$(json r.json cliffs walls) >= 1"
 check hills.tif --breaklines soft.geojson --rivers river.geojson --cutline ring.geojson
 
-# Vertices are counted as well, and a max error that fits is a goal of its own.
+# Vertices are counted as well, and a feasible max error is a goal.
 succeeds "$scarp" simplify hills.tif points.obj -p 300 --breaklines soft.geojson --report r.json --overwrite
 holds "$(json r.json vertices) <= 300"
 succeeds "$scarp" simplify hills.tif error.obj -t 5000 -e 40 --breaklines soft.geojson --report r.json --overwrite
 [ "$(json r.json stopped_by)" = '"max_error"' ] || fail "an error that fits is not reached"
 holds "$(json r.json max_error) <= 40"
 
-# Samples with bounds of their own.
+# Samples with individual bounds.
 gdal_translate -q -ot Float32 -scale 0 300 1 4 hills.tif bounds.tif
 for bounds in --mask --tolerance; do
   succeeds "$scarp" simplify hills.tif bounded.obj -t 1000 $bounds bounds.tif --breaklines soft.geojson --report r.json --overwrite

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# --breaklines and --rivers with --memory: lines cross strips whose samples stay in their file, and are chains of edges
-# all the same; the bound holds, the bytes are those of any number of threads, and the memory of lines counts.
+# --breaklines and --rivers with --memory: lines cross strips whose samples stay in their file, and are chains of edges.
+# The bound holds, any number of threads gives the same bytes, and the memory of lines counts.
 source "$(dirname "$0")/lib.sh"
 need python3
 

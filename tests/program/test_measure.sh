@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The judge: its report, its map, its verdict, and that it sees planted faults.
+# The judge: its report, map and verdict, and its detection of planted faults.
 source "$(dirname "$0")/lib.sh"
 need python3 awk
 
@@ -23,7 +23,7 @@ assert list(r["seconds"]) == ["read", "measure", "total"]
 PYTHON
 [ "$(head -c 4 map.png | tail -c 3)" = PNG ] || fail "map.png is no PNG"
 
-# fails WORDS MESH [BOUND]: the verdict is exit code 3 and one line that holds WORDS; the table is still printed.
+# fails WORDS MESH [BOUND]: exit code 3 and one line that contains WORDS; the table is still printed.
 fails() {
   try "$scarp" measure "$dem" "$2" --fail-above "${3:-20}"
   [ "$code" = 3 ] || fail "exit code $code instead of 3 for $2"
@@ -38,20 +38,20 @@ fails() {
 
 fails 'max error [0-9.]+ at column [0-9]+, row [0-9]+ exceeds 10' good.obj 10
 
-# A file that was cut off is refused; one that was edited is judged.
+# A truncated file is refused; an edited one is judged.
 faces=$(grep -c '^f ' good.obj)
 head -n $((faces / 2)) good.obj > cut.obj
 refuses 2 "cut.obj" "$scarp" measure "$dem" cut.obj
 succeeds "$scarp" measure "$dem" good.obj --fail-above 20
 
-# One vertex in the middle of the file, 100 m up.
+# One vertex in the middle of the file, raised by 100 m.
 vertices=$(grep -c '^v ' good.obj)
 awk -v n=$((vertices / 2)) '$1 == "v" && ++k == n { $4 += 100 } { print }' good.obj > moved.obj
 fails 'max error (1[0-2]|9)[0-9.]+ at column [0-9]+, row [0-9]+ exceeds 20' moved.obj
-# The same, sideways: the heights fit no longer, or the mesh folds.
+# The same vertex moved sideways: heights no longer fit, or the mesh folds.
 awk -v n=$((vertices / 2)) '$1 == "v" && ++k == n { $2 += 3000 } { print }' good.obj > shifted.obj
 fails '' shifted.obj
-# One triangle dropped, flipped, doubled.
+# One triangle dropped, flipped, or duplicated.
 awk -v n=$((faces / 2)) '!($1 == "f" && ++k == n) { print }' good.obj > dropped.obj
 try "$scarp" measure "$dem" dropped.obj --json
 holds "$(json "$logs/out" topology border_loops) == 2"
@@ -60,7 +60,7 @@ awk -v n=$((faces / 2)) '$1 == "f" && ++k == n { t = $3; $3 = $4; $4 = t } { pri
 fails 'flipped triangle' flipped.obj
 awk -v n=$((faces / 2)) '{ print } $1 == "f" && ++k == n { print }' good.obj > doubled.obj
 fails 'overlap' doubled.obj
-# A triangle with samples inside is missed: the largest of the mesh is dropped.
+# A missing triangle with samples is detected: drops the largest of the mesh.
 python3 - good.obj <<'PYTHON' > hole.obj
 import sys
 lines = open(sys.argv[1]).read().splitlines()
@@ -72,7 +72,7 @@ largest = max((l for l in lines if l.startswith("f ")), key=area)
 print("\n".join(l for l in lines if l is not largest))
 PYTHON
 fails 'covered by no triangle, the first at column [0-9]+, row [0-9]+' hole.obj
-# A triangle without samples inside is missed too: one of the smallest of a fine mesh is dropped.
+# A missing triangle without samples is detected, too: drops one of the smallest of a fine mesh.
 succeeds "$scarp" simplify "$dem" fine.obj -e 2 --up z
 python3 - fine.obj <<'PYTHON' > pinhole.obj
 import sys
@@ -86,9 +86,9 @@ print("\n".join(l for l in lines if l is not smallest))
 PYTHON
 fails 'not sound: [123] gaps?' pinhole.obj 2
 holds "$(try "$scarp" measure "$dem" pinhole.obj --json; json "$logs/out" topology gaps) >= 1"
-# The table of a mesh of another place reports it.
+# The table of a mesh elsewhere reports it.
 awk '$1 == "v" { $2 += 1e7 } { print }' good.obj > away.obj
-# A mesh that lies elsewhere is not judged: no number, exit code 3, and where the two lie.
+# A mesh elsewhere is not judged: no number, exit code 3, and both positions.
 for options in "" "--fail-above 20"; do
   try "$scarp" measure "$dem" away.obj $options --json
   [ "$code" = 3 ] || fail "a mesh elsewhere ends with $code"
@@ -102,7 +102,7 @@ done
 try "$scarp" measure "$dem" away.obj
 [ "$code" = 3 ] && grep -q 'max error *none: no sample is covered' "$logs/out" || fail "the table tells an error of nothing"
 
-# A verdict in percent of the relief (840), as simplify's goal: the recipe for a build.
+# A verdict in percent of the relief (840), like simplify's goal: the recipe for a build.
 succeeds "$scarp" simplify "$dem" percent.glb -e 1% --overwrite
 succeeds "$scarp" measure "$dem" percent.glb --fail-above 1%
 succeeds "$scarp" measure "$dem" percent.glb --fail-above 1% --json
@@ -114,8 +114,8 @@ refuses 1 "--fail-above 1mm is an error on a print" "$scarp" measure "$dem" perc
 # The mesh before the raster.
 refuses 1 "percent.glb is a mesh: the raster comes first, scarp measure" "$scarp" measure percent.glb "$dem"
 
-# A mesh lies where its file puts it, not around the centre of any raster: a raster elsewhere, a window of a larger one,
-# and the window itself in another type.
+# A mesh lies where its file places it, not around any raster's centre: for a raster elsewhere, a window of a larger
+# one, and the window itself in another type.
 need gdal_translate
 gdal_translate -q -srcwin 20 30 201 180 "$dem" window.tif
 gdal_translate -q -of AAIGrid window.tif window.asc
@@ -136,7 +136,7 @@ for name in window.glb window.obj window.ply; do
     grep -q "covered by no triangle" "$logs/err" || fail "no word that samples are uncovered"
   done
 done
-# --crs overrides the file's metadata; a raster without georeference has no place that could differ.
+# --crs overrides the file's metadata; a raster without georeference has no place to compare.
 succeeds "$scarp" simplify window.tif window.glb -e 20 --overwrite
 try "$scarp" measure moved.tif window.glb --crs local --fail-above 60 --json
 holds "$(json "$logs/out" samples) > 20000"

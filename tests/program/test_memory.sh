@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Too little memory, at any moment and on any thread: one sentence and exit code 2, or the right mesh; never an abort.
+# Too little memory at any moment on any thread: one message and exit code 2, or the right mesh; never an abort.
 source "$(dirname "$0")/lib.sh"
 
-# A sanitizer's own address space is larger than any of these limits.
+# A sanitizer's address space exceeds all these limits.
 try bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp"
 [ "$code" = 0 ] || skip "this build does not run in 1 GB of address space"
 

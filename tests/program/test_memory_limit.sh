@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# --memory: rasters that do not fit are read window by window, judged alike to the last bit, and the options that cannot
-# do so report it.
+# --memory: rasters that do not fit are read by windows and judged alike to the last bit; options that cannot work so
+# report it.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gdalbuildvrt
-small=72M # has no room for samples: every raster stays in its file
+small=72M # no room for samples: every raster stays in its file
 
 succeeds "$scarp" simplify "$dem" hills.glb -e 5 -q
 succeeds "$scarp" measure "$dem" hills.glb --json
 grep -v '"seconds"\|"command"' "$logs/out" | sed '/"read":/,$d' > whole.json
 
-# The file itself, a mosaic of four of its parts, and 16-bit samples in memory.
+# The file itself, a mosaic of four parts, and 16-bit samples in memory.
 gdal_translate -q -srcwin 0 0 200 150 "$dem" p1.tif
 gdal_translate -q -srcwin 200 0 203 150 -co TILED=YES -co BLOCKXSIZE=64 -co BLOCKYSIZE=64 "$dem" p2.tif
 gdal_translate -q -srcwin 0 150 200 194 -co COMPRESS=DEFLATE "$dem" p3.tif
@@ -26,7 +26,7 @@ for case in "$dem $small" "mosaic.vrt $small" "$dem 72.8M" "$dem 1G"; do
   done
 done
 
-# An option that needs all samples is refused by name, with the memory that is enough; with that much it works.
+# An option that needs all samples is refused by name with a sufficient memory, which works.
 refuses 1 '--texture needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --texture "$dem"
 echo "s 7 9" > inserts.txt
 for option in "--render r.png" "--nodata-policy fill" \
@@ -39,11 +39,11 @@ refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.pgm -
 [ -s enough ] || fail "--render does not say how much memory would do"
 succeeds "$scarp" simplify "$dem" rendered.glb -e 5 --memory "$(cat enough)" --render r.png
 
-# So is what turns out to need them later.
+# An input that later needs all samples is refused, too.
 { printf 'ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 1\n'; for ((k = 0; k < 800; ++k)); do echo 3e38 "1e-$((k % 30))"; done; } > huge.asc
 refuses 2 'only be refined in memory: leave --memory out, or allow 74M' "$scarp" simplify huge.asc o.glb -e 1 --memory $small
 
-# A mesh that outgrows the limit is refused, with the memory that is enough; that much is enough.
+# A mesh that exceeds the limit is refused with a sufficient memory, which works.
 succeeds "$scarp" generate fractal 900 900 fractal.tif -q
 for raster in fractal.tif "$dem"; do
   for limit in 72M 74M; do
@@ -73,7 +73,7 @@ for size in 1G 1GiB 1.5g 900M "900 MB" 72000000 100Mi 1T 1000000T; do
 done
 refuses 1 '--image' "$scarp" measure "$dem" hills.glb --memory 1G --image
 
-# A file that turns out to be damaged in the middle: exit code 2, file and row, nothing written.
+# A file damaged in the middle: exit code 2, file and row, nothing written.
 gdal_translate -q -co COMPRESS=DEFLATE -co BLOCKYSIZE=1 "$dem" cut.tif
 python3 - << 'PYTHON' 2> /dev/null || skip "needs python3"
 data = bytearray(open("cut.tif", "rb").read())

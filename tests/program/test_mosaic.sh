@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Several rasters as one, a part of one, and one with coarser cells: the same mesh as of a raster made beforehand.
+# Several rasters as one, a part of one, and one with coarser cells: the same mesh as from a raster prepared that way.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gdalwarp python3
 after_header() { tail -c +81 "$1"; }
@@ -24,12 +24,12 @@ succeeds "$scarp" measure tiles/a.tif tiles/b.tif tiles/c.tif tiles.stl --fail-a
 succeeds "$scarp" info tiles/a.tif tiles/b.tif
 grep -q '403 columns x 344 rows' "$logs/out" || fail "info does not see the mosaic"
 
-# Samples are missing if no tile has a value: there is no value that stands for them.
+# Samples outside all tiles are nodata, though no value stands for it.
 succeeds "$scarp" simplify tiles/a.tif tiles/b.tif gap.stl -e 20 --report gap.json
 [ "$(json gap.json input void)" = "$((200 * 194))" ] || fail "the gap is not missing: $(json gap.json input void)"
 holds "$(json gap.json input min) >= 236"
 
-# A raster that Scarp made of another is no part of the folder that the raster lies in.
+# A raster that Scarp derived is not part of the folder's input.
 mkdir work
 gdal_translate -q -ot Float32 utm.tif work/m.tif
 succeeds "$scarp" simplify work/m.tif work/a.tif -e 60 --error-raster work/z.tif
@@ -48,7 +48,7 @@ succeeds "$scarp" generate fractal 60 50 work/hills.tif --size 30
 succeeds "$scarp" info work --no-suggest
 grep -q '^  read as *work/hills.tif, without what Scarp made: a.tif' "$logs/out" || fail "a synthetic raster is no input"
 
-# Rasters that make no mosaic.
+# Rasters that cannot form a mosaic.
 gdalwarp -q -t_srs EPSG:32616 tiles/b.tif zone.tif
 gdal_translate -q -ot Float32 tiles/b.tif float.tif
 gdal_translate -q -a_nodata -9999 tiles/b.tif nodata.tif
@@ -56,7 +56,7 @@ gdal_translate -q -outsize 50% 50% tiles/b.tif coarse.tif
 gdal_translate -q -a_ullr 506015 4010320 512105 4005820 tiles/b.tif shifted.tif
 refuses 2 "zone.tif is in EPSG:32616, and tiles/a.tif in EPSG:32617: bring it there first (gdalwarp -t_srs EPSG:32617" \
   "$scarp" simplify tiles/a.tif zone.tif o.stl -e 20
-for other in float.tif nodata.tif; do # rasters of another type, and with another nodata value, of which there is none
+for other in float.tif nodata.tif; do # rasters of another type or nodata value; here there is none
   succeeds "$scarp" simplify tiles/a.tif $other tiles/c.tif other.stl -e 20 --overwrite
   same whole.stl other.stl
 done
@@ -86,7 +86,7 @@ gdal_translate -q -co PROFILE=BASELINE "$dem" plain.tif
 rm -f plain.tif.aux.xml
 refuses 1 "an extent and a resolution need a georeference" "$scarp" info plain.tif --te 0 0 5 5
 
-# Coarser cells are means, and never those of an overview.
+# Coarser cells are means, never from an overview.
 python3 - <<'PYTHON'
 rows = [[1, 2, 3, 4, 9], [2, 3, 4, 5, 9], [7, 7, -9, -9, 9], [8, 9, -9, -9, 9]]
 open("few.asc", "w").write("ncols 5\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n" +
@@ -96,7 +96,7 @@ gdal_translate -q -ot Int16 few.asc few.tif
 succeeds "$scarp" simplify few.tif means.tif -e 0 --resolution 2
 grep -q 'read as *means of 2 x 2 cells, 2 x 2 each (without the last 1 columns and 0 rows)' "$logs/out" || fail "the summary does not tell the means"
 [ "$(gdal_translate -q -of XYZ means.tif /vsistdout/ | cut -d' ' -f3 | head -3 | tr '\n' ' ')" = "2 4 7.75 " ] || fail "wrong means"
-# The mean of the valid samples: declared nodata has no part in it, nor has the value of --nodata.
+# The mean of valid samples: excludes declared nodata and the value of --nodata.
 sed 's/-9 -9 9$/5 6 9/; s/^2 3 4 5/2 3 4 -9/' few.asc > mixed.asc
 gdal_translate -q -ot Int16 mixed.asc mixed.tif
 gdal_translate -q -a_nodata none mixed.tif plain.tif
@@ -105,7 +105,7 @@ for input in "mixed.tif" "plain.tif --nodata -9"; do
   means=$(gdal_translate -q -of XYZ mixed.csv.tif /vsistdout/ | cut -d' ' -f3 | tr '\n' ' ')
   [[ "$means" = "2 3.66"*" 7.75 5.5 " ]] || fail "means of $input: $means"
 done
-# GDAL's rounding of a mean counts: the bound holds for the exact ones.
+# GDAL's rounding of means counts: the bound holds for exact means.
 python3 - > thirds.asc <<'PYTHON'
 print("ncols 60\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 1")
 for row in range(60):

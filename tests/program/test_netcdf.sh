@@ -72,14 +72,14 @@ import math, subprocess, sys, netcdf
 step = 0.05 if sys.argv[1] == "fine_mercator" else 1
 rows = netcdf.mercator(step)
 lons = netcdf.even if step == 0.05 else [5 + i for i in range(40)]
-for i, j in [(0, 0), (7, 3), (29, 39)]:  # row i of the file, which begins in the south unless it is turned
+for i, j in [(0, 0), (7, 3), (29, 39)]:  # row i of the file, which begins in the south unless reversed
     value = subprocess.run(["gdallocationinfo", "-valonly", "-wgs84", "new.tif", str(lons[j]), str(rows[i])],
                            capture_output=True, text=True, check=True).stdout
     k = 29 - i if sys.argv[1] == "down_mercator" else i
     assert abs(float(value) - (100 + 50 * math.sin(k / 3) + 30 * math.cos(j / 2))) < 1e-4, (i, j, value)
 PY
 done
-# Depths, as a whole and in part.
+# Depths of a whole file and of a part.
 for file in down_z sea_floor; do
   for part in "" "--te 6 41 7 42"; do
     succeeds "$scarp" simplify $file.nc o.tif -e 5 --overwrite $part

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Missing samples: never a height; holes by default, filled or given a height on request.
+# Missing samples are never heights: holes by default, filled or given a height on request.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate awk
 
-# A 60 x 40 hill with a rectangle of nodata (columns 20..29, rows 10..19), one lone valid sample in it, and a nodata corner.
+# A 60 x 40 hill with a rectangle of nodata (columns 20..29, rows 10..19) around a valid sample, and a nodata corner.
 awk 'BEGIN {
   print "ncols 60\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
   for (r = 0; r < 40; ++r) {
@@ -33,7 +33,7 @@ succeeds "$scarp" simplify undeclared.asc a.obj -e 1 --nodata -9999 --report a.j
 [ "$(json a.json input void)" = $voids ] || fail "--nodata is not used"
 [ ! -s "$logs/err" ] || fail "a warning about nodata that --nodata names"
 [ "$(json a.json input undeclared_nodata)" = "[]" ] || fail "nodata that is named is suspected"
-# Without it they are heights, and reported, with the option, in memory and streamed.
+# Without --nodata they are heights, reported with the option, in memory and streamed.
 warning="$voids samples are exactly -9999, far below all others (1[0-9.]* to [89][0-9.]*): if they mean nodata, give --nodata -9999\$"
 for limit in "" "--memory 72.5M"; do
   # shellcheck disable=SC2086
@@ -59,11 +59,11 @@ holds "$(json n.json input filled) > 0 && $(json n.json input filled) < $voids"
 succeeds "$scarp" simplify hill.asc back.obj -e 1 --up z --nodata-policy background --background -20 --report b.json
 [ "$(json b.json input filled)" = $voids ] || fail "background filled $(json b.json input filled)"
 [ "$(json b.json samples)" = 2400 ] || fail "background samples are not judged"
-# The relief that percentages are of is the terrain's own.
+# Percentages refer to the relief of the terrain only.
 holds "$(json b.json input min) > 0"
 grep -Eq '^v [^ ]+ [^ ]+ -20(\.0*)?$' back.obj || fail "no vertex at the background's height"
 
-# An outline that may move outwards gets simpler, and loses no sample. The nodata area is a disc here.
+# An outline that may move outwards becomes simpler and loses no sample. Here the nodata area is a disc.
 awk 'BEGIN {
   print "ncols 80\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
   for (r = 0; r < 80; ++r) {
@@ -93,7 +93,7 @@ grep -q '^scarp: warning: .*1.*infinit' "$logs/err" || grep -qi '^scarp: warning
 holds "$(python3 -c "import json; print(len(json.load(open('i.json'))['warnings']))") == 1"
 succeeds "$scarp" simplify inf.bil inf.glb -e 1 -q --overwrite
 
-# If outlines alone need most of the mesh, the summary reports the number that -t does; a simpler outline needs fewer.
+# If outlines alone need most of the mesh, the summary reports that number for -t; a simpler outline needs fewer.
 awk 'BEGIN {
   print "ncols 80\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
   for (r = 0; r < 60; ++r) {
@@ -118,7 +118,7 @@ succeeds "$scarp" simplify hill.asc hole.obj -e 1 --overwrite
 if grep -q '^  outlines' "$logs/out"; then fail "a small outline is told of"; fi
 [ ! -s "$logs/err" ] || fail "-q warns"
 
-# A frame of -9999 around land of one height is reported, and two heights of which neither is odd are not.
+# A frame of -9999 around land of one height is reported; two heights that are both plausible are not.
 make_raster frame.tif "-9999 if min(row, col, 343 - row, 402 - col) < 5 else 7"
 try "$scarp" info frame.tif --no-suggest
 grep -q "samples are exactly -9999, far below all others (7 to 7)" "$logs/out" "$logs/err" || fail "no word of -9999 around a flat raster"
@@ -126,14 +126,14 @@ make_raster steps.tif "0 if col < 5 else 7"
 try "$scarp" info steps.tif --no-suggest
 if grep -q "far below\|far above" "$logs/out" "$logs/err"; then fail "a step is taken for nodata"; fi
 
-# Finite values that a float32 does not hold are no nodata.
+# Finite values beyond float32 are not nodata.
 make_raster ramp.tif "col"
 gdal_translate -q -ot Float64 -scale 0 402 0 4.02e39 ramp.tif over.tif
 refuses 2 "over.tif: the value 3.5e+38 at column 35, row 0 is beyond what a float32 holds (3.4e38)" \
   "$scarp" simplify over.tif over.glb -e 1e37
 refuses 2 "the value 3.5e+38 at column 35, row 0" "$scarp" simplify over.tif over.glb -e 1e37 --memory 200M
 
-# Two values that are not declared: each way that a warning names ends with none.
+# Two undeclared values: each remedy in a warning leaves none.
 need gdalwarp
 awk 'BEGIN {
   print "ncols 60\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 10";

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Outputs besides meshes: Scape's TIN, drawings of the edges, the approximation and the errors as rasters, a rendering.
+# Other outputs: Scape's TIN, drawings of the edges, the approximation and the errors as rasters, a rendering.
 source "$(dirname "$0")/lib.sh"
 need python3 gdalinfo gdal_translate
 
-# TIN: a line a triangle, and the judge reads it.
+# TIN: one line per triangle, readable by the judge.
 succeeds "$scarp" simplify "$dem" m.tin -e 20 --report s.json
 [ "$(grep -c '^t ' m.tin)" = "$(json s.json triangles)" ] || fail "not one line for each triangle"
 succeeds "$scarp" measure "$dem" m.tin --fail-above 20 -q
@@ -19,7 +19,7 @@ PYTHON
 succeeds "$scarp" simplify "$dem" m.eps -e 20
 head -n 1 m.eps | grep -q '^%!PS-Adobe-.* EPSF-' || fail "m.eps is no EPS"
 
-# The approximation as a raster lies within the bound of the original, and where it lies.
+# The approximation as a raster is within the bound of the original, at the same place.
 values() {
   case $1 in
     *.pgm) python3 -c 'import struct, sys; d = open(sys.argv[1], "rb").read()[-2 * 403 * 344:]; print(*struct.unpack(f">{403 * 344}H", d))' "$1" ;;
@@ -44,7 +44,7 @@ done
 succeeds "$scarp" simplify "$dem" raster -e 20 --of dem
 gdalinfo raster | grep -q 'Type=Float32' || fail "--of dem is no GeoTIFF"
 
-# The error raster: mesh minus sample, from either command.
+# The error raster, mesh minus sample, from either command.
 succeeds "$scarp" simplify "$dem" e.glb -e 20 --error-raster e1.tif --report s.json --overwrite
 succeeds "$scarp" measure "$dem" e.glb --error-raster e2.tif
 [ "$(gdalinfo -checksum e1.tif | grep Checksum)" = "$(gdalinfo -checksum e2.tif | grep Checksum)" ] || fail "the error rasters differ"
@@ -55,7 +55,7 @@ assert abs(worst - json.load(open(sys.argv[1]))["max_error"]) < 1e-3, worst
 assert [o["format"] for o in json.load(open(sys.argv[1]))["outputs"]] == ["glb", "tif"]
 PYTHON
 
-# The rendering has one pixel a sample.
+# The rendering has one pixel per sample.
 succeeds "$scarp" simplify "$dem" r.glb -e 20 --render r.png
 gdalinfo r.png | grep -q 'Size is 403, 344' || fail "the rendering has another size"
 
@@ -75,19 +75,19 @@ for output in s.stl s.tin s.svg s.tif; do
   grep -q 'has no place for vertex normals' "$logs/err" || fail "no word about lost normals in $output"
 done
 refuses 1 "--normals cannot be combined with --image" "$scarp" simplify "$dem" out.glb -e 20 --image --normals
-# A raster's approximation stays on the raster's grid; drawings follow --crs.
+# A raster's approximation is on the raster's grid; drawings follow --crs.
 for output in crs.tif crs.pgm; do
   succeeds "$scarp" simplify "$dem" $output -e 100 --crs EPSG:32616
   grep -q "the raster's own grid, whatever --crs is" "$logs/err" || fail "no word that --crs does nothing to $output"
 done
 succeeds "$scarp" simplify "$dem" crs.svg -e 100 --crs EPSG:32616
 [ ! -s "$logs/err" ] || fail "a wrong word about --crs in crs.svg"
-# A folder that accepts no files is found out before the work, and is not reported as missing.
+# A folder that accepts no files is detected before the work, and not reported as missing.
 if [ -d /proc ]; then
   refuses 4 "x.tif cannot be written: " "$scarp" simplify missing.tif out.glb -e 20 --error-raster /proc/x.tif
   if grep -q 'not exist\|no folder' "$logs/err"; then fail "/proc is said not to exist"; fi
 fi
-# A PGM has no place for heights below 0: nothing is written.
+# PGM cannot store negative heights: nothing is written.
 make_raster deep.tif '-col'
 refuses 4 "" "$scarp" simplify deep.tif out.pgm -e 20
 echo "every output holds the approximation"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Files that exist stay as they are unless --overwrite is given; then they are replaced as a whole.
+# Existing files are unchanged unless --overwrite is given; then they are replaced as a whole.
 source "$(dirname "$0")/lib.sh"
 
 for name in out.glb p.png r.json m.png; do echo "mine" > "$name"; done
@@ -17,7 +17,7 @@ done
 refuses 4 "m.png exists already" "$scarp" measure "$dem" out.glb --map m.png
 succeeds "$scarp" measure "$dem" out.glb --map m.png --overwrite
 
-# A failed run keeps the old file, also with --overwrite.
+# A failed run keeps the old file even with --overwrite.
 cp out.glb before.glb
 refuses 2 "missing.tif" "$scarp" simplify missing.tif out.glb -e 1 --overwrite
 cmp out.glb before.glb
@@ -28,7 +28,7 @@ succeeds "$scarp" simplify "$dem" link.glb -e 50 --overwrite
 [ -L link.glb ] || fail "the link was replaced"
 if cmp -s out.glb before.glb; then fail "the link's target was not written"; fi
 
-# Data on standard output: the summary goes out of its way.
+# With data on standard output, the summary moves elsewhere.
 "$scarp" simplify "$dem" /dev/stdout --of ply -e 100 2> "$logs/err" > piped.ply
 grep -q '^Reached the error goal' "$logs/err" || fail "no summary on stderr"
 succeeds "$scarp" simplify "$dem" file.ply -e 100

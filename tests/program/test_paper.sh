@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# bench/paper/run.py on small fields: every section, every picture that the page names, no number that is none.
+# bench/paper/run.py on small fields: every section, every picture of the page, no invalid number.
 source "$(dirname "$0")/lib.sh"
 
 run=$SCARP_SOURCE/bench/paper/run.py
@@ -34,7 +34,7 @@ for picture in $pictures; do
   [ "$(wc -c < "out/$picture")" -gt 2000 ] || fail "$picture shows nothing"
 done
 
-# The vertices are exactly those that a row asks for, the algorithms agree, and a number far from Scape's is explained.
+# The number of vertices is exactly the row's, the algorithms agree, and numbers far from Scape's are explained.
 grep -qE '^\| crater \| 154 \| [0-9]+ \(288, ' out/paper.md || fail "no row of crater with 154 vertices"
 [ "$(grep -cE '^\| (crater|ashby|ozark) .*\| yes \|' out/paper.md)" = 3 ] || fail "Algorithms I, II and III disagree"
 tr '\n' ' ' < out/paper.md | grep -qE '\*\*Max error of sharp-step, sum, q 0 \(−[0-9]+ %\)' || fail "sharp-step is not explained"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# "-" is standard input and standard output; pipes are read once, by whatever reader the bytes ask for.
+# "-" is standard input and standard output; pipes are read once, by the reader for their bytes.
 source "$(dirname "$0")/lib.sh"
 need python3
 cp "$dem" "$logs/grid.tif"
@@ -15,7 +15,7 @@ grep -q '^Reached the error goal' "$logs/err" || fail "the summary is not on std
 cmp <(after_header grid.stl) <(after_header fifo.stl)
 [ "$(find . -name 'scarp-*')" = "" ] || fail "a copy of standard input is left"
 
-# Whatever reads them: PGM, a raster that is streamed, points, and the mesh of measure.
+# All readers: PGM, a streamed raster, points, and the mesh of measure.
 succeeds "$scarp" generate fractal 60 50 hills.pgm
 cat hills.pgm | "$scarp" simplify - pgm.glb -e 5 -q
 "$scarp" measure hills.pgm pgm.glb --fail-above 5 -q
@@ -25,7 +25,7 @@ printf 'x,y,z\n0,0,1\n1,0,2\n0,1,3\n1,1,5\n' | "$scarp" simplify - points.ply --
 cat "$dem" | "$scarp" info - --json > info.json
 [ "$(json info.json input path)" = '"-"' ] || fail "info does not tell that it read standard input"
 
-# Reports and pictures, but only one of them.
+# Reports or pictures, but only one of them.
 "$scarp" simplify "$dem" a.glb -e 50 --report - 2> "$logs/err" | python3 -c 'import json, sys; assert json.load(sys.stdin)["max_error"] <= 50'
 grep -q '^Reached' "$logs/err" || fail "the summary is not on stderr where the report is on stdout"
 refuses 1 "OUTPUT and --report both write to standard output" "$scarp" simplify "$dem" - --of glb -e 50 --report -

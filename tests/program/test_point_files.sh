@@ -1,5 +1,5 @@
 #!/bin/bash
-# Contents of a text of columns: numbers, northings, heights, the nodes of a raster; attributes in place of zeros.
+# Contents of text columns: numbers, northings, heights, nodes of a raster; attributes instead of zeros.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need python3 gdal_translate
 
@@ -48,7 +48,7 @@ points("some.geojson", lambda k, land: land if k % 10 else 0)
 points("sentinel.geojson", lambda k, land: land if k % 10 else -9999)
 PY
 
-# One rule for a file and a folder: the nodes of a raster are a raster, in any order.
+# One rule for a file and a folder: a raster's nodes in any order are a raster.
 succeeds gdal_translate -q north.xyz north.tif
 succeeds "$scarp" simplify north.xyz whole.obj -e 0.5 -q --crs source
 succeeds "$scarp" measure north.tif whole.obj --fail-above 0.5 -q
@@ -76,7 +76,7 @@ done
 succeeds "$scarp" tile south.xyz tiles --grid local -q --vertical none
 refuses 1 "is read as a raster: --points reads it as points" "$scarp" simplify north.xyz x.obj -e 1 --z-field z
 
-# Columns: recognised, named, remembered.
+# Columns: recognized, named, stored.
 succeeds "$scarp" info pnezd.csv --json
 python3 - "$logs/out" <<'PY' || fail "the surveyor's file"
 import json, sys
@@ -98,7 +98,7 @@ sed 's/,4000/,0/; s/,5000/,0/; s/,5001/,1/' pnezd.csv >local.csv
 refuses 2 "is the easting: give --columns penz or --columns pnez" "$scarp" simplify local.csv x.ply -e 1
 succeeds "$scarp" simplify local.csv local.ply -e 1 --columns pnez -q
 
-# Zeros in place of heights.
+# Zeros instead of heights.
 succeeds "$scarp" info attribute.geojson
 grep -q 'warning: .*third coordinate is 0 everywhere, so the heights are those of the attribute elevation' "$logs/err" ||
   fail "an attribute is taken without a word"
@@ -120,7 +120,7 @@ for pair in some:0 sentinel:-9999; do
   grep -q 'points  *90 (10 without a height left out)' "$logs/out" || fail "$file: points are not counted"
   succeeds "$scarp" measure "$file" "$file.ply" --fail-above 1 -q
 done
-# One number everywhere is no height either; no third coordinate of NaN is.
+# A constant is not a height either; nor is a third coordinate of NaN.
 "$python_program" - <<'PY'
 import struct
 def gpkg_like(name, z):
@@ -154,7 +154,7 @@ if command -v ogr2ogr >/dev/null; then
     grep -q "third coordinate is ${pair#*:} everywhere, so the heights are those of the attribute altitude" "$logs/err" || fail "$name: $(cat "$logs/err")"
     grep -q 'heights  *400 to 459' "$logs/out" || fail "$name: the heights are not those of the attribute"
   done
-  # The command that makes a layer of degrees works where comments stand above the header.
+  # The command that makes a layer from degrees works with comments above the header.
   { printf '# a log\n\n'; awk 'BEGIN { print "id,lat,lon,alt"; srand(1); for (k = 0; k < 99; ++k) printf "%d,%.7f,%.7f,%.1f\n", k, 48 + rand() / 99, 11 + rand() / 99, 400 + 90 * rand() }'; } >log.csv
   succeeds "$scarp" info log.csv
   command=$(sed -n 's/.*make a GeoPackage with a CRS of the file (\(.*\)) for a local frame.*/\1/p' "$logs/err")

@@ -1,9 +1,9 @@
 #!/bin/bash
-# Scattered points: recognised by name, proven, judged, refused in one sentence; the same from every format.
+# Scattered points: recognised by name, proven, judged, refused with one message; the same from every format.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need awk python3
 
-# A bumpy square kilometre in UTM coordinates, with two decimals, some places twice.
+# A bumpy square kilometre in UTM coordinates with two decimals; some places occur twice.
 awk 'BEGIN { srand(7); print "x,y,z"
   for (i = 0; i < 3000; i++) { x = rand() * 1000; y = rand() * 800
     printf "%.2f,%.2f,%.3f\n", 500000 + x, 4649000 + y, 300 + 40 * sin(x / 90) * cos(y / 70) + rand() }
@@ -26,7 +26,7 @@ succeeds "$scarp" measure survey.csv hills.glb --fail-above 0.5 --json
 python3 -c 'import json,sys; r=json.load(sys.stdin); assert r["passed"] and r["samples"] == 3001' <"$logs/out" || fail "measure --json"
 refuses 3 "exceeds 0.001" "$scarp" measure survey.csv hills.glb --fail-above 0.001 -q
 
-# The mesh lies around the middle of the points, reports it, and is put back by the judge.
+# The mesh lies around the middle of the points and reports it; the judge moves it back.
 for name in near.obj near.ply near.glb near.stl; do
   succeeds "$scarp" simplify survey.csv "$name" -e 1 --report near.json --overwrite -q
   succeeds "$scarp" measure survey.csv "$name" --fail-above 1 -q
@@ -44,7 +44,7 @@ succeeds "$scarp" measure survey.csv there.obj --fail-above 1 -q
 succeeds "$scarp" simplify survey.csv there.2dm -e 1 -q
 grep -Eq '^ND 1 50[01]' there.2dm || fail "a 2DM does not lie where the points do"
 
-# Every vertex budget, percent goals, solids, exact reproduction.
+# All vertex budgets, percentage goals, solids, exact reproduction.
 succeeds "$scarp" simplify survey.csv few.ply -p 200 -q
 succeeds "$scarp" simplify survey.csv part.obj -e 2% -q
 succeeds "$scarp" simplify survey.csv exact.ply -e 0 -q
@@ -52,12 +52,12 @@ succeeds "$scarp" measure survey.csv exact.ply --fail-above 0 -q
 succeeds "$scarp" simplify survey.csv solid.stl -e 1 --base 0 -q
 succeeds "$scarp" measure survey.csv solid.stl --fail-above 1 -q
 
-# The judge follows the policy that the mesh remembers.
+# The judge uses the policy stored in the mesh.
 succeeds "$scarp" simplify survey.csv high.ply -e 0 --duplicates highest -q
 succeeds "$scarp" measure survey.csv high.ply --fail-above 0 -q
 refuses 3 "exceeds 0" "$scarp" measure survey.csv high.ply --fail-above 0 --duplicates lowest -q
 
-# The same points in other clothes give the same bytes; so does any number of threads.
+# The same points in other formats give the same bytes, as does any number of threads.
 tail -n +2 survey.csv | tr ',' ' ' >survey.xyz
 tr ',' ';' <survey.csv | sed 's/$/\r/' >semicolons.csv
 cp survey.xyz survey.points
@@ -87,7 +87,7 @@ if command -v ogr2ogr >/dev/null; then
   succeeds "$scarp" measure vector.gpkg local.glb --fail-above 1 -q
 fi
 
-# A mesh of a raster has a frame that points do not have: the sentence names who asked for it.
+# A mesh of a raster has a frame that points lack: the message names its source.
 succeeds "$scarp" simplify "$dem" grid.ply -e 50 --crs grid -q
 refuses 1 "grid.ply says of itself that its coordinates are the columns and rows" "$scarp" measure survey.csv grid.ply
 refuses 1 "cannot be given in 'grid'" "$scarp" measure survey.csv grid.ply --crs grid
@@ -97,7 +97,7 @@ try "$scarp" measure survey.csv grid.ply --crs source --json
 succeeds "$scarp" simplify "$dem" utm.ply -e 50 --crs EPSG:32612 -q
 refuses 1 "utm.ply names that CRS as its own, --crs overrides it" "$scarp" measure survey.csv utm.ply
 
-# A C that opens to the east: with a concave hull the mesh ends at the bay, and every point is in it.
+# A C that opens to the east: with a concave hull the mesh ends at the bay and contains every point.
 awk 'BEGIN { srand(3); print "x,y,z"
   while (n < 3000) { x = rand() * 1000; y = rand() * 1000
     if (x > 400 && y > 300 && y < 700) continue
@@ -147,7 +147,7 @@ wide, convex = (open(name, "rb").read().split(b"end_header\n", 1)[1] for name in
 assert wide == convex
 PY
 
-# Impossible requests, in one sentence, and nothing written.
+# Impossible requests: one message, and nothing written.
 : >empty.csv
 printf 'x,y,z\n' >header.csv
 printf '1,2,3\n4,5,nan\n7,8,10\n' >nan.csv

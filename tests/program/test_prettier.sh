@@ -1,9 +1,9 @@
 #!/bin/bash
-# JavaScript and TypeScript are formatted by prettier (make format), and named in camelCase; planted lines are found.
+# JavaScript and TypeScript are formatted by prettier (make format) and use camelCase; planted lines are found.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 npm_judges prettier || skip "npm could not fetch prettier"
 
-# snake_case TREE: declarations in it.
+# snake_case TREE: prints snake_case declarations in it.
 snake_case() {
   grep -rnE --include='*.'{js,mjs,cjs,ts,mts} --exclude-dir=node_modules \
     '^[^/*]*\b(const|let|function|async) +[a-z][A-Za-z0-9]*_|^ +[a-z][A-Za-z0-9]*_\w*\([^)]*\) \{$' \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Messages of a run while it works: nothing when it is quick or not watched, a line on a terminal, JSON where asked for.
+# Progress of a run: nothing if it is quick or unwatched, a line on a terminal, JSON on request.
 source "$(dirname "$0")/lib.sh"
 need python3
 make_big_raster big.tif
@@ -11,7 +11,7 @@ succeeds "$scarp" simplify big.tif out.glb -e 40
 succeeds "$scarp" simplify big.tif out.glb -e 40 -q --overwrite
 [ ! -s "$logs/err" ] && [ ! -s "$logs/out" ] || fail "-q is not quiet"
 
-# JSON: one object a line, at most five a second plus one at the end of each pass, fractions that never fall in a pass.
+# JSON: one object a line, at most five a second plus one at the end of each pass; fractions never decrease in a pass.
 succeeds "$scarp" simplify big.tif out.glb -e 40 --json-progress --overwrite
 python3 - "$logs/err" <<'PYTHON'
 import json, sys
@@ -36,9 +36,9 @@ running = [line for line in lines if line["fraction"] < 1]
 assert len(running) <= 5 * lines[-1]["seconds"] + 1, "more than five a second"
 PYTHON
 
-# A terminal: a line that is rewritten and erased in the end.
+# A terminal: a line that is rewritten, and erased at the end.
 if command -v script > /dev/null; then
-  # The line comes after a second; a fast machine needs a smaller error to work so long.
+  # The line appears after a second; a fast machine needs a smaller error to run that long.
   for error in 5 1 0.2 0; do
     script -qec "'$scarp' simplify big.tif out.glb -e $error --order greedy --overwrite" typescript < /dev/null > /dev/null
     if grep -aq 'refine.*%.*vertices' typescript; then break; fi
@@ -46,7 +46,7 @@ if command -v script > /dev/null; then
   grep -aq 'refine.*%.*vertices' typescript || fail "no progress on a terminal"
   grep -aq 'Reached the error goal' typescript || fail "no summary on a terminal"
   script -qec "'$scarp' simplify '$dem' out.glb -e 100 --report quick.json --overwrite" typescript < /dev/null > /dev/null
-  # On a machine that is busy it may need longer, and show it then.
+  # A busy machine may be slower, and then show it.
   if awk "BEGIN { exit !($(json quick.json seconds total) < 1) }" && grep -aq 'vertices.*left' typescript; then
     fail "progress for a run below one second"
   fi

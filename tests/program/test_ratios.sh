@@ -1,6 +1,6 @@
 #!/bin/bash
-# The ratios that --help, README.md, the cookbook and docs/cli claim for efforts and budgets are those of the tables of bench/quality.md,
-# and the figures of docs/how-good.md are those of the pages and tables of bench/.
+# Ratios of efforts and budgets in --help, README.md, the cookbook and docs/cli match the tables of bench/quality.md;
+# figures of docs/how-good.md match the pages and tables of bench/.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 scarp=${SCARP_BUILD:?}/bin/scarp
@@ -13,8 +13,8 @@ joined = lambda text: re.sub(r"[\s`*]+", " ", text)
 texts = {"--help": joined(os.environ["help"]), "README.md": joined(read("README.md")), "docs/cli.md": joined(read("docs/cli.md")),
          "bench/quality.md": joined(read("bench/quality.md")), "docs/how-good.md": joined(read("docs/how-good.md"))}
 
-# triangles (where greedy insertion needs less than a quarter of the full grid, and elsewhere), RMSE and CPU time of each
-# effort, in greedy insertion's
+# per effort relative to greedy insertion: triangles (where greedy needs less than a quarter of the full grid, and
+# elsewhere), RMSE and CPU time
 quality = read("bench/quality.md")
 section = lambda name, page=quality: re.search(rf"<!-- table: {name} -->(.*?)<!-- end -->", page, re.S).group(1)
 table = {}
@@ -24,7 +24,7 @@ assert set(table) == {"fast", "normal", "high on samples", "high", "max"}, table
 triangles = {name: row[0] for name, row in table.items()}
 seconds = {name: row[3] for name, row in table.items()}
 budgets = section("budget_summary")
-budget = {}  # max error and RMSE in greedy insertion's, RMSE in that of `high`
+budget = {}  # max error and RMSE relative to greedy insertion's, RMSE relative to that of `high`
 for name, error, rmse, of_high in re.findall(r"^\| `([a-z ]+)` \| [0-9]+ \|([^|]*)\|([^|]*)\|([^|]*)\|", budgets, re.M):
     budget[name] = tuple(float(cell.split()[0]) for cell in (error, rmse, of_high))
 assert set(budget) == {"normal", "normal rms", "high", "high rms", "max rms"}, budget
@@ -40,7 +40,7 @@ rows_of = lambda name: list(csv.DictReader(open(f"{root}/bench/{name}", encoding
 def near(claim, true, digits):
     return abs(float(claim.replace(",", "")) - true) <= 0.5 * 10 ** -digits + 1e-9
 
-# The place, the words, and the true number of each group with the digits that it is printed with.
+# The place, the words, and the true number of each group with its printed digits.
 claims = [
     ("--help", rf"normal: also remove vertices; {N} of the triangles of fast", [(triangles["normal"] / triangles["fast"], 2)]),
     ("--help", rf"high: also move vertices; {N}\.", [(triangles["high"] / triangles["fast"], 2)]),
@@ -136,18 +136,19 @@ for where, words, truths in claims:
         else:
             assert near(claim, true, digits), f"{where}: '{found.group()}' where the table says {true:.3f}"
 
-# Nothing else is claimed of triangles or time.
+# No other claims about triangles or time.
 for where in "--help", "README.md", "docs/cookbook.md":
     for found in re.finditer(r"(?i)(half|third|quarter|fifth|fourth|tenths?|twice|[0-9.]+ times|[0-9.]+ %|0\.[0-9]+) (of )?(the |more |fewer )?(triangles|time)\b",
                              texts[where]):
         inside = any(a <= found.start() and found.end() <= b for a, b in told[where])
         assert inside, f"{where} claims '{found.group()}', which no table is asked about: add it to the claims"
-# A setting that needs more triangles than the default is not shown as needing fewer.
+# A setting that needs more triangles than the default is not presented as needing fewer.
 for where, text in texts.items():
     for found in re.finditer(r"--edges data[^\n]{0,60}fewer[^\n]{0,40}", text):
         assert "--order greedy" in found.group(), f"{where} recommends '{found.group()}'"
 
-# The README's table of programs is an excerpt of the one of peers, turned: ratios to greedy insertion's triangles, cases with folds.
+# The README's table of programs is a transposed excerpt of the peers' table: ratios to greedy insertion's triangles,
+# cases with folds.
 rows = {}
 for line in re.search(r"<!-- table: peers -->(.*?)<!-- end -->", quality, re.S).group(1).strip().splitlines()[2:]:
     name, _, ratio, _, kept, _, folds, _ = [cell.strip() for cell in line.strip("|").split("|")]

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Every command of the README, the cookbook and the guides runs as it stands, in the folder of examples, and does what its text
-# promises.
+# Every command of the README, the cookbook and the guides runs unchanged in the folder of examples and does what its
+# text promises.
 source "$(dirname "$0")/lib.sh"
 need python3 gdaldem gdalwarp
 readme=$SCARP_SOURCE/README.md
 [ "$(wc -l < "$readme")" -le 90 ] || fail "the README has more than 90 lines: $(wc -l < "$readme")"
 PATH=$(dirname "$scarp"):$PATH
 
-# commands FILE: those of the cookbook's rows, of indented code (with what makes their input), and of sessions (```console, behind a $),
-# without comments. A line that ends in \ continues.
+# commands FILE: the commands of cookbook rows, indented code (with those that make its input), and sessions
+# (```console, after a $), without comments. A line that ends in \ continues.
 commands() {
   python3 - "$1" <<'PYTHON'
 import re, sys
@@ -22,7 +22,7 @@ for line in text.split("\n"):
 PYTHON
 }
 
-# serves COMMAND: a server prints its address, and ends without a message when stopped.
+# serves COMMAND: a server prints its address and, when stopped, ends without a message.
 serves() {
   local server code=0
   bash -c "exec $1 --port 0" > "$logs/out" 2> "$logs/err" &
@@ -33,8 +33,8 @@ serves() {
   [ $code = 0 ] || fail "it does not serve: $1"
 }
 
-# printed_as_quoted FILE OUTPUT: what the guide quotes is what its commands print: each line of a block of `text`, of a session
-# without its commands, and, behind a paragraph, <!-- printed: REGEX -->, whose numbers stand in the paragraph, too.
+# printed_as_quoted FILE OUTPUT: the commands print what the guide quotes: each line of a `text` block, of a session
+# without its commands, and after a paragraph, <!-- printed: REGEX -->, whose numbers also occur in the paragraph.
 printed_as_quoted() {
   python3 - "$1" "$2" <<'PYTHON' || fail "$(basename "$1") quotes what its commands do not print"
 import re, sys
@@ -53,7 +53,7 @@ sys.exit(len(faults) > 0)
 PYTHON
 }
 
-# run_all FILE: in a folder of its own, with the examples.
+# run_all FILE: runs in a separate folder with the examples.
 run_all() {
   local folder line
   folder=$(mktemp -d "$scratch/XXXXXX")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# simplify and measure agree on real terrain of every kind: nodata, lidar, cliffs, sea floor, other worlds, cities.
+# simplify and measure agree on all kinds of real terrain: nodata, lidar, cliffs, sea floor, other planets, cities.
 . "$(dirname "$0")/lib.sh"
 
 shared=${SCARP_SHARED:-$SCARP_SOURCE/../shared}/data

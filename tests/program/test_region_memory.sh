@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
-# --tolerance, --roi and --falloff with --memory: bounds are read in windows while heights stay in their file, the same
-# ones as in memory; the bytes are those of any number of threads, the memory is enough, and the memory of bounds
-# counts.
+# --tolerance, --roi and --falloff with --memory: bounds are read in windows while heights stay in their file, and equal
+# those in memory. Any number of threads gives the same bytes, the memory suffices, and the memory of bounds counts.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
 succeeds "$scarp" generate smooth 500 600 smooth.tif --seed 3 --range 300 -q
-# Nodata in bands along contours, among heights and among tolerances.
+# Nodata in bands along contours, in heights and tolerances.
 gdal_translate -q -ot Int16 -a_nodata 255 smooth.tif whole.tif
 gdal_translate -q -ot Float32 whole.tif hills.tif
 succeeds "$scarp" generate smooth 500 600 other.tif --seed 8 --range 300 -q
@@ -27,7 +26,7 @@ PYTHON
 
 small=74 # the samples, 1.2 MB, may use 1 of it, so they stay in their file, and strips are low
 sites=(--roi site.geojson=2 --roi road.geojson=5 --falloff 90)
-check() { # check EFFORT BOUND OPTION...: a mesh in little memory, judged in little memory and in much
+check() { # check EFFORT BOUND OPTION...: a mesh in little memory, judged in little and in much memory
   local effort=$1 bound=() judge=()
   [ "$2" = none ] || bound=(-e "$2") judge=(--fail-above "$2")
   shift 2
@@ -54,13 +53,13 @@ agree one.json much.json bounded_max_error
 check fast none --roi site.geojson=2 --roi road.geojson=5
 agree little.json much.json bounded_max_error bounded_max_error_at
 
-# With goals of shapes.
+# With shape goals.
 within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min-angle 20 --effort normal --memory "${small}M" \
   --report shaped.json
 [ "$(json shaped.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
 succeeds "$scarp" measure hills.tif shaped.obj "${sites[@]}" --fail-above 40
 
-# Within a budget one factor of all tolerances is searched for.
+# Within a budget, one factor of all tolerances is searched for.
 within=$small by_threads hills.tif few.obj -t 1500 -e 40 "${sites[@]}" --effort normal --memory "${small}M"
 mv r.json few.json
 holds "$(json few.json triangles) <= 1500 && 1 < $(json few.json tolerance_factor)"
@@ -68,7 +67,7 @@ holds "$(json few.json weighted_max_error) <= $(json few.json tolerance_factor)"
 succeeds "$scarp" simplify hills.tif whole.obj -t 1500 -e 40 "${sites[@]}" --effort normal --report whole.json --overwrite
 holds "$(json few.json tolerance_factor) < 1.3 * $(json whole.json tolerance_factor)"
 
-# A mesh that keeps no regions is found out, by as many samples.
+# A mesh that violates regions is detected, with the same number of samples.
 succeeds "$scarp" simplify hills.tif coarse.obj -e 40 -q
 for memory in "--memory ${small}M" ""; do
   try "$scarp" measure hills.tif coarse.obj "${sites[@]}" --fail-above 40 --json $memory
@@ -85,5 +84,5 @@ for command in "simplify hills.tif x.obj -e 40" "measure hills.tif coarse.obj --
   refuses 1 "--memory is too little: --roi takes 9M; allow 90M" "$scarp" $command --roi long.geojson=2 --memory "${small}M"
 done
 
-# Bounds of samples that fit in memory count, too: those of a raster that would fit alone are read in windows.
+# Bounds in memory count: a raster that fits without them is read in windows.
 within 84 "$scarp" simplify hills.tif fits.obj -e 40 "${sites[@]}" --memory 84M --effort fast --overwrite

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every command and every option that a sentence recommends is tried as it is printed, and leads to a result.
+# Every command and option that a message recommends works as printed and leads to a result.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalwarp ogr2ogr gdal_grid xmllint gdal_fillnodata.py
 mkdir rows

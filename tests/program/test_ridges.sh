@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# --ridges: lines along crests and beds, preferred or kept; the bound holds, and the report lists them.
+# --ridges: lines along crests and beds, preferred or kept. The bound holds, and the report lists the lines.
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# Two crests and the valley between them, askew, that falls; nodata.
+# Two rotated crests and the descending valley between them; nodata.
 python3 - <<'PYTHON'
 def height(x, y):
     u = 0.93 * x + 0.37 * y
@@ -68,7 +68,7 @@ grep -q "ridge.*valley.*vertices in all" "$logs/out" || fail "the summary does n
 succeeds "$scarp" simplify hills.asc two.glb -e 2 --ridges 10 -j 3
 cmp one.glb two.glb || fail "-j 3 makes another mesh"
 
-# Nothing stands out that much: the same mesh as without.
+# Nothing is that prominent: the same mesh as without --ridges.
 succeeds "$scarp" simplify hills.asc high.obj -e 2 --ridges 200 --report r.json --overwrite
 succeeds "$scarp" simplify hills.asc none.obj -e 2 --report plain.json
 [ "$(json r.json ridges ridges)" = 0 ] || fail "a ridge where there is none"
@@ -79,7 +79,7 @@ for height in 0 -2 tall; do refuses 1 "--ridges" "$scarp" simplify hills.asc x.g
 refuses 1 "--keep-ridges needs --ridges" "$scarp" simplify hills.asc x.glb -e 2 --keep-ridges
 refuses 1 "--max-error" "$scarp" simplify hills.asc x.glb --tolerance hills.asc --ridges 10
 
-# None that high: a warning reports it.
+# None is that high: a warning reports it.
 succeeds "$scarp" simplify hills.asc none.obj -e 2 --ridges 1000 --overwrite
 grep -q '^scarp: warning: --ridges 1000: no ridge or valley was found' "$logs/err" || fail "no word on ridges that are not there"
 run none.obj

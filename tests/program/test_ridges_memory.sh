@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# --ridges with --memory: the same lines as in memory, inserted strip by strip; the bound holds, the bytes are
-# those of any number of threads, and what is searched through counts.
+# --ridges with --memory: the same lines as in memory, inserted strip by strip. The bound holds, any number of threads
+# gives the same bytes, and the memory of the search counts.
 source "$(dirname "$0")/lib.sh"
 
 succeeds "$scarp" generate fractal 1300 1000 hills.tif --seed 3 -q

@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_rasterize gdal_translate
 
-# Regions of interest: their bound within, the bound of all beyond, and between them a bound by the distance.
+# Regions of interest: their bound inside, another beyond, and between them a bound by distance.
 python3 - <<'PYTHON'
 import json
 square = [[[-84.30, 36.25], [-84.25, 36.25], [-84.25, 36.30], [-84.30, 36.30], [-84.30, 36.25]]]
@@ -35,7 +35,7 @@ try "$scarp" measure "$dem" roi.glb --fail-above 50 --roi site.geojson=2 --fallo
 [ "$code" = 3 ] || fail "a mesh without falloff keeps the bounds of one"
 succeeds "$scarp" simplify "$dem" only.glb --roi site.geojson=2
 succeeds "$scarp" measure "$dem" only.glb --roi site.geojson=2
-# Within the square the errors are at most 2, as another eye sees them.
+# Independently measured, errors in the square are at most 2.
 succeeds "$scarp" measure "$dem" roi.glb --error-raster errors.tif --overwrite
 succeeds gdal_rasterize -q -burn 1 -init 0 -ot Byte -tr 0.000833333333333 0.000833333333333 \
   -te -84.41375 36.1595833333334 -84.0779166666667 36.44625 site.geojson inside.tif

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Values that do not fit float32: the cost of their rounding is reported, and counts against every bound.
+# Values beyond float32: the cost of rounding is reported and counts against every bound.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate python3
 gdal_translate -q -srcwin 0 0 40 30 -ot Float64 -scale 236 1076 100000.1 100900.7 "$dem" fine.tif
@@ -30,13 +30,13 @@ report = json.load(open(sys.argv[1]))
 assert json.loads(report["mesh"]["metadata"]["error"])["sample_rounding"] == report["sample_rounding"]
 PYTHON
 
-# A goal keeps the reserve.
+# A goal preserves the reserve.
 succeeds "$scarp" simplify fine.tif goal.glb -e 5 --report goal.json
 holds "$(json goal.json max_error) + $(json goal.json sample_rounding) <= 5"
 succeeds "$scarp" measure fine.tif goal.glb --fail-above 5 -q
 
-# The error that a refusal of 0 names is kept, and little more than the rounding; decoded tenths, far coordinates and
-# big numbers.
+# The error named in the refusal of 0 is kept, and hardly exceeds the rounding: decoded tenths, far coordinates and big
+# numbers.
 gdal_translate -q -srcwin 0 0 40 30 -a_scale 0.1 -a_offset 3 "$dem" tenths.tif
 gdal_translate -q -srcwin 0 0 40 30 -ot Int32 -scale 236 1076 1000000001 1000900007 "$dem" whole.tif
 for raster in fine.tif tenths.tif whole.tif; do
@@ -48,7 +48,7 @@ for raster in fine.tif tenths.tif whole.tif; do
     succeeds "$scarp" measure "$raster" "asked.$format" --fail-above "$enough" -q
   done
 done
-# Float64, and scaled values, that fit float32 need no room.
+# Float64 and scaled values that fit float32 need no reserve.
 gdal_translate -q -srcwin 0 0 40 30 -ot Float64 "$dem" fits.tif
 gdal_translate -q -srcwin 0 0 40 30 -a_scale 0.125 -a_offset 3 "$dem" eighths.tif
 for raster in fits.tif eighths.tif; do
@@ -57,17 +57,17 @@ for raster in fits.tif eighths.tif; do
   succeeds "$scarp" measure "$raster" exact.glb --fail-above 0 -q
 done
 
-# Coordinates so large that double does not separate samples are named; around the centre there is room.
+# Coordinates too large for double to separate samples are reported; around the centre there is room.
 gdal_translate -q -of VRT -srcwin 0 0 40 30 "$dem" far.vrt
 sed -i 's|<GeoTransform>.*</GeoTransform>|<GeoTransform>1e20, 1, 0, 1e20, 0, -1</GeoTransform>|; s|<SRS.*</SRS>||' far.vrt
 refuses 3 "coordinates of 1e+20 cannot tell samples 1 apart" "$scarp" simplify far.vrt far.glb -e 5 --crs source
 succeeds "$scarp" simplify far.vrt far.glb -e 5 --crs local -q
 
-# If the samples are the values, nothing is reported.
+# If samples equal the values, nothing is reported.
 succeeds "$scarp" simplify "$dem" plain.glb -e 0 --report plain.json
 if grep -q 'rounded' "$logs/out" || grep -q '^  "sample_rounding"' plain.json; then fail "a rounding that is none"; fi
 
-# A share of a relief that the rounding swallows is named as it was asked for.
+# A share of the relief smaller than the rounding is named as requested.
 gdal_translate -q -srcwin 0 0 40 30 -ot Float64 -scale 236 1076 1000000000 1000000000.01 "$dem" level.tif
 refuses 3 '-e 1% of a relief of 0, a max error of 0, cannot be kept: ' "$scarp" simplify level.tif o.glb -e 1%
 echo "roundings are told and counted"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scarp serve: a set of tiles over HTTP, as clients ask for it and as they should not.
+# scarp serve: a tileset over HTTP, with correct and incorrect requests.
 source "$(dirname "$0")/lib.sh"
 need python3
 client=$SCARP_SOURCE/tests/program/serve.py
@@ -13,10 +13,9 @@ cp -r globe linked
 ln -s ../secret linked/link
 echo mine > linked/.hidden
 
-# start ARGUMENT...: a server in the background, with the number $server, at $port.
+# start ARGUMENT...: a server in the background with PID $server at $port.
 start() {
-  # A background job of a script ignores SIGINT unless job control is on.
-  # The one before may have left its port there.
+  # A background job of a script ignores SIGINT unless job control is on. Discards the port of the previous server.
   : > served
   set -m
   "$scarp" serve "$@" --port 0 > served 2> complaints &
@@ -25,7 +24,7 @@ start() {
   await $server names_port served
 }
 
-# stop SIGNAL: ends at once, with exit code 0 and no word.
+# stop SIGNAL: the server ends immediately with exit code 0 and no message.
 stop() {
   kill "-$1" $server
   code=0
@@ -47,7 +46,7 @@ for archive in world.pmtiles world.mbtiles; do
   stop TERM
 done
 
-# A set that is replaced, in a folder and in one file, has its new tiles served from then on.
+# After a set is replaced, in a folder and in one file, its new tiles are served.
 old=(--vertical ellipsoid --zoom 4 --effort fast -q)
 new=(--vertical ellipsoid --zoom 3 --background 7 --effort fast -q)
 replaced=$SCARP_SOURCE/tests/program/serve_replaced.py
@@ -70,7 +69,7 @@ if alone/bin/scarp --version > /dev/null 2>&1; then
   stop INT
 fi
 
-# Files that are put into the folder later have the types of their endings; a page of the folder goes first.
+# Files added to the folder later have the types of their endings; a page in the folder has priority.
 start linked
 mkdir -p linked/Assets/Images
 succeeds python3 - "$port" << 'END'

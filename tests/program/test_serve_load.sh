@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# scarp serve among thousands of clients, slow, broken and malicious ones among them: the others are answered, in bounded memory.
+# scarp serve with thousands of clients, many slow, broken or malicious: the others are answered, in bounded memory.
 source "$(dirname "$0")/lib.sh"
 need python3
 succeeds "$scarp" tile "$dem" globe --vertical egm96 --effort fast -q
 succeeds "$scarp" tile "$dem" world.pmtiles --vertical egm96 --effort fast -q
 echo mine > secret
 
-# start ARGUMENT...: a server in the background, with the number $server, at $port.
+# start ARGUMENT...: a server in the background with PID $server at $port.
 start() {
-  # The one before may have left its port there.
+  # Discards the port of the previous server.
   : > served
   (
     [ -z "${files:-}" ] || ulimit -n "$files"
@@ -26,7 +26,7 @@ stop() {
 }
 trap 'kill $server 2> /dev/null || true; rm -rf "$root"' EXIT
 
-# Above the archive's own megabytes nothing is to be gained from it: it is asked for by those who do not read.
+# Only the archive exceeds some megabytes: clients that do not read request it.
 start world.pmtiles
 succeeds python3 "$SCARP_SOURCE/tests/program/serve_load.py" "$port" globe world.pmtiles "$server"
 cat "$logs/out"

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# scarp serve of a raster and of a plan: tiles that are made when they are asked for are those of the finished set.
+# scarp serve of a raster and of a plan: tiles made on demand equal those of the finished set.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdaladdo
 client=$SCARP_SOURCE/tests/program/serve_raster.py
 
-# start ARGUMENT...: a server in the background, with the number $server, at $port.
+# start ARGUMENT...: a server in the background with PID $server at $port.
 start() {
-  # The one before may have left its port there.
+  # Discards the port of the previous server.
   : > served
   set -m
   "$scarp" serve "$@" --port 0 > served 2> complaints &
@@ -32,11 +32,11 @@ succeeds python3 "$client" "$port" globe "$server"
 [ "$(cat "$logs/out")" = "$(find globe -name '*.terrain' | wc -l)" ] || fail "not all tiles were asked for"
 stop
 [ ! -s complaints ] || fail "the server complains: $(cat complaints)"
-# The end comes whatever is being prepared.
+# The server ends whatever it is preparing.
 start holes.tif --vertical egm96 --effort high -j 2
 stop
 
-# A plan, and a raster that stays in its file and lies in another CRS.
+# A plan, and a raster in another CRS that stays in its file.
 succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear -co TILED=YES -co COMPRESS=DEFLATE "$dem" utm.tif
 succeeds "$scarp" tile plan utm.tif plan.json --vertical egm96 --effort fast --zoom 10 -q
 succeeds "$scarp" tile utm.tif mapped --vertical egm96 --effort fast --zoom 10 -q

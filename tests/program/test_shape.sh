@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# --min-angle, --max-edge, --grade: meshes for simulation keep the bound, and angles and edges that are computed here from
-# the files keep what was asked.
+# --min-angle, --max-edge, --grade: meshes for simulation keep the bound, and their angles and edges, computed here from
+# the files, satisfy the goals.
 source "$(dirname "$0")/lib.sh"
 need python3
 shape_of=$SCARP_SOURCE/tests/program/shape_of.py
 
-# The bundled raster as a mesh for flow solvers, in degrees as it is, with every effort and on any number of threads.
+# The bundled raster, in degrees, as a mesh for flow solvers, with every effort and on any number of threads.
 for effort in fast normal high; do
   succeeds "$scarp" simplify "$dem" one.2dm -e 20 --min-angle 25 --effort "$effort" -j 1 --report r.json --overwrite
   succeeds "$scarp" simplify "$dem" four.2dm -e 20 --min-angle 25 --effort "$effort" -j 4 --overwrite
@@ -29,7 +29,7 @@ assert sum(report["shape"]["histogram"]) == report["triangles"]
 assert not any(report["shape"]["histogram"][:5])
 PYTHON
 
-# In metres; the edges of the file are no longer than asked.
+# In metres; the file's edges are no longer than requested.
 succeeds "$scarp" simplify "$dem" short.obj -e 20 --up z --max-edge 400
 read -r count smallest shortest longest < <(python3 "$shape_of" short.obj)
 holds "$longest <= 400"
@@ -39,7 +39,7 @@ read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
 holds "$smallest >= 20"
 succeeds "$scarp" measure "$dem" graded.obj --fail-above 60
 
-# Nodata, and lines that meet at angles below what is asked: these are counted, all others hold.
+# Nodata, and lines that meet below the requested angle: these are counted, all others satisfy it.
 succeeds "$scarp" simplify "$dem" plain.2dm -e 20 --report r.json --overwrite
 [ "$(json r.json shape)" = null ] || fail "a report of shapes that nobody asked for"
 succeeds "$scarp" generate smooth 60 50 hills.tif --seed 4 -q
@@ -80,7 +80,7 @@ assert wet > 50, wet
 PYTHON
 done
 
-# Samples that lie next to a long shore allow few places to split it.
+# Samples next to a long shore leave few places to split it.
 succeeds "$scarp" generate smooth 1200 60 flat.tif --seed 1 -q
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",
  "coordinates": [[[57.7, 15.8], [1172.1, 9.4], [1137.5, 38.7], [41.8, 43.6], [57.7, 15.8]]]}}]}' >long.geojson
@@ -88,7 +88,7 @@ succeeds "$scarp" simplify flat.tif long.obj -e 10 --up z --max-edge 60 --water 
 read -r count smallest shortest longest < <(python3 "$shape_of" long.obj)
 holds "$longest <= 60"
 
-# Edges that are shorter than asked are counted, and reported.
+# Edges below the requested length are counted and reported.
 succeeds "$scarp" simplify hills.tif short.obj -e 10 --up z --min-edge 3 --max-edge 20 --report r.json --overwrite
 [ "$(json r.json shape asked_min_edge)" = 3.0 ] || fail "the report does not tell the shortest edge that was asked for"
 holds "$(json r.json shape shorter) > 0 && $(json r.json shape longest_edge) <= 20"
@@ -98,7 +98,8 @@ succeeds "$scarp" simplify hills.tif short.obj -e 10 --up z --min-edge 3 --grade
 holds "$(json r.json shape shorter) > 0"
 grep -q 'warning: --min-edge 3: .* for the max error or grade)' "$logs/err" || fail "no warning of edges that the grade makes short"
 
-# Goals that fight: angles come before the shortest edge, lines before angles. What yields is counted and warned of.
+# Conflicting goals: angles have priority over the shortest edge, lines over angles. Violations are counted and warned
+# about.
 for effort in fast normal high; do
   succeeds "$scarp" simplify "$dem" both.2dm -e 20 --crs local --min-angle 25 --min-edge 150 --effort "$effort" --report r.json --overwrite
   read -r count smallest shortest longest < <(python3 "$shape_of" both.2dm)
@@ -119,7 +120,7 @@ grep -q "warning: --min-angle 20: smaller angles are left in .* triangles, down 
   fail "no warning of small angles"
 grep -q "no vertex could be added" "$logs/out" && fail "the summary still blames vertices that could not be added"
 
-# More effort never needs more triangles, whatever the goals.
+# More effort never needs more triangles, for all goals.
 counts=
 for effort in normal high; do
   succeeds "$scarp" simplify "$dem" graded.2dm -e 20 --crs local --min-angle 25 --max-edge 1500 --grade 0.3 --effort "$effort" --report r.json --overwrite
@@ -129,7 +130,7 @@ done
 read -r normal high <<<"$counts"
 holds "$high <= $normal"
 
-# A coast that is moved inwards by far less than a sample has no edges that are far shorter than its own.
+# A coast moved inwards by far less than a sample has no edges far shorter than its own.
 python3 - <<'PYTHON'
 import json, math
 ring = [[30 + (20 + math.sin(9 * a) + math.sin(53 * a) / 4) * math.cos(a), 25 + (18 + math.sin(7 * a) + math.sin(41 * a) / 4) * math.sin(a)]
@@ -144,7 +145,7 @@ done
 read -r whole moved <<<"$counts"
 holds "$moved < 1.1 * $whole"
 
-# Impossible requests are refused, by name.
+# Impossible requests are refused by name.
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle 40
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle some
 refuses 1 "--max-edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# --min-angle, --max-edge and --grade with --memory: the samples stay in their file, the goals hold in every effort and
-# across all bands of rows, the bytes are those of any number of threads, and the memory is enough.
+# --min-angle, --max-edge and --grade with --memory: samples stay in their file, and goals hold for every effort and
+# across all bands of rows. Any number of threads gives the same bytes, and the memory suffices.
 source "$(dirname "$0")/lib.sh"
 need python3
 shape_of=$SCARP_SOURCE/tests/program/shape_of.py
@@ -19,7 +19,7 @@ for effort in fast normal high; do
   holds "$count < 1.1 * $whole"
 done
 
-# Lines are split where they run, whatever strips they cross.
+# Lines are split along their course, across any strips.
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
  {"type": "LineString", "coordinates": [[5.3, 7.1], [990.7, 733.2]]}}, {"type": "Feature", "properties": {}, "geometry":
  {"type": "LineString", "coordinates": [[-50, 512], [1100, 512]]}}]}' >lines.geojson
@@ -39,7 +39,7 @@ read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
 holds "$longest <= 80"
 succeeds "$scarp" measure hills.tif graded.obj --up z --fail-above 12
 
-# A request that is refused stays within the limit until then, and an impossible one is refused at once.
+# A request refused during the run stays within the limit; an impossible one is refused immediately.
 refuses_within() {
   try run_within "$limit" "$scarp" simplify hills.tif x.obj --memory "${limit}M" "$@"
   [ "$code" = 1 ] || fail "exit code $code instead of 1: $*"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The main job: a raster goes in; a mesh, a preview and a report come out, and they agree with each other and the judge.
+# The main job: a raster becomes a mesh, a preview and a report that agree with each other and with the judge.
 source "$(dirname "$0")/lib.sh"
 need python3
 
 succeeds "$scarp" simplify "$dem" hills.glb -e 20 --preview hills.png --report hills.json
 [ ! -s "$logs/err" ] || fail "something on stderr"
-# The last line names which goal ended the run, and nothing that stands above it.
+# The last line names the goal that ended the run, and does not repeat lines above.
 tail -n 1 "$logs/out" | grep -Eq '^Reached the error goal, after [0-9.]+ s$' || fail "the last line is: $(tail -n 1 "$logs/out")"
 for words in 'triangles  *[0-9,]* *, [0-9.]* % of the full grid.s 275,772' 'effort  *normal$' 'order  *dominant$' 'frame  *local metres' \
   'max error  *[0-9.]* at column [0-9]*, row [0-9]* (asked 20)$' '^  *at longitude -84\.[0-9]*, latitude 36\.[0-9]* in EPSG:4326$'; do
@@ -37,7 +37,7 @@ assert 0 <= c < 403 and 0 <= w < 344
 assert r["samples"] == 403 * 344 and r["uncovered"] == 0 and r["stray"] == 0 and r["void_cells_covered"] == 0
 t = r["topology"]
 assert t["sound"] and not t["closed"] and t["border_loops"] == 1 and t["overlaps"] == 0 and t["down_facing"] == 0
-# Euler: a disc whose border has as many vertices as edges.
+# Euler: a disc whose border has equally many vertices and edges.
 assert r["triangles"] == 2 * r["vertices"] - 2 - t["open_edges"], (r["vertices"], r["triangles"], t["open_edges"])
 assert list(r["seconds"]) == ["read", "refine", "measure", "write", "total"] and all(s >= 0 for s in r["seconds"].values())
 assert r["outputs"] == [{"path": "hills.glb", "format": "glb", "bytes": int(sys.argv[2])},
@@ -45,14 +45,14 @@ assert r["outputs"] == [{"path": "hills.glb", "format": "glb", "bytes": int(sys.
 assert r["warnings"] == []
 PYTHON
 
-# The independent judge finds the same numbers in the file.
+# The independent judge finds the same numbers for the file.
 "$scarp" measure "$dem" hills.glb --json --fail-above 20 > judged.json
 for key in vertices triangles samples uncovered; do
   [ "$(json hills.json $key)" = "$(json judged.json $key)" ] || fail "$key differs between the report and the judge"
 done
 holds "$(json judged.json max_error) - $(json hills.json max_error) < 1e-6 && $(json hills.json max_error) - $(json judged.json max_error) < 1e-6"
 
-# The mesh's metadata describe it, without the place where it was made.
+# The mesh's metadata describe it, without the path where it was made.
 json judged.json mesh metadata > metadata.json
 [ "$(json metadata.json generator)" = "\"Scarp $("$scarp" --version | cut -d' ' -f2)\"" ] || fail "generator"
 [ "$(json metadata.json command)" = '"scarp simplify jacksboro_fault.tif OUTPUT --max-error 20"' ] || fail "command: $(cat metadata.json)"
@@ -66,7 +66,7 @@ holds "$(json exact.json max_error) == 0"
 succeeds "$scarp" measure "$dem" exact.ply --fail-above 0
 holds "$(json exact.json triangles) <= 275772"
 
-# A solid: closed, sound, and still true.
+# A solid: closed, sound, and within the bound.
 succeeds "$scarp" simplify "$dem" solid.stl -e 20 --base 100 --report solid.json
 "$scarp" measure "$dem" solid.stl --json --fail-above 20 > judged.json
 [ "$(json judged.json topology closed)" = true ] || fail "the solid is open"
@@ -74,7 +74,7 @@ succeeds "$scarp" simplify "$dem" solid.stl -e 20 --base 100 --report solid.json
 [ "$(json solid.json triangles)" = "$(json hills.json triangles)" ] || fail "the base changes the terrain's count"
 holds "$(json solid.json solid triangles) > $(json solid.json triangles)"
 
-# -q and what is left of it.
+# -q and the remaining output.
 succeeds "$scarp" simplify "$dem" quiet.obj -e 100 -q
 [ ! -s "$logs/out" ] && [ ! -s "$logs/err" ] || fail "-q is not quiet"
 for words in "" simplify measure info; do

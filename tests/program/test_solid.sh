@@ -1,6 +1,6 @@
 #!/bin/bash
-# Solids for printing, whole and in print tiles: as large as asked, closed in the eyes of admesh and of the 3MF consortium's
-# library, within the bound in the eyes of measure, and refused in one sentence where they cannot be.
+# Solids for printing, whole and in print tiles: of the requested size, closed by admesh and the 3MF consortium's
+# library, and within the bound by measure. Impossible ones are refused with one message.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 # admesh_likes FILE: closed, outward, nothing to repair.
@@ -23,7 +23,8 @@ lib3mf_likes() {
 command -v admesh >/dev/null || echo "left out: admesh"
 [ -x "$SCARP_BUILD/bin/scarp_read_3mf" ] || echo "left out: lib3mf (lib3mf-dev)"
 
-# A whole print. The outline is a rectangle: 4 corners, so the walls are one triangle a border edge and 4, the base 2.
+# A whole print. The outline is a rectangle with 4 corners: the walls have one triangle per border edge plus 4, the base
+# has 2.
 succeeds "$scarp" simplify "$dem" whole.stl -e 20 --solid size=120mm,exaggerate=2,walls --report whole.json
 admesh_likes whole.stl
 [ "$(json whole.json solid pieces 0 closed)" = true ] || fail "the solid is not closed"
@@ -46,7 +47,7 @@ lib3mf_likes whole.3mf 1 "$(json whole.json solid triangles)"
 succeeds "$scarp" simplify "$dem" again.3mf -e 20 --solid size=120mm,exaggerate=2 -q -j 3
 cmp again.3mf whole.3mf || fail "a 3MF file depends on threads or the time"
 
-# Base and thickness: in the raster's units, and on the print.
+# Base and thickness: in the raster's units and on the print.
 succeeds "$scarp" simplify "$dem" base.stl -e 50 --solid base=100 --report base.json
 [ "$(json base.json solid base)" = 100.0 ] || fail "the base is not at 100"
 [ "$(json base.json solid unit)" = null ] || fail "a solid without a size has a unit"
@@ -55,7 +56,7 @@ succeeds "$scarp" simplify "$dem" thick.stl -e 50 --solid size=10cm,thickness=3m
 lowest=$(json thick.json input min)
 holds "($lowest - $(json thick.json solid base)) * $(json thick.json solid scale 2) > 2.8"
 
-# Nodata areas are holes through the solid, and parts that touch in a point are apart.
+# Nodata areas are holes through the solid, and parts that touch in a point are separate.
 make_raster voids.tif 'nan if (col // 40 + row // 40) % 3 == 0 and col % 40 < 30 else 100 + col + row if (col, row) != (5, 5) else nan'
 make_raster board.tif 'nan if (col % 2 == 0) != (row % 3 == 0) and col < 20 else 10 * math.sin(col / 9) + row / 5'
 for raster in voids board; do
@@ -66,7 +67,7 @@ for raster in voids board; do
   succeeds "$scarp" measure $raster.tif $raster.3mf --fail-above 2
 done
 
-# Print tiles: files or objects; together they are the whole.
+# Print tiles: files or objects that together form the whole.
 succeeds "$scarp" simplify "$dem" cut.stl -e 20 --solid size=400mm,base=0 --split 2x3,joint=dovetail --report cut.json
 [ "$(ls cut-r?-c?.stl | wc -l)" = 6 ] || fail "not six print tiles: $(ls)"
 [ ! -e cut.stl ] || fail "the whole is there too"
@@ -86,7 +87,7 @@ lib3mf_likes cut.3mf 6 "$(json cut.json solid triangles)"
 "$scarp" measure "$dem" cut.3mf --json >judged.json
 holds "$(json judged.json uncovered) == 0 && $(json judged.json max_error) <= 20"
 
-# With a gap, print tiles are apart, and samples in it have no surface.
+# With a gap print tiles are separate, and samples in it have no surface.
 succeeds "$scarp" simplify "$dem" gap.3mf -e 20 --solid size=400mm --split 3x2,joint=dovetail,gap=1mm --report gap.json
 lib3mf_likes gap.3mf 6 "$(json gap.json solid triangles)"
 holds "$(json gap.json solid uncovered) > 0"
@@ -94,7 +95,7 @@ holds "$(json gap.json solid uncovered) > 0"
 holds "$(json judged.json uncovered) == $(json gap.json solid uncovered) && $(json judged.json max_error) <= 20"
 holds "$(json judged.json topology overlaps) + $(json judged.json topology non_manifold_edges) == 0"
 
-# The same where the samples stay in their file, whole and in print tiles.
+# The same for samples in their file, whole and in print tiles.
 succeeds "$scarp" generate fractal 1300 1000 wide.tif --seed 2 -q
 for split in "" "--split 2x2,joint=dovetail,gap=0.3mm"; do
   # shellcheck disable=SC2086
@@ -112,7 +113,7 @@ for split in "" "--split 2x2,joint=dovetail,gap=0.3mm"; do
   lib3mf_likes small.3mf $sheets "$(json small.json solid triangles)"
 done
 
-# Errors in millimetres of the print, and a hint where it is nearly flat. By hand: 120 mm are 31,719 m on the longer side.
+# Errors in millimetres of the print, and a hint if it is nearly flat. By hand: 120 mm are 31,719 m on the longer side.
 succeeds "$scarp" simplify "$dem" mm.stl -e 0.05mm --solid size=120mm,exaggerate=3 --report mm.json
 holds "$(json mm.json solid max_error) * $(json mm.json solid scale 2) <= 0.05"
 holds "$(json mm.json solid max_error) * $(json mm.json solid scale 2) >= 0.03"
@@ -121,7 +122,7 @@ if grep -q 'hint' "$logs/out"; then fail "9.4 mm of relief are called flat"; fi
 succeeds "$scarp" simplify "$dem" flat.stl -e 0.05mm --solid size=120mm
 grep -q 'the relief is 3.2 mm on the print; --solid exaggerate=3 makes it 9.5 mm' "$logs/out" ||
   fail "no hint for a flat print: $(cat "$logs/out")"
-# Within a cutline the print is at a larger scale than the whole raster would be.
+# Within a cutline the print's scale is larger than for the whole raster.
 echo '{"type":"Polygon","coordinates":[[[-84.3,36.25],[-84.2,36.25],[-84.2,36.35],[-84.3,36.35],[-84.3,36.25]]]}' >part.geojson
 succeeds "$scarp" simplify "$dem" part.stl -e 0.2mm --solid size=120mm --cutline part.geojson --report part.json
 holds "$(json part.json solid max_error) * $(json part.json solid scale 2) <= 0.2"
@@ -137,7 +138,7 @@ refuses 1 "needs the size of the print" "$scarp" simplify "$dem" x.stl -e 20 --s
 refuses 1 "base cannot be combined with thickness" "$scarp" simplify "$dem" x.stl -e 20 --solid base=0,thickness=3
 refuses 1 "--split needs --solid" "$scarp" simplify "$dem" x.stl -e 20 --split 2x2
 refuses 1 "no COLUMNSxROWS" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 3
-# Ten thousand names are compared in no time.
+# Comparing ten thousand names is fast.
 succeeds "$scarp" generate smooth 40 30 small.tif -q
 refuses 1 "cannot be cut into 100 columns" "$scarp" simplify small.tif x.stl -e 20 --solid size=100 --split 100x100
 refuses 1 "no key jiont" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 2x2,jiont=dovetail

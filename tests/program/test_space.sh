@@ -48,7 +48,7 @@ for crs in EPSG:4978 enu; do
     succeeds "$scarp" simplify "$dem" s.$format -e 10 --crs $crs --overwrite
     succeeds "$scarp" measure "$dem" s.$format --crs $crs --fail-above 10
   done
-  # Threads change no byte.
+  # Any number of threads gives the same bytes.
   succeeds "$scarp" simplify "$dem" one.glb -e 10 --crs $crs -j 1 --overwrite
   succeeds "$scarp" simplify "$dem" four.glb -e 10 --crs $crs -j 4 --overwrite
   cmp one.glb four.glb || fail "$crs: threads change the mesh"
@@ -56,7 +56,7 @@ done
 [ "$(json r.json frame kind)" = '"enu"' ] || fail "the report's frame is another"
 grep -qa '^property float x' s.ply || fail "a PLY east, north and up has doubles"
 
-# A bound so coarse that the earth's curve needs triangles: on a map two would do.
+# A bound so coarse that only the earth's curvature needs triangles: on a map two would suffice.
 python3 -c 'import struct, sys; sys.stdout.buffer.write(struct.pack("<f", 0) * (601 * 601))' > sea.img
 printf 'ENVI\nsamples = 601\nlines = 601\nbands = 1\ndata type = 4\ninterleave = bsq\nbyte order = 0\n' > sea.hdr
 for corner in "10 60 12 58" "179 -15 181 -17" "269 40 271 38"; do

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Wherever a run waits, in a library or for a pipe, the first signal ends it within two seconds: one sentence, exit code
+# Wherever a run waits, in a library or for a pipe, the first signal ends it within two seconds: one message, exit code
 # 5, and no file.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate mkfifo
 gdal_translate -q -of GTiff -co TILED=YES -co BLOCKXSIZE=64 -co BLOCKYSIZE=64 "$dem" "$logs/tiled.tif"
 
-# A server that answers the first requests and then falls silent, or drips a byte now and then.
+# A server that answers the first requests, then is silent or drips single bytes.
 cat > "$logs/server.py" <<'PYTHON'
 import http.server, os, re, socketserver, sys, time
 path, port_file, mode = sys.argv[1:]
@@ -42,14 +42,14 @@ class Server(socketserver.ThreadingMixIn, http.server.HTTPServer):
     daemon_threads = True
 
     def handle_error(self, *_):
-        pass  # the run has gone, as it should
+        pass  # the run has ended, as it should
 
 server = Server(("127.0.0.1", 0), Handler)
 open(port_file, "w").write(f"{server.server_port} {os.getpid()}\n")
 server.serve_forever()
 PYTHON
 
-# ends_soon WHAT SIGNAL COMMAND...: after a second of waiting the run gets the signal.
+# ends_soon WHAT SIGNAL COMMAND...: sends the run the signal after a second of waiting.
 ends_soon() {
   local what=$1 signal=$2 start end
   shift 2

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Every strategy keeps the promise; what cannot change the mesh does not; what contradicts itself is refused.
+# Every strategy keeps the promise. Settings that must not change the mesh do not; contradictory ones are refused.
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# Whatever is chosen, the independent judge finds the bound kept in the file.
+# For all choices the independent judge finds the bound kept in the file.
 while read -r options; do
   # shellcheck disable=SC2086
   succeeds "$scarp" simplify "$dem" s.ply -e 25 $options --report s.json --overwrite
@@ -29,8 +29,8 @@ done <<'LIST'
 --edges data --importance global*local --batch frac:0.95
 LIST
 
-# The algorithms insert the same samples in the same order, so the command in the metadata does not name them; but they
-# are ways of the greedy order, which it does name.
+# The algorithms insert the same samples in the same order, so the command in the metadata omits them, but names the
+# greedy order that they imply.
 succeeds "$scarp" simplify "$dem" heap.glb -t 300 --order greedy
 for algorithm in brute local heap; do
   succeeds "$scarp" simplify "$dem" "$algorithm-.glb" -t 300 --algorithm "$algorithm" --report a.json --overwrite
@@ -45,7 +45,7 @@ done
 grep -aq 'OUTPUT --max-error 150 --order greedy"' greedy.glb || fail "the metadata does not tell the order"
 holds "$(json a.json work samples_scanned) > 100000 && $(json a.json work passes) > 100"
 
-# Every setting that can change the mesh is in its metadata, in a fixed order and as it was given.
+# Every setting that can change the mesh is in its metadata, in a fixed order, as given.
 succeeds "$scarp" simplify "$dem" meta.obj -t 300 --edge-score tight --edges data --importance 'global*(local+1)' -q
 grep -q "classic jacksboro_fault.tif OUTPUT --max-triangles 300 --importance 'global\*(local+1)' --edges data --edge-score tight\$" meta.obj ||
   fail "the metadata does not tell the strategy: $(grep -m 1 'simplify' meta.obj)"
@@ -66,7 +66,7 @@ assert json.load(open(sys.argv[1]))["strategy"] == {
     "roi": None, "falloff": None}
 PYTHON
 
-# The order: dominant where it may be, and the same if asked for; the report names the one used.
+# The order: dominant where possible, and the same on request; the report names the one used.
 succeeds "$scarp" simplify "$dem" auto.glb -e 25 --report auto.json
 succeeds "$scarp" simplify "$dem" dominant.glb -e 25 --order dominant --report dominant.json
 cmp auto.glb dominant.glb || fail "--order dominant is not the default"
@@ -78,7 +78,7 @@ holds "$(json auto.json triangles) < 1.1 * $(json delaunay.json triangles)"
 succeeds "$scarp" simplify "$dem" budget.glb -e 25 -t 100000 --effort fast --report budget.json
 [ "$(json budget.json strategy order)" = '"greedy"' ] || fail "a budget takes $(json budget.json strategy order)"
 
-# The cost of a run's passes: each once in the table, and the same in the report.
+# The cost of the run's passes: each once in the table, and the same in the report.
 succeeds "$scarp" simplify "$dem" timed.glb -e 25 --timing --report timed.json
 cp "$logs/out" timed.txt
 python3 - timed.json timed.txt read tiles seams fit freeze order prove judge write <<'PYTHON'

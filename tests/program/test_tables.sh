@@ -1,6 +1,6 @@
 #!/bin/bash
-# The tables of bench/performance.md, bench/quality.md and bench/tiles.md are those of the kept numbers, and the pictures of
-# bench/quality.md are there.
+# The tables of bench/performance.md, bench/quality.md and bench/tiles.md match the stored numbers, and the pictures of
+# bench/quality.md exist.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Textures count with heights: -e stays a true bound on the heights, the judge agrees, a texture that does not fit is
+# Textures count with heights: -e remains a true bound on heights, the judge agrees, and textures on other grids are
 # refused.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalbuildvrt gdalinfo
@@ -29,7 +29,7 @@ for norm in l1 l2 linf; do
     agree
     holds "$(json s.json max_error) <= 60 && $(json s.json combined_max_error) <= 60.0001"
   done
-  # Scape's emphasis: all channels together weigh w / (1 - w) against the heights, as shares of their ranges.
+  # Scape's emphasis: all channels together have weight w / (1 - w) against the heights, as shares of their ranges.
   python3 - s.json $norm <<'PYTHON'
 import json, math, sys
 s = json.load(open(sys.argv[1]))
@@ -41,7 +41,7 @@ done
 try "$scarp" measure "$dem" t.ply --texture ortho.tif --norm linf --texture-weight 0.4 --fail-above 40
 [ "$code" = 3 ] && grep -q 'combined max error .* exceeds 40' "$logs/err" || fail "a broken bound passes"
 
-# More weight on the texture, better colours; heights only with 0; textures only with 1.
+# More weight on the texture improves colours; 0 means heights only, 1 textures only.
 succeeds textured a.glb -p 1500 --texture ortho.tif --texture-weight 0 --effort fast --report a.json
 succeeds textured b.glb -p 1500 --texture ortho.tif --texture-weight 0.9 --effort fast --report b.json --render b.png
 succeeds textured c.glb -p 1500 --texture ortho.tif --texture-weight 1 --report c.json
@@ -50,7 +50,7 @@ holds "$(json a.json max_error) == $(json plain.json max_error)"
 holds "$(json b.json channels 2 rmse) < $(json a.json channels 2 rmse) && $(json a.json rmse) < $(json b.json rmse)"
 holds "$(json c.json height_scale) == 0 && $(json b.json psnr) > 10"
 
-# Several files, weights of their bands, a solid in colours, texture coordinates alone.
+# Several files, weights of their bands, a coloured solid, only texture coordinates.
 succeeds textured m.glb -e 80 --texture ortho.tif --texture infra.tif --channel-weights 1,1,1,3 --report s.json --overwrite
 succeeds "$scarp" measure "$dem" m.glb --texture ortho.tif --texture infra.tif --channel-weights 1,1,1,3 --fail-above 80 --json
 cp "$logs/out" m.json

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# 3D Tiles in 3d-tiles-renderer (three.js), which is not CesiumJS: all tiles load, and rays meet the land within its bound.
+# 3D Tiles in 3d-tiles-renderer (three.js), a client besides CesiumJS: all tiles load, and rays meet the land within its
+# bound.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate node
 npm_judges 3d-tiles-renderer three || skip "npm could not fetch 3d-tiles-renderer"
 
-# Samples that lie on the nodes of level 11, so that the bounds at nodes hold for them.
+# Samples on the nodes of level 11, so that bounds at nodes hold for them.
 python3 - > corners << 'E2'
 step = 180 / 2 ** 18
 west, north = round((11 + 180) / step) * step - 180, 90 - round((90 - 45) / step) * step

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# scarp tile check: good sets pass, and each fault that is planted in a copy is found, with the name of its tile.
+# scarp tile check: good sets pass, and each fault planted in a copy is found with the name of its tile.
 source "$(dirname "$0")/lib.sh"
 need python3 gdalwarp gdal_translate
 breaker=$SCARP_SOURCE/tests/program/break_tiles.py
 
-# finds KIND WORDS SET [OPTIONS]: exit code 3, a fault of the kind in the table, the words in its sentence.
+# finds KIND WORDS SET [OPTIONS]: exit code 3, a fault of the kind in the table, and the words in its message.
 finds() {
   local kind=$1 words=$2
   shift 2
@@ -17,7 +17,7 @@ finds() {
 succeeds "$scarp" tile "$dem" globe --vertical egm96 --report r.json -q
 succeeds "$scarp" tile check globe
 grep -q "faults     none" "$logs/out" || fail "a good set has faults"
-# With all nodes: what is promised of each level is what is found, below the blocks to the digit.
+# With all nodes: promised errors equal those found, below the blocks to the digit.
 succeeds "$scarp" tile check globe --source "$dem" --vertical egm96 --json -j 1
 cp "$logs/out" one.json
 for z in 11 10 9 8 7 6; do
@@ -26,16 +26,16 @@ for z in 11 10 9 8 7 6; do
   holds "$(json one.json levels $z distance) <= $(json r.json levels $z bound)"
 done
 holds "$(json one.json edges) > 50 && $(json one.json corners) > 20 && $(json one.json edges_apart) == 0"
-# Threads change nothing.
+# Any number of threads gives the same bytes.
 succeeds "$scarp" tile check globe --source "$dem" --vertical egm96 --json -j 3
 diff <(grep -v '"seconds"\|"command"' one.json) <(grep -v '"seconds"\|"command"' "$logs/out") || fail "3 threads find otherwise"
-# Checks with a plan, which defines the nodes; and of 3D Tiles, in a container.
+# Checks with a plan, which defines the nodes; and checks of 3D Tiles in a container.
 succeeds "$scarp" tile plan "$dem" world.json --vertical egm96 -q
 succeeds "$scarp" tile check globe --source world.json -q
 succeeds "$scarp" tile "$dem" globe.3tz --of 3dtiles --vertical egm96 -q
 succeeds "$scarp" tile check globe.3tz --source "$dem" --vertical egm96
 
-# Faults of a tile in the middle.
+# Faults of an inner tile.
 tile=$(cd globe && ls -S 11/*/*.terrain | head -1)
 broken() { rm -rf broken && cp -r globe broken && python3 "$breaker" "$1" "broken/$tile"; }
 broken heights && finds border "$tile" broken
@@ -49,7 +49,7 @@ rm "broken/$tile" && finds availability "$tile is announced, but missing" broken
 rm -r broken && cp -r globe broken && mkdir -p broken/8/3 && cp "globe/$tile" broken/8/3/5.terrain
 finds availability "8/3/5.terrain is there" broken
 rm -r broken && cp -r globe broken && rm broken/layer.json && finds availability "layer.json is missing" broken
-# Clients find no tile by a layer.json that does not hold their addresses, or counts them otherwise.
+# Clients find no tile by a layer.json without their addresses or with another scheme.
 layer() { rm -r broken && cp -r globe broken && sed -i "$1" broken/layer.json; }
 layer 's/"tiles"/"tales"/' && finds availability "layer.json does not name its files" broken
 layer 's/{x}.{y}/{y}\/{x}/' && finds availability "layer.json does not name its files" broken
@@ -57,7 +57,7 @@ layer 's/"schema"/"scheme"/; s/"tms"/"xyz"/' && finds availability "layer.json n
 # Another source than the set's.
 finds bound ".terrain is" globe --source "$dem" --vertical ellipsoid
 
-# Faults of tileset.json, of a globe and of a plane that lies on it.
+# Faults of tileset.json, of a globe and of a plane on it.
 succeeds "$scarp" tile "$dem" ball --of 3dtiles --vertical egm96 --zoom 9 --effort fast -q
 succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear "$dem" utm.tif
 succeeds "$scarp" tile utm.tif city --grid local --vertical egm96 --effort fast -q
@@ -100,7 +100,7 @@ told city 'del root["transform"]' "has no transform, and its source has a place"
 rm -rf broken && cp -r ball broken
 sed -i 's/"subtreeLevels": 5/"subtreeLevels": 4/' broken/tileset.json
 finds availability "is not of 4 levels (subtreeLevels)" broken
-# The same samples elsewhere, and heights above something else.
+# The same samples elsewhere, and heights above another datum.
 succeeds gdal_translate -q -a_srs EPSG:32617 utm.tif elsewhere.tif
 finds tileset "from where the source has it" city --source elsewhere.tif --vertical egm96
 finds tileset "m in height from where the source has it" city --source utm.tif --vertical ellipsoid
@@ -123,7 +123,7 @@ refuses 2 "no such file or folder" "$scarp" tile check missing
 refuses 2 "no set of tiles" "$scarp" tile check "$dem"
 refuses 1 "--vertical is for the raster of --source" "$scarp" tile check globe --vertical egm96
 refuses 1 "world.json has decided it" "$scarp" tile check globe --source world.json --vertical egm96
-# The set holds the zero of its heights, in each container; an option that names another is believed, and finds faults
+# The set stores the zero of its heights in each container; an option that names another overrides it and finds faults
 # (above).
 succeeds "$scarp" tile check globe --source "$dem" -q
 succeeds "$scarp" tile check ball --source "$dem" -q

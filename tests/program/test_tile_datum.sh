@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scarp tile: what heights are above, and whose ellipsoid they lie on.
+# scarp tile: the datum of heights and its ellipsoid.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdal_create gdalwarp
 reader=$SCARP_SOURCE/tests/program/tiles.py
@@ -9,10 +9,10 @@ mars=${SCARP_SHARED:-$SCARP_SOURCE/../shared}/data/mars_gale_hirise_1m.tif
 # highest FOLDER: of all vertices.
 highest() { python3 "$reader" "$1" | cut -d' ' -f4; }
 
-# near A B MOST: how far they may be apart.
+# near A B MOST: true if they differ by less than MOST.
 near() { holds "($1) - ($2) < $3 && ($2) - ($1) < $3"; }
 
-# The geoid is in the program: without PROJ's grid the tiles are the same.
+# The program includes the geoid: without PROJ's grid the tiles are the same.
 mkdir bare_proj
 cp "$(find /usr/share/proj /usr/local/share/proj -name proj.db 2> /dev/null | head -1)" bare_proj/ || skip "needs the database of PROJ"
 succeeds "$scarp" tile "$dem" sea --vertical egm96 --zoom 8 -q
@@ -31,7 +31,7 @@ near "$(highest raised)" "$(highest flat) + 40" 0.5
 if [ -e /usr/share/proj/egm96_15.gtx ]; then
   succeeds "$scarp" tile "$dem" grid --geoid /usr/share/proj/egm96_15.gtx --zoom 8 -q
   near "$(highest grid)" "$(highest sea)" 0.5
-  # PROJ finds a grid of EGM2008 where there is one: here EGM96's under its name.
+  # PROJ finds a grid of EGM2008 if present: here EGM96's under its name.
   cp /usr/share/proj/egm96_15.gtx bare_proj/egm08_25.gtx
   succeeds env PROJ_DATA="$PWD/bare_proj" PROJ_LIB="$PWD/bare_proj" "$scarp" tile "$dem" proj --vertical egm2008 --zoom 8 -q
   near "$(highest proj)" "$(highest sea)" 0.5
@@ -42,12 +42,12 @@ succeeds gdalwarp -q -t_srs EPSG:32616 forty.tif forty_utm.tif
 succeeds "$scarp" tile "$dem" warped --geoid forty_utm.tif --zoom 8 -q
 diff -r raised/8 warped/8 || fail "a surface in UTM is another one"
 
-# An unknown zero: as they are.
+# An unknown zero: heights are used unchanged.
 succeeds "$scarp" tile "$dem" none --vertical none --zoom 8 -q
 diff -r flat/8 none/8 || fail "--vertical none changes heights"
 grep -q "nobody names" none/layer.json || fail "layer.json does not tell that nobody knows the datum"
 
-# Impossible requests: each names the way out.
+# Impossible requests name the remedy.
 refuses 1 "--geoid FILE" "$scarp" tile "$dem" no
 refuses 1 "--geoid FILE" env PROJ_DATA="$PWD/bare_proj" PROJ_LIB="$PWD/bare_proj" "$scarp" tile "$dem" no --vertical egm2008
 refuses 1 "no vertical CRS" "$scarp" tile "$dem" no --vertical EPSG:4326
@@ -60,7 +60,7 @@ succeeds gdal_create -of GTiff -ot Float32 -a_srs EPSG:4326 -a_ullr 0 38 3 35 -o
 refuses 2 "nothing is known of the zero" "$scarp" tile "$dem" no --geoid elsewhere.tif
 [ ! -e no ] || fail "something is left of a set that was refused"
 
-# A plan keeps the surface, and finds that it changed.
+# A plan stores the surface and notices its changes.
 succeeds "$scarp" tile plan "$dem" plan.json --geoid forty.tif --zoom 8 -q
 succeeds "$scarp" tile run plan.json -q
 succeeds "$scarp" tile finish plan.json planned -q

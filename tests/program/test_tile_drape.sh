@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# An image on 3D Tiles: each pixel of each texture where it belongs, neighbours alike, the same bytes for threads and shares.
+# An image on 3D Tiles: each pixel of each texture in its place, equal in neighbours, with the same bytes for any
+# threads and shares.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalbuildvrt gdalwarp gdalinfo
 
@@ -101,7 +102,7 @@ for set in own utm; do
   PYTHONPATH=$SCARP_SOURCE/tests/program python3 judge.py $set || fail "textures of $set"
 done
 
-# Nothing but textures differs from the set without an image; the bytes are those of any threads and shares.
+# Only textures differ from the set without an image; threads and shares give the same bytes.
 succeeds tiles threads --drape image.tif --drape-format png -j 3
 diff -r own threads || fail "3 threads make other textures"
 succeeds "$scarp" tile plan "$dem" plan.json --vertical egm96 --of 3dtiles --zoom 10 --drape image.tif --drape-format png -q
@@ -110,7 +111,7 @@ succeeds "$scarp" tile finish plan.json shares -q
 diff -r own shares || fail "shares make other textures"
 diff <(cd own && find . | sort) <(cd plain && find . | sort) || fail "an image changes which tiles there are"
 
-# The image is part of the plan, as the raster is.
+# The image is part of the plan, like the raster.
 cp image.tif kept.tif
 touch image.tif
 refuses 2 "image.tif has changed" "$scarp" tile run plan.json

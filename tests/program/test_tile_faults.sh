@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scarp tile plan, run and finish where things go wrong: one sentence, an exit code, nothing lost, and the same set after.
+# scarp tile plan, run and finish under faults: one message, an exit code, nothing lost, and the same set afterwards.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate python3
 few=(--vertical ellipsoid --cells 16 --effort fast --zoom 14)
@@ -7,14 +7,14 @@ gdal_translate -q -r bilinear -outsize 200% 200% -ot Float32 -a_srs EPSG:4979 -a
 succeeds "$scarp" tile land.tif whole.pmtiles "${few[@]}" -q
 succeeds "$scarp" tile plan land.tif plan.json "${few[@]}" -q
 
-# has_block PARTS: a block is on the disk.
+# has_block PARTS: a block is on disk.
 has_block() { [ -n "$(find "$1" -name '*.part' -size +8k 2> /dev/null)" ]; }
 finishes() {
   succeeds "$scarp" tile finish "$1" again.pmtiles --parts "$2" --overwrite -q
   cmp whole.pmtiles again.pmtiles || fail "another set: $3"
 }
 
-# Two processes make one share at the same time: the second begins at its end, and each block is kept once.
+# Two concurrent processes make one share: the second begins at its end, and each block is stored once.
 "$scarp" tile run plan.json --parts two -j 1 > one.out 2>&1 & first=$!
 await $first has_block two
 succeeds "$scarp" tile run plan.json --parts two -j 1
@@ -22,7 +22,7 @@ grep -q "another process made share 1 of 1" "$logs/err" || fail "nobody tells of
 wait $first || fail "the first of two processes fails: $(cat one.out)"
 finishes plan.json two "two processes on one share"
 
-# The raster goes away, or changes, while its blocks are made.
+# The raster disappears or changes while its blocks are made.
 for fault in "mv land.tif away.tif" "touch -d 2020-02-02 land.tif"; do
   rm -rf gone
   cp -p land.tif kept.tif
@@ -43,7 +43,7 @@ for fault in "mv land.tif away.tif" "touch -d 2020-02-02 land.tif"; do
   finishes plan.json gone "$fault"
 done
 
-# Parts that a crash of the machine cut off, or filled with zeros or with what was on the disk before.
+# Parts that a crash of the machine truncated, or filled with zeros or old disk contents.
 part=$(find gone -name '*.part' -printf '%s %p\n' | sort -rn | head -1 | cut -d' ' -f2)
 cp -r gone good
 for end in cut zeros noise head; do
@@ -56,7 +56,7 @@ for end in cut zeros noise head; do
     head) truncate -s 17 "$part" ;;
   esac
   if [ $end = zeros ]; then
-    # The last record is whole in length, but not in content: that is reported, and its file is named.
+    # The last record has its full length but wrong contents: this is reported with the file.
     succeeds "$scarp" tile run plan.json --parts gone -q
     try "$scarp" tile finish plan.json no.pmtiles --parts gone
     [ "$code" = 2 ] && grep -q "$part is damaged: delete it" "$logs/err" || fail "$(cat "$logs/err")"
@@ -79,7 +79,7 @@ mv good gone
 printf '\x63' | dd of="$part" bs=1 seek=8 conv=notrunc 2> /dev/null
 refuses 2 "another version of scarp: delete it" "$scarp" tile run plan.json --parts gone
 
-# A file-size limit, and a full disk where this user may mount one.
+# A file-size limit, and a full disk if this user may mount one.
 limited() { bash -c 'ulimit -f "$1"; shift; exec "$@"' - "$@"; }
 try limited 400 "$scarp" tile run plan.json --parts limited -q
 [ "$code" = 4 ] && [ "$(wc -l < "$logs/err")" = 1 ] && grep -q "cannot write limited/0001" "$logs/err" || fail "$code: $(cat "$logs/err")"

@@ -9,7 +9,7 @@ breaker=$SCARP_SOURCE/tests/program/break_tiles.py
 
 succeeds "$scarp" tile "$dem" web --grid mercator --vertical egm96 --report r.json -j 1
 [ "$(json web/layer.json projection)" = '"EPSG:3857"' ] || fail "layer.json does not name Web Mercator"
-# The cells have the size of those of level 11 of the geographic grid.
+# The cells have the size of level 11's on the geographic grid.
 [ "$(json web/layer.json maxzoom)" = 12 ] || fail "3 seconds of arc are level 12"
 read -r tiles edges low high < <(python3 "$reader" web)
 holds "$tiles > 50 && $edges > 70 && $low == 0 && $high > 1030 && $high < 1055"
@@ -18,7 +18,7 @@ for z in 12 11 10 9 8 7; do
   holds "$(json r.json levels $z tiles_over) == 0"
 done
 
-# Every node, in places that the check finds by itself: what is promised is there, to the digit.
+# Every node, at places computed by the check itself: promised errors are exact to the digit.
 succeeds "$scarp" tile check web --source "$dem" --vertical egm96 --json
 cp "$logs/out" check.json
 for z in 12 11 10 9 8 7; do
@@ -27,7 +27,7 @@ for z in 12 11 10 9 8 7; do
 done
 holds "$(json check.json edges) > 50 && $(json check.json edges_apart) == 0"
 
-# Containers, shares and threads: the same set.
+# Containers, shares and threads give the same set.
 make() { succeeds "$scarp" tile "$dem" "$1" --grid mercator --vertical egm96 --zoom 9 -q "${@:2}"; }
 make few -j 1
 files=$(find few -type f | wc -l)
@@ -47,7 +47,7 @@ succeeds "$scarp" tile finish few.json joined -q
 diff -r few joined || fail "shares make another set"
 succeeds "$scarp" tile check joined --source few.json -q
 
-# Tiles that are made when they are asked for.
+# Tiles made on demand.
 "$scarp" serve few.json --port 0 > served &
 server=$!
 trap 'kill $server 2> /dev/null || true; rm -rf "$root"' EXIT
@@ -56,7 +56,7 @@ succeeds python3 "$client" "$port" few
 kill -INT $server
 wait $server
 
-# A raster that lies on the grid's own map; across the antimeridian; up to where the grid ends.
+# A raster on the grid's own map; across the antimeridian; up to the end of the grid.
 succeeds gdalwarp -q -t_srs EPSG:3857 -r bilinear -dstnodata -9999 -ot Float32 "$dem" map.tif
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 179.9 10.2 180.24 9.9 "$dem" date.tif
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 12 85.3 12.4 84.9 "$dem" north.tif

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Breaklines in tiles: edges of each tile's mesh, neighbours that meet, the same bytes whoever makes them.
+# Breaklines in tiles: edges of each tile's mesh that meet in neighbours, with the same bytes from any process.
 source "$(dirname "$0")/lib.sh"
 need python3 gdalinfo ogr2ogr
 reader=$SCARP_SOURCE/tests/program/tiles.py
 
-# Lines over the whole raster and beyond, one of them a ring, and one in UTM.
+# Lines over the whole raster and beyond, including a ring, and one in UTM.
 python3 - "$(gdalinfo -json "$dem")" <<'E2'
 import json, math, sys
 info = json.loads(sys.argv[1])
@@ -30,7 +30,7 @@ done
 succeeds tiles solid --of 3dtiles --breaklines lines.geojson -q
 succeeds "$scarp" tile check solid --source "$dem" --vertical egm96
 
-# A vertex on each edge between tiles of level 11 that the straight line along column 200.5 crosses, on both sides of it.
+# A vertex on each edge between tiles of level 11 that the line along column 200.5 crosses, on both sides of the edge.
 python3 - "$(gdalinfo -json "$dem")" <<'E2' || fail "the line along a meridian is no chain of edges"
 import glob, gzip, json, pathlib, struct, sys
 info = json.loads(sys.argv[1])
@@ -74,7 +74,7 @@ succeeds tiles utm --breaklines utm.gpkg:roads --zoom 10 -q
 python3 "$reader" utm > /dev/null || fail "neighbours differ with lines in UTM"
 [ "$(find one -name '*.terrain' | wc -l)" = "$(find utm -name '*.terrain' | wc -l)" ] || fail "UTM lines make other tiles"
 
-# A limit of bytes does not move lines.
+# A byte limit does not move lines.
 succeeds tiles small --breaklines lines.geojson --max-tile-bytes 3k --zoom 10 -q
 python3 "$reader" small > /dev/null || fail "neighbours differ within a limit"
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# scarp tile --grid local: tiles on a plane, whose nodes are the samples; judged by Python from their bytes alone.
+# scarp tile --grid local: tiles on a plane whose nodes are the samples, judged by Python from their bytes alone.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalwarp gdaltransform
 judge=$SCARP_SOURCE/tests/program/tile_plane.py
 export GDAL_PAM_ENABLED=NO
 
-# samples RASTER OUT: as float32, nodata as NaN.
+# samples RASTER OUT: writes float32, nodata as NaN.
 samples() {
   succeeds gdal_translate -q -of ENVI -ot Float32 "$1" raw.img
   python3 - "$2" << 'E'
@@ -16,7 +16,7 @@ open(sys.argv[1], "wb").write(array.array("f", [float("nan") if z == -9999 else 
 E
 }
 
-# A projected raster whose edges are nodata, for it is turned in its CRS; every sample against the triangles.
+# A projected raster with nodata edges, since it is rotated in its CRS; every sample against the triangles.
 succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear -dstnodata -9999 -ot Float32 "$dem" utm.tif
 samples utm.tif utm.f32
 read -r cols rows cell < <(gdalinfo utm.tif | sed -n 's/^Size is \(.*\), \(.*\)/\1 \2/p; s/^Pixel Size = (\([^,]*\),.*/\1/p' | xargs)
@@ -31,7 +31,7 @@ for z in 0 1 2 3; do
 done
 succeeds "$scarp" tile check city --source utm.tif --json
 cp "$logs/out" check.json
-# Scarp's own check measures the same as Python.
+# Scarp's check measures the same as Python.
 python3 - << 'E'
 import json
 check = json.load(open("check.json"))["levels"]
@@ -42,7 +42,7 @@ for level, line in zip(check, open("judged"), strict=True):
     assert abs(worst - bound) < 1e-9, "the bound is not what the file's numbers say"
 E
 
-# The plane's place: exact at the centre, and off elsewhere by no more than in the report, and by about that.
+# The plane's place: exact at the centre; elsewhere the deviation is at most the reported one, and close to it.
 python3 - "$cols" "$rows" "$cell" > places << 'E'
 import sys
 cols, rows, cell = int(sys.argv[1]), int(sys.argv[2]), float(sys.argv[3])
@@ -81,7 +81,7 @@ assert all(abs(a[i] - b[i]) < 1e-5 for i in range(12))
 E
 diff -r city/0 sea/0 || fail "the datum moves the plane, not its tiles"
 
-# Threads, shares, containers, a limit of bytes.
+# Threads, shares, containers, a byte limit.
 make() { succeeds "$scarp" tile utm.tif "$1" --grid local --cells 64 -q "${@:2}"; }
 make again -j 3
 diff -r city again || fail "threads make another set"
@@ -101,7 +101,7 @@ succeeds "$scarp" tile plan utm.tif later.json --changed-since city.json -q
 succeeds "$scarp" tile run later.json
 grep -q "0 blocks made, 1 there" "$logs/out" || fail "a block of the same samples is made again"
 
-# The check finds a tile that was moved, one that lacks a triangle, and another raster.
+# The check finds a moved tile, a missing triangle, and another raster.
 python3 - << 'E'
 import json
 import pathlib
@@ -143,7 +143,7 @@ try "$scarp" tile check lie --source utm.tif
 succeeds gdal_translate -q -srcwin 0 0 100 100 utm.tif part.tif
 refuses 1 "of another raster" "$scarp" tile check city --source part.tif
 
-# Above the blocks, and a raster that ends on a border of tiles; without a place on the globe local is the default.
+# Above the blocks; a raster that ends on a tile border; without a place on the globe the default is local.
 succeeds gdal_translate -q -srcwin 30 10 129 300 -a_nodata none -outsize 385 700 -r bilinear -ot Float32 utm.tif tall.tif
 succeeds gdal_translate -q -of ENVI tall.tif tall.img
 rm -f tall.img.aux.xml
@@ -158,7 +158,7 @@ succeeds "$scarp" tile check tall --source tall.img --cell-size 25 -q
 python3 "$judge" tall tall.f32 385 700 "$(json tall/tileset.json asset extras scarp background)" 25 > judged
 [ "$(wc -l < judged)" = 7 ] || fail "other levels than 0 to 6"
 
-# Another planet: the plane touches its ellipsoid, which clients hear of as of globe sets; or the one that is given.
+# Another planet: the plane touches its ellipsoid, or a given one; clients learn of it as in globe sets.
 succeeds gdal_translate -q -a_srs "+proj=stere +lat_0=-4.6 +lon_0=137.4 +R=3396190 +units=m" -a_ullr 0 30000 40000 0 "$dem" mars.tif
 succeeds "$scarp" tile mars.tif mars --grid local --effort fast -e 50 --report mars.json
 grep -q "a plane at its centre on " "$logs/out" || fail "the summary does not name the planet"
@@ -177,7 +177,7 @@ assert "3DTILES_ellipsoid" not in json.load(open("city/tileset.json")).get("exte
 assert json.load(open("mars.json"))["ellipsoid"] == [3396190, 3396190]
 E
 
-# Feet become metres, and that is reported once; where the unit of the heights is unknown, they are in that of x and y.
+# Feet become metres, reported once; heights without a unit have that of x and y.
 quick=(--grid local --vertical ellipsoid --effort fast -e 200)
 for crs in 2225 2225+6360; do
   succeeds gdal_translate -q -a_srs EPSG:$crs -a_ullr 6000000 2100000 6040000 2070000 "$dem" feet.tif
@@ -202,14 +202,14 @@ grep -q "heights in ft become metres" "$logs/err" || fail "feet of a building si
 sed -i 's|<UnitType>ft|<UnitType>K|' site.vrt
 refuses 1 "heights are in 'K', which is no unit of length" "$scarp" tile site.vrt no
 
-# A plane is no picture of a continent: at 1 % of the way to a corner there is a word, and for the city there was none.
+# A plane cannot represent a continent: errors of 1 % of the distance to a corner cause a warning, the city's did not.
 succeeds gdal_translate -q -a_srs EPSG:3035 -a_ullr 3000000 4000000 5000000 2500000 "$dem" continent.tif
 succeeds "$scarp" tile continent.tif continent "${quick[@]}"
 grep -q "lie up to [0-9]* km from their place on the globe, .* take --grid geographic" "$logs/err" || fail "no word of the distance"
 succeeds "$scarp" tile utm.tif near "${quick[@]}"
 ! grep -q "from their place" "$logs/err" || fail "a city is warned of"
 
-# The range of the heights makes no set coarser, and units are those that the grid has.
+# The range of heights makes no set coarser, and units are the grid's.
 python3 - << 'E'
 import array
 import math
@@ -226,7 +226,7 @@ holds "$(json steep.json levels 2 asked) * 4 == $(json steep.json levels 2 geome
 python3 "$judge" steep steep.f32 130 90 0 1 > judged
 succeeds "$scarp" tile check steep --source steep.pgm
 ! grep -q '[0-9] m\b' "$logs/out" || fail "cells of no unit are metres in the summary of the check"
-# A relief that grows past 16 bits of the earlier steps stays in float32; past that, too, the set is to be made anew.
+# A relief beyond 16 bits of the earlier steps remains in float32; beyond that, the set must be made again.
 python3 -c 'open("land.pgm", "wb").write(b"P5 130 90 65535\n" + bytes(b for k in range(11700) for b in (0, k % 11)))'
 for error in 0.25 0.0625; do succeeds "$scarp" tile plan land.pgm low$error.json --cells 64 -e $error -q; done
 succeeds "$scarp" tile run low0.25.json -q
@@ -239,7 +239,7 @@ python3 "$judge" grown steep.f32 130 90 0 1 > judged
 refuses 1 "needs steps of 0.00390625 where the earlier plan has 0.00195" "$scarp" tile plan land.pgm no.json --changed-since low0.0625.json
 refuses 1 "0.001 at level 2, the finest, is too fine for heights of 0 to 65535" "$scarp" tile steep.pgm no --cells 64 -e 0.001
 
-# Requests without sense are refused.
+# Meaningless requests are refused.
 local=("$scarp" tile utm.tif no --grid local)
 refuses 1 "quantized-mesh lies on the ellipsoid" "${local[@]}" --of qm
 refuses 1 "--water cannot be combined with --grid local: lakes and rivers are laid in degrees" "${local[@]}" --water lakes.shp
@@ -258,7 +258,7 @@ refuses 1 "3D Tiles say in advance" "$scarp" serve tall.img --port 0
 refuses 1 "choose geographic or mercator" "$scarp" tile check city --grid nonsense
 refuses 1 "do not name theirs" "$scarp" tile check city --grid mercator
 
-# Other programs: the validator of glTF, and 3d-tiles-renderer, whose rays meet the land near the centre.
+# Other programs: the glTF validator, and 3d-tiles-renderer, whose rays meet the land near the centre.
 if npm_judges gltf-validator; then
   find city -name '*.glb' | sort | head -20 > some
   xargs node "$js/validate_glb.cjs" < some > judged.txt || { head -20 judged.txt; fail "the glTF validator has objections"; }

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# scarp tile plan, run and finish: shares in any order, killed and run again, make the set of scarp tile.
+# scarp tile plan, run and finish: shares in any order, killed and restarted, make the set of scarp tile.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gdalwarp
 
-# A few blocks: the raster in the middle of four blocks of level 6, with nodata at its ends.
+# A few blocks: a raster in the middle of four blocks of level 6, with nodata at its ends.
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 11.0 45.3 11.5 44.7 "$dem" placed.tif
 succeeds "$scarp" tile placed.tif whole -q
 succeeds "$scarp" tile plan placed.tif plan.json --slurm run.sh
@@ -19,7 +19,7 @@ succeeds "$scarp" tile finish plan.json set --report r.json
 diff -r whole set || fail "7 shares make other tiles"
 [ "$(json r.json levels 10 tiles)" -gt 8 ] || fail "no tiles in the report"
 
-# Killed again and again: what is on the disk stays, and is not made again.
+# Killed repeatedly: blocks on disk are kept and not made again.
 succeeds "$scarp" tile plan placed.tif killed.json -q
 for seconds in 0.2 0.4 0.6 0.8; do
   timeout -s KILL $seconds "$scarp" tile run killed.json -j 2 -q && break
@@ -29,7 +29,7 @@ succeeds "$scarp" tile run killed.json -j 1
 succeeds "$scarp" tile finish killed.json killed
 diff -r whole killed || fail "a run that was killed makes other tiles ($before parts before)"
 
-# A torn record is made again; a damaged one is found.
+# A torn record is made again; a damaged one is detected.
 rm -r killed
 part=$(find killed.parts -name '*.part' -printf '%s %p\n' | sort -rn | head -1 | cut -d' ' -f2)
 truncate -s -1000 "$part"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Decoders of others read our tiles of quantized-mesh to the same numbers as ours, and validators accept our 3D Tiles.
+# Foreign decoders read the same numbers from our quantized-mesh tiles as ours, and validators accept our 3D Tiles.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 npm_judges @here/quantized-mesh-decoder @loaders.gl/terrain || skip "npm could not fetch the readers"
@@ -8,7 +8,7 @@ npm_judges @here/quantized-mesh-decoder @loaders.gl/terrain || skip "npm could n
 succeeds "$scarp" tile "$dem" land --vertical egm96 -q
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 179.9 10.2 180.24 9.9 "$dem" placed.tif
 succeeds "$scarp" tile placed.tif seam -q
-# With water masks, of one byte and of 65536.
+# With water masks of one byte and of 65536.
 printf '{"type":"Polygon","coordinates":[[[180.0,10.13],[180.17,10.15],[180.19,10.02],[180.02,9.99],[180.0,10.13]]]}' > lake.geojson
 succeeds "$scarp" tile placed.tif wet --water lake.geojson --watermask -q
 for set in land seam wet; do
@@ -28,7 +28,7 @@ for set in land3 seam3; do
   [ "$tiles" = "$(find "$set" -name '*.glb' | wc -l)" ] && holds "$edges > $tiles" || fail "not all tiles were read"
 done
 
-# The 3D Tiles validator, where somebody has installed it: not every registry has it.
+# The 3D Tiles validator, if installed: not every registry has it.
 if command -v 3d-tiles-validator > /dev/null; then
   try 3d-tiles-validator --tilesetFile land3/tileset.json --reportFile verdict.json
   [ "$(json verdict.json numErrors) $(json verdict.json numWarnings)" = "0 0" ] || fail "the 3D Tiles validator has objections"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scarp tile: the same set in a folder, PMTiles, MBTiles and .3tz, read by others.
+# scarp tile: the same set in a folder, PMTiles, MBTiles and .3tz, read by foreign readers.
 source "$(dirname "$0")/lib.sh"
 need python3
 reader=$SCARP_SOURCE/tests/program/tile_sets.py
@@ -10,11 +10,11 @@ for ending in pmtiles mbtiles 3tz; do
   succeeds "$scarp" tile "$dem" world.$ending --vertical egm96 --report $ending.json -j 1
   grep -q "world.$ending" "$logs/out" || fail "the summary does not name $ending"
   [ "$(python3 "$reader" globe world.$ending)" = "$files" ] || fail "world.$ending is not the folder"
-  # Threads change nothing.
+  # Any number of threads gives the same bytes.
   succeeds "$scarp" tile "$dem" again.$ending --vertical egm96 -j 3 -q
   cmp world.$ending again.$ending || fail "3 threads make another $ending"
 
-  # Existing files stay; Scarp's own are replaced.
+  # Existing files are kept, except that Scarp's own sets can be replaced.
   refuses 4 "--overwrite" "$scarp" tile "$dem" world.$ending --vertical egm96
   succeeds "$scarp" tile "$dem" again.$ending --vertical egm96 --zoom 8 --overwrite -q
   cmp -s world.$ending again.$ending && fail "$ending was not replaced"
@@ -26,13 +26,13 @@ for ending in pmtiles mbtiles 3tz; do
 done
 [ -z "$(find . -name '.scarp*')" ] || fail "something temporary is left"
 
-# Killed in the middle: nothing has the final name, and what was there is there still.
+# Killed in the middle: nothing has the final name, and existing files are unchanged.
 make_big_raster big.tif
 cp again.pmtiles kept.pmtiles
 for output in killed killed.pmtiles killed.mbtiles killed.3tz kept.pmtiles; do
   "$scarp" tile big.tif $output --vertical egm96 --overwrite --json-progress > /dev/null 2> progress &
   process=$!
-  # Once tiles are on their way.
+  # Once tiles are being made.
   await $process grep -q '"tiles"' progress
   kill -9 $process
   wait $process 2> /dev/null || true
@@ -43,7 +43,7 @@ for output in killed killed.pmtiles killed.mbtiles killed.3tz kept.pmtiles; do
   fi
 done
 
-# The remains of a killed run are removed by the next of the same name; those of another, or of one that lives, stay.
+# The next run of the same name removes remains of a killed run, but not those of another name or a live run.
 [ "$(ls -d .scarp-tiles-* | wc -l)" = 1 ] || fail "the killed run left no folder"
 left=$(ls -d .scarp-tiles-*)
 succeeds "$scarp" tile "$dem" another --vertical egm96 --zoom 8 -q
@@ -58,7 +58,7 @@ mkdir "$left.old"
 succeeds "$scarp" tile "$dem" killed --vertical egm96 --zoom 8 --overwrite -q
 [ -z "$(find . -maxdepth 1 -name '.scarp-tiles-*')" ] || fail "the next run leaves what the killed one left"
 
-# Names of containers in capitals; those of other files are refused, but for folders that are there or end with a slash.
+# Container names in capitals; other file names are refused, except existing folders and names that end with a slash.
 succeeds "$scarp" tile "$dem" CAPITALS.PMTILES --vertical egm96 --zoom 8 -q
 cmp again.pmtiles CAPITALS.PMTILES || fail "capitals make another container"
 succeeds "$scarp" tile check CAPITALS.PMTILES -q

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# scarp tile of several rasters: mosaics, and stacks in which the first that has a height wins.
+# scarp tile of several rasters: mosaics, and stacks in which the first height wins.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalwarp gdal_create
 reader=$SCARP_SOURCE/tests/program/tiles.py
 
-# Two halves on one grid are one mosaic: the tiles of the whole raster.
+# Two halves on one grid form a mosaic with the tiles of the whole raster.
 succeeds gdal_translate -q -srcwin 0 0 200 344 "$dem" left.tif
 succeeds gdal_translate -q -srcwin 200 0 203 344 "$dem" right.tif
 succeeds "$scarp" tile "$dem" whole --vertical egm96 --zoom 8 -q
@@ -13,15 +13,15 @@ diff -r -x layer.json whole halves || fail "two halves make other tiles than the
 mkdir folder && cp left.tif right.tif folder
 succeeds "$scarp" tile folder from_folder --vertical egm96 --zoom 8 -q
 diff -r -x layer.json whole from_folder || fail "a folder makes other tiles"
-# A set that is made inside the folder is no raster of the next run, though GDAL opens an .mbtiles as one.
+# A set made inside the folder is not a raster of the next run, though GDAL opens .mbtiles as one.
 succeeds "$scarp" tile folder folder/set.mbtiles --vertical egm96 --zoom 8 -q
 succeeds "$scarp" tile folder folder/set --vertical egm96 --zoom 8 -q
 diff -r from_folder folder/set || fail "a set inside the folder is read"
 
-# The first that has a height wins, and a source without one shows the next.
+# The first height wins, and a source without one exposes the next.
 succeeds gdal_create -of GTiff -ot Float32 -a_srs EPSG:4979 -a_ullr 10.2 45.8 10.6 45.4 -outsize 60 60 -burn 100 low.tif
 succeeds gdal_create -of GTiff -ot Float32 -a_srs EPSG:4979 -a_ullr 10 46 11 45 -outsize 60 60 -burn 200 high.tif
-# heights FOLDER: of the finest tile in the middle of the small raster, rounded, each once.
+# heights FOLDER: of the finest tile in the middle of the small raster, rounded and distinct.
 heights() {
   python3 - "$1" <<'PY'
 import gzip, json, struct, sys
@@ -45,7 +45,7 @@ succeeds gdal_translate -q -a_nodata 0 -srcwin -30 -30 120 120 low.tif void.tif
 succeeds "$scarp" tile void.tif high.tif void_first --background 200 -q
 [ "$(heights void_first)" = "100 200" ] || fail "nodata hides what lies below"
 
-# Nodata within a raster goes down to the background, or is filled before anything else.
+# Nodata within a raster drops to the background, or is filled first.
 make_raster hole.tif 'math.nan if 150 <= col < 250 and 110 <= row < 210 else 500 + row / 2'
 succeeds "$scarp" tile hole.tif hole --vertical ellipsoid --nodata-policy background --report voids.json
 [ "$(json voids.json filled)" = 0 ] && [ ! -s "$logs/err" ] || fail "voids that are to be left are filled, or warned of"
@@ -79,7 +79,8 @@ succeeds "$scarp" tile hole.tif near --vertical ellipsoid --nodata-policy fill -
 diff -rq filled near > /dev/null && fail "--fill-distance changes nothing"
 refuses 1 "--fill-distance needs --nodata-policy fill" "$scarp" tile hole.tif no --fill-distance 5
 refuses 1 "background" "$scarp" tile hole.tif no --nodata-policy hole
-# Enclosed voids of 100 samples a side are filled unless that is not wanted, by a plan, from a raster in its file, and from several.
+# Enclosed voids up to 100 samples a side are filled unless disabled: by a plan, from a raster in its file, and from
+# several.
 succeeds "$scarp" tile hole.tif usual --vertical ellipsoid --report voids.json --overwrite
 diff -r usual filled || fail "small voids are filled otherwise"
 grep -q 'filled  *10,000 missing samples in enclosed voids; --nodata-policy background leaves them' "$logs/out" || fail "the summary has no filled samples"
@@ -98,7 +99,7 @@ succeeds "$scarp" tile wide.tif wide --vertical ellipsoid --report voids.json --
 grep -q '^scarp: warning: 10,109 missing samples .* up to 5[0-9.]* m from the land.*--nodata-policy fill' "$logs/err" || fail "no word of a pit"
 [ "$(json voids.json filled)" = 0 ] && json voids.json warnings 0 | grep -q 'nodata-policy fill' || fail "no pit in the report"
 
-# A fine raster in UTM with nodata at its corners, above the sea, on a coarse one in degrees above the ellipsoid.
+# A fine raster in UTM with nodata corners, above the sea, on a coarse one in degrees above the ellipsoid.
 succeeds gdalwarp -q -t_srs EPSG:32616+5773 -s_srs EPSG:4326+5773 -te 740000 4014000 752000 4026000 -tr 80 80 -r bilinear -dstnodata -9999 -ot Float32 "$dem" fine.tif
 succeeds gdal_translate -q -a_srs EPSG:4979 -outsize 100 86 "$dem" coarse.tif
 succeeds "$scarp" tile fine.tif coarse.tif stack --report r.json -j 1
@@ -120,7 +121,7 @@ assert max(e for _, e in boxes) - min(w for w, _ in boxes) < 0.45, boxes
 assert max(e for _, e in wide) - min(w for w, _ in wide) > 0.3, wide
 print(len(boxes))
 PY
-# Threads and shares change nothing.
+# Threads and shares have no effect.
 succeeds "$scarp" tile fine.tif coarse.tif again -j 3 -q
 diff -r stack again || fail "3 threads make other tiles"
 succeeds "$scarp" tile plan fine.tif coarse.tif plan.json -q
@@ -133,7 +134,7 @@ succeeds "$scarp" tile finish plan.json streamed_set --parts streamed -q
 diff -r stack streamed_set || fail "streamed rasters make other tiles"
 succeeds "$scarp" tile fine.tif coarse.tif stack3d --of 3dtiles -q
 
-# Datums that are unlike or unknown, other planets, parts of several.
+# Different or unknown datums, other planets, parts of several.
 succeeds gdal_translate -q -a_srs EPSG:4326 coarse.tif unknown.tif
 refuses 1 "unknown.tif are above" "$scarp" tile fine.tif unknown.tif no
 refuses 1 "coarse.tif are above the ellipsoid, as its CRS says" "$scarp" tile fine.tif coarse.tif no --vertical egm96
@@ -149,7 +150,7 @@ refuses 1 "--bound samples is for one raster" "$scarp" tile fine.tif coarse.tif 
 refuses 2 "missing.tif" "$scarp" tile coarse.tif missing.tif no
 [ ! -e no ] || fail "something is left of a set that was refused"
 
-# A raster that goes away, or changes, between plan and run, and comes back.
+# A raster that disappears or changes between plan and run, and is restored.
 succeeds "$scarp" tile plan fine.tif coarse.tif gone.json -q
 succeeds "$scarp" tile run gone.json --shard 1/2 -q
 mv coarse.tif away.tif
@@ -160,14 +161,14 @@ touch coarse.tif
 refuses 2 "coarse.tif has changed" "$scarp" tile run gone.json --shard 2/2
 touch -r time coarse.tif
 succeeds "$scarp" tile run gone.json --shard 2/2 -q
-# finish needs no raster, and reports it if one has changed by now.
+# finish needs no raster, and reports one that has changed by then.
 mv coarse.tif away.tif
 succeeds "$scarp" tile finish gone.json gone
 grep -q "coarse.tif" "$logs/err" || fail "finish does not tell that a raster is gone"
 mv away.tif coarse.tif
 diff -r stack gone || fail "a raster that was away changes tiles"
 
-# One that changes in the middle of a run.
+# A raster that changes during a run.
 succeeds gdal_translate -q -outsize 1600 1400 -r bilinear "$dem" big.tif
 "$scarp" tile big.tif changing --vertical egm96 -j 1 --json-progress > /dev/null 2> progress &
 until grep -q tiles progress; do sleep 0.05; kill -0 $! 2> /dev/null || fail "it ended before it began"; done

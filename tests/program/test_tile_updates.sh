@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scarp tile: sources that change (--changed-since, --hash), and parts of a globe (--only).
+# scarp tile: changing sources (--changed-since, --hash), and parts of a globe (--only).
 source "$(dirname "$0")/lib.sh"
 need gdal_translate python3
 few=(--vertical ellipsoid --cells 16 --effort fast --zoom 15)
@@ -31,7 +31,7 @@ for what in tiles bytes parts; do holds "$(json r.json model $what ratio) > 0.5 
 holds "$(json r.json model core_seconds took) > 0 && $(json r.json model memory took) > 1e7"
 cmp first.pmtiles set.pmtiles || fail "the parts make another set"
 
-# A corner changes: only its blocks are made again, and the set is that of the new raster made anew.
+# A corner changes: only its blocks are made again, and the set equals one made from the new raster.
 cp after.tif land.tif
 refuses 2 "plan again" "$scarp" tile run a.json
 succeeds "$scarp" tile plan land.tif b.json --changed-since a.json -q
@@ -48,7 +48,7 @@ cmp -s first.pmtiles set.pmtiles && fail "the set is the same"
 records=$(find a.parts -name '*.part' | wc -l)
 [ "$records" = 3 ] || fail "$records parts instead of 3"
 
-# Another time of the same file: nothing is made; and back to what it was.
+# A new time on the same file: nothing is made; then the original state.
 touch land.tif
 succeeds "$scarp" tile plan land.tif c.json --changed-since b.json -q
 succeeds "$scarp" tile run c.json
@@ -60,7 +60,7 @@ succeeds "$scarp" tile run d.json
 succeeds "$scarp" tile finish d.json back.pmtiles -q
 cmp first.pmtiles back.pmtiles || fail "back to the first raster"
 
-# By content: a copy with another time is the same file, and an edit that keeps size and time is another.
+# By content: a copy with another time is the same file; an edit that preserves size and time is a change.
 cp before.tif seen.tif
 touch -d 2020-02-02 seen.tif
 succeeds "$scarp" tile plan seen.tif e.json "${few[@]}" --hash content -q
@@ -88,7 +88,7 @@ make_raster high.tif "1900 if col == 5 and row == 5 else $hills"
 refuses 1 "make the set anew" "$scarp" tile plan high.tif no.json --changed-since a.json
 refuses 1 "--hash" "$scarp" tile plan land.tif no.json "${few[@]}" --hash md5
 
-# Only a box: its blocks' tiles are those of the whole set.
+# Only a box: its blocks' tiles equal those of the whole set.
 box=-84.28,36.25,-84.2,36.3
 succeeds "$scarp" tile land.tif few "${few[@]}" --only "$box" -q
 tiles=$(find few/15 -name '*.terrain' | wc -l)
@@ -107,7 +107,7 @@ cmp first.pmtiles rest.pmtiles || fail "first a box and then the rest"
 for wrong in 1,2,3 1,2,3,4,5 a,b,c,d 1,5,2,4; do refuses 1 "--only" "$scarp" tile run h.json --only $wrong; done
 refuses 1 "nothing in that box" "$scarp" tile land.tif no "${few[@]}" --only 10,10,11,11
 
-# A survey finds the blocks with heights; shares are cut by it, and the set is the same.
+# A survey finds the blocks with heights and divides shares by it; the set is the same.
 make_raster corner.tif "$hills if col > 300 and row > 100 else nan"
 succeeds "$scarp" tile corner.tif corner.pmtiles "${few[@]}" -q
 succeeds "$scarp" tile plan corner.tif s.json "${few[@]}" --survey

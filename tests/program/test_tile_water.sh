@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# scarp tile --water, --rivers: lakes and rivers in the nodes, the same in all tiles, levels and processes.
+# scarp tile --water, --rivers: lakes and rivers in the nodes, equal in all tiles, levels and processes.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 reader=$SCARP_SOURCE/tests/program/tiles.py
-# The tiles of levels 10 and 5 that hold the middle of the lake.
+# The tiles of levels 10 and 5 that contain the middle of the lake.
 lake_tiles() {
   python3 - "$1" <<'PYTHON'
 step = 180 / 2 ** 18
@@ -38,7 +38,7 @@ read -r west north east south < places
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr "$west" "$north" "$east" "$south" "$dem" land.tif
 gdal_translate -q -of XYZ land.tif land.xyz
 
-# The level is that of the same lake in a mesh, and every node is within the bound of the tiles.
+# The water level equals that of the same lake in a mesh, and every node is within the bound of the tiles.
 succeeds "$scarp" simplify land.tif mesh.glb -e 20 --water lake.geojson --report mesh.json -q
 succeeds "$scarp" tile land.tif globe --water lake.geojson --report r.json -j 1
 grep -q "water          1 lake at" "$logs/out" || fail "the summary does not tell the lake"
@@ -47,7 +47,7 @@ holds "($level - $(json mesh.json water 0 level)) ^ 2 < 1e-8"
 python3 "$reader" globe > /dev/null || fail "neighbours differ over the lake"
 succeeds python3 "$SCARP_SOURCE/tests/program/tile_water.py" globe land.xyz lake.geojson "$level" 3
 
-# Rivers: the same set by threads, shares and a plan that a server answers from; the checker knows water by the plan.
+# Rivers: the same set by threads, shares, and a served plan; the checker finds water through the plan.
 both=(--water lake.geojson --rivers river.geojson)
 succeeds "$scarp" tile land.tif both "${both[@]}" -j 3
 grep -q "2 rivers" "$logs/out" || fail "the summary does not tell the rivers"
@@ -70,7 +70,7 @@ for river in waters["rivers"]:
     course = list(struct.iter_unpack("<3d", base64.b64decode(river["course"])))
     heights = [z for _, _, z in course]
     assert len(course) > 5 and heights == sorted(heights, reverse=heights[0] > heights[-1])
-# The first flows into the lake, the second out of it.
+# The first river flows into the lake, the second out of it.
 assert {level} == {min(abs(z - level) for _, _, z in struct.iter_unpack("<3d", base64.b64decode(r["course"]))) + level
                    for r in waters["rivers"]}
 PYTHON
@@ -99,7 +99,7 @@ sed -i 's/"octvertexnormals"/"octvertexnormals", "watermask"/' globe/layer.json
 try "$scarp" tile check globe
 [ "$code" = 3 ] && grep -q "has no water mask" "$logs/out" || fail "masks that are announced and missing pass"
 
-# A file that changes is refused; the plan that follows makes the blocks of the change alone, and the set is that of the new file.
+# A changed file is refused; the follow-up plan makes only the changed blocks, and the set equals one from the new file.
 few=(--cells 16 --effort fast --zoom 15)
 cp lake.geojson now.geojson
 succeeds "$scarp" tile plan land.tif b.json --water now.geojson "${few[@]}" -q
@@ -122,7 +122,7 @@ succeeds gdal_translate -q -a_srs EPSG:4326 land.tif sea.tif
 succeeds "$scarp" tile sea.tif sea --vertical egm96 --water lake.geojson --zoom 9 --report sea.json -q
 holds "($(json sea.json water lakes 0 level) - $(json land3.json water lakes 0 level)) ^ 2 < 1e-4"
 
-# Across the antimeridian, a lake in one piece and one that continues beyond 180 degrees are the same.
+# Across the antimeridian: a lake in one piece and one that continues beyond 180 degrees are the same.
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 179.9 10.2 180.24 9.9 "$dem" date.tif
 ring() {
   printf '{"type":"Polygon","coordinates":[[[179.953,10.12],[%s,10.15],[%s,10.03],[179.962,9.96],[179.953,10.12]]]}' "$1" "$2"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# scarp tile: a folder of quantized-mesh tiles whose neighbours fit.
+# scarp tile: a folder of quantized-mesh tiles with matching neighbours.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalwarp
 reader=$SCARP_SOURCE/tests/program/tiles.py
 
-# Heights above an unknown zero are no heights on a globe.
+# Heights above an unknown zero are not heights on a globe.
 refuses 1 "--vertical egm96" "$scarp" tile "$dem" globe
 
 succeeds "$scarp" tile "$dem" globe --vertical egm96 --report r.json -j 1
@@ -12,24 +12,24 @@ grep -q "EGM96 height" "$logs/out" || fail "the summary does not tell the datum"
 [ "$(json globe/layer.json maxzoom)" = 11 ] || fail "3 seconds of arc are level 11"
 read -r tiles edges low high < <(python3 "$reader" globe)
 holds "$tiles > 50 && $edges > 70"
-# The land lies 31 to 33 m below its heights above the sea there; around it the ellipsoid's own surface.
+# In ellipsoidal heights the land lies 31 to 33 m lower; around it is the ellipsoid's surface.
 holds "$low == 0 && $high > 1030 && $high < 1055"
 [ "$(find globe -name '*.terrain' | wc -l)" = "$tiles" ] || fail "files and tiles differ"
-# The promise of each level is the one in layer.json.
+# Each level's promise equals the one in layer.json.
 for z in 11 10 9 8 7 6; do
   holds "$(json r.json levels $z node_error) <= $(json r.json levels $z asked)"
   holds "$(json r.json levels $z bound) == $(json globe/layer.json scarp levels $z bound)"
-  # Apart from it, what the raster's own samples are from the mesh.
+  # Separately, the distance of the raster's own samples from the mesh.
   holds "$(json r.json levels $z node_error) / 2 < $(json r.json levels $z source_error)"
   holds "$(json r.json levels $z source_error) == $(json globe/layer.json scarp levels $z source_error)"
 done
 [ -z "$(find . -name '.scarp*')" ] || fail "something temporary is left"
 
-# Threads change nothing.
+# Any number of threads gives the same bytes.
 succeeds "$scarp" tile "$dem" again --vertical egm96 -j 3 -q
 diff -r globe again || fail "3 threads make other tiles"
 
-# Bound at the raster's samples, too: what brute force in another room finds of them is at most what was asked.
+# Also bound at the raster's samples: brute force in other code finds at most the requested error.
 succeeds "$scarp" tile "$dem" bound --vertical egm96 --bound samples --report b.json -j 1
 python3 "$reader" bound > /dev/null
 [ "$(json bound/layer.json maxzoom)" = 11 ] || fail "denser nodes move the finest level"
@@ -43,14 +43,15 @@ for z in 11 10 9 8 7 6; do
 done
 [ $broken -gt 0 ] || fail "samples are bound without asking for it: the test shows nothing"
 
-# If bounds are not kept, the warning separates nodes from samples, and the way out of each.
+# If bounds are violated, the warning distinguishes nodes and samples, with a remedy for each.
 succeeds "$scarp" tile "$dem" rough --vertical egm96 --bound samples --zoom 7 -e 20 --effort fast --report rough.json
 grep -q "tiles\? of the levels .*: level 7 has .* m at nodes and .* m at samples where 20 m were asked. Nodes .* give a larger --zoom" "$logs/err" ||
   fail "no word of samples"
 holds "$(json rough.json levels 7 node_error) <= 20 && $(json rough.json levels 7 source_error) > 20"
 holds "$(json rough.json levels 7 tiles_over) > 0"
 
-# A limit of bytes makes interiors coarser; edges stay, bounds are true, and what does not fit is counted.
+# A byte limit makes interiors coarser. Edges do not change, bounds are true, and tiles that exceed the limit are
+# counted.
 limit=2500
 succeeds "$scarp" tile "$dem" small --vertical egm96 --max-tile-bytes $limit --report small.json -j 1
 grep -q -- "--max-tile-bytes $limit" "$logs/err" || fail "no warning counts the tiles"
@@ -74,7 +75,7 @@ grep -q "what neighbours share alone takes more" "$logs/err" || fail "no warning
 refuses 1 "holds no tile" "$scarp" tile "$dem" no --vertical egm96 --max-tile-bytes 0
 refuses 1 "--max-tile-bytes" "$scarp" tile "$dem" no --vertical egm96 --max-tile-bytes x
 
-# Existing files stay.
+# Existing files are kept.
 refuses 4 "--overwrite" "$scarp" tile "$dem" globe --vertical egm96
 mkdir other && touch other/mine
 refuses 4 "no set of tiles" "$scarp" tile "$dem" other --vertical egm96 --overwrite
@@ -84,7 +85,7 @@ succeeds "$scarp" tile "$dem" globe/ --vertical ellipsoid --zoom 9 --overwrite -
 read -r tiles edges low high < <(python3 "$reader" globe)
 holds "$high > 1060"
 
-# A raster in UTM, whose outline is slanted in degrees; efforts.
+# A raster in UTM with an outline slanted in degrees; efforts.
 succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear -dstnodata -9999 -ot Float32 "$dem" utm.tif
 for effort in fast high; do
   succeeds "$scarp" tile utm.tif "utm_$effort" --vertical ellipsoid --effort $effort --zoom 10 --report $effort.json -q
@@ -100,7 +101,7 @@ for place in "179.9 10.2 180.24 9.9" "-180.1 -70.1 -179.77 -70.4" "359.8 50.2 36
   python3 "$reader" placed > /dev/null || fail "at $place"
 done
 
-# A place that is none.
+# An impossible place.
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 1000 45.2 1000.3 44.9 "$dem" placed.tif
 refuses 2 "placed.tif: its CRS, EPSG:4326, has the unit degree, but its middle lies at 1000.15" "$scarp" tile placed.tif no
 succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr 10 95.2 10.3 94.9 "$dem" placed.tif
@@ -118,19 +119,19 @@ refuses 4 "no folder can be made" "$scarp" tile "$dem" missing/no --vertical egm
 printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n4 5 6\n7 8 9\n" > bare.asc
 refuses 2 "where on the globe" "$scarp" tile bare.asc no --grid geographic
 
-# Files of others are not deleted.
+# Foreign files are not deleted.
 touch globe/mine
 refuses 4 "globe/mine is not Scarp's" "$scarp" tile "$dem" globe --vertical egm96 --overwrite
 mkdir theirs && echo '{"format":"quantized-mesh-1.0"}' > theirs/layer.json
 refuses 4 "is not Scarp's" "$scarp" tile "$dem" theirs --vertical egm96 --overwrite
 
-# Beyond 180 degrees of a projection places are not found again; a raster between nodes has none.
+# Beyond 180 degrees a projection cannot be inverted; a raster there has no place.
 succeeds gdal_translate -q -a_srs EPSG:3857 -a_ullr 20000000 2000000 20400000 1600000 "$dem" beyond.tif
 refuses 2 "beyond 180 degrees" "$scarp" tile beyond.tif no --vertical ellipsoid
 succeeds gdal_translate -q -a_srs EPSG:4326 -a_ullr 10.01 50.02 10.06 49.97 -outsize 60 60 "$dem" small.tif
 refuses 1 "larger --zoom" "$scarp" tile small.tif no --vertical ellipsoid --zoom 3
 
-# Fine rasters of high land have the least error that the format holds, above an ellipsoid far below.
+# Fine rasters of high land have the least error of the format, above an ellipsoid far below.
 succeeds gdal_translate -q -ot Float32 -a_srs EPSG:32616 -a_ullr 500000 4000060 500060 4000000 -outsize 60 60 -scale 236 1076 2400 2430 "$dem" lidar.tif
 succeeds "$scarp" tile lidar.tif lidar --vertical ellipsoid -q
 python3 "$reader" lidar > /dev/null || fail "lidar"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scarp tile --of 3dtiles: a set that 3D Tiles' own rules hold for, read by programs that are not ours.
+# scarp tile --of 3dtiles: a set that satisfies the rules of 3D Tiles, read by foreign programs.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 reader=$SCARP_SOURCE/tests/program/tiles3d.py
@@ -10,8 +10,8 @@ holds "$tiles > 50 && $subtrees >= 4"
 # The land's heights above the ellipsoid lie between the limits of the root's region.
 holds "$low < 0 && $high > 1030 && $high < 1200"
 [ "$(find globe -name '*.glb' | wc -l)" = "$tiles" ] || fail "files and tiles differ"
-# The error given for each level is proven, and used by clients, too.
-# Nothing is a bad drawing of a planet, from whatever distance.
+# The error given for each level is proven and used by clients. An empty picture of a planet is a large error at any
+# distance.
 holds "$(json globe/tileset.json geometricError) > 6e6 && $(json globe/tileset.json root geometricError) > 6e6"
 root_error=$(json globe/tileset.json root children 0 geometricError)
 for z in 11 10 9 8 7 6 5; do
@@ -20,7 +20,7 @@ for z in 11 10 9 8 7 6 5; do
   holds "$root_error / 2^$z >= $(json r.json levels $z bound)"
 done
 
-# Threads change nothing; what is there stays.
+# Any number of threads gives the same bytes; existing files are kept.
 succeeds "$scarp" tile "$dem" again --vertical egm96 --of 3dtiles -j 3 -q
 diff -r globe again || fail "3 threads make other tiles"
 refuses 4 "--overwrite" "$scarp" tile "$dem" globe --vertical egm96 --of 3dtiles
@@ -35,7 +35,7 @@ for place in "179.9 10.2 180.24 9.9" "12 90 12.34 89.71"; do
   python3 "$reader" placed > /dev/null || fail "at $place"
 done
 
-# The Khronos glTF validator, of every tile.
+# The Khronos glTF validator on every tile.
 if npm_judges gltf-validator; then
   find globe placed -name '*.glb' -exec node "$js/validate_glb.cjs" {} + > judged.txt || { grep -v ": 0 errors" judged.txt | head -20; fail "the glTF validator has objections"; }
   [ "$(grep -c ': 0 errors, 0 warnings' judged.txt)" = "$(find globe placed -name '*.glb' | wc -l)" ] || fail "not every tile was judged"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# One unit of heights in a run: metres where the frame or the format is in metres, the raster's own elsewhere. The heights of the
-# files are compared with those of the ground, read by other programs.
+# One unit of heights in a run: metres if the frame or the format is in metres, else the raster's own. The heights in
+# the files are compared with those of the ground by foreign programs.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -31,7 +31,7 @@ for got, want in ((least[2] * unit, low), (most[2] * unit, high)):
     assert abs(got - want) <= error * 1.000001, (mesh, got, want, error)
 PYTHON
 
-# made NAME SRS UNIT: a part of the bundled raster as it would lie there, cells 30 wide, with UNIT as the band's.
+# made NAME SRS UNIT: a part of the bundled raster in that CRS, with cells 30 wide and UNIT for the band.
 made() {
   succeeds gdal_translate -q -of VRT -srcwin 0 0 60 46 -a_srs "$2" -a_ullr 1500000 701380 1501800 700000 "$dem" "$1.vrt"
   [ -z "$3" ] || sed -i "s|<VRTRasterBand[^>]*>|&<UnitType>$3</UnitType>|" "$1.vrt"
@@ -45,7 +45,7 @@ made plane EPSG:2264 ""
 made plane_m EPSG:2264 m
 made plane_up EPSG:2264+6360 ""
 
-# Raster, metres of a unit of its heights and of a cell; every format in metres, with the bound in metres and in feet.
+# Raster, metres per unit of its heights and per cell; every format in metres, with bounds in metres and in feet.
 while read -r name metres cell; do
   for goal in 6 20ft; do
     if [ $goal = 6 ]; then error=6 mesh=$name.obj; else error=6.0961 mesh=$name.glb; fi
@@ -77,7 +77,7 @@ plane_m 1 9.144018288036576
 plane_up $survey 9.144018288036576
 LIST
 
-# An assumption is reported, with its way out, which changes the heights accordingly.
+# An assumption is reported with its remedy, which changes the heights accordingly.
 succeeds "$scarp" simplify plane.vrt plane.glb -e 6 --overwrite
 grep -q 'taken for US survey foot, as x and y are.*--z-unit m' "$logs/err" || fail "nothing is told of an assumption"
 succeeds "$scarp" simplify plane.vrt plane.glb -e 6 --z-unit m --overwrite
@@ -89,7 +89,7 @@ python3 ground.py utm.vrt $survey 30 utm.glb 6
 succeeds "$scarp" simplify utm.vrt utm.glb -e 20ft --overwrite
 grep -q "taken for metres: --max-error 20ft is 6.096 of them; --z-unit" "$logs/err" || fail "no word of a goal in feet"
 
-# Files in the raster's own CRS keep its unit, and goals follow it.
+# Files in the raster's own CRS keep its unit, as do goals.
 for name in utm_ft plane_ft; do
   succeeds "$scarp" simplify $name.vrt $name.2dm -e 20ft --report r.json --overwrite
   holds "$(json r.json goal max_error) == 20"
@@ -106,19 +106,19 @@ PYTHON
 done
 succeeds "$scarp" simplify utm_ft.vrt same.tif -e 20ft --overwrite
 gdalinfo same.tif | grep -q 'Unit Type: ft' || fail "a raster loses its unit"
-# The suggestion of info is that error in every format.
+# The suggestion of info gives that error in every format.
 goal=$("$scarp" info utm_ft.vrt 2> /dev/null | sed -n 's/.*-e \([0-9.]*ft\)$/\1/p' | head -1)
 [ -n "$goal" ] || fail "info suggests no error in feet"
 succeeds "$scarp" simplify utm_ft.vrt utm_ft.glb -e "$goal" --overwrite
 succeeds "$scarp" measure utm_ft.vrt utm_ft.glb --fail-above "$goal"
 
-# Tolerances in a unit of their own.
+# Tolerances in their own unit.
 succeeds gdal_translate -q -of VRT -ot Float32 -scale 0 2000 20 20 utm.vrt few.vrt
 sed -i 's|<VRTRasterBand[^>]*>|&<UnitType>ft</UnitType>|' few.vrt
 succeeds "$scarp" simplify utm.vrt few.glb --tolerance few.vrt --report r.json --overwrite
 holds "$(json r.json max_error) <= 6.0961 && $(json r.json max_error) > 4"
 
-# No unit of length, and a CRS that a format in metres has no place for.
+# A unit that is not a length, and a CRS that a format in metres cannot hold.
 made utm_K EPSG:32616 K
 refuses 1 "heights are in 'K', which is no unit of length" "$scarp" simplify utm_K.vrt no.glb -e 6
 grep -q -- '--z-unit m.*--z-scale F' "$logs/err" || fail "no way out of a unit that is no length"
@@ -129,7 +129,7 @@ refuses 1 "GLB is in metres by its specification" "$scarp" simplify plane.vrt no
 refuses 1 "GLB is in metres by its specification" "$scarp" simplify utm.vrt no.glb -e 6 --crs EPSG:2264
 refuses 1 "cannot be combined with --z-unit" "$scarp" simplify utm.vrt no.glb -e 6 --image --z-unit ft
 
-# Depths: a vertical CRS that counts downwards makes heights of them only by the way out.
+# Depths: only the remedy converts a vertical CRS that counts downwards to heights.
 for crs in EPSG:32616+5715 EPSG:32616+5831; do
   gdal_translate -q -a_srs $crs utm.vrt depths.tif
   succeeds "$scarp" simplify depths.tif depths.obj -e 6 --overwrite --report r.json
@@ -171,8 +171,7 @@ PYTHON
 succeeds "$scarp" measure points.vrt points.glb --points --fail-above 3
 succeeds "$scarp" measure points.vrt points.glb --points --fail-above 9.85ft
 
-# Their unit is that of the vertical CRS, or of the name of a column or attribute, or that of --z-unit. LOW HIGH: the
-# land in metres.
+# Their unit comes from the vertical CRS, the name of a column or attribute, or --z-unit. LOW HIGH: the land in metres.
 land() {
   succeeds "$scarp" simplify "${@:4}" "$1" -e 0.5m --report r.json --overwrite
   python3 - "$1" "$2" "$3" <<'PYTHON' || fail "${*:4} $1: heights, or what is as wide as it should not be"
@@ -218,7 +217,7 @@ PYTHON
     for name in mm feet; do land $mesh 660 720 $name.csv; done
   done
   land heights.glb 660 720 none.csv --z-unit ft
-  # The command that gives a text its CRS keeps the unit.
+  # The command that assigns a CRS to a text preserves the unit.
   succeeds "$scarp" info elev.csv
   refuses 1 "says nothing of its CRS" "$scarp" simplify elev.csv no.glb -e 1 --crs EPSG:26911
   command=$(sed -n 's/.*make a GeoPackage with a CRS of it (\(.*\))$/\1/p' "$logs/err" | sed 's/EPSG:CODE/EPSG:26910/')
@@ -254,7 +253,7 @@ PYTHON
   done
 fi
 
-# LandXML has one unit for all: the way out that it names works.
+# LandXML has one unit for everything: its remedy works.
 refuses 1 "--z-scale" "$scarp" simplify utm_ft.vrt no.xml -e 20ft
 factor=$(sed -n 's/.*scale them by \([0-9.]*\) (--z-scale).*/\1/p' "$logs/err")
 succeeds "$scarp" simplify utm_ft.vrt site.xml -e 20ft --z-scale "$factor"

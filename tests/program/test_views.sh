@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
-# The metadata of a raster stay with every view of it; rasters that do not fit together are refused, and the way out
-# works.
+# Every view of a raster preserves its metadata; incompatible rasters are refused, and the remedy works.
 source "$(dirname "$0")/lib.sh"
 need gdal_translate gdalwarp gdalbuildvrt python3
 gdal_edit() { /usr/bin/python3 "$(command -v gdal_edit.py)" "$@"; }
 gdal_edit --help > "$logs/out" 2>&1 || grep -q Usage "$logs/out" || skip "needs gdal_edit.py"
 heights() { gdal_translate -q -of XYZ "$1" /vsistdout/ | awk '{ print $3 }'; }
 same_mesh() { cmp <(grep -av '^comment' "$1") <(grep -av '^comment' "$2"); }
-# Runs the command that the last sentence printed.
+# Runs the command in the last message.
 way_out() {
   local command
   command=$(sed -n 's/.*(\(gdal[^()]*\)).*/\1/p' "$logs/err" | sed 's/gdal_edit\.py/gdal_edit/g; s/gdal_translate /gdal_translate -q /g; s/gdalwarp /gdalwarp -q /g')
@@ -19,7 +18,7 @@ gdal_translate -q -a_srs EPSG:26917 -a_ullr 500000 4010320 512090 4000000 "$dem"
 gdal_edit -units ft utm.tif
 gdal_translate -q -srcwin 0 0 203 344 utm.tif a.tif
 gdal_translate -q -srcwin 203 0 200 344 utm.tif b.tif
-gdal_edit -units ft a.tif  # gdal_translate forgets it
+gdal_edit -units ft a.tif  # gdal_translate loses it
 gdal_edit -units ft b.tif
 
 # Unit and datum: the raster, a mosaic, a part, means, a stream, a plan of tiles.
@@ -29,7 +28,7 @@ for view in "utm.tif o.ply" "a.tif b.tif o.ply" "utm.tif o.ply --te 500300 40081
   [ "$(json r.json input file_unit)" = '"ft"' ] || fail "the unit of $view is $(json r.json input file_unit)"
 done
 
-# Unlike units, and a unit that is not declared: the way out gives the same heights.
+# Different units, and an undeclared unit: the remedy gives the same heights.
 cp b.tif us.tif && gdal_edit -units "US survey foot" us.tif
 refuses 2 "us.tif has heights in US survey foot, and a.tif in ft: bring it to one unit first" "$scarp" info a.tif us.tif
 way_out
@@ -50,12 +49,12 @@ succeeds "$scarp" simplify a.tif new.tif o.tif -e 0.001 --overwrite
 python3 - <(heights b.tif) <(heights new.tif) <<'PY' || fail "the way out is not the same land"
 import sys
 a, b = (list(map(float, open(name))) for name in sys.argv[1:])
-assert a == b and a  # stored values; the scale makes metres of them
+assert a == b and a  # stored values; the scale converts them to metres
 PY
 gdalinfo new.tif | grep -q 'Scale:0.3048' || fail "no scale makes metres of feet"
 gdal_edit -units m b.tif
 
-# Unlike vertical datums.
+# Different vertical datums.
 gdal_translate -q -a_srs EPSG:26917+5703 a.tif navd.tif
 gdal_translate -q -a_srs EPSG:26917+5773 b.tif egm.tif
 refuses 2 "egm.tif has heights above EGM96 height, and navd.tif heights above NAVD88 height: " "$scarp" info navd.tif egm.tif
@@ -65,13 +64,13 @@ refuses 2 "flat.tif has no vertical datum, and navd.tif heights above NAVD88 hei
 way_out
 succeeds "$scarp" info navd.tif new.tif --no-suggest
 
-# Nodata: each raster's own value is a hole, and nothing else is.
+# Nodata: only each raster's own value is a hole.
 gdal_translate -q -a_nodata 300 a.tif a300.tif
 gdal_translate -q -a_nodata 400 b.tif b400.tif
 succeeds "$scarp" simplify a300.tif b400.tif o.tif -e 0 --overwrite --report r.json
 holes=$(($(heights a.tif | grep -cx 300) + $(heights b.tif | grep -cx 400)))
 [ "$(json r.json input void)" = "$holes" ] || fail "$(json r.json input void) holes instead of $holes"
-# A value that the type cannot hold stands for nothing; where no raster is there is no land at 0.
+# A value outside the type's range has no effect; outside all rasters there is no land at 0.
 gdal_translate -q -ot Byte -scale 236 1076 1 200 -srcwin 0 0 100 100 utm.tif c.tif
 gdal_translate -q -ot Byte -scale 236 1076 1 200 -srcwin 100 100 100 100 utm.tif d.tif
 gdal_edit -a_nodata -9999 c.tif
@@ -79,16 +78,16 @@ gdal_edit -a_nodata -9999 d.tif
 succeeds "$scarp" simplify c.tif d.tif o.tif -e 0 --overwrite --report r.json
 [ "$(json r.json input void)" = 20000 ] || fail "the gap is not missing"
 holds "$(json r.json input min) >= 1"
-# --nodata replaces the declared value: the gap is still one.
+# --nodata replaces the declared value; the gap remains.
 gdal_translate -q -a_nodata -9999 -srcwin 0 0 100 100 utm.tif c.tif
 gdal_translate -q -a_nodata -9999 -srcwin 100 100 100 100 utm.tif d.tif
 succeeds "$scarp" simplify c.tif d.tif o.tif -e 0 --nodata -1 --overwrite --report r.json
 holds "$(json r.json input min) >= 236"
-# A mean may be the value that stands for nodata.
+# A mean may equal the nodata value.
 printf 'ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value 0\n-1 1 5 5\n1 -1 5 5\n7 7 9 0\n7 7 9 9\n' > zero.asc
 succeeds "$scarp" simplify zero.asc zero.tif -e 0.001 --resolution 2
 [ "$(heights zero.tif | tr '\n' ' ')" = "0 5 7 9 " ] || fail "means: $(heights zero.tif | tr '\n' ' ')"
-# A mask has its part in means, and in mosaics with rasters that have none.
+# Masks apply to means, and to mosaics with rasters without masks.
 gdal_translate -q -a_nodata 300 a.tif with_nodata.tif
 gdal_translate -q --config GDAL_TIFF_INTERNAL_MASK YES -mask mask,1 -a_nodata none with_nodata.tif masked.tif
 for view in "--te 500300 4008160 503330 4009720" "--resolution 60"; do
@@ -142,7 +141,7 @@ way_out
 succeeds "$scarp" info new.tif --no-suggest
 [ "$(gdalinfo -stats new.tif | sed -n 's/.*STATISTICS_MINIMUM=//p' | cut -d. -f1)" -ge 200 ] || fail "wedges at 0"
 
-# The frame of an OUTPUT that is a raster is the raster's.
+# A raster OUTPUT has the input raster's frame.
 succeeds "$scarp" simplify "$dem" out.tif -e 50 --report r.json --overwrite
 grep -q '^  frame *coordinates in EPSG:4326 (degree)' "$logs/out" || fail "the summary names another frame"
 [ "$(json r.json frame crs)" = '"EPSG:4326"' ] || fail "the report names another frame"
@@ -151,7 +150,7 @@ succeeds "$scarp" simplify "$dem" out.pgm -e 50
 grep -q '^  frame *grid coordinates' "$logs/out" || fail "a PGM knows no place"
 succeeds "$scarp" simplify navd.tif out.tif -e 50 --overwrite
 gdalinfo out.tif | grep -q 'NAVD88' || fail "the datum of heights is lost"
-# A CRS of degrees for metres, and one of metres for degrees: the way out names the right one.
+# A CRS in degrees for metres, and one in metres for degrees: the remedy names the right one.
 gdal_translate -q -a_srs EPSG:4326 utm.tif metres.tif
 for command in "info metres.tif" "simplify metres.tif o.glb -e 50 --overwrite" "simplify metres.tif o.obj -e 50 --crs source" \
   "tile metres.tif o --vertical egm96"; do

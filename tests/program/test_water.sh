@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --water: each lake is flat in the mesh, its shore is there, and the bound holds against the raster as it is then.
+# --water: each lake is flat in the mesh, its shore is an edge, and the bound holds against the modified raster.
 source "$(dirname "$0")/lib.sh"
 need python3
 
@@ -52,8 +52,8 @@ holds "$(json high.json water 0 level) > $(json lake.json water 0 level)"
 succeeds "$scarp" simplify "$dem" away.glb -e 20 --water away.geojson
 grep -q "no lake in the raster" "$logs/err" || fail "no warning that a lake lies beside the raster"
 
-# Flat areas as they are, and rivers that never rise: walked in the file.
-# Their courses pass no sample closer than a vertex may be moved.
+# Unchanged flat areas, and rivers that never rise: followed in the file.
+# Their courses pass every sample at more than the distance of moved vertices.
 cat > courses.py <<'PYTHON'
 courses = [[(20.3, 293.1), (80.3, 53.1), (200.3, 113.1)], [(200.3, 113.1), (260.3, 233.1), (310.3, 283.1)]]
 PYTHON
@@ -106,7 +106,7 @@ succeeds "$scarp" simplify "$dem" both.glb -e 20 --water lakes.geojson --rivers 
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --detect-flats 12
 refuses 1 "--water flats 2 is not a whole number of at least 3" "$scarp" simplify "$dem" x.glb -e 20 --detect-flats 2
 
-# Two lakes of different levels that share a shore are a conflict, named, with a way out.
+# Two lakes of different levels with a common shore are a conflict, named with a remedy.
 python3 - <<'PYTHON'
 import json
 def lake(x): return {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [
@@ -123,7 +123,7 @@ refuses 1 "--water percentile 101 is above 100" "$scarp" simplify "$dem" x.glb -
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water-percentile 10
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --water nothing.gpkg
 
-# The stream of the examples follows its valley; a line over a spur is reported, with a way out that works.
+# The stream of the examples follows its valley; a line over a spur is reported with a remedy that works.
 succeeds "$scarp" simplify "$dem" stream.glb -e 20 --rivers "$data/examples/streams.geojson" --report stream.json
 ! grep -q "below the raster, for" "$logs/err" || fail "the stream of the examples crosses higher ground"
 python3 -c 'import json; assert max(r["deepest_cut"] for r in json.load(open("stream.json"))["rivers"]) < 20' ||

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# --water with --rivers, and --detect-flats, with --memory: the lakes are those of a raster in memory, level in the mesh
-# across all strips; the bytes are those of any number of threads, and the memory of lakes counts.
+# --water with --rivers, and --detect-flats, with --memory: the lakes equal those of a raster in memory and are level
+# across all strips. Any number of threads gives the same bytes, and the memory of lakes counts.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
 succeeds "$scarp" generate smooth 1100 1000 smooth.tif --seed 3 --range 300 -q
-# Whole units, and a sea where the land is low.
+# Integer heights, and a sea over low land.
 gdal_translate -q -ot Byte -scale 100 355 0 255 -a_nodata none smooth.tif sea.tif
 python3 - <<'PYTHON'
 import json
@@ -20,7 +20,7 @@ layer("rivers.geojson", "LineString", [[[20.3, 990.2], [250.6, 700.4], [700.2, 5
 PYTHON
 
 small=76M # the samples stay in their file, and strips are low
-check() { # check NAME RASTER EFFORT OPTION...: runs with --memory, their report against that of one without
+check() { # check NAME RASTER EFFORT OPTION...: runs with --memory, and compares the report with that of a run without
   local name=$1 raster=$2 effort=$3
   shift 3
   [ -e "$name.held" ] || succeeds "$scarp" simplify "$raster" held.obj -e 6 --up z --effort fast "$@" --report "$name.held" --overwrite

@@ -1,5 +1,5 @@
 #!/bin/bash
-# tools/check_words.py finds planted fragments and words in comments, docstrings and help, and none in code.
+# tools/check_words.py finds planted fragments and words in comments, docstrings and help, but not in code.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need python3
 check_words=$SCARP_SOURCE/tools/check_words.py

@@ -40,7 +40,7 @@ for row in open("flow.2dm"):
                 break
         assert len(word) <= 12, row
 assert not open_string
-# Borders are followed exactly: areas are those of the polygons, up to the lattice of 256ths of a sample.
+# Borders are followed exactly: areas equal the polygons', up to the lattice of 256ths of a sample.
 area = {}
 edges = set()
 for a, b, c, material in triangles:
@@ -64,7 +64,7 @@ done
 grep -q '^  materials     3 numbers; ' summary || fail "the summary does not tell the materials"
 grep -q '^  node strings  1 of ' summary || fail "the summary does not tell the node strings"
 
-# Without an attribute features are numbered; without either option the file is what it was.
+# Without an attribute, features are numbered; without both options the file is unchanged.
 succeeds "$scarp" simplify "$dem" counted.2dm -e 50 --materials zones.geojson -q
 [ "$(awk '$1 == "E3T" { print $6 }' counted.2dm | sort -u | tr '\n' ' ')" = "1 2 3 " ] || fail "features are not counted"
 succeeds "$scarp" simplify "$dem" plain.2dm -e 50 --report r.json --overwrite -q

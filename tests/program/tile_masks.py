@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Compares the water masks of a folder of tiles with a lake's polygon, without any of Scarp's code.
+"""Compares the water masks of a folder of tiles with a lake's polygon, without Scarp's code.
 
-  tile_masks.py FOLDER LAKE.geojson TILE...: draws the masks of the tiles (z/x/y) anew, from 4 x 4 places a texel. All tiles
-  must have a mask; prints how many are land, water, and both.
+  tile_masks.py FOLDER LAKE.geojson TILE...: redraws the masks of the tiles (z/x/y) from 4 x 4 places a texel. All tiles
+  must have a mask. Prints how many are land, water, and both.
 """
 
 import json
@@ -42,7 +42,7 @@ def main():
         mine = draw(edges, *map(int, name.split("/")))
         theirs = read_tile(folder / f"{name}.terrain")["mask"]
         assert len(mine) == len(theirs), name
-        # A place on an edge may fall either way.
+        # A place on an edge may count either way.
         apart = sum(a != b for a, b in zip(mine, theirs))
         assert apart <= 3 and len(set(mine)) > 5, (name, apart)
     print(*seen)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Judges a folder of tiles on a local grid by its files alone, without any of Scarp's code.
+"""Judges a folder of tiles on a local grid by its files alone, without Scarp's code.
 
-  tile_plane.py FOLDER SAMPLES COLS ROWS BACKGROUND CELL: SAMPLES are float32, row by row from the north-west. Decodes every
-  GLB (meshopt, version 0), and fails unless at each level each sample lies on a triangle that is within the level's
-  bound of it, no vertex lies beyond the raster by a coarse node, neighbours have the same vertices on their edge, and the tiles' heights
-  lie in the box of tileset.json. Prints for each level: tiles, triangles, the worst error, the bound.
+  tile_plane.py FOLDER SAMPLES COLS ROWS BACKGROUND CELL: SAMPLES are float32, row by row from the north-west. Decodes
+  every GLB (meshopt, version 0). Fails unless each sample has a triangle within the bound of each level, no vertex lies
+  a coarse node beyond the raster, neighbours have the same vertices on their edge, and all heights lie in the box of
+  tileset.json. Prints for each level: tiles, triangles, the worst error, the bound.
 """
 import array
 import json
@@ -205,7 +205,7 @@ def main():
                         met.add(row * cols + col)
                         worst = max(worst, abs(az + to_b * (bz - az) + to_c * (cz - az) - heights[row][col]))
         assert len(met) == cols * rows, f"level {z}: {cols * rows - len(met)} samples lie on no triangle"
-        # The reported error is that of the file's numbers, not a little less.
+        # The reported error is at least that of the file's numbers.
         assert worst <= level["node_error"] * (1 + 1e-9) + 1e-6, (z, worst, level["node_error"])
         print(len(of_level), triangles, worst, level["bound"])
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Reads sets of tiles in one file without any of Scarp's code.
+"""Reads single-file tilesets without Scarp's code.
 
-  tile_sets.py FOLDER ARCHIVE: fails if the archive (.pmtiles, .mbtiles, .3tz) does not hold exactly the files of the
-  folder, byte for byte, or breaks a rule of its format; prints the number of files.
+  tile_sets.py FOLDER ARCHIVE: fails unless the archive (.pmtiles, .mbtiles, .3tz) contains exactly the files of the
+  folder, byte for byte, and satisfies its format's rules. Prints the number of files.
 """
 
 import base64
@@ -19,7 +19,7 @@ LEVEL_OF_TILES = -3  # index from the end of a path z/x/y.terrain
 
 
 def hilbert(zoom, x, y):
-    """The place of a tile on the curves of all zooms, by recursion over quadrants."""
+    """The index of a tile on the curves of all zooms, by recursion over quadrants."""
     if zoom == 0:
         return 0
     half = 1 << (zoom - 1)

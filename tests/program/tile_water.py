@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Judges tiles with a lake by brute force, without any of Scarp's code.
+"""Judges tiles with a lake by brute force, without Scarp's code.
 
-  tile_water.py FOLDER RASTER.xyz LAKE.geojson LEVEL LAYERS: the raster's samples are the nodes of the finest level. Makes
-  the raster's lake flat on its own, then compares every node of the last LAYERS levels with every triangle above it, against
-  the bound in layer.json; and the vertices in the lake, which must lie at one height on each level.
+  tile_water.py FOLDER RASTER.xyz LAKE.geojson LEVEL LAYERS: the raster's samples are the nodes of the finest level.
+  Flattens the raster's lake independently. Then compares every node of the last LAYERS levels with every triangle above
+  it, against the bound in layer.json. Vertices in the lake must have one height on each level.
 """
 
 import json
@@ -32,7 +32,7 @@ def main():
         for p, q in edges:
             if (p[1] <= row) != (q[1] <= row):
                 cuts.append(p[0] + (row - p[1]) / (q[1] - p[1]) * (q[0] - p[0]))
-                # Nodes a 128th off the shore are water, too.
+                # Nodes within a 128th of the shore are water, too.
                 away = abs(cuts[-1] - round(cuts[-1])) * abs(q[1] - p[1]) / math.dist(p, q)
                 assert away > 1 / 100, f"the lake's edge is on a node: {row}, {away}"
         return sorted(cuts)
@@ -77,7 +77,7 @@ def main():
                         worst = max(worst, abs(a[2] + s * (b[2] - a[2]) + t * (c[2] - a[2]) - wet[col, row]))
         assert seen >= len(nodes), (z, seen)
         assert worst <= told["node_error"] * (1 + 1e-6) + 1e-4, (z, worst, told)
-        # At least as many as a flat lake needs at its shore, and all of one height.
+        # At least as many as a flat lake's shore requires, all at one height.
         assert len(flat) == 1, (z, flat)
         assert abs(flat.pop() - level) <= told["quantum"] / 2 + 1e-4, (z, told)
         compared += seen

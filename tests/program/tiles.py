@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Reads a folder of quantized-mesh tiles without any of Scarp's code.
+"""Reads a folder of quantized-mesh tiles without Scarp's code.
 
-  tiles.py FOLDER: fails if a tile that layer.json announces is missing, one is there that it does not announce, two
-  neighbours differ on the edge that they share (places, heights in single precision, normals), or a triangle faces
-  down; prints tiles, shared edges, and the lowest and the highest height.
+  tiles.py FOLDER: fails if tiles differ from those that layer.json announces, two neighbours differ on their shared
+  edge (places, heights in single precision, normals), or a triangle faces down. Prints tiles, shared edges, and the
+  lowest and the highest height.
 """
 
 import gzip

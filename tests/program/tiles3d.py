@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Reads a folder of 3D Tiles terrain without any of Scarp's code.
+"""Reads a folder of 3D Tiles terrain without Scarp's code.
 
-  tiles3d.py FOLDER: walks tileset.json and its subtrees by the specification; fails if a tile that they announce
-  is missing, one is there that they do not announce, a number in a property table is not a height, sphere or horizon
-  point that can be, or a file's parts do not fit; prints tiles, subtrees, and the region's lowest and highest height.
+  tiles3d.py FOLDER: follows tileset.json and its subtrees by the specification; fails if tiles differ from the
+  announced ones, a height, sphere or horizon point in a property table is impossible, or a file's parts are
+  inconsistent. Prints tiles, subtrees, and the region's lowest and highest height.
 """
 
 import json
@@ -106,11 +106,11 @@ def main():
     assert subtrees == len(list(folder.glob("subtrees/*/*/*/*.subtree")))
     for key, uri in announced.items():
         gltf = read_glb(folder / uri)
-        # The node's corner, z up again, lies as far from the sphere's centre as a box around it can.
+        # The node's corner, turned back to z up, is as far from the sphere's centre as a box's corner can be.
         x, y, z = gltf["nodes"][0]["matrix"][12:15]
         sphere = origins[key]
         assert math.dist((x, -z, y), sphere[:3]) <= 3 ** 0.5 * 3 * sphere[3], f"{uri} is elsewhere"
-        # And the tile's middle is where its address puts it: y from the south.
+        # The tile's middle is at its address, with y from the south.
         root_number, level, column, row = key
         if level < 3:
             continue

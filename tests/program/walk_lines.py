@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Walks lines along the edges of a mesh: python3 walk_lines.py MESH.obj LINES.geojson COLS ROWS [LEAST]
+"""Follows lines along the edges of a mesh: python3 walk_lines.py MESH.obj LINES.geojson COLS ROWS [LEAST]
 
-Each line of the file, as far as it lies on the raster of COLS x ROWS samples, is a chain of edges: all vertices on a
-segment, in order, are joined, and each end on the raster is a vertex; fails where it is not so, or where fewer than LEAST
-(1) edges were walked. Coordinates are samples, and lines end outside to the left only.
+Fails unless each line of the file on the raster of COLS x ROWS samples is a chain of edges: its vertices are joined in
+order, and its ends are vertices. Also fails for fewer than LEAST (1) edges. Coordinates are samples, and lines end
+outside only to the left.
 """
 import json
 import sys
 
-SIDE, NEAR = 16, 0.006  # share of a cell of the index; off a line by rounding to the lattice
+SIDE, NEAR = 16, 0.006  # cell size of the index; distance from a line after rounding to the lattice
 
 vertices, edges = [], set()
 for line in open(sys.argv[1]):
@@ -26,7 +26,7 @@ for v, (x, y, _) in enumerate(vertices):
 
 
 def near(p, x, y, length):
-    """The vertices of all cells that the segment passes or nearly passes."""
+    """The vertices of all cells at or near the segment."""
     looks = int(length / SIDE * 4) + 1
     found = {(int((p[0] + x * t / looks + dx) // SIDE), int((p[1] + y * t / looks + dy) // SIDE))
              for t in range(looks + 1) for dx in (-4, 4) for dy in (-4, 4)}
@@ -47,7 +47,7 @@ def walk(p, q):
         vx, vy, vz = vertices[v]
         along = ((vx - p[0]) * x + (vy - p[1]) * y) / length
         beside = abs((vx - p[0]) * y - (vy - p[1]) * x) / length
-        # Next to a hard line a sample may lie nearer than the lattice distinguishes, with another height.
+        # Next to a hard line a sample with another height may be closer than the lattice resolves.
         other = len(p) == 3 and abs(vz - p[2] - along / length * (q[2] - p[2])) > 0.02
         if beside < NEAR and -NEAR <= along <= length + NEAR and not other:
             on.append((along, v))

@@ -1,6 +1,6 @@
-"""Common parts of the tests of Scarp for Python. Parts that need a package that is not there are skipped.
+"""Common parts of the tests of Scarp for Python. Parts that need a missing package are skipped.
 
-SCARP_PROGRAM: the program, whose bytes are compared; SCARP_DEM: a raster. SCARP_SHARE=N: leaks are searched for with an
+SCARP_PROGRAM: the program, whose bytes are compared; SCARP_DEM: a raster. SCARP_SHARE=N: the search for leaks uses an
 Nth (DEFAULT: a tenth) of 10,000 meshes and 1,000 refiners.
 """
 import array
@@ -14,11 +14,11 @@ except ImportError:
 
 PROGRAM = os.environ.get("SCARP_PROGRAM")
 DEM = os.environ.get("SCARP_DEM")
-SHARE = int(os.environ.get("SCARP_SHARE", "10"))  # one in so many of the tasks done many times
+SHARE = int(os.environ.get("SCARP_SHARE", "10"))  # repeated tasks run an Nth of their repetitions
 
 
 def need(*modules):
-    """Skips the test, aloud, where one of the modules is missing."""
+    """Skips the test with a message if a module is missing."""
     def can_import(name):
         try:
             __import__(name)
@@ -35,7 +35,7 @@ def hills(rows=120, cols=160, dtype="float32"):
 
 
 def plain_hills(rows, cols):
-    """The same kind of thing without numpy: a memoryview of float32."""
+    """Similar hills without numpy: a memoryview of float32."""
     lines = [array.array("f", [float((k + col * col) % 41) for col in range(cols)]) for k in range(41)]
     values = array.array("f")
     for row in range(rows):
@@ -44,7 +44,7 @@ def plain_hills(rows, cols):
 
 
 def is_same(a, b):
-    """Value by value: 0 and -0 are one."""
+    """Compares value by value: 0 equals -0."""
     if np is None:
         return a.offsets.tolist() == b.offsets.tolist() and bytes(a.triangles) == bytes(b.triangles)
     return np.array_equal(a.offsets, b.offsets) and np.array_equal(a.triangles, b.triangles)

@@ -1,4 +1,4 @@
-"""Arrays of numpy in and out, and what other packages make of them."""
+"""Arrays of numpy as input and output, and arrays of other packages."""
 import gc
 import os
 import subprocess
@@ -178,7 +178,7 @@ class Arrays(unittest.TestCase):
         z = hills(dtype="float64")
         void = np.zeros(z.shape, bool)
         void[30:50, 40:90] = True
-        z[void] = 1e20  # whose rounding to float32 is a trillion
+        z[void] = 1e20  # its rounding to float32 is a trillion
         mesh = scarp.simplify(np.ma.MaskedArray(z, void), 2)
         self.assertLessEqual(mesh.max_error, 2)
         self.assertEqual(mesh.report.samples, z.size - void.sum())
@@ -235,7 +235,7 @@ class Arrays(unittest.TestCase):
         self.assertLessEqual(mesh.max_error, 1.5)
         self.assertLess(mesh.vertex_count, 500)
         self.assertTrue({tuple(v) for v in np.round(mesh.vertices, 2)} <= {tuple(p) for p in np.round(points, 2)})
-        # Like in its help: rows of three are points, unless something shows that they are a raster.
+        # By its help: rows of three are points, unless something identifies a raster.
         proof = mesh.report
         for given in (points, points.tolist(), np.asfortranarray(points)):
             report = scarp.measure(given, mesh)
@@ -350,7 +350,7 @@ class Arrays(unittest.TestCase):
             Delatin(z, blur=2)
         with self.assertRaisesRegex(ValueError, "give height and width"):
             Delatin(z.ravel())
-        # Used like in scripts: no warning, and arrays that are the caller's own.
+        # Used as in scripts: no warning, and arrays that belong to the caller.
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             steep = Delatin(100 * z, max_error=200)

@@ -1,4 +1,4 @@
-"""Files and datasets: meshes and tiles are those of the program."""
+"""Files and datasets: meshes and tiles equal the program's."""
 import os
 import subprocess
 import tempfile
@@ -27,7 +27,7 @@ class Files(unittest.TestCase):
                 with rasterio.open(os.path.join(folder, "new.tif"), "w", **dataset.profile) as other:
                     with self.assertRaises(scarp.InputError):
                         scarp.simplify(other, 5)
-                # A raster whose name is usual for points.
+                # A raster with a name that is usual for points.
                 points = os.path.join(folder, "dem.txt")
                 with rasterio.open(points, "w", **{**dataset.profile, "driver": "GTiff"}) as other:
                     other.write(dataset.read())

@@ -121,7 +121,7 @@ class Library(unittest.TestCase):
         self.assertTrue(all(step.seconds_left is None or step.seconds_left >= 0 for step in told))
         self.assertEqual({step.tiles for step in told}, {0})
 
-        # A progress function may simplify, too.
+        # A progress function may itself simplify.
         inner = []
         z = plain_hills(300, 300)
         outer = scarp.simplify(z, 0.5, effort="high", of="obj",
@@ -139,7 +139,7 @@ class Library(unittest.TestCase):
             with self.assertRaises(Own):
                 scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=bad)
 
-        # The exception holds nothing in a circle.
+        # The exception is in no reference cycle.
         gc.collect()
         gc.disable()
         try:

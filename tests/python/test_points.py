@@ -1,4 +1,4 @@
-"""Points in memory, and what is asked of arrays in vain. With and without GDAL."""
+"""Points in memory, and impossible requests for arrays. With and without GDAL."""
 import pickle
 import unittest
 import warnings
@@ -84,7 +84,7 @@ class Points(unittest.TestCase):
                 scarp.simplify_points(np.c_[5e5 + a, 5e6 + 0.3 * a + noise * 1e7 * width, z], 0.1)
             except scarp.ScarpError as error:
                 self.assertIn("all points lie on one line", str(error))
-        for width in (1e-2, 1.0):  # a road is none
+        for width in (1e-2, 1.0):  # a road is not one
             mesh = scarp.simplify_points(np.c_[5e5 + a, 5e6 + 0.3 * a + noise * 1e7 * width, z], 0.1)
             self.assertEqual(mesh.report.uncovered, 0)
 

@@ -1,4 +1,4 @@
-"""DataArrays and Datasets: one reading of place, CRS, voids and packing, whatever else is imported."""
+"""DataArrays and Datasets: place, CRS, voids and packing are read the same, whatever else is imported."""
 import os
 import subprocess
 import sys
@@ -24,7 +24,7 @@ def degrees(dims=("lat", "lon"), **more):
 
 
 def place_of(source, **more):
-    """The transform and the CRS that the library is given."""
+    """The transform and the CRS given to the library."""
     field = _inputs.read(source, **more).field
     return list(field.geotransform), (field.crs or b"").decode()
 
@@ -47,7 +47,7 @@ class DataArrays(unittest.TestCase):
                       heights.to_dataset(), heights.astype("f8"), heights.chunk() if has_dask() else heights):
             mesh = scarp.simplify(other, 2)
             self.assertTrue(is_same(mesh, expected) and mesh.origin == expected.origin, other.dims)
-        # Masks have the layout of the array that they are given with; samples are named in it.
+        # Masks have the layout of their array; samples are named in it.
         beside, of = heights.copy(data=mask), expected.report.max_error_at
         for other in (heights[::-1], heights[:, ::-1], heights.transpose(), heights.transpose()[::-1, ::-1]):
             like = beside.transpose(*other.dims).sel({dim: other.coords[dim] for dim in other.dims})
@@ -73,7 +73,7 @@ class DataArrays(unittest.TestCase):
             mesh = scarp.simplify(one, 2)
             self.assertTrue(10000 < np.ptp(mesh.vertices[:, 0]) < 11000)  # metres
             self.assertLess(abs(np.ptp(mesh.vertices[:, 1]) - 119 / 1200 * 111150), 30)
-        # Without a name for them they are as the program has them: warned of.
+        # Without a CRS they are treated as in the program, with a warning.
         with self.assertWarnsRegex(scarp.ScarpWarning, "look like degrees.*EPSG:4326"):
             scarp.simplify(degrees(("y", "x")), 2)
         with self.assertWarnsRegex(scarp.ScarpWarning, "look like degrees"):
@@ -97,7 +97,7 @@ class DataArrays(unittest.TestCase):
                            (grid().assign_coords(x=np.r_[np.nan, np.arange(COLS - 1)]), "not finite")):
             with self.assertRaisesRegex(scarp.InputError, words):
                 scarp.simplify(one, 2)
-        # Numbers that a file keeps in float32 are as even as they can be.
+        # Numbers stored in float32 are as evenly spaced as they can be.
         self.assertEqual(place_of(degrees().assign_coords(lat=(46 - np.arange(ROWS) / 1200).astype("f4")))[1], "EPSG:4326")
 
     @need("scipy")
@@ -108,7 +108,7 @@ class DataArrays(unittest.TestCase):
         way = str(caught.exception).split("as in ")[1]
         even = eval(way, {"array": bent, "numpy": np})
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # degrees of so many latitudes are no shape
+            warnings.simplefilter("ignore")  # degrees over so many latitudes distort shapes
             self.assertLessEqual(scarp.simplify(even, 2).max_error, 2)
 
     def test_a_crs_is_found_where_files_and_tools_have_it(self):
@@ -137,7 +137,7 @@ class DataArrays(unittest.TestCase):
         turned = xarray.DataArray(hills(), dims=("y", "x"), coords={"spatial_ref": ((), 0, told)})
         self.expect(turned, (500000, 30, 5, 4000000, 5, -30), "EPSG:32611")
         self.expect(turned.drop_vars("spatial_ref"), (0, 1, 0, 0, 0, -1), "")
-        # The coordinates of a part count, whatever the geotransform of the whole is.
+        # The coordinates of a part apply, whatever the geotransform of the whole.
         part = grid().assign_coords(spatial_ref=((), 0, {**told, "GeoTransform": "500000 30 0 4000000 0 -30"}))[20:, 10:]
         self.expect(part, (500300, 30, 0, 3999400, 0, -30), "EPSG:32611")
 
@@ -158,7 +158,7 @@ class DataArrays(unittest.TestCase):
         for kind, words, source in cases:
             with self.assertRaisesRegex(kind, words):
                 scarp.simplify(source, 2)
-        # A call with a transform needs no coordinates.
+        # With a transform, coordinates are not needed.
         self.assertEqual(place_of(curved, transform=(0, 1, 0, 0, 0, -1))[0], [0, 1, 0, 0, 0, -1])
         self.assertLessEqual(scarp.simplify(several["a"], 2).max_error, 2)
 

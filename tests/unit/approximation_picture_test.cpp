@@ -34,7 +34,7 @@ OwnedChannels make_channels(int cols, int rows, int bands, bool is_8bit) {
   return channels;
 }
 
-/// Gives vertices the channels of the samples that they lie on; vertices as grid_mesh() makes them.
+/// Gives vertices the channels of their samples; vertices as in grid_mesh().
 void take_channels(Mesh& mesh, const OwnedChannels& channels, int step) {
   const int across = (channels.cols - 1) / step + 1;
   mesh.channel_count = static_cast<int>(channels.bands.size());
@@ -71,7 +71,7 @@ TEST(DrawGouraud, InterpolatesAsTheJudgeDoesWithinHalfAByte) {
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) channel.positions[3 * v + 2] = mesh.colors[3 * v + k];
     const auto wanted = resample(terrain.view(), channel);
     ASSERT_TRUE(wanted);
-    // Samples on an edge are the same from both sides, so that the judge's choice between them plays no role.
+    // Samples on an edge are equal from both sides, so the judge's choice between them is irrelevant.
     for (std::size_t i = 0; i < wanted->size(); ++i) {
       ASSERT_NEAR(drawn.rgb[3 * i + k], (*wanted)[i], 0.5001) << i % 61 << " " << i / 61;
     }
@@ -80,7 +80,7 @@ TEST(DrawGouraud, InterpolatesAsTheJudgeDoesWithinHalfAByte) {
 
 TEST(DrawGouraud, IsWhiteWhereTheMeshIsNot) {
   Terrain terrain = wavy_terrain(21, 21);
-  Mesh mesh = grid_mesh(terrain, 20);  // two triangles; the first alone remains
+  Mesh mesh = grid_mesh(terrain, 20);  // two triangles, only the first of which remains
   mesh.triangles.resize(3);
   mesh.colors.assign(3 * mesh.vertex_count(), 10);
   const Picture drawn = draw_gouraud(terrain.view(), mesh);

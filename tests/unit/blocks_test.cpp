@@ -1,4 +1,4 @@
-// Blocks that wait for the next array.
+// Blocks kept for the next array.
 #include "base/blocks.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// Empties the shelf but for one small block: the oldest go first.
+/// Empties the shelf except for a small block: the oldest go first.
 void empty_shelf() {
   for (std::size_t bytes = 0; bytes < kMostKept; bytes += kLargestKept)
     leave_block({std::malloc(kLargestKept), kLargestKept});

@@ -1,4 +1,4 @@
-// Images as channels: every band, with its colours, nodata and place.
+// Images as channels: every band with colours, nodata and place.
 #include <gtest/gtest.h>
 
 #include <cmath>

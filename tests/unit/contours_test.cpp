@@ -30,7 +30,7 @@ void add_line(PointSet& points, const std::string& name, const std::vector<std::
   points.lines.push_back(std::move(line));
 }
 
-/// Rings around a star-shaped hill, the highest in the middle.
+/// Rings around a star-shaped hill, highest in the middle.
 PointSet hill() {
   PointSet points;
   for (int level = 0; level < 12; ++level) {

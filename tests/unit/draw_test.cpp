@@ -1,4 +1,4 @@
-// Pictures: sizes, colours that mean something, lines where the mesh is.
+// Pictures: sizes, meaningful colours, lines at the mesh's edges.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ TEST(DrawPreview, DrawsTheMeshOnTheSamples) {
   }
 }
 
-/// A map that bends: no affine map comes near it.
+/// A curved map that no affine map approximates.
 class Bend : public PointTransform {
  public:
   bool apply(std::span<double> x, std::span<double> y) const override {
@@ -222,7 +222,7 @@ TEST(DrawPreview, LeavesOutTheEdgesOfTinyTriangles) {
 }
 
 TEST(Font, LeavesNoGapsAroundPoints) {
-  // Each character is as wide as its ink, and one column: "+2.5" has no hole behind the point.
+  // Each character is as wide as its ink plus one column: "+2.5" has no gap after the point.
   EXPECT_LT(draw::text_width(".", 1), 4);
   EXPECT_EQ(draw::text_width("2.5", 1),
             draw::text_width("2", 1) + draw::text_width(".", 1) + draw::text_width("5", 1) + 2);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<Point, 3> kCorners{Point{0, 0}, Point{3, 0}, Point{0, 3}};
 
 TEST(exact_error, a_third_is_neither_more_nor_less_than_itself) {
-  // The plane is x/3 at x = 1 of 0..3: exactly 1/3, which no double is.
+  // The plane is x/3 at x = 1 of 0..3: exactly 1/3, which is not a double.
   const std::array<float, 3> heights{0, 1, 0};
   EXPECT_TRUE(exceeds_exactly(kCorners, heights, {1, 0}, 0, std::nextafter(1.0 / 3, 0)));
   EXPECT_TRUE(exceeds_exactly(kCorners, heights, {1, 0}, 0, 1.0 / 3)) << "the double 1/3 lies below one third";
@@ -37,7 +37,7 @@ TEST(exact_error, answers_true_where_128_bits_do_not_suffice) {
   EXPECT_TRUE(exceeds_exactly(kCorners, heights, {1, 1}, 0, 1e30));
 }
 
-// The guard of a plane is a real bound of its rounding: outside it doubles and integers agree.
+// The guard of a plane bounds its rounding: outside it doubles and integers agree.
 RC_GTEST_PROP(exact_error, agrees_with_doubles_outside_the_guard, ()) {
   const auto side = *rc::gen::element(5, 500, 40000);
   const auto point = [&] { return Point{*rc::gen::inRange(0, side), *rc::gen::inRange(0, side)}; };

@@ -1,4 +1,4 @@
-// Features declared: the lines of a mesh of one max error.
+// Declared features: the lines of a mesh with one max error.
 #include "scarp/features.h"
 
 #include <gtest/gtest.h>

@@ -149,7 +149,7 @@ TEST_F(FileTest, ReadingNamesTheReason) {
 }
 
 TEST_F(FileTest, AHandlerFindsTheTemporaryName) {
-  // A child whose write is stopped by SIGXFSZ asks for the name within its handler, removes the file, and ends.
+  // A child stopped by SIGXFSZ while writing requests the name in its handler, removes the file, and ends.
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {

@@ -1,4 +1,4 @@
-// docs/formats.md holds the table of mesh formats. With SCARP_UPDATE_DOCS=1 this test writes it.
+// docs/formats.md contains the table of mesh formats. With SCARP_UPDATE_DOCS=1 this test writes it.
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -15,7 +15,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 bool is_float32(double v) { return static_cast<double>(static_cast<float>(v)) == v; }
 
-/// Stands for a projection that reaches the right half plane only.
+/// A projection that is valid only in the right half plane.
 class HalfPlane final : public PointTransform {
  public:
   bool apply(std::span<double> x, std::span<double> y) const override {
@@ -69,7 +69,7 @@ TEST(Frame, ExactnessKnowsCellSizes) {
 }
 
 TEST(LocalFrame, MetresPerDegreeAreTheTextbooks) {
-  // Lengths of a degree on WGS 84 as tables give them.
+  // Lengths of a degree on WGS 84 from tables.
   const auto equator = metres_per_radian(kWgs84, 0);
   EXPECT_NEAR(equator.east * kDegree, 111319.49, 0.01);
   EXPECT_NEAR(equator.north * kDegree, 110574.28, 0.01);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t kCols = 400, kRows = 300;
 
-/// A map whose offsets are no float32 numbers.
+/// A map whose offsets are not exact in float32.
 class Bent final : public PointTransform {
  public:
   bool apply(std::span<double> x, std::span<double> y) const override {
@@ -32,7 +32,7 @@ struct Scene {
   std::vector<float> samples;
   Triangulation tin{kCols, kRows};
 
-  /// `with_outside`: without what lies on the left, corners of the rectangle among it.
+  /// `with_outside`: marks the left part outside, including corners of the rectangle.
   explicit Scene(bool with_outside) {
     for (std::int32_t i = 0; i < kCols * kRows; ++i) samples.push_back(std::sin(static_cast<float>(i)) * 50);
     std::mt19937 random(7);
@@ -60,7 +60,7 @@ struct Scene {
   }
 };
 
-/// In metres, or a third of them: offsets are no float32 numbers.
+/// In metres or thirds of metres: offsets are not exact in float32.
 std::vector<Frame> frames() {
   Frame plain = grid_frame(kRows);
   plain.affine[1] = 1 / 3.0;

@@ -126,7 +126,7 @@ TEST(Generate, SmoothFieldsBendLittle) {
     }
   }
   EXPECT_GT(bend, 1);
-  EXPECT_LT(bend, 20);  // 64 waves in phase would bend by (2π 8 / 256)² of the half relief, 19
+  EXPECT_LT(bend, 20);  // 64 waves in phase would have a curvature of (2π 8 / 256)² of the half relief, 19
 }
 
 TEST(Generate, RefusesSizesThatCannotBe) {
@@ -146,8 +146,8 @@ TEST(Generate, AreTheSameOnEveryMachine) {
     EXPECT_EQ(checksum(make(static_cast<FieldStyle>(k), 256, 200, 42)), expected[k]) << field_style_names()[k];
 }
 
-/// Scape on genstm's fields of 256 x 256, 200 vertices: the max errors that it reached, Delaunay. Ties, which
-/// fields as regular as these are full of, set the rest.
+/// Max errors that Scape's Delaunay reached on genstm's fields of 256 x 256 with 200 vertices. The many ties of such
+/// regular fields determine the rest.
 TEST(Generate, FieldsAreGenstms) {
   const std::pair<FieldStyle, double> reached[] = {
       {FieldStyle::kParabola, 2.34},         {FieldStyle::kStep, 14.4},

@@ -1,4 +1,4 @@
-// The result of another reader than GDAL's is tested by tests/program/test_gis_formats.sh.
+// tests/program/test_gis_formats.sh tests readers other than GDAL.
 #include <gtest/gtest.h>
 
 #include "mesh_samples.h"

@@ -1,4 +1,4 @@
-// The table of options as the program uses it: parts, ranges, rules and the canonical command.
+// The table of options in the program's use: parts, ranges, rules and the canonical command.
 #include "session/options/given_options.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 using enum OptionId;
 using Words = std::vector<std::string>;
 
-/// The complaint about the words of a command; empty if there is none.
+/// The error for the words of a command; empty if valid.
 std::string parse(GivenOptions& given, Words words) {
   CLI::App program;
   given.add_to(program);
@@ -90,7 +90,7 @@ TEST(GivenOptions, TheCanonicalCommandNamesFilesWithoutFoldersAndOmitsDefaults) 
             " --max-error 1 --cutline b.gpkg,inset=2");
 }
 
-/// Parsed again, the canonical command is itself: for each option alone.
+/// Parsing the canonical command gives the same command: for each option alone.
 TEST(GivenOptions, TheCanonicalCommandIsAFixedPoint) {
   for (const OptionRow* row : rows_with_values()) {
     GivenOptions given(kSimplify);
@@ -103,7 +103,7 @@ TEST(GivenOptions, TheCanonicalCommandIsAFixedPoint) {
     GivenOptions again(kSimplify);
     const std::string complaint =
         parse(again, {"in.tif", "out.glb", text.substr(1, blank - 1), text.substr(blank + 1)});
-    // A rule may ask for another option; values are separated before rules are checked.
+    // A rule may require another option; values are separated before rules are checked.
     EXPECT_TRUE(complaint.empty() || complaint.find("needs") != std::string::npos) << complaint;
     EXPECT_EQ(again.canonical(), text);
   }
@@ -152,13 +152,13 @@ void give(const OptionTerm& term, GivenOptions& given) {
     given.set(term.id, Given(value));
 }
 
-/// True if the sentence names the option, or the part as it was spelled until 0.2.
+/// True if the message names the option, or the part as spelled until 0.2.
 bool names(const std::string& sentence, Commands command, OptionId id) {
   return sentence.find(name_of(id)) != std::string::npos ||
          sentence.find(find_option(command, id)->name) != std::string::npos;
 }
 
-/// Each rule refuses what it names, in a sentence with both names, and passes without.
+/// Each rule refuses its options with both names in the message, and passes without.
 TEST(OptionRules, EachRefusesWhatItNames) {
   for (const OptionRule& rule : option_rules()) {
     for (const Commands command : {kSimplify, kMeasure, kTile}) {

@@ -1,4 +1,4 @@
-// GLB with KHR_mesh_quantization and EXT_meshopt_compression: ours, and what other programs may write.
+// GLB with KHR_mesh_quantization and EXT_meshopt_compression: ours and other programs'.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
-/// The sample grid with heights on 32nds, and corners moved by eighths of a cell.
+/// The sample grid with heights in 32nds, and corners moved by eighths of a cell.
 Mesh lattice_mesh(int cols, int rows, bool normals = false) {
   Mesh mesh = test::grid_mesh(
       cols, rows, [](int, int) { return true; }, normals);
@@ -35,7 +35,7 @@ Mesh lattice_mesh(int cols, int rows, bool normals = false) {
 
 GlbOptions compressed() { return {.compress = true, .cell = {30.25, -29.875}}; }
 
-/// The triangles, sorted, each from its least corner on: a compressed file has an order of its own.
+/// The sorted triangles, each from its least corner: a compressed file has its own order.
 std::vector<std::array<std::uint32_t, 3>> sorted(const std::vector<std::uint32_t>& triangles) {
   std::vector<std::array<std::uint32_t, 3>> all;
   for (std::size_t i = 0; i < triangles.size(); i += 3) {
@@ -46,7 +46,7 @@ std::vector<std::array<std::uint32_t, 3>> sorted(const std::vector<std::uint32_t
   return all;
 }
 
-/// The mesh of equal places, its vertices in the order of `model`.
+/// The mesh with equal places, with vertices in the order of `model`.
 Mesh in_order_of(const Mesh& model, const Mesh& mesh) {
   std::map<std::array<double, 3>, std::size_t> places;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) places[mesh.vertex(v)] = v;
@@ -102,7 +102,7 @@ TEST(GlbCompression, KeepsPlacesAndRoundsWhatIsShownOnly) {
 }
 
 TEST(GlbCompression, KeepsWhatDoesNotFit16Bits) {
-  // Heights of all digits; more than 65,535 steps along x; no lattice at all.
+  // Heights with all digits; more than 65,535 steps along x; no lattice.
   Mesh rough = lattice_mesh(20, 30);
   rough.positions[2] = static_cast<double>(0.1f);
   Mesh wide = lattice_mesh(20, 30);
@@ -194,7 +194,7 @@ TEST(GlbCompression, RefusesHostileStreams) {
     j["bufferViews"][static_cast<std::size_t>(view)]["extensions"]["EXT_meshopt_compression"][key] = value;
     if (std::string_view(key) == "byteStride" && value == 4) j["accessors"][1]["componentType"] = 5125;
     const std::string said = message(j);
-    if (std::string_view(words) == "accepted") continue;  // the bytes may mean that, too
+    if (std::string_view(words) == "accepted") continue;  // the bytes may legally mean that
     if (std::string_view(key) == "byteStride" && value == 4) continue;
     EXPECT_NE(said.find(words), std::string::npos) << key << " " << value << ": " << said << " lacks: " << words;
   }
@@ -203,7 +203,7 @@ TEST(GlbCompression, RefusesHostileStreams) {
   ASSERT_EQ(later[start], 0xA0);
   later[start] = 0xA1;
   EXPECT_NE(decode_mesh(later, "x.glb").error().message.find("later version of the codec"), std::string::npos);
-  // No byte of the streams makes the reader fall over.
+  // No byte of the streams crashes the reader.
   for (std::size_t at = start; at < bytes.size(); ++at) {
     Bytes broken = bytes;
     broken[at] ^= static_cast<std::uint8_t>(1 + at % 255);
@@ -212,7 +212,7 @@ TEST(GlbCompression, RefusesHostileStreams) {
   }
 }
 
-/// A file of three vertices, as other programs write them.
+/// A file of three vertices as written by other programs.
 Bytes foreign(const json& position, const Bytes& stream, const json& packing, const json& node) {
   json j;
   j["asset"]["version"] = "2.0";
@@ -237,7 +237,7 @@ Bytes foreign(const json& position, const Bytes& stream, const json& packing, co
 
 TEST(GlbCompression, ReadsQuantisedNumbersOfEveryType) {
   const json node = {{"mesh", 0}, {"scale", {2, 2, 2}}, {"translation", {10, 0, 0}}};
-  // x, y and z of three corners, one after the other, padded to a stride of 4 and 8.
+  // x, y and z of three corners in turn, padded to a stride of 4 and 8.
   const Bytes bytes8 = {0, 0, 0, 0, 127, 0, 0, 0, 0, 0, 0x81, 0};
   const Bytes bytes16 = {0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0x7F, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x01, 0x80, 0, 0};
   const std::tuple<int, bool, Bytes, int, double, double> cases[] = {

@@ -1,4 +1,4 @@
-// Levels of detail, and sheets side by side, in one GLB file.
+// Levels of detail and sheets next to each other in one GLB file.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -31,7 +31,7 @@ TEST(glb_levels, are_nodes_of_which_the_scene_shows_the_finest) {
   EXPECT_EQ(json["meshes"][2]["primitives"][0]["material"], 2);
   EXPECT_EQ(json["materials"][2]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 2);
   for (std::size_t k = 0; k < 3; ++k) {
-    // A file whose scene is another level reads as that level.
+    // A file whose scene is another level is read as that level.
     auto text = json;
     text["scenes"][0]["nodes"] = {k};
     std::string changed = text.dump();

@@ -42,7 +42,7 @@ TEST(Glb, IsYUpWithExactBoundsAndEmbeddedReport) {
   EXPECT_EQ(j["asset"]["extras"]["number"], "1.50");
   EXPECT_EQ(j["nodes"][0]["name"], "terrain");
   EXPECT_EQ(j["nodes"][0]["translation"], json({512345.625, 0.0, -4023456.0625}));
-  // y of ours runs from −3·29.875 to 0, so z of glTF from 0 to 89.625.
+  // Our y is −3·29.875 to 0, so glTF's z is 0 to 89.625.
   EXPECT_EQ(j["accessors"][0]["min"][0], 0.0);
   EXPECT_EQ(j["accessors"][0]["min"][2], 0.0);
   EXPECT_EQ(j["accessors"][0]["max"][0], 121.0);
@@ -53,7 +53,7 @@ TEST(Glb, IsYUpWithExactBoundsAndEmbeddedReport) {
 using Place = std::array<double, 3>;
 using Corners = std::array<Place, 3>;
 
-/// Triangles as places, each from its least corner on, in any order.
+/// Triangles as places, each from its least corner, in any order.
 std::vector<Corners> places_of(const Mesh& mesh) {
   std::vector<Corners> all;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -82,7 +82,7 @@ TEST(Glb, HasIndicesOf16BitsOnlyBySplittingLargeMeshes) {
     const auto back = decode_mesh(*bytes, "x.glb");
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(places_of(*back), places_of(mesh));
-    // Vertices between parts are in both, and no others.
+    // Only vertices between parts are in both.
     EXPECT_LT(back->vertex_count(), mesh.vertex_count() + 450);
   }
 }
@@ -91,7 +91,7 @@ TEST(Glb, HonoursTheNodeTree) {
   const Mesh mesh = sample_mesh();
   const auto bytes = *encode_mesh(mesh, MeshFormat::kGlb);
   json j = json_of(bytes);
-  // The node moves below a parent that turns by 90° about glTF's y (our z), doubles, and shifts by (1, 2, 3).
+  // The node is below a parent that rotates by 90° about glTF's y (our z), doubles, and shifts by (1, 2, 3).
   const double half = std::sqrt(0.5);
   j["nodes"] = json::array(
       {{{"children", {1}}, {"rotation", {0, half, 0, half}}, {"scale", {2, 2, 2}}, {"translation", {1, 2, 3}}},
@@ -121,7 +121,7 @@ TEST(Glb, ReadsTwoNodesAndMirrors) {
   ASSERT_EQ(back->vertex_count(), 2 * count);
   ASSERT_EQ(back->triangle_count(), 2 * mesh.triangle_count());
   EXPECT_EQ(back->vertex(count + 1)[0], 5 - mesh.positions[3]);
-  // A mirror turns triangles over; the reader turns them back.
+  // A mirror flips triangles; the reader flips them back.
   const std::size_t t = mesh.triangles.size();
   EXPECT_EQ(back->triangles[t], mesh.triangles[0] + count);
   EXPECT_EQ(back->triangles[t + 1], mesh.triangles[2] + count);
@@ -184,7 +184,7 @@ TEST(Glb, SurvivesDeepAndWideJson) {
   for (int i = 0; i < 20000; ++i) wide[std::to_string(i)] = i;
   j["extras"] = wide;
   EXPECT_FALSE(decode_mesh(with_json(bytes, j), "x.glb"));
-  // A deep value in metadata stays the string that it was.
+  // A deeply nested value in metadata stays a string.
   Mesh mesh = sample_mesh();
   mesh.metadata["deep"] = std::string(100000, '[') + std::string(100000, ']');
   const auto back = decode_mesh(*encode_mesh(mesh, MeshFormat::kGlb), "x.glb");

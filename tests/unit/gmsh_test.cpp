@@ -17,7 +17,7 @@ std::string gmsh_text(const Mesh& mesh, const MeshZones& zones) {
 
 TEST(Gmsh, RoundTripKeepsEveryBit) {
   Mesh mesh = test::sample_mesh();
-  mesh.positions[5] = 1.0 / 3;  // a height: x and y round to the doubles of absolute coordinates
+  mesh.positions[5] = 1.0 / 3;  // a height: x and y are rounded to doubles of absolute coordinates
   mesh.metadata["command"] = "scarp simplify $HOME/a.tif b.msh\n$Nodes";
   const auto bytes = encode_mesh(mesh, MeshFormat::kMsh);
   ASSERT_TRUE(bytes) << bytes.error().message;
@@ -32,7 +32,7 @@ TEST(Gmsh, MaterialsAreSurfacesAndNodeStringsAreCurves) {
   Mesh mesh;
   mesh.positions = {0, 0, 1, 1, 0, 2, 1, 1, 3, 0, 1, 4};
   mesh.triangles = {0, 1, 2, 0, 2, 3};
-  // Parts of one line are of one group, a material 0 gets a free number, and names have no quotes.
+  // Parts of one line form a group, a material 0 gets a free number, and names have no quotes.
   const std::string text =
       gmsh_text(mesh, {{5, 0}, {{"in \"a\"", {0, 1, 2}}, {"in \"a\"", {2, 3}}, {"out", {0, 3}}, {"point", {1}}}});
   EXPECT_NE(text.find("$PhysicalNames\n4\n2 1 \"material_0\"\n2 5 \"material_5\"\n1 1 \"in _a_\"\n1 2 \"out\"\n"),
@@ -53,7 +53,7 @@ TEST(Gmsh, MaterialsAreSurfacesAndNodeStringsAreCurves) {
 }
 
 TEST(Gmsh, ReadsForeignDialects) {
-  // Version 2, numbers of nodes in any order, a quadrangle, a line and a point, sections that are of no use.
+  // Version 2, nodes with numbers in any order, a quadrangle, a line and a point, and irrelevant sections.
   const auto old = decode_mesh(
       test::to_bytes("$MeshFormat\r\n2.2 0 8\r\n$EndMeshFormat\r\n$Nodes\r\n4\r\n7 0 0 1\r\n3 1 0 2\r\n9 1 1 3\r\n"
                      "2 0 1 4e0\r\n$EndNodes\r\n$Elements\r\n3\r\n1 15 2 0 1 7\r\n2 1 2 0 1 7 3\r\n"

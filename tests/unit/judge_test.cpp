@@ -1,4 +1,4 @@
-// Judging with channels, masks, tolerances and ignored samples, against sums by hand.
+// Judging with channels, masks, tolerances and ignored samples, against manual sums.
 #include "measure/judge.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A lent raster is read by its name as if it were a file.
+// A lent raster is read by name like a file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Samples in polygons, against a count of those next to each.
+// Samples in polygons, against a count of edges next to each.
 #include "grid/line_marks.h"
 
 #include <gtest/gtest.h>

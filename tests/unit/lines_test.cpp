@@ -15,7 +15,7 @@ namespace {
 
 using testing::contains;
 
-/// GeoJSON of one feature for each geometry; FIDs count from 0.
+/// GeoJSON with one feature per geometry; FIDs count from 0.
 std::string geojson(const std::vector<std::string>& geometries, const std::string& crs = "EPSG::32611",
                     const std::string& properties = "{}") {
   std::string text = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:)";

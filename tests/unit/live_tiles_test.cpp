@@ -1,4 +1,4 @@
-// Tiles made when they are read: those of the finished set, whatever is kept of them.
+// Tiles made on demand equal those of the finished set, whatever is cached.
 #include "jobs/live_tiles.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Land on a part of the globe, with voids; none around it.
+/// Land on a part of the globe, with voids; none elsewhere.
 class Land final : public NodeSource {
  public:
   Result<void> read(const NodeWindow& window, std::span<float> out) const override {
@@ -109,7 +109,7 @@ TEST(live_tiles, that_are_prepared_are_those_of_the_finished_set_with_its_bounds
   ASSERT_TRUE(report);
   const auto live = LiveTileSet::open(job, land, 100'000'000);
   ASSERT_TRUE(live);
-  // While others ask.
+  // During concurrent requests.
   std::vector<std::size_t> wrong(2);
   parallel_for(2, 2, [&](std::size_t k) {
     if (k == 0) {
@@ -158,7 +158,7 @@ TEST(live_tiles, layer_json_says_what_there_is_and_nothing_of_errors_that_nobody
   EXPECT_EQ(layer.at("available").size(), 8u);
   EXPECT_FALSE(layer.at("scarp").at("levels").at(0).contains("bound"));
   EXPECT_EQ(layer.at("scarp").at("levels").at(7).at("tiles"), (*live)->tiles()[7].size());
-  // Another raster is another version, so that clients ask again.
+  // Another raster is another version, so clients request tiles again.
   job.rasters[0].changed = 1;
   const auto later = LiveTileSet::open(job, land, 0);
   ASSERT_TRUE(later);

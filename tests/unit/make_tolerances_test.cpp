@@ -1,4 +1,4 @@
-// Tolerances of rasters and regions: the smallest counts, in memory as in windows.
+// Tolerances of rasters and regions: the smallest applies, in memory and in windows.
 #include <gtest/gtest.h>
 
 #include <cmath>

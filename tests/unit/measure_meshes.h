@@ -46,8 +46,8 @@ inline void add_vertex(Mesh& mesh, const Frame& frame, double col, double row, d
   mesh.positions.insert(mesh.positions.end(), {x - mesh.origin[0], y - mesh.origin[1], height - mesh.origin[2]});
 }
 
-/// All cells of the grid whose sides are multiples of `step`, two triangles each, counter-clockwise from above.
-/// REQUIRES: cols − 1 and rows − 1 are multiples of step; no nodata at the vertices.
+/// All grid cells whose sides are multiples of `step`, two triangles each, counter-clockwise from above. REQUIRES: cols
+/// − 1 and rows − 1 are multiples of step; no nodata at vertices.
 inline Mesh grid_mesh(const Terrain& terrain, int step) {
   Mesh mesh;
   const int nc = (terrain.cols - 1) / step + 1, nr = (terrain.rows - 1) / step + 1;
@@ -72,7 +72,7 @@ inline Mesh grid_mesh(const Terrain& terrain, int step) {
   return mesh;
 }
 
-/// The frame's affine map again, as a transform that knows nothing about grids.
+/// The frame's affine map as a transform without information about grids.
 class AffineTransform : public PointTransform {
  public:
   explicit AffineTransform(const std::array<double, 6>& affine) : affine_(affine) {}
@@ -89,7 +89,7 @@ class AffineTransform : public PointTransform {
   std::array<double, 6> affine_;
 };
 
-/// The same frame, dressed up as one that is not affine.
+/// The same frame, disguised as one that is not affine.
 inline Frame dress_up(const Frame& frame) {
   Frame dressed = frame;
   dressed.affine = {0, 1, 0, 0, 0, 1};

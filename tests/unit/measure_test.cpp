@@ -1,4 +1,4 @@
-// The judge against an oracle that asks every triangle about every sample, in long double.
+// The judge against an oracle that tests every sample against every triangle in long double.
 #include "scarp/measure.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr double kTolerance = 1.0 / 256;
 struct Judged {
   std::vector<double> errors;  // NaN: nodata, stray or uncovered
   std::uint64_t uncovered = 0, stray = 0, nodata_cells = 0;
-  bool is_clear_cut = true;  // no sample or cell lies so near to a limit that rounding decides
+  bool is_clear_cut = true;  // no sample or cell is so close to a limit that rounding decides
 };
 
 using Long = long double;
@@ -48,7 +48,7 @@ OracleTriangle oracle_triangle(const Terrain& terrain, const Mesh& mesh, std::si
 
 Long cross(Long ax, Long ay, Long bx, Long by) { return ax * by - ay * bx; }
 
-/// Weights of the corners at p, positive inside whatever the orientation; nothing for a triangle without area.
+/// Weights of the corners at p, positive inside for both orientations; nothing for a triangle without area.
 std::optional<std::array<Long, 3>> weights(const OracleTriangle& t, Long px, Long py) {
   const Long area = cross(t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0]);
   if (area == 0) return std::nullopt;
@@ -71,7 +71,7 @@ Long distance_outside(const OracleTriangle& t, Long px, Long py) {
   return least;
 }
 
-/// Thinner than the tolerance: next to it the judge uses its nearest point, the oracle has no opinion.
+/// Thinner than the tolerance: next to it the judge uses the nearest point, the oracle is undecided.
 bool is_sliver(const OracleTriangle& t) {
   const Long area = std::abs(cross(t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0]));
   Long longest = 0;
@@ -234,7 +234,7 @@ Frame south_up_frame() {
   return frame;
 }
 
-/// Triangles anywhere: overlapping, thin, flipped, partly outside; corners on samples and off them.
+/// Arbitrary triangles: overlapping, thin, flipped, partly outside; corners on and off samples.
 Mesh random_soup(const Terrain& terrain, int triangles, bool on_lattice, std::mt19937& random) {
   Mesh mesh;
   const auto [x, y] = terrain.frame.apply_affine(terrain.cols / 2, terrain.rows / 2);
@@ -273,7 +273,7 @@ TEST(Measure, AgreesWithTheOracleOnTriangleSoup) {
     options.run.threads = 1 + round % 3;
     expect_agreement(oracle, judge_by_rows(terrain.view(), mesh, options), cols);
     terrain.frame = dress_up(terrain.frame);
-    // Noise may put a sample on a common side into one of two triangles only: heights of a soup then differ.
+    // Noise may put a sample on a common side into only one of two triangles: heights of a soup then differ.
     if (round % 2 == 1) expect_agreement(oracle, judge_by_rows(terrain.view(), mesh, options), cols);
     if (HasFatalFailure()) return;
   }
@@ -320,7 +320,7 @@ TEST(Measure, FindsThatAFullMeshReproducesEverySample) {
   }
 }
 
-// A tilted plane has no error at all, though no weight times height is a round number.
+// A tilted plane has no error, though no weight times height is a round number.
 TEST(Measure, RoundsErrorsCorrectly) {
   Terrain terrain = wavy_terrain(31, 31);
   for (int r = 0; r < 31; ++r) {
@@ -502,7 +502,7 @@ TEST(Measure, SeesAShiftFarBelowACell) {
   }
 }
 
-// Were the buckets spread over the far vertex too, all triangles would share one, and this would need minutes.
+// If buckets also spread over the far vertex, all triangles would share one, and this would need minutes.
 TEST(Measure, IsNotSlowedDownByAVertexFarAway) {
   const Terrain terrain = wavy_terrain(129, 129);
   HeightField field = terrain.view();

@@ -1,4 +1,4 @@
-// Refusals of runs that outgrow what they were given.
+// Refusals of runs that exceed their memory.
 #include "base/memory_budget.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Places in an image, colours and channels through every format that has room for them.
+// Uvs, colours and channels through every format that can hold them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -63,7 +63,7 @@ RC_GTEST_PROP(MeshAttributes, ComeBackFromEveryFormat, ()) {
     RC_ASSERT(test::same_geometry(mesh, *back));
     RC_ASSERT(back->uvs == mesh.uvs);
     RC_ASSERT(back->colors == mesh.colors);
-    if (format == MeshFormat::kObj) continue;  // no place for channels
+    if (format == MeshFormat::kObj) continue;  // cannot hold channels
     RC_ASSERT(back->channel_count == mesh.channel_count);
     RC_ASSERT(back->channels.size() == mesh.channels.size());
     for (std::size_t i = 0; i < mesh.channels.size(); ++i) RC_ASSERT(same(back->channels[i], mesh.channels[i]));
@@ -219,7 +219,7 @@ TEST(ObjAttributes, ReadsForeignColoursAndSeams) {
   EXPECT_EQ(mesh->uvs, (std::vector<float>{0.5f, 0.75f, 0, 1, 1, 0}));
   const auto in_bytes = decode_mesh(to_bytes("v 0 0 0 255 0 51\nv 1 0 0 0 0 1\nv 0 1 0 1 1 1\nf 1 2 3\n"), "x.obj");
   EXPECT_EQ(in_bytes->colors, (std::vector<std::uint8_t>{255, 0, 51, 0, 0, 1, 1, 1, 1}));
-  // A seam, a vertex without colour, a weight: nothing that each vertex could own.
+  // A seam, a vertex without colour, a weight: not attributes of each vertex.
   const auto seam =
       decode_mesh(to_bytes("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/3 3/2\n"), "x.obj");
   ASSERT_TRUE(seam);

@@ -15,7 +15,7 @@ namespace {
 using Point = std::array<double, 2>;
 using Segment = std::pair<Point, Point>;
 
-/// A grid of squares whose heights are given row by row, from the north.
+/// A grid of squares with heights row by row, from the north.
 Mesh land(const std::vector<std::vector<double>>& rows) {
   const int cols = static_cast<int>(rows[0].size()) - 1;
   Mesh mesh;
@@ -32,7 +32,7 @@ Mesh land(const std::vector<std::vector<double>>& rows) {
   return mesh;
 }
 
-/// Hills whose heights are multiples of 0.5, so that many vertices are exactly at a height.
+/// Hills with heights in multiples of 0.5, so that many vertices are exactly at a height.
 Mesh random_land(unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::vector<double>> rows(9, std::vector<double>(8));
@@ -42,8 +42,8 @@ Mesh random_land(unsigned seed) {
   return land(rows);
 }
 
-/// The pieces of the height in each triangle, by the rule that a vertex at the height is above it, from the low side's
-/// left: written anew, with no half-edges.
+/// The pieces of a height in each triangle, from the low side's left; a vertex at the height counts as above it. An
+/// independent implementation without half-edges.
 std::multiset<Segment> segments_by_triangle(const Mesh& mesh, double height) {
   std::multiset<Segment> segments;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -83,7 +83,7 @@ TEST(MeshContours, AreThePiecesOfAllTriangles) {
     }
     for (int k = -8; k <= 8; ++k) {
       auto wanted = segments_by_triangle(mesh, k * interval);
-      // A single edge at the height, with lower ground around it, is there and back again.
+      // A single edge at the height with lower ground around it occurs in both directions.
       for (auto segment = wanted.begin(); segment != wanted.end();) {
         const auto back = wanted.find({segment->second, segment->first});
         const bool is_omitted = back != wanted.end() && found[k * interval].count(*segment) == 0;
@@ -105,7 +105,7 @@ TEST(MeshContours, HaveAFixedOrderAndDirection) {
                              [](const Contour& a, const Contour& b) { return a.height < b.height; }));
   const Contour &slope = contours[0], &cone = contours[1];
   ASSERT_FALSE(slope.is_closed);
-  // The ground rises to the west, on the left of who walks north.
+  // The ground rises to the west, on the left when walking north.
   EXPECT_NEAR(slope.points.front()[0], 2.0 / 3, 1e-12);
   EXPECT_EQ(slope.points.front()[1], -2);
   EXPECT_EQ(slope.points.back()[1], 0);
@@ -117,7 +117,7 @@ TEST(MeshContours, HaveAFixedOrderAndDirection) {
   }
   EXPECT_GT(twice_area, 0);  // counter-clockwise: the summit is on the left
   EXPECT_EQ(contours[2].height, 2);
-  EXPECT_EQ(contours[3].height, 3);  // the western border, which is exactly at the height
+  EXPECT_EQ(contours[3].height, 3);  // the western border, exactly at the height
 }
 
 TEST(MeshContours, TreatVerticesAtTheHeightAsAboveIt) {

@@ -1,5 +1,4 @@
-// Promises of all mesh formats: damage is noticed or harmless, never a crash, and an error is one sentence with the
-// name.
+// Promises of all mesh formats: damage is detected or harmless, never a crash; an error is one message with the name.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,7 @@
 namespace scarp {
 namespace {
 
-/// Every format of the table that is read and holds an open mesh.
+/// Every readable format of the table that can hold an open mesh.
 std::vector<MeshFormat> open_formats() {
   std::vector<MeshFormat> formats;
   for (const MeshFormatTraits* traits : mesh_formats()) {
@@ -24,7 +23,7 @@ std::vector<MeshFormat> open_formats() {
   return formats;
 }
 
-/// An error with a sentence, or a mesh whose parts agree.
+/// An error with a message, or a consistent mesh.
 void expect_sound(const Result<Mesh>& mesh, const char* name, std::size_t place) {
   if (!mesh) {
     EXPECT_EQ(mesh.error().kind, ErrorKind::kInput);
@@ -57,11 +56,11 @@ class MeshFile : public ::testing::TestWithParam<MeshFormat> {
 TEST_P(MeshFile, EveryCutFails) {
   const auto bytes = good(true);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    // An exact copy of the cut, so that a sanitizer sees any read beyond it.
+    // An exact copy of the cut, so that a sanitizer detects reads beyond it.
     const std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     const auto mesh = decode_mesh(cut, name());
     expect_sound(mesh, name(), size);
-    // A TIN has no end mark: cut between lines, or within a line's last number, it is another TIN.
+    // A TIN has no end mark: cut between lines, or in the last number of a line, it is another TIN.
     const auto line = std::find(cut.rbegin(), cut.rend(), '\n').base();
     const bool cuts_lines_only = line == cut.end() || std::count(line, cut.end(), ' ') == 9;
     if (GetParam() == MeshFormat::kTin && size > 0 && cuts_lines_only) continue;
@@ -168,7 +167,7 @@ TEST(MeshFiles, TurnedYUpAreReadAsTheyWere) {
     mesh.metadata["up"] = "z";
     EXPECT_TRUE(encode_mesh(mesh, format));
   }
-  Mesh placed = mesh;  // an STL header that is full
+  Mesh placed = mesh;  // a full STL header
   placed.origin = {512345.123456789, -4023456.987654321, 1234.56789012345};
   turn_y_up(placed);
   EXPECT_EQ(decode_mesh(*encode_mesh(placed, MeshFormat::kStl), "x.stl")->origin,

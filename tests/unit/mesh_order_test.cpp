@@ -9,7 +9,7 @@
 namespace scarp {
 namespace {
 
-/// Positions and attributes of a triangle's corners, turned so that the smallest comes first.
+/// Positions and attributes of a triangle's corners, rotated so that the smallest comes first.
 std::vector<std::vector<double>> described(const Mesh& mesh) {
   std::vector<std::vector<double>> all;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {

@@ -58,7 +58,7 @@ inline Mesh sample_mesh(bool normals = false) {
   return mesh;
 }
 
-/// Gives each vertex a place in an image, a colour and `channels` further values, none equal to its neighbour's.
+/// Gives each vertex uvs, a colour and `channels` further values, none equal to its neighbour's.
 inline void add_attributes(Mesh& mesh, int channels) {
   mesh.channel_count = channels;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -70,7 +70,7 @@ inline void add_attributes(Mesh& mesh, int channels) {
   }
 }
 
-/// Vertices and triangles agree to the bit, as absolute positions and as offsets.
+/// True if vertices and triangles are bit-identical, as absolute positions and as offsets.
 inline bool same_geometry(const Mesh& a, const Mesh& b) {
   if (a.triangles != b.triangles || a.vertex_count() != b.vertex_count()) return false;
   for (std::size_t v = 0; v < a.vertex_count(); ++v) {

@@ -21,7 +21,7 @@ OwnedHeightField field_of(int cols, int rows, std::vector<float> samples) {
   return field;
 }
 
-/// The definition, applied sample by sample. NaN: stays nodata.
+/// The definition, applied sample by sample. NaN: remains nodata.
 double expected_fill(const OwnedHeightField& field, int col, int row, double max_distance) {
   double weight = 0, weighted = 0;
   for (int dy = -1; dy <= 1; ++dy) {

@@ -26,7 +26,7 @@ TEST(Obj, RoundTripKeepsEveryBit) {
   }
 }
 
-TEST(Obj, CommentsHoldNoBackslash) {  // some readers interpret one as a continued line, even there
+TEST(Obj, CommentsHoldNoBackslash) {  // some readers interpret it as a line continuation, even there
   const auto bytes = *encode_mesh(sample_mesh(), MeshFormat::kObj);
   EXPECT_EQ(std::string(bytes.begin(), bytes.end()).find('\\'), std::string::npos);
 }
@@ -39,7 +39,7 @@ TEST(Obj, ReadsForeignDialects) {
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_EQ(mesh->positions, (std::vector<double>{0, 0, 1.5, 1, 0, 0, 1, 1, -.25, 0, 1, 0}));
   EXPECT_EQ(mesh->triangles, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 2, 3}));
-  EXPECT_TRUE(mesh->normals.empty());  // one for all corners: not per vertex
+  EXPECT_TRUE(mesh->normals.empty());  // one for all corners, not per vertex
 }
 
 TEST(Obj, ReadsFacesBeforeTheirVertices) {
@@ -91,7 +91,7 @@ TEST(Obj, DoesNotDependOnTheLocale) {
 }
 
 TEST(Obj, AChangedFileKeepsItsPositionsRatherThanItsOrigin) {
-  // 0.1 cannot be written as an offset from 1e17 without loss: the reader then keeps positions absolute.
+  // 0.1 cannot be stored exactly as an offset from 1e17: the reader then keeps positions absolute.
   const auto mesh = decode_mesh(to_bytes("# scarp.origin: 1e17 0 0\nv 0.1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "x.obj");
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->vertex(0)[0], 0.1);

@@ -1,4 +1,4 @@
-// Rasters opened within a limit of memory: floats, 16-bit codes or the file itself, with the same samples.
+// Rasters opened within a memory limit: floats, 16-bit codes or the file itself, with the same samples.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> bits_of(const HeightField& field) {
   return bits;
 }
 
-/// Opens with room for floats, for codes, for nothing: all must agree with read_height_field().
+/// Opens with room for floats, for codes, or for nothing: all must equal read_height_field().
 void expect_same_samples(const std::string& path, ReadOptions options, bool has_codes) {
   const auto whole = read_height_field(path, options);
   ASSERT_TRUE(whole) << whole.error().message;
@@ -69,7 +69,7 @@ void expect_same_samples(const std::string& path, ReadOptions options, bool has_
   EXPECT_NE(codes->source, nullptr);
   expect_alike(*codes);
   if (has_codes) {
-    // They no longer need the file.
+    // The file is no longer needed.
     const std::string hidden = path + ".hidden";
     std::filesystem::rename(path, hidden);
     expect_alike(*codes);
@@ -173,7 +173,7 @@ TEST(opened_rasters, that_are_cut_short_name_file_and_row_when_the_row_is_asked_
   ASSERT_TRUE(file) << file.error().message;
   std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
   const auto cut = open_height_field(path, {.run = {.memory = {.limit = 1}}});
-  if (!cut) {  // the driver found out at once
+  if (!cut) {  // the driver detected it immediately
     EXPECT_EQ(cut.error().kind, ErrorKind::kInput);
     EXPECT_NE(cut.error().message.find("a.tif"), std::string::npos) << cut.error().message;
     return;

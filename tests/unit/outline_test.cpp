@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-/// 'x' is a height, '.' nodata.
+/// 'x' is valid, '.' nodata.
 testing::Field field_of(const std::vector<std::string>& picture) {
   testing::Field field{static_cast<std::int32_t>(picture[0].size()), static_cast<std::int32_t>(picture.size()), {}};
   for (const auto& row : picture)
@@ -187,7 +187,7 @@ RC_GTEST_PROP(outline, closed_voids_hold_no_height_and_lie_within_the_tolerance,
         }
         if (!inside) continue;
         RC_ASSERT(nearest <= tolerance);
-        // A height near it is a sample of the outline.
+        // A valid sample near it is a sample of the outline.
         const Point p{static_cast<std::int32_t>(std::lround(x)), static_cast<std::int32_t>(std::lround(y))};
         if (!field.raster().is_valid(p) || std::hypot(p.x - x, p.y - y) > 0.1) continue;
         double beside = 99;
@@ -216,7 +216,7 @@ RC_GTEST_PROP(outline, of_runs_is_that_of_the_raster, ()) {
   const auto cols = *rc::gen::inRange(1, 20), rows = *rc::gen::inRange(1, 20);
   testing::Field field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, testing::Relief::kTies,
                                                *rc::gen::element(0.0, 0.1, 0.5));
-  // One of the four heights: single samples, and gaps of whole rows.
+  // One of four heights: single samples, and gaps of whole rows.
   if (*rc::gen::arbitrary<bool>()) {
     for (float& z : field.samples) z = z == 2 ? z : std::numeric_limits<float>::quiet_NaN();
   }

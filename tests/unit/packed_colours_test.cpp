@@ -1,4 +1,4 @@
-// Heights packed into colours that were changed, or are read by the wrong encoding.
+// Heights packed into colours that were modified or read with the wrong encoding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace scarp::packed_colours_test {
 namespace {
 
 constexpr int kSide = 128;
-using Colours = std::vector<double>;  // red, green and blue of a row after the other, as fractions
+using Colours = std::vector<double>;  // red, green and blue, row by row, as fractions
 using Heights = std::function<double(double x, double y)>;
 
 double land(double x, double y) { return 700 + 100 * std::sin(x / 40) * std::cos(y / 45) + std::sin(x * 1.7); }
@@ -35,7 +35,7 @@ Colours pack(Decode decode, const Heights& heights, double step = 1) {
   return colours;
 }
 
-/// Twice as many columns: the new ones between two old ones are their mean, colour by colour.
+/// Doubles the columns: new ones are means of two old ones, colour by colour.
 Colours interpolate(const Colours& colours) {
   Colours wide = colours;
   for (int row = 0; row < kSide; ++row) {
@@ -73,7 +73,7 @@ TEST(packed_colours, as_they_were_made_raise_no_doubt) {
   const Heights whole = [](double x, double y) { return std::round(land(x, y)); };
   const Heights cliff = [](double x, double y) { return x > 30 + 9 * std::sin(y) ? 12 : 700; };
   const Heights sea = [](double x, double y) { return land(x, y) - 4000; };
-  // Noise, whose outermost heights stand alone wherever they are.
+  // Noise, whose extreme heights are isolated everywhere.
   const Heights forest = [](double x, double y) {
     double sum = 0;
     for (int k = 1; k <= 6; ++k) sum += std::sin(k * 1e4 * std::sin(x * 12.9898 + y * 78.233 + k));
@@ -98,8 +98,7 @@ TEST(packed_colours, that_were_interpolated_are_told_with_their_number_and_jump)
   }
 }
 
-/// At kSide × kSide places `step` samples apart: each colour interpolated between the four around the place, and
-/// rounded.
+/// At kSide × kSide places, `step` samples apart: each colour is interpolated between the four around it, then rounded.
 Colours resample(const Colours& colours, double step) {
   Colours made;
   for (int row = 0; row < kSide; ++row) {

@@ -10,7 +10,7 @@ namespace {
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
-/// The message of the error, which must be a kInput that begins with the file's name.
+/// The error's message; it must be kInput and begin with the file's name.
 std::string refusal(const std::string& text, const ReadOptions& options = {}) {
   const auto read = decode_pgm(bytes_of(text), "hill.pgm", options);
   if (read) return "read";

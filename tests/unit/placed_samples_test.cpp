@@ -1,4 +1,4 @@
-// Samples at places that float32, or even double, does not hold.
+// Samples at places beyond the precision of float32 or even double.
 #include <gtest/gtest.h>
 
 #include <cmath>

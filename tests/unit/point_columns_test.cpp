@@ -1,4 +1,4 @@
-// The contents of a text's columns.
+// The meaning of text columns.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class PointColumns : public ::testing::Test {
     ADD_FAILURE() << points.error().message << "\n" << text;
     return {};
   }
-  /// The one sentence.
+  /// The only message.
   std::string refuse(const std::string& text, const std::string& columns = "") {
     const auto points = try_to_read(text, columns);
     if (points) {
@@ -98,7 +98,7 @@ TEST_F(PointColumns, northing_and_easting_that_look_alike_are_asked_for) {
   const std::string gauss_krueger = "P1;5401234,5;3501234,25;87,3\nP2;5401240,5;3501244,25;87,5\n";
   EXPECT_TRUE(contains(refuse(gauss_krueger), "--columns"));
   EXPECT_EQ(read(gauss_krueger, "number,northing,easting,height").x, (std::vector<double>{3501234.25, 3501244.25}));
-  // Three columns are x, y, z, unless the first is as large as a northing.
+  // Three columns are x, y, z unless the first is as large as a northing.
   EXPECT_EQ(read("1,2,3\n4,5,6\n").x, (std::vector<double>{1, 4}));
   EXPECT_TRUE(contains(refuse(survey("N,E,H")), "--columns enz or --columns nez"));
   expect_survey(survey("N,E,H"), "nez");
@@ -124,7 +124,7 @@ TEST_F(PointColumns, what_is_less_like_a_height_than_a_later_column_is_asked_abo
     EXPECT_TRUE(contains(refuse(text), option)) << text << refuse(text);
   const std::string whole = "500042.8,4000238.7,0,87\n500045.8,4000239.7,0,88\n500049.8,4000249.7,0,91\n";
   EXPECT_TRUE(contains(read(whole).warnings.at(0), "column 3 would be the height and is 0 everywhere"));
-  // Extras of scanners, and grids of whole numbers.
+  // Extra columns of scanners, and grids of integers.
   for (const char* silent :
        {"1.5,2.5,7.25,251,2,1,1\n2.75,3.5,8.5,66,2,1,1\n3.5,1.5,8,59,2,1,1\n",
         "10 20 812 0.5\n20 20 815 12.5\n10 10 813 0.7\n", "1.5 2.5 3 0.1 0.2 0.97\n2.5 3.5 4 0.1 0.3 0.9\n"})

@@ -1,4 +1,4 @@
-// Points from files, and points that make no surface.
+// Points from files, and points without a surface.
 #include "scarp/points.h"
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@ RC_GTEST_PROP(predicates, orient_is_cyclic_and_antisymmetric, ()) {
   RC_ASSERT(orient(a, b, c) == -orient(b, a, c));
 }
 
-// The two arithmetics are the same function where both are exact.
+// Both arithmetics agree where they are exact.
 RC_GTEST_PROP(predicates, in_circle_64_agrees_with_128, ()) {
   const auto side = *rc::gen::element(4, 100, kMaxInCircle64 + 1);
   const Point a = random_point(side), b = random_point(side), c = random_point(side), d = random_point(side);
@@ -40,7 +40,7 @@ TEST(predicates, in_circle_of_a_cocircular_square_is_zero_at_every_size) {
 }
 
 TEST(predicates, in_circle_is_exact_by_one_sample_where_64_bits_would_overflow) {
-  // A circle through three corners of a huge square; the fourth corner moved by one sample.
+  // A circle through three corners of a huge square, with the fourth corner moved by one sample.
   for (const std::int32_t n : {29700, 46400, 60000, 1000000, kMaxCoordinate}) {
     EXPECT_EQ(in_circle_fits_64({0, 0}, {n, 0}, {n, n}, {0, n - 1}), false);
     EXPECT_GT(in_circle({0, 0}, {n, 0}, {n, n}, {1, n - 1}), 0) << n;

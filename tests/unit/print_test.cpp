@@ -1,4 +1,4 @@
-// Prints: what is written keeps the bound, and is closed.
+// Prints: the written solid is closed and keeps the bound.
 #include "scarp/print.h"
 
 #include <gtest/gtest.h>

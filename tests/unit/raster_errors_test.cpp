@@ -1,4 +1,4 @@
-// Bad input: one clear sentence each.
+// Invalid input: one clear message each.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -74,7 +74,7 @@ TEST(RasterErrors, TheCallbackCancels) {
     return false;
   };
   const auto read = read_height_field(scratch.file("dem"), options);
-  // A machine that reads all of it in a tenth of a second is never asked.
+  // A machine that reads everything in a tenth of a second is never polled.
   if (last > 0) {
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().kind, ErrorKind::kCancelled);

@@ -15,7 +15,7 @@
 
 namespace scarp::testing {
 
-/// A folder of its own that goes away with it.
+/// A folder that is removed at the end.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -58,7 +58,7 @@ inline constexpr int kEnviType<std::uint16_t> = 12;
 template <>
 inline constexpr int kEnviType<std::uint32_t> = 13;
 
-/// Writes `path` and `path`.hdr; bands one after the other. `more`: further header lines.
+/// Writes `path` and `path`.hdr, band by band. `more`: further header lines.
 template <class T>
 void write_envi(const std::string& path, int cols, int rows, const std::vector<T>& values,
                 const std::string& more = "") {
@@ -85,7 +85,8 @@ void write_raw_vrt(const std::string& path, int cols, int rows, const std::vecto
                        "</LineOffset><ByteOrder>LSB</ByteOrder></VRTRasterBand></VRTDataset>");
 }
 
-/// A VRT of one band over band 1 of `source` (in the same folder). `head` goes into the dataset, `band` into the band.
+/// A VRT with one band over band 1 of `source` (in the same folder). `head` is added to the dataset, `band` to the
+/// band.
 inline void write_vrt(const std::string& path, const std::string& source, int cols, int rows, const std::string& type,
                       const std::string& head, const std::string& band) {
   const std::string size = "xSize=\"" + std::to_string(cols) + "\" ySize=\"" + std::to_string(rows) + "\"";
@@ -106,7 +107,7 @@ inline bool has_program(const std::string& name) {
   return std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) == 0;
 }
 
-/// True if the command ended well.
+/// True if the command succeeded.
 inline bool run(const std::string& command) { return std::system(command.c_str()) == 0; }
 
 /// The error of reading `path`; its message must be one line that names the file.
@@ -131,7 +132,7 @@ inline bool warns(const RasterInfo& info, const std::string& part) {
   return false;
 }
 
-/// The folder of shared reference rasters; empty if it is not there.
+/// The folder of shared reference rasters; empty if missing.
 inline std::string reference_folder() {
   const char* given = std::getenv("SCARP_SHARED");
   const std::string folder =

@@ -1,4 +1,4 @@
-// Formats that GDAL writes for us: skipped where gdal_translate is not installed.
+// Formats written by GDAL: skipped without gdal_translate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ class RasterFormats : public ::testing::Test {
                                "map info = {UTM, 1, 1, 500000, 4100000, 30, 30, 11, North, WGS-84}\n");
   }
 
-  /// Runs gdal_translate from the source to `name`, and reads `name`.
+  /// Runs gdal_translate from the source to `name` and reads `name`.
   Result<OwnedHeightField> translated(const std::string& options, const std::string& name) {
     EXPECT_TRUE(run("gdal_translate -q " + options + " " + scratch_.file("source") + " " + scratch_.file(name)));
     return read_height_field(scratch_.file(name));

@@ -1,4 +1,4 @@
-// The shared reference rasters against the table that comes with them; skipped where the folder is absent.
+// The shared reference rasters against their table; skipped if the folder is missing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ struct Row {
   int cols, rows;
   const char* type;
   double min, max;
-  double nodata_percent;  ///< share of samples that are nodata
+  double nodata_percent;  ///< share of nodata samples
   Frame::Kind frame;
 };
 

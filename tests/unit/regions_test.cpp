@@ -89,7 +89,7 @@ TEST(regions, are_the_same_bits_in_windows_as_in_one_array) {
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   const auto share = [&] { return static_cast<double>(random()) / 0x1p32; };
   for (int trial = 0; trial < 30; ++trial) {
-    // Wider than a stretch of a row, now and then.
+    // Occasionally wider than a segment of a row.
     RegionGrid grid{trial % 5 == 0 ? 3100 : 2 + below(90), 2 + below(50)};
     grid.cell_x = 0.3 + 3 * share();
     grid.cell_y = 0.3 + 3 * share();

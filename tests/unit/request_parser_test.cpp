@@ -1,4 +1,4 @@
-// Requests as RFC 9112 has them: each kind of refusal by name, and what is accepted.
+// Requests by RFC 9112: each kind of refusal by name, and accepted ones.
 #include "serve/request_parser.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Rivers that never rise, and the meshes that hold them.
+// Rivers that never rise, and meshes with them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Line line_of(std::vector<std::array<double, 3>> points, const char* name) {
   return line;
 }
 
-/// A trunk with bends, a tributary that joins it at a vertex, both partly drawn upstream.
+/// A trunk with bends and a tributary that joins it at a vertex, both partly drawn upstream.
 std::vector<Line> network() {
   return {line_of({{1.3, 20.2, NAN}, {20.7, 25.1, NAN}, {41.2, 18.4, NAN}, {58.6, 20.9, NAN}}, "trunk"),
           line_of({{41.2, 18.4, NAN}, {30.5, 9.8, NAN}, {5.1, 3.3, NAN}}, "tributary")};
@@ -62,7 +62,7 @@ TEST(rivers, never_rise_and_are_never_above_the_raster) {
     EXPECT_GT(river.deepest_cut, 0);
     EXPECT_GT(river.source, river.mouth);
     for (const auto& [x, y, z] : river.course.points) {
-      // On the lattice of a 256th the surface is nowhere steeper than 32 a sample.
+      // On the lattice of 256ths the surface is nowhere steeper than 32 a sample.
       const auto col = static_cast<int>(x), row = static_cast<int>(field.rows - 1 - y);
       float highest = -1e9F;
       for (const int i : {0, 1, field.cols, field.cols + 1})
@@ -156,7 +156,7 @@ TEST(rivers, that_are_closed_or_beside_the_raster_are_left_out) {
   EXPECT_EQ(carve_rivers(field, lines, {}, in_frame_of(field, -1)).error().kind, ErrorKind::kUsage);
 }
 
-/// Three streams in a chain, given in the order that settles last, must end as any other order does.
+/// Three streams in a chain, given in the order that converges last, must end like any other order.
 TEST(rivers, do_not_depend_on_their_order) {
   const OwnedHeightField field = bumpy_slope();
   std::vector<Line> lines{line_of({{2.2, 30.1, NAN}, {15.5, 22.2, NAN}}, "first"),

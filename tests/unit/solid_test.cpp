@@ -14,7 +14,7 @@ namespace {
 
 using test::grid_mesh;
 
-/// Every directed edge once, and its reverse once; every vertex used, with one fan of triangles around it.
+/// Every directed edge occurs once, as does its reverse; every vertex is used, with one fan of triangles around it.
 void expect_closed_manifold(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (std::uint32_t h = 0; h < mesh.triangles.size(); ++h) {
@@ -73,7 +73,7 @@ std::size_t border_edges(const Mesh& mesh) {
   return static_cast<std::size_t>(std::count(twins.begin(), twins.end(), kNoHalfEdge));
 }
 
-/// Border vertices at which the border turns, those of each fan counted.
+/// Border vertices where the border turns, counted per fan.
 std::size_t corners(const Mesh& mesh) {
   const auto twins = build_twins(mesh.triangles);
   const auto point = [&](std::uint32_t h) {
@@ -90,8 +90,8 @@ std::size_t corners(const Mesh& mesh) {
   return count;
 }
 
-/// Adds a base at −3.5 and checks closedness and volume. Returns the number of triangles in floor and walls beyond one
-/// for each border edge.
+/// Adds a base at −3.5 and checks closedness and volume. Returns the triangles in floor and walls, minus one for each
+/// border edge.
 std::size_t check_solid(Mesh mesh, double tolerance = 1e-9) {
   const std::size_t top = mesh.triangle_count(), border = border_edges(mesh);
   const double expected = volume_above(mesh, -3.5);
@@ -127,7 +127,7 @@ TEST(Solid, Checkerboards) {
   EXPECT_EQ(check_solid(board), 32 * (4 + 2u));  // loose squares
   const Mesh coarse = grid_mesh(12, 12, [](int i, int j) { return (i / 3 + j / 3) % 2 == 0; });
   EXPECT_EQ(check_solid(coarse), 8 * (4 + 2u));
-  // A frame of cells whose hole touches the hole next to it in a point, and the outer border too.
+  // A frame of cells whose hole touches the next hole in a point, and the outer border, too.
   const Mesh touching =
       grid_mesh(6, 6, [](int i, int j) { return !((i == 1 && j == 1) || (i == 2 && j == 2) || (i == 0 && j == 3)); });
   check_solid(touching);
@@ -143,8 +143,8 @@ TEST(Solid, RandomDomains) {
     cells[0] = true;
     const Mesh mesh =
         grid_mesh(cols, rows, [&](int i, int j) { return cells[static_cast<std::size_t>(j * cols + i)]; });
-    // By Euler: a triangulation of c corners without inner vertices has the triangles of the terrain, less two for each
-    // inner vertex and one for each straight one of the border.
+    // By Euler: a triangulation of c corners without inner vertices has the terrain's triangles, minus two per inner
+    // vertex and one per straight border vertex.
     std::vector<bool> is_used(mesh.vertex_count(), false);
     for (const std::uint32_t v : mesh.triangles) is_used[v] = true;
     const auto twins = build_twins(mesh.triangles);
@@ -167,7 +167,7 @@ TEST(Solid, LargeFloorIsFastAndMinimal) {
 }
 
 TEST(Solid, UnevenPositionsStillTriangulate) {
-  // Positions that are not a lattice: a fan of nearly collinear points far from the origin.
+  // Positions off a lattice: a fan of nearly collinear points far from the origin.
   Mesh mesh;
   mesh.positions = {0, 0, 1};
   for (int i = 0; i < 40; ++i) {
@@ -182,7 +182,7 @@ TEST(Solid, UnevenPositionsStillTriangulate) {
 
 TEST(Solid, OverlappingInputStaysClosed) {
   Mesh mesh = grid_mesh(3, 3, [](int, int) { return true; });
-  mesh.positions[3 * 5] += 70;  // pulls a vertex across its neighbours: some triangles turn over
+  mesh.positions[3 * 5] += 70;  // moves a vertex across its neighbours: some triangles flip
   EXPECT_EQ(check_solid(mesh), border_edges(mesh) + mesh.triangle_count());
 }
 
@@ -204,7 +204,7 @@ TEST(ExactOrient, AgreesWithIntegersAndItsLaws) {
   std::mt19937_64 random(3);
   int flat = 0;
   for (int round = 0; round < 200000; ++round) {
-    // Nearly collinear: c lies on the line a→b at t, plus a step of at most one unit.
+    // Nearly collinear: c lies on the line a→b at t, plus at most one unit.
     const auto number = [&](int bits) {
       return static_cast<std::int64_t>(random() >> (64 - bits)) - (std::int64_t{1} << (bits - 1));
     };
@@ -230,7 +230,7 @@ TEST(ExactOrient, AgreesWithIntegersAndItsLaws) {
 }
 
 TEST(AddBase, GivesNewVerticesTheAttributesOfThoseAbove) {
-  // Two cells that touch in a corner: a vertex is doubled, and all are dropped to the base.
+  // Two cells that touch in a corner: a vertex is doubled, and all are projected to the base.
   Mesh mesh = grid_mesh(2, 2, [](int i, int j) { return i == j; });
   test::add_attributes(mesh, 4);
   const Mesh open = mesh;

@@ -1,4 +1,4 @@
-// 3MF files and the archives they are.
+// 3MF files and their archives.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -64,7 +64,7 @@ TEST(Zip, NoticesDamage) {
     }
   }
   EXPECT_GT(noticed, 40);
-  // A size that deflate cannot hold is not believed.
+  // A size impossible for deflate is rejected.
   auto bomb = archive;
   const std::size_t directory = load_number<std::uint32_t>(&bomb[bomb.size() - 6]);
   for (std::size_t k = 24; k < 28; ++k) bomb[directory + k] = 0xfe;

@@ -1,4 +1,4 @@
-// The settings that make two jobs of tiles the same, and the inputs of a block.
+// The settings that make two tile jobs equal, and the inputs of a block.
 #include "scarp/tile_job.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-/// Hills between 10° and 19° E; none around them. One place may be higher.
+/// Hills between 10° and 19° E; none elsewhere. One place may be higher.
 class Land final : public NodeSource {
  public:
   explicit Land(double extra = 0) : extra_(extra) {}
@@ -72,11 +72,11 @@ TEST(tile_job, holds_a_local_grid_and_its_place) {
   EXPECT_EQ(back->facts.units, "metre");
   EXPECT_EQ(back->reading.cell_size, 0.3);
   EXPECT_EQ(encode_tile_job(*back), bytes);
-  // Its place is no part of what tiles are made of.
+  // Its place does not affect tiles.
   TileJob moved = job;
   moved.facts.plane->transform[12] += 1;
   EXPECT_EQ(settings_key_of(moved), settings_key_of(job));
-  // A square of another size than its levels' is none.
+  // A square with another size than its levels' is invalid.
   job.plan.grid.local.side *= 2;
   EXPECT_FALSE(decode_tile_job(encode_tile_job(job), "plan.json"));
 }
@@ -94,7 +94,7 @@ TEST(tile_job, keys_tell_settings_from_sources) {
   effort.plan.effort = Effort::kHigh;
   EXPECT_NE(settings_key_of(job), settings_key_of(effort));
   EXPECT_EQ(sources_key_of(job), sources_key_of(effort));
-  // With the content known, time and name do not count.
+  // With known content, time and name do not matter.
   TileJob one = job, two = job;
   one.rasters[0].content = two.rasters[0].content = 7;
   two.rasters[0].path = "/copy.tif";
@@ -102,7 +102,7 @@ TEST(tile_job, keys_tell_settings_from_sources) {
   EXPECT_EQ(sources_key_of(one), sources_key_of(two));
   two.rasters[0].content = 8;
   EXPECT_NE(sources_key_of(one), sources_key_of(two));
-  // The files that a VRT names count, and the plan's expectations do not.
+  // Files named by a VRT, and the plan's expectations, do not matter.
   TileJob more = job;
   more.files = {{"/member.tif", 5, 6}};
   EXPECT_NE(sources_key_of(job), sources_key_of(more));
@@ -141,7 +141,7 @@ TEST(tile_job, one_that_follows_another_keeps_its_levels_or_says_why_not) {
   EXPECT_EQ(settings_key_of(*job), settings_key_of(earlier));
   EXPECT_EQ(job->plan.covered.west, 5);
   EXPECT_EQ(job->rasters, now.rasters);
-  // Steps that are finer than those that the heights would get by themselves, and then than those that hold them.
+  // Steps finer than the heights would get by themselves, then finer than those that can hold them.
   now.plan.levels.back().quantum *= 2;
   EXPECT_TRUE(follow_job(earlier, now));
   now.plan.least_quantum = now.plan.levels.back().quantum;
@@ -172,7 +172,7 @@ TEST(tile_job, a_block_hashes_to_the_same_as_long_as_its_nodes_are_the_same) {
     empty += *hash == 0;
     EXPECT_EQ(*hash == 0, !made->report.has_heights);
   }
-  // The lump lies in one block, or near enough to others that their normals see it.
+  // The lump lies in one block, or near enough to affect normals of others.
   EXPECT_GE(changed, 1u);
   EXPECT_LE(changed, 4u);
   EXPECT_LT(changed, blocks.size());

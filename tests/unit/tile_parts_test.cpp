@@ -1,4 +1,4 @@
-// Parts of a set whose raster changes while blocks are made of it.
+// Parts of a set whose raster changes while blocks are made.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Waves all round the globe; touches a file after some reads.
+/// Waves around the globe; touches a file after some reads.
 class ChangingLand final : public NodeSource {
  public:
   ChangingLand(std::string file, int reads) : file_(std::move(file)), reads_(reads) {}

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-/// Samples on nodes of 2880 to a turn (1/8°), the first at 10° E, 50° N.
+/// Samples on nodes with 2880 to a turn (1/8°), the first at 10° E, 50° N.
 struct Raster {
   int cols = 40, rows = 30;
   std::vector<float> samples;
@@ -69,7 +69,7 @@ TEST(raster_nodes, a_cubic_of_each_axis_is_met_between_samples) {
     for (int col = 0; col < raster.cols; ++col)
       raster.samples[static_cast<std::size_t>(row * raster.cols + col)] = static_cast<float>(col * col + 3 * row * col);
   }
-  // A node at each half of a cell: Catmull-Rom meets a quadratic.
+  // A node at each half cell: Catmull-Rom reproduces a quadratic.
   const std::vector<float> nodes = raster.read({5760, 2 * kCol + 4, 2 * kRow + 4, 40, 30});
   for (int j = 0; j < 30; ++j) {
     for (int i = 0; i < 40; ++i) {
@@ -244,7 +244,7 @@ TEST(gzip, is_read_back_and_damage_is_noticed) {
   EXPECT_FALSE(decompress_gzip(*packed, 1 << 20));
 }
 
-/// Bytes of few values in a random order, as the differences of a mesh's numbers are; or the same over and over.
+/// Bytes with few values in random order, like differences of a mesh's numbers; or periodic ones.
 std::vector<std::uint8_t> mesh_like(std::size_t count, std::size_t period) {
   std::mt19937 random(3);
   std::vector<std::uint8_t> bytes;

@@ -1,4 +1,4 @@
-// Planted faults: each is caught by the number that is made for it.
+// Planted faults: the corresponding number catches each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ TEST_F(Faults, VertexMovedInZ) {
 
 TEST_F(Faults, VertexMovedInXy) {
   const double before = judge().max_error;
-  mesh_.positions[3 * vertex(4, 4)] += 7;  // beyond its neighbour: triangles turn over
+  mesh_.positions[3 * vertex(4, 4)] += 7;  // beyond its neighbour: triangles flip
   const Measurement m = judge();
   EXPECT_GT(m.max_error, before);
   EXPECT_GT(m.down_facing, 0u);
@@ -68,7 +68,7 @@ TEST_F(Faults, TriangleDropped) {
   EXPECT_FALSE(m.is_sound());
 }
 
-/// Drops each triangle in turn that shares an edge with another: a mesh with a hole never passes.
+/// Drops in turn each triangle that shares an edge with another: a mesh with a hole never passes.
 void expect_every_hole_seen(const Terrain& terrain, const Mesh& whole) {
   const auto sound = measure(terrain.view(), whole);
   ASSERT_TRUE(sound);
@@ -80,7 +80,7 @@ void expect_every_hole_seen(const Terrain& terrain, const Mesh& whole) {
     mesh.triangles.erase(at, at + 3);
     const auto judged = measure(terrain.view(), mesh);
     ASSERT_TRUE(judged);
-    if (judged->open_edges + 3 == sound->open_edges) continue;  // hung on the rest by its corners only
+    if (judged->open_edges + 3 == sound->open_edges) continue;  // connected to the rest by corners only
     EXPECT_GT(judged->gaps, 0u) << t;
     EXPECT_FALSE(judged->is_sound()) << t;
   }
@@ -110,7 +110,7 @@ TEST(Holes, BesideNodataAndHalfCellsAreSeen) {
         add_vertex(mesh, terrain.frame, c, r, std::isnan(sample) ? 0 : sample);
       }
     }
-    // Counter-clockwise around a cell, from its upper left corner; without one there are three.
+    // Counter-clockwise around a cell, from its upper left corner; with a nodata corner three.
     for (int r = 0; r + 1 < terrain.rows; ++r) {
       for (int c = 0; c + 1 < terrain.cols; ++c) {
         std::vector<std::uint32_t> ring;
@@ -175,7 +175,7 @@ TEST_F(Faults, TrianglesOverlapping) {
 }
 
 TEST_F(Faults, TJunction) {
-  // One side's triangle is cut at the middle of an inner edge, the other's is not.
+  // One side's triangle is split at the middle of an inner edge, the other's is not.
   const std::uint32_t a = mesh_.triangles[180], b = mesh_.triangles[181], c = mesh_.triangles[182];
   const auto m_id = static_cast<std::uint32_t>(mesh_.vertex_count());
   for (std::size_t k = 0; k < 3; ++k) {
@@ -192,7 +192,7 @@ TEST_F(Faults, TJunction) {
 }
 
 TEST_F(Faults, Crack) {
-  // The right half is torn off by a thousandth of a cell.
+  // The right half is shifted by a thousandth of a cell.
   const auto split = [&](int j) {
     const auto copy = static_cast<std::uint32_t>(mesh_.vertex_count());
     const std::size_t v = vertex(4, j);
@@ -247,7 +247,7 @@ TEST(Topology, WeldsVerticesOfOnePosition) {
 TEST(Topology, CountsLoopsThatTouchInAVertex) {
   Terrain terrain = wavy_terrain(5, 5);
   Mesh mesh = grid_mesh(terrain, 1);
-  // Two cells that share one vertex are cut out: seen from the surface, one border goes around both.
+  // Two cells that share one vertex are removed: seen from the surface, one border surrounds both.
   const auto is_cut = [](std::size_t cell) { return cell == 5 || cell == 10; };
   std::vector<std::uint32_t> kept;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

@@ -48,7 +48,7 @@ TEST(triangulation, holds_every_sample_of_a_grid) {
 TEST(triangulation, uses_128_bits_beyond_29609_and_stays_delaunay) {
   const std::int32_t side = 46400;
   Triangulation tin(side, side);
-  // Nearly cocircular points on a huge scale: 64-bit determinants would overflow here.
+  // Nearly cocircular points at a huge scale: 64-bit determinants would overflow.
   for (std::int32_t k = 0; k < 60; ++k) {
     insert_point(tin, {k * 700 + k % 3, 5 + k % 2});
     insert_point(tin, {side - 2 - k % 5, k * 761 + k % 4});
@@ -68,7 +68,7 @@ RC_GTEST_PROP(triangulation, constrained_segments_become_chains_of_edges, ()) {
     if (a != b && tin.constrain(a, b)) held.emplace_back(a, b);
   }
   RC_ASSERT(!held.empty() || tin.vertex_count() < 6);
-  // Later insertions respect them and split them where they lie on them.
+  // Later insertions respect constraints, and split those on which they lie.
   for (int k = 0; k < 20; ++k) insert_point(tin, point());
   RC_ASSERT(verify_triangulation(tin, side, side) == "");
   for (auto [a, b] : held) RC_ASSERT(testing::is_constrained_chain(tin, a, b));

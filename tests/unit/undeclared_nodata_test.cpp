@@ -1,4 +1,4 @@
-// Heights that stand for nodata without being declared, and those that only appear so.
+// Heights that are undeclared nodata, and those that only appear so.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -17,7 +17,7 @@ std::vector<UndeclaredNodata> find(const std::vector<float>& samples) {
   return find_undeclared_nodata(height_range(field));
 }
 
-/// 2000 heights of a tenth more each, then some of `value`.
+/// 2000 heights in steps of a tenth, then some of `value`.
 std::vector<float> land_beside(float value, int count, float lowest = 0, float step = 0.1F) {
   std::vector<float> samples;
   for (int k = 0; k < 2000; ++k) samples.push_back(lowest + step * static_cast<float>(k * 7 % 2000));

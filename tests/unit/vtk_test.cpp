@@ -73,10 +73,10 @@ TEST(VtkDialects, PiecesAreJoined) {
   EXPECT_EQ(mesh->triangles[12], 4u);
 }
 
-/// One triangle whose arrays are in base64: the points inline, the rest behind the XML, lengths of 32 bits.
+/// One triangle with base64 arrays: the points inline, the rest after the XML, with 32-bit lengths.
 TEST(VtkDialects, Base64WithLengthsOf32Bits) {
-  // 36 bytes: float32 0 0 0, 1 0 0, 0 1 0. Behind: int32 0 1 2 (12 bytes); int32 3 (4 bytes), its length padded by
-  // itself; uint8 5 (1 byte).
+  // 36 bytes: float32 0 0 0, 1 0 0, 0 1 0. After it: int32 0 1 2 (12 bytes); int32 3 (4 bytes) with its separately
+  // padded length; uint8 5 (1 byte).
   const std::string inside =
       "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><Points><DataArray type=\"Float32\" format=\"binary\">\n"
       "  JAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==\n</DataArray></Points><Cells>"

@@ -1,4 +1,4 @@
-// Lakes that are made flat, and the meshes that hold them.
+// Flattened lakes and meshes with them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST(water, is_level_in_the_mesh) {
     if (longest > 0) options.quality.shape = {.min_angle = 25, .max_edge = longest};
     const auto result = simplify(field, options);
     ASSERT_TRUE(result) << result.error().message;
-    const auto inside = [](double x, double y) {  // point of the shore and not of the island
+    const auto inside = [](double x, double y) {  // a point of the shore but not of the island
       return x > 12.3 && x < 28 && y > 12.5 && y < 33.2 && !(x > 18 && x < 23 && y > 20 && y < 25.8);
     };
     std::size_t level = 0;
@@ -155,7 +155,7 @@ TEST(water, has_the_level_that_it_has_without_its_neighbours) {
   std::vector<Line> neighbour = {ring({{20, 5, NAN}, {36, 9, NAN}, {29, 30, NAN}}, LineRole::kOuter)};
   const double alone = flatten(lake).front().level, other = flatten(neighbour).front().level;
   ASSERT_NE(alone, other);
-  // Twice the same, and one that overlaps both.
+  // The same lake twice, and one that overlaps both.
   std::vector<Line> lines = lake;
   for (Line again : lake) {
     again.polygon = 1;
@@ -181,7 +181,7 @@ TEST(water, beside_the_raster_is_left_out) {
   EXPECT_EQ(field.samples, before);
 }
 
-/// Two ponds in rough ground, one with an island, and a terrace of one row.
+/// Two ponds in rough terrain, one with an island, and a terrace of one row.
 OwnedHeightField ponds() {
   OwnedHeightField field = valley();
   for (int row = 0; row < field.rows; ++row) {

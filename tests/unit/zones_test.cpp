@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<double, 6> kSame{0, 1, 0, 0, 0, 1};
 
-/// Squares of two triangles, cols × rows of them, in units of one.
+/// cols × rows unit squares of two triangles each.
 Mesh grid(std::uint32_t cols, std::uint32_t rows) {
   Mesh mesh;
   for (std::uint32_t y = 0; y <= rows; ++y) {
@@ -46,7 +46,7 @@ TEST(zones, give_materials_by_centre_the_first_zone_before_others) {
   Zone holed{{box(0, 0, 4, 1), box(1, 0, 2, 1)}, 7};
   const std::vector<Zone> zones{holed, {{box(0, 0, 2, 1)}, 5}};
   EXPECT_EQ(find_materials(mesh, zones, kSame, 3), (std::vector<std::uint32_t>{7, 7, 5, 5, 7, 7, 7, 7}));
-  // In another frame: the mesh is ten times as large, and lies elsewhere.
+  // In another frame: the mesh is ten times larger and lies elsewhere.
   Mesh far = mesh;
   for (double& value : far.positions) value *= 10;
   far.origin = {1000, 0, 0};

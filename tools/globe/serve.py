@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Serves a folder on this machine alone: serve.py FOLDER [PORT]. If PORT is in use, or 0, a free one; the address is
-printed.
+"""Serves a folder on this machine only: serve.py FOLDER [PORT]. If PORT is in use or 0, uses a free one; prints the
+address.
 
-Tiles of quantized-mesh are compressed files, which the headers must declare."""
+Tiles of quantized-mesh are compressed files, as the headers must declare."""
 
 import functools
 import http.server
@@ -29,7 +29,7 @@ def main():
     handler = functools.partial(Handler, directory=folder)
     try:
         server = http.server.ThreadingHTTPServer(("127.0.0.1", port), handler)
-    except OSError:  # somebody else has the port
+    except OSError:  # the port is in use
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
     with server:
         print(f"http://127.0.0.1:{server.server_address[1]}/", flush=True)

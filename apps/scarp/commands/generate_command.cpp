@@ -19,7 +19,7 @@ namespace {
 
 using enum OptionId;
 
-/// "tif", "tiff" or "pgm", of a name or of a path's extension.
+/// The format by name or extension: "tif", "tiff" or "pgm".
 std::optional<RasterFormat> find_raster_format(std::string name) {
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (name == "tif" || name == "tiff") return RasterFormat::kGeoTiff;
@@ -37,7 +37,7 @@ Result<RasterFormat> choose_format(const Given& asked, const std::string& output
                                   shell_word(output), kOf));
 }
 
-/// Heights from 0 to `range`.
+/// Scales heights to 0 … `range`.
 void stretch(OwnedHeightField& field, double range) {
   const double least = field.info.min, relief = field.info.max - field.info.min;
   for (float& z : field.samples) {
@@ -48,7 +48,7 @@ void stretch(OwnedHeightField& field, double range) {
   field.info.max = heights.max;
 }
 
-/// The first sample's corner at the origin, rows going down.
+/// Places the first sample's corner at the origin, rows going down.
 void place(OwnedHeightField& field, double size) {
   RasterInfo& info = field.info;
   info.has_georeference = true;

@@ -52,7 +52,7 @@ struct Served {
   std::unique_ptr<TileAnswers> answers;
 };
 
-/// Fails where options are given that a finished set or a plan has decided.
+/// Fails for options that a finished set or a plan already decides.
 Result<void> check_alone(const GivenOptions& given) {
   const bool is_plan = lower_extension(given.input()) == ".json";
   constexpr std::array kFree{kPort, kHost, kThreads, kQuiet, kJsonProgress};

@@ -21,7 +21,7 @@ namespace {
 
 using enum OptionId;
 
-/// Limit for the source: one that is larger stays in its file.
+/// Memory for the source: a larger one stays in its file.
 constexpr std::uint64_t kSourceBytes = std::uint64_t{1} << 30;
 
 /// Nothing for a raster without a place on the globe. Borrows the plane.
@@ -39,7 +39,7 @@ std::optional<CheckedPlace> place_of(const RasterOnPlane& plane, const LocalRast
                       globe.ellipsoid};
 }
 
-/// Fails for options of a raster where there is none, or a plan that has decided them.
+/// Fails for raster options without a raster, or with a plan that decides them.
 Result<void> check_unused(const GivenOptions& given) {
   if (given[kSource] && lower_extension(*given[kSource]) != ".json") return {};
   constexpr std::array kFree{kSource, kGrid, kJson, kThreads, kQuiet, kJsonProgress};

@@ -23,7 +23,7 @@ namespace {
 
 using enum OptionId;
 
-/// The number of tasks that clusters accept in an array by default.
+/// The default limit of array tasks on clusters.
 constexpr std::uint64_t kMostShards = 1000;
 std::string format_hours(double seconds) {
   return seconds < 7200 ? fmt::format("{} minutes", format_number(std::ceil(seconds / 6) / 10))
@@ -61,7 +61,7 @@ std::string make_summary(const TileJob& job, const std::string& plan, const Tile
   return text;
 }
 
-/// By the earlier plan.
+/// Follows the earlier plan.
 Result<OpenedJob> follow(const GivenOptions& given, const ProgressCallback& progress) {
   constexpr std::array kFree{kChangedSince, kHash, kSurvey, kShards, kSlurm, kOverwrite, kQuiet, kJsonProgress};
   for (const OptionRow* row : given.given()) {

@@ -19,7 +19,7 @@ namespace {
 
 using enum OptionId;
 
-/// "3/200".
+/// Parses "3/200".
 Result<Shard> parse_shard(const GivenOptions& given) {
   const Given& text = given[kShard];
   if (!text) return Shard{};

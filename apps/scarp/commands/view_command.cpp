@@ -44,7 +44,7 @@ Result<void> open_in_browser(const std::string& path) {
               fmt::format("{} is written, but xdg-open cannot open it: open it in a browser", path));
 }
 
-/// A folder of something else lacks these files.
+/// True for a tileset; other folders lack these files.
 bool is_tile_set(const std::string& path) {
   std::error_code error;
   const std::filesystem::path folder = path;
@@ -53,7 +53,7 @@ bool is_tile_set(const std::string& path) {
           std::filesystem::exists(folder / "tileset.json", error));
 }
 
-/// A mesh for each level that the page holds, the finest first.
+/// A mesh for each level that the page can hold, the finest first.
 Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<std::string>& warnings) {
   SCARP_TRY(const auto& set, open_tile_set(path));
   const auto levels = read_level_meshes(*set, kMostTileBytes);
@@ -81,7 +81,7 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
   return encode_levels(without_slash(path), *levels);
 }
 
-/// MESH; of OUT_lod0.glb the other levels, too.
+/// MESH; with OUT_lod0.glb also the other levels.
 std::vector<std::string> mesh_paths(const GivenOptions& given) {
   const std::string& mesh = *given[kMesh];
   std::vector<std::string> paths{mesh};
@@ -94,7 +94,7 @@ std::vector<std::string> mesh_paths(const GivenOptions& given) {
   }
 }
 
-/// The page without a raster: the meshes, of which `first` is read.
+/// Reads the meshes of a page without a raster, `first` completely.
 Result<std::vector<PageMesh>> read_meshes(const GivenOptions& given, bool is_y_up, Mesh& first) {
   std::vector<PageMesh> meshes;
   for (const std::string& path : mesh_paths(given)) {
@@ -112,7 +112,7 @@ Result<std::vector<PageMesh>> read_meshes(const GivenOptions& given, bool is_y_u
   return meshes;
 }
 
-/// In the coordinates of the mesh.
+/// Reads the raster in the coordinates of the mesh.
 Result<OwnedHeightField> read_raster(const GivenOptions& given, const Mesh& mesh, std::vector<std::string>& warnings) {
   const GivenOptions asked = remember_options(given, mesh);
   SCARP_TRY(ReadOptions read, parse_reading(asked));
@@ -134,7 +134,7 @@ Result<OwnedHeightField> read_raster(const GivenOptions& given, const Mesh& mesh
   return field;
 }
 
-/// kPromise where the mesh covers no sample, as measure has it.
+/// kPromise if the mesh covers no sample, as in measure.
 Result<void> check_place(const GivenOptions& given, const Mesh& mesh, const OwnedHeightField& field) {
   SCARP_TRY(const auto& measured, measure(field.view(), mesh, {.topology = false}));
   if (measured.samples > 0) return {};

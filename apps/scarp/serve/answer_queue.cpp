@@ -71,10 +71,10 @@ void AnswerQueue::work() {
     lock.lock();
     paths_at_work_.erase(path);
     done_.push_back(std::move(done));
-    // Another request for this path may wait.
+    // Another request for this path may be waiting.
     changed_.notify_all();
     const char byte = 0;
-    // A full pipe wakes as well.
+    // A full pipe also wakes the reader.
     [[maybe_unused]] const ssize_t woken = ::write(wake_[1], &byte, 1);
   }
 }

@@ -24,19 +24,19 @@ class AnswerQueue {
     Response response;
   };
 
-  /// `threads`: 0 for all cores. `answer` is called on several threads at once, but for one path on one at a time: who
-  /// asks for what is being made finds it made. An exception becomes an answer of status 500.
+  /// `threads`: 0 for all cores. `answer` is called concurrently, but for each path only on one thread: later requests
+  /// find the tile made. An exception becomes an answer with status 500.
   AnswerQueue(int threads, Answer answer);
   AnswerQueue(const AnswerQueue&) = delete;
   AnswerQueue& operator=(const AnswerQueue&) = delete;
-  /// Waits for the answers that are being made, and drops the others.
+  /// Waits for answers in progress and drops the others.
   ~AnswerQueue();
 
   /// Becomes readable when an answer is ready.
   int wake_fd() const { return wake_[0]; }
-  /// REQUIRES: one request of a client at a time.
+  /// REQUIRES: one request per client at a time.
   void ask(std::uint64_t client, Request request);
-  /// Its request is not answered unless that has begun.
+  /// Drops the client's request unless work on it has begun.
   void forget(std::uint64_t client);
   std::vector<Done> take();
 
@@ -46,7 +46,7 @@ class AnswerQueue {
     Request request;
   };
   void work();
-  /// The first request whose path no thread works at.
+  /// The first request whose path no thread is working on.
   std::list<Asked>::iterator find_next();
 
   Answer answer_;

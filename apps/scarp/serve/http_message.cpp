@@ -100,7 +100,7 @@ bool accepts_gzip(const std::string& accept_encoding) {
     std::string_view one = take_until(rest, ',');
     const std::string_view coding = trimmed(take_until(one, ';'));
     const std::string_view weight = trimmed(one);
-    // "q=0", "q=0.0": no.
+    // "q=0" and "q=0.0" mean no.
     const bool refused = weight.substr(0, 2) == "q=" && weight.find_first_of("123456789") == std::string_view::npos;
     if (coding == "gzip" || coding == "x-gzip") return !refused;
     if (coding == "*") any = !refused;

@@ -1,4 +1,4 @@
-// HTTP/1.1, as far as a server of files needs it.
+// The subset of HTTP/1.1 that a file server needs.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace scarp::cli {
 
 struct Request {
   std::string method;
-  std::string path;                            ///< decoded, from the first slash on; "*" or empty of the whole server
-  std::string query;                           ///< behind the question mark, as it is
-  std::map<std::string, std::string> headers;  ///< names in small letters
+  std::string path;                            ///< decoded, from the first slash; "*" or empty for the whole server
+  std::string query;                           ///< after the question mark, not decoded
+  std::map<std::string, std::string> headers;  ///< lower-case names
   bool keeps_alive = true;
 
-  /// Empty if it is not there.
+  /// Empty if absent.
   std::string header(const std::string& name) const;
 };
 
@@ -35,7 +35,7 @@ class OpenFile {
   int fd_;
 };
 
-/// A part of a file, in place of a body.
+/// A part of a file instead of a body.
 struct FilePart {
   std::shared_ptr<const OpenFile> file;
   std::uint64_t offset = 0, length = 0;
@@ -45,21 +45,21 @@ struct Response {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::vector<std::uint8_t> body;
-  FilePart file;  ///< in place of the body where it has a file
+  FilePart file;  ///< replaces the body if it has a file
 
   std::uint64_t length() const { return file.file ? file.length : body.size(); }
 };
 
 std::string lowered(std::string_view text);
-/// Without the spaces and tabs around it.
+/// The text without leading and trailing spaces and tabs.
 std::string_view trimmed(std::string_view text);
-/// The text before the separator, or all; both are removed from the text.
+/// Returns the text before the separator, or all of it; removes both from `text`.
 std::string_view take_until(std::string_view& text, char separator);
 
-/// Status and headers, Date, Content-Length and Connection included.
+/// Status and headers, including Date, Content-Length and Connection.
 std::string write_head(const Response& response, bool keeps_alive);
 
-/// A sentence for people.
+/// A response with a sentence for people.
 Response text_response(int status, const std::string& sentence);
 
 /// True if Accept-Encoding accepts gzip.
@@ -67,14 +67,14 @@ bool accepts_gzip(const std::string& accept_encoding);
 /// True if If-None-Match names the tag.
 bool matches_tag(const std::string& if_none_match, const std::string& tag);
 
-/// The bytes that a Range header asks for.
+/// The bytes that a Range header requests.
 struct ByteRange {
-  std::uint64_t first = 0, last = 0;  ///< both included
+  std::uint64_t first = 0, last = 0;  ///< inclusive
 };
 enum class RangeKind {
-  kWhole,       ///< no range, several, or none that is understood: the whole file is an answer
+  kWhole,       ///< no range, several, or an unknown kind: answer with the whole file
   kPart,        ///< `range` is set
-  kOutOfReach,  ///< none of its bytes is in the file
+  kOutOfReach,  ///< starts after the end of the file
 };
 RangeKind parse_range(const std::string& header, std::uint64_t size, ByteRange& range);
 

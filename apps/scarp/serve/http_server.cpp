@@ -29,13 +29,13 @@ namespace scarp::cli {
 namespace {
 
 constexpr std::size_t kLeastConnections = 16, kChunk = 1 << 16;
-/// An address may have one place of these many.
+/// An address may use 1 / kShareOfAddress of the places.
 constexpr std::size_t kShareOfAddress = 2;
-/// Chunks that one client gets before the others have their turn, and clients that are accepted in one.
+/// Maximum chunks sent to one client, and clients accepted, before others get their turn.
 constexpr int kMostChunksAtOnce = 16, kMostAcceptedAtOnce = 64;
-/// Bytes of an answer that the system queues: progress is seen each time the client receives so many.
+/// Bytes of an answer that the system queues; progress shows after each such amount.
 constexpr int kMostUnsent = 1 << 16;
-/// More than the buffers of a client that never reads hold.
+/// More than the buffers of a client that never reads.
 constexpr std::uint64_t kSurelyTaken = 1 << 18;
 constexpr std::size_t kMostWaitingBytes = 64'000'000;
 constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2}, kCredit{5};
@@ -44,7 +44,7 @@ constexpr int kPollMilliseconds = 400;
 
 bool would_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
-/// Half of the files that the process may have open, for which it raises its own limit as far as it may.
+/// Half of the files that the process may open. Raises the process's own limit if allowed.
 std::size_t find_places() {
   constexpr std::size_t kMost = HttpServer::kMostConnections;
   rlimit files{};
@@ -56,7 +56,7 @@ std::size_t find_places() {
   return std::clamp<std::size_t>(files.rlim_cur / 2, kLeastConnections, kMost);
 }
 
-/// The client that a connection counts for: an IPv4 address, or an IPv6 network of 64 bits, which one household has.
+/// The client that a connection counts for: an IPv4 address, or the 64-bit IPv6 network of a household.
 std::string client_of(const sockaddr_storage& address) {
   const void* const bytes = &address;
   if (address.ss_family == AF_INET) {
@@ -68,7 +68,7 @@ std::string client_of(const sockaddr_storage& address) {
   return std::string(reinterpret_cast<const char*>(one.s6_addr) + (holds_ipv4 ? 12 : 0), holds_ipv4 ? 4 : 8);
 }
 
-/// One client: it asks, waits, receives the answer, and asks again.
+/// A client's connection: repeatedly a request, a wait and an answer.
 class Connection {
  public:
   Connection(int fd, std::uint64_t number, std::string client, AnswerQueue& queue)
@@ -90,18 +90,18 @@ class Connection {
   const std::string& client() const { return client_; }
   short events() const { return waits_ ? 0 : is_answering() ? POLLOUT : POLLIN; }
   bool is_late(Clock::time_point now) const { return !waits_ && now > deadline_; }
-  /// The server works for it: that it makes no progress is not its fault.
+  /// True while the server works on its request, so that missing progress is not the client's fault.
   bool waits() const { return waits_; }
-  /// When a byte last moved in either direction. A client that has received more of an answer than buffers hold gets
-  /// some extra seconds, since its system may accept the next bytes only when half of its buffer is free: else those
-  /// who come again and again would end a slow download.
+  /// Time of the last byte in either direction. A client that has received more than buffers hold gets some extra
+  /// seconds, since its system may accept more bytes only when half of its buffer is free. Otherwise repeated new
+  /// connections would end a slow download.
   Clock::time_point last_progress() const {
     return is_answering() && taken_ > kSurelyTaken ? moved_ + kCredit : moved_;
   }
-  /// Bytes that it keeps the server from forgetting.
+  /// Bytes in memory for this client.
   std::size_t waiting_bytes() const { return waiting_.size(); }
 
-  /// All return false once the connection is to be closed.
+  /// All return false if the connection must be closed.
   bool receive() {
     std::array<char, 4096> bytes;
     const ssize_t got = ::recv(fd_, bytes.data(), bytes.size(), 0);
@@ -131,7 +131,7 @@ class Connection {
     sent_ = 0;
     file_ = {};
     if (closes_) {
-      // Closed with something unread, the answer could be lost on its way: the client closes first.
+      // Closing with unread bytes could lose the answer on its way, so the client closes first.
       lingers_ = true;
       deadline_ = moved_ + kToClose;
       return ::shutdown(fd_, SHUT_WR) == 0;
@@ -156,7 +156,7 @@ class Connection {
     queue_.ask(number_, std::move(parsed.request));
   }
 
-  /// Without a request the connection ends after the answer.
+  /// Begins an answer. Without a request the connection ends after it.
   void begin(const std::optional<Request>& request, Response response) {
     closes_ = !request || !request->keeps_alive;
     const std::string head = write_head(response, !closes_);
@@ -172,7 +172,7 @@ class Connection {
     file_ = std::move(response.file);
   }
 
-  /// The next bytes of the file; false where it has become shorter.
+  /// Reads the next bytes of the file; false if it has become shorter.
   bool refill() {
     waiting_.resize(std::min<std::uint64_t>(kChunk, file_.length));
     sent_ = 0;
@@ -199,7 +199,7 @@ class Connection {
 
 using Connections = std::vector<std::unique_ptr<Connection>>;
 
-/// Closes the one of a kind that has made no progress for the longest; false if there is none.
+/// Closes the connection of a kind with the longest time without progress; false if there is none.
 template <class IsOfKind>
 bool close_stuck(Connections& connections, const IsOfKind& is_of_kind) {
   auto stuck = connections.end();
@@ -212,8 +212,7 @@ bool close_stuck(Connections& connections, const IsOfKind& is_of_kind) {
   return true;
 }
 
-/// Makes a place for one more of a client; false where the server works for all who could go, or they just received
-/// bytes.
+/// Makes room for another connection of a client; false if all candidates are being worked for or just received bytes.
 bool make_place(Connections& connections, std::size_t places, const std::string& client) {
   const Clock::time_point now = Clock::now();
   const auto is_of_client = [&](const Connection& one) { return one.client() == client; };
@@ -224,7 +223,7 @@ bool make_place(Connections& connections, std::size_t places, const std::string&
   return connections.size() < places || close_stuck(connections, is_stuck);
 }
 
-/// Clients that do not receive their answers must not fill the memory.
+/// Closes clients that do not receive their answers before these fill the memory.
 void limit_waiting_bytes(Connections& connections) {
   const auto waits = [](const Connection& one) { return one.waiting_bytes() > 0; };
   while (true) {
@@ -234,7 +233,7 @@ void limit_waiting_bytes(Connections& connections) {
   }
 }
 
-/// "127.0.0.1", and "[::1]" as URLs have it.
+/// "127.0.0.1", or "[::1]" as in URLs.
 std::string host_in_url(const std::string& host) {
   return host.find(':') == std::string::npos ? host : "[" + host + "]";
 }
@@ -319,7 +318,7 @@ Result<void> HttpServer::run(const std::function<Response(const Request&)>& answ
     }
     std::erase(connections, nullptr);
     for (AnswerQueue::Done& done : queue.take()) {
-      // Connections are in the order of their numbers.
+      // Connections are sorted by number.
       const auto found = std::lower_bound(
           connections.begin(), connections.end(), done.client,
           [](const std::unique_ptr<Connection>& one, std::uint64_t number) { return one->number() < number; });
@@ -332,7 +331,7 @@ Result<void> HttpServer::run(const std::function<Response(const Request&)>& answ
       socklen_t size = sizeof address;
       const int fd = ::accept4(fd_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
       if (fd < 0) {
-        // The process has no file left.
+        // The process has reached its limit of open files.
         if (errno == EMFILE || errno == ENFILE) close_stuck(connections, is_any);
         break;
       }

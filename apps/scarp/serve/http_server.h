@@ -1,4 +1,4 @@
-// A small server: one thread for many connections, and a few that make answers. No client can hold up the others.
+// A small server: one thread for all connections, and a few that make answers. No client can block the others.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace scarp::cli {
 
 class HttpServer {
  public:
-  /// `host`: an address or a name of this machine. `port`: 0 for any that is free. Fails with kUsage.
+  /// `host`: an address or name of this machine. `port`: 0 for any free port. Fails with kUsage.
   static Result<HttpServer> listen(const std::string& host, int port);
   HttpServer(HttpServer&& other) noexcept;
   HttpServer& operator=(HttpServer&& other) noexcept;
@@ -20,14 +20,15 @@ class HttpServer {
 
   /// "http://127.0.0.1:8080/"
   const std::string& url() const { return url_; }
-  /// Most connections that are open at a time, where the process may have twice as many files.
+  /// Maximum of open connections, if the process may open twice as many files.
   static constexpr std::size_t kMostConnections = 4096;
-  /// Serves until is_over(), which is asked at least twice a second. `answer` is called on `threads` threads, for one
-  /// path on one of them at a time. At most kMostConnections are open, or half as many as the process may have files,
-  /// each with one request; half of them for one address. Where all are in use, the one that has moved no byte for the
-  /// longest is closed; requests that the server works at do not count. A request has kLongestHead and kLongestBody
-  /// bytes, and 10 seconds to come; an answer 30 seconds, and one more for each 10 kB, to be received. Where answers of
-  /// more than 64 MB wait to be received, those without progress are closed first. Fails with kOutput.
+  /// Serves until is_over(), polled at least twice a second. `answer` is called on `threads` threads, but for each path
+  /// only on one at a time.
+  /// Limits: kMostConnections, or half of the files that the process may open, each with one request; half of them for
+  /// one address. If all are in use, the one longest without progress is closed, except requests that the server is
+  /// working on. A request has at most kLongestHead and kLongestBody bytes and 10 seconds to arrive. An answer has 30
+  /// seconds to be received, plus one for each 10 kB. If answers of more than 64 MB wait to be received, those without
+  /// progress are closed first. Fails with kOutput.
   Result<void> run(const std::function<Response(const Request&)>& answer, int threads,
                    const std::function<bool()>& is_over);
 

@@ -27,7 +27,7 @@ constexpr MediaType kMediaTypes[] = {
     {"woff2", "font/woff2"},
     {"ttf", "font/ttf"},
     {"otf", "font/otf"},
-    // Images, sound and films.
+    // Images, sound and video.
     {"svg", "image/svg+xml"},
     {"png", "image/png"},
     {"apng", "image/apng"},

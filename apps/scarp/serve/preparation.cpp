@@ -40,7 +40,7 @@ Preparation::~Preparation() {
 
 void Preparation::prepare(LiveTileSet& set, int threads) const {
 #ifdef __linux__
-  // Sets the priority of this thread and those that it starts; elsewhere it would be the whole process.
+  // Sets the priority of this thread and its children; other systems would change the whole process.
   setpriority(PRIO_PROCESS, 0, kLeastUrgent);
 #endif
   const Result<bool> all = set.prepare(threads, [&] { return is_over_.load(); });

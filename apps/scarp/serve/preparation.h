@@ -1,4 +1,4 @@
-// Coarse tiles of a set that is made on demand, made in the background while the server has time.
+// Prepares coarse tiles of a set on demand in the background while the server is idle.
 #pragma once
 
 #include <atomic>
@@ -11,13 +11,12 @@ namespace scarp::cli {
 
 class Preparation {
  public:
-  /// Begins at once, on a thread that yields the processor to others. Where it fails, or `set` has no room for all, it
-  /// warns. The set must stay alive.
+  /// Starts immediately, on a thread of low priority. Warns if it fails or `set` has no room for all. Borrows `set`.
   Preparation(LiveTileSet& set, int threads);
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
-  /// Ends what is not done yet. A tile that is being made cannot be stopped: after a second the program ends with exit
-  /// code 0 where it is, for a server has nothing more to do or to write.
+  /// Abandons the rest. A tile in progress cannot be stopped: after a second the program ends there with exit code 0,
+  /// since a server has nothing left to write.
   ~Preparation();
 
  private:

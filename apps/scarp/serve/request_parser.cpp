@@ -40,7 +40,7 @@ constexpr Refusal kBadChunk{400, "a chunk's size is no hexadecimal count with we
 constexpr Refusal kBadChunkEnd{400, "a chunk is not followed by CR LF"};
 constexpr Refusal kExpects{417, "this server expects no body: send the request without Expect"};
 
-/// Sets of characters, as RFC 9110 and RFC 3986 have them.
+/// Sets of characters by RFC 9110 and RFC 3986.
 enum CharacterSet : std::uint8_t { kToken = 1, kText = 2, kTarget = 4, kHost = 8, kDigit = 16, kHex = 32 };
 
 constexpr std::array<std::uint8_t, 256> make_character_sets() {
@@ -48,7 +48,7 @@ constexpr std::array<std::uint8_t, 256> make_character_sets() {
   const auto add = [&](std::string_view characters, int set) {
     for (const char c : characters) sets[static_cast<std::uint8_t>(c)] |= static_cast<std::uint8_t>(set);
   };
-  // Targets may have what browsers do not escape, such as "|"; no file has such a name by chance.
+  // Targets may contain characters that browsers do not escape, such as "|"; no file has such a name by chance.
   for (std::size_t c = '!'; c <= '~'; ++c) sets[c] |= c == '#' ? kText : kText | kTarget;
   for (std::size_t c = 0x80; c <= 0xff; ++c) sets[c] |= kText;
   add(" \t", kText);
@@ -68,7 +68,7 @@ bool are_of(std::string_view text, CharacterSet set) {
 /// A word has at least one character.
 bool is_word(std::string_view text, CharacterSet set) { return !text.empty() && are_of(text, set); }
 
-/// "%41" is "A". Nothing for half a code and for code 0.
+/// Decodes "%41" to "A". Nothing for an incomplete code or code 0.
 std::optional<std::string> decode_percent(std::string_view text) {
   std::string plain;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -104,7 +104,7 @@ bool is_host(std::string_view text) {
   return text.empty() || (text.front() == ':' && is_port(text.substr(1)));
 }
 
-/// The text behind a chunk's size: *( BWS ";" BWS name [ BWS "=" BWS ( token / quoted-string ) ] ).
+/// The text after a chunk's size: *( BWS ";" BWS name [ BWS "=" BWS ( token / quoted-string ) ] ).
 bool are_chunk_extensions(std::string_view text) {
   const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size())); };
   const auto skip_token = [&] {
@@ -163,7 +163,7 @@ class RequestParser {
   }
 
  private:
-  // All return false where the request is refused, or more bytes are needed.
+  // All return false if the request is refused or more bytes are needed.
 
   bool refuse(const Refusal& refusal) {
     parsed_.state = ParsedRequest::State::kRefused;
@@ -190,7 +190,7 @@ class RequestParser {
   bool read_request_line() {
     std::string_view line;
     if (!read_line(line, kLongTarget)) return false;
-    // Some clients send an empty line behind a body.
+    // Some clients send an empty line after a body.
     if (line.empty() && !read_line(line, kLongTarget)) return false;
     if (!require(std::ranges::count(line, ' ') == 2, kNoRequestLine)) return false;
     const std::string_view method = take_until(line, ' '), target = take_until(line, ' ');
@@ -227,7 +227,7 @@ class RequestParser {
     return true;
   }
 
-  /// Up to the empty line.
+  /// Reads fields up to the empty line.
   bool read_fields() {
     while (true) {
       std::string_view line;
@@ -306,7 +306,7 @@ class RequestParser {
   }
 
   std::string_view rest_;
-  std::size_t room_;  ///< bytes that head or body may still have
+  std::size_t room_;  ///< remaining bytes of head or body
   bool is_old_ = false, is_chunked_ = false, is_in_trailer_ = false;
   std::uint64_t body_ = 0;
   std::map<std::string, int> counts_;

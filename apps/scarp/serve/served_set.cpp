@@ -17,7 +17,7 @@ FileStamp describe_status(const struct stat& status) {
                                                                   status.st_mtim.tv_sec, status.st_mtim.tv_nsec)};
 }
 
-/// Changes when a set is put in the place of another, and when its client's file is written anew.
+/// Changes when another set replaces this one, and when its client's file is rewritten.
 std::string stamp_of_set(const std::string& path) {
   std::string stamp = stamp_of(path).text;
   for (const char* const name : {"/layer.json", "/tileset.json"}) stamp += "," + stamp_of(path + name).text;
@@ -36,7 +36,7 @@ Result<std::shared_ptr<const OpenedSet>> open_once(const std::string& path, cons
   return opened;
 }
 
-/// The reader and the file are of one set only if no other replaced it meanwhile.
+/// Retries until the reader and the file belong to the same set.
 Result<std::shared_ptr<const OpenedSet>> open_whole(const std::string& path) {
   constexpr int kMostTries = 5;
   for (int k = 1;; ++k) {
@@ -46,7 +46,7 @@ Result<std::shared_ptr<const OpenedSet>> open_whole(const std::string& path) {
   }
 }
 
-/// While a set replaces another there is none for a moment.
+/// Retries, since a set is briefly missing while another replaces it.
 int open_folder(const std::string& path) {
   constexpr int kMostTries = 50;
   constexpr useconds_t kNap = 1000;
@@ -84,7 +84,7 @@ std::shared_ptr<const OpenedSet> ServedSet::now() const {
   std::string stamp = stamp_of_set(path_);
   if (stamp == opened_->stamp || stamp == stamp_tried_ || stamp_of(path_).text.empty()) return opened_;
   stamp_tried_ = std::move(stamp);
-  // A file that is no set, or not yet a whole one, replaces none.
+  // Only a complete set replaces the old one.
   if (auto opened = open_whole(path_)) opened_ = std::move(*opened);
   return opened_;
 }

@@ -1,4 +1,4 @@
-// The set that a server answers from, which may be replaced while it serves.
+// The set that a server answers from; it may be replaced during serving.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace scarp::cli {
 
-/// The set as it was opened once.
+/// A set opened at some time.
 struct OpenedSet {
   std::shared_ptr<const TileSetReader> reader;
-  std::shared_ptr<const OpenFile> file;  ///< file of a set in one file
-  std::string stamp;                     ///< stamp of the file, or of the folder and the file that names its tiles
+  std::shared_ptr<const OpenFile> file;  ///< the file of a single-file set
+  std::string stamp;                     ///< stamp of the file, or of the folder and its metadata
 
-  /// Made once.
+  /// The page, made once.
   const std::vector<std::uint8_t>& page(const std::function<std::vector<std::uint8_t>()>& make) const;
 
  private:
@@ -34,7 +34,7 @@ class ServedSet {
   /// A set that is never replaced.
   explicit ServedSet(std::shared_ptr<const TileSetReader> reader);
 
-  /// Opened anew where a file was put in its place since, if that is a set. Several threads may call it at once.
+  /// The current set, reopened if another set replaced its file. May be called concurrently.
   std::shared_ptr<const OpenedSet> now() const;
 
  private:
@@ -46,15 +46,15 @@ class ServedSet {
   mutable std::string stamp_tried_;
 };
 
-/// A file with this status, whatever its name.
+/// Identifies a file and its state, whatever its name.
 struct FileStamp {
   std::uint64_t size = 0;
-  std::string text;  ///< empty where there is no file
+  std::string text;  ///< empty if there is no file
 };
 FileStamp stamp_of(const std::string& path);
 FileStamp stamp_of(const OpenFile& file);
 
-/// Null where the folder holds no such file; names that are hidden, lead out of it, or go through links are none.
+/// Null if the folder has no such file. Ignores names that are hidden, lead out of it or pass through links.
 std::shared_ptr<const OpenFile> open_in_folder(const std::string& folder, std::string_view name);
 /// Fails with kInput.
 Result<std::vector<std::uint8_t>> read_all(const OpenFile& file);

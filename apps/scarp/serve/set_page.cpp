@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostMadeTiles = 64, kMostDrawnTiles = 2000;
 
-/// The finest level with few enough tiles.
+/// The finest level within the limit of tiles.
 std::size_t find_level(const TileSetReader& set, std::size_t most_tiles) {
   const auto& levels = set.tiles();
   std::size_t found = 0;
@@ -26,7 +26,7 @@ std::size_t find_level(const TileSetReader& set, std::size_t most_tiles) {
   return found;
 }
 
-/// A level alone: each needs as long to make its tiles.
+/// A single level, since making each costs as much.
 class OneLevel final : public TileSetReader {
  public:
   OneLevel(const TileSetReader& set, std::size_t z) : set_(set), tiles_(z + 1) { tiles_[z] = set.tiles()[z]; }
@@ -52,7 +52,7 @@ std::string escape_html(const std::string& text) {
   return safe;
 }
 
-/// A map of the tiles of a level.
+/// Draws a map of the tiles of a level.
 std::string draw_tiles(const TileSetReader& set, std::size_t z) {
   if (z >= set.tiles().size()) return "";
   const TileGrid grid = find_grid(set);

@@ -1,4 +1,4 @@
-// The page of a set that is served, which needs nothing from elsewhere.
+// The self-contained page of a served set.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace scarp::cli {
 
-/// The viewer with the finest levels that a page may hold, as `scarp view SET` writes it; where the viewer is not
-/// installed, or cannot show the set, a map of its tiles. `makes_tiles`: they are made as they are read, so that the
-/// page has one coarse level. `name` is what the set is called.
+/// The viewer with the finest levels that fit into a page, as `scarp view SET` writes it. If the viewer is not
+/// installed or cannot show the set: a map of the tiles. `makes_tiles`: tiles are made on demand, so the page has one
+/// coarse level. `name`: of the set.
 std::vector<std::uint8_t> make_set_page(const std::string& name, const TileSetReader& set, bool makes_tiles);
 
-/// The files of a set, one URL's path a line.
+/// The files of a set, one URL path per line.
 std::string list_set(const TileSetReader& set, const std::string& file_url);
 
 }  // namespace scarp::cli

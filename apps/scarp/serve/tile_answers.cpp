@@ -17,14 +17,14 @@
 namespace scarp::cli {
 namespace {
 
-/// More than any tile has.
+/// More than any tile needs.
 constexpr std::size_t kMostUnpacked = std::size_t{1} << 28;
 
 std::size_t hash_of(std::span<const std::uint8_t> bytes) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-/// Larger files other than tiles are sent from where they lie.
+/// Larger files, except tiles, are sent directly from the file.
 constexpr std::uint64_t kMostKept = 1 << 22;
 constexpr const char* kList = "index.txt";
 
@@ -49,7 +49,7 @@ Response answer_bytes(const Request& request, const std::string& name, std::vect
   const std::string tag = fmt::format("\"{:016x}{}\"", hash_of(bytes), is_packed && !sends_packed ? "-i" : "");
   response.headers.push_back({"ETag", tag});
   if (is_packed) response.headers.push_back({"Vary", "Accept-Encoding"});
-  // With a version in its URL a tile never changes.
+  // A tile with a version in its URL never changes.
   const bool has_version = request.query.rfind("v=", 0) == 0 || request.query.find("&v=") != std::string::npos;
   response.headers.push_back({"Cache-Control", has_version ? "public, max-age=31536000, immutable" : "no-cache"});
   if (matches_tag(request.header("if-none-match"), tag)) {
@@ -67,7 +67,7 @@ Response answer_bytes(const Request& request, const std::string& name, std::vect
   return response;
 }
 
-/// The file, or a range of it.
+/// Answers with the file or a range of it.
 Response answer_file(const Request& request, const std::string& name, const std::shared_ptr<const OpenFile>& file) {
   Response response;
   const FileStamp stamp = stamp_of(*file);
@@ -170,7 +170,7 @@ Response TileAnswers::answer_missing(const std::string& name) const {
 Response TileAnswers::answer_in_folder(const Request& request, std::string name) const {
   if (name.empty() || name.back() == '/') name += "index.html";
   auto file = open_in_folder(folder_, name);
-  // A set that is being replaced just now is deleted file by file.
+  // A set that is being replaced is deleted file by file.
   if (!file) file = open_in_folder(folder_, name);
   if (!file) return answer_missing(name);
   const bool is_any_tile = find_tile_id(TileFormat::kQuantizedMesh, name) || find_tile_id(TileFormat::kGlb, name);
@@ -182,7 +182,7 @@ Response TileAnswers::answer_in_folder(const Request& request, std::string name)
 }
 
 Response TileAnswers::answer_in_set(const Request& request, const std::string& name, const OpenedSet& opened) const {
-  // Names are searched among those of the set, so that no path leads out of it.
+  // Only names of the set's files are searched, so no path leads out of it.
   if (opened.file && name == name_) return answer_file(request, name, opened.file);
   const TileSetReader& set = *opened.reader;
   const auto id = find_tile_id(set.format(), name);

@@ -1,4 +1,4 @@
-// The answers of a server from a set of tiles, finished or not.
+// Answers of a server from a tileset, finished or made on demand.
 #pragma once
 
 #include <memory>
@@ -13,31 +13,30 @@ namespace scarp::cli {
 
 class TileAnswers {
  public:
-  /// Fails as open_tile_set() does. A set that replaces it is served from then on, and so are files that are put into a
-  /// folder.
+  /// Fails as open_tile_set() does. A replaced set is served from then on, as are new files in its folder.
   static Result<std::unique_ptr<TileAnswers>> open(const std::string& path);
-  /// Answers from tiles that are made when they are asked for. `name` is the name of the set.
+  /// Answers with tiles made on demand. `name`: of the set.
   TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name);
 
-  /// The set as it is now.
+  /// The current set.
   std::shared_ptr<const TileSetReader> set() const { return set_->now()->reader; }
-  /// Several threads may call it at once.
+  /// May be called concurrently.
   Response answer(const Request& request) const;
 
  private:
   TileAnswers() = default;
   Response answer_path(const Request& request) const;
   Response answer_missing(const std::string& name) const;
-  /// Both return status 404 for what is not there.
+  /// Both return status 404 for missing files.
   Response answer_in_folder(const Request& request, std::string name) const;
   Response answer_in_set(const Request& request, const std::string& name, const OpenedSet& opened) const;
   std::vector<std::uint8_t> make_page(const OpenedSet& opened) const;
-  /// The URL's path of the set itself, where it is one file; else empty.
+  /// The URL path of a single-file set; else empty.
   std::string file_url() const { return is_file_ ? "/" + name_ : ""; }
 
   std::unique_ptr<ServedSet> set_;
-  const LiveTileSet* live_ = nullptr;  ///< the same, where it makes its tiles
-  std::string name_, folder_;          ///< the folder is empty where the set is none
+  const LiveTileSet* live_ = nullptr;  ///< the same set if it makes tiles on demand
+  std::string name_, folder_;          ///< the folder is empty if the set has none
   bool is_file_ = false;
 };
 

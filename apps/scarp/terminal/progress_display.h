@@ -13,10 +13,10 @@ namespace scarp::cli {
 
 /// Shows a run's progress on stderr and turns Ctrl-C into cancellation.
 ///
-/// kLine: one line that is rewritten, from one second into the run on: pass, percent, vertices, current error, time
-/// left in this pass. kJson: one object a line, at most five a second plus one at the end of each pass; keys pass,
-/// fraction, vertices, max_error, seconds (since the display was made). In the pass "tiles": tiles, bytes and
-/// seconds_left (null before it can be estimated) in place of vertices and max_error.
+/// kLine: rewrites one line, starting after one second: pass, percent, vertices, current error, time left in this pass.
+/// kJson: one object a line, at most five a second plus one at the end of each pass. Its keys are pass, fraction,
+/// vertices, max_error, seconds (since construction). In the pass "tiles": tiles, bytes and seconds_left (null before
+/// an estimate) instead of vertices and max_error.
 class ProgressDisplay {
  public:
   enum class Style { kSilent, kLine, kJson };
@@ -27,16 +27,16 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// From now on an interrupt in the pass of that name is content_with_interrupt(), instead of an end.
+  /// Makes an interrupt in the pass of that name finish it (content_with_interrupt()) instead of ending the run.
   void let_interrupt_finish(std::string_view pass) { finished_by_interrupt_ = pass; }
-  /// Tiles and their bytes so far, to be shown in the pass "tiles". Must outlive the display's last pass.
+  /// Tiles and bytes so far, shown in the pass "tiles". They must outlive the last pass.
   void show_tiles(const TileCounts& counts) { tiles_ = &counts; }
   /// For the library's options. The display must outlive the call that uses it.
   ProgressCallback callback();
-  /// Ends the last pass and erases the line. Call when the work has succeeded; nothing is shown afterwards.
+  /// Ends the last pass and erases the line; nothing is shown afterwards. Call after success.
   void finish();
 
-  /// The style for the given flags: kJson if asked for, else kLine where stderr is a terminal and `quiet` is false.
+  /// The style for the flags: kJson if requested, else kLine if stderr is a terminal and `quiet` is false.
   static Style choose(bool json, bool quiet);
 
  private:

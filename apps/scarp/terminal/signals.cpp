@@ -12,7 +12,7 @@
 namespace scarp::cli {
 namespace {
 
-// Lock-free, so that a handler may touch them.
+// Lock-free, so that handlers may use them.
 std::atomic<int> g_signals = 0;
 std::atomic<bool> g_is_content = false, g_is_told = false;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
@@ -26,14 +26,14 @@ void remove_half_written() {
   }
 }
 
-/// The default action, so that a shell sees a program ended by the signal, but without half a file left.
+/// The default action, so that a shell sees the signal, but without half-written files left.
 extern "C" void on_end_signal(int signal) {
   remove_half_written();
   std::signal(signal, SIG_DFL);
   raise(signal);  // acts when this handler returns
 }
 
-/// The run has not stopped by itself: it waits in a library, or for a pipe.
+/// The run did not stop by itself: it waits in a library or for a pipe.
 extern "C" void on_late_stop(int) {
   if (outputs_naming() == Naming::kNow) {
     alarm(1);
@@ -75,8 +75,8 @@ void install_signal_handlers() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-// Libraries that are loaded need a while to become ready, all before main(): where the system has a place for what
-// comes first of all, that is where this goes. Sanitizers are not ready there themselves.
+// Loaded libraries need time for initialization before main(), so handlers are installed even earlier if the system
+// allows. Sanitizers are not ready that early.
 #if defined(__has_feature)
 #define SCARP_HAS_FEATURE(name) __has_feature(name)
 #else

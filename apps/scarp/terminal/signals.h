@@ -1,24 +1,23 @@
-// Ctrl-C and its relatives.
+// Ctrl-C and similar signals.
 #pragma once
 
 namespace scarp::cli {
 
-/// SIGINT, SIGTERM and SIGHUP (unless nohup has it ignored): the first asks the running call to stop (see
-/// interrupted()). A run that has not stopped two seconds later, such as a library that waits for a server, is ended
-/// with the sentence and the exit code of an interrupted run, without the temporary files that are being written. The
-/// second signal ends the program so at once, as SIGQUIT always does. SIGPIPE and SIGXFSZ are ignored, so that a closed
-/// pipe and a full file become errors of the write that met them. Call first thing in main(); with glibc it has been
-/// called before, as the first of all code once libraries are loaded.
+/// Handles SIGINT, SIGTERM and SIGHUP (unless nohup ignores it). The first signal asks the running call to stop (see
+/// interrupted()). If it still runs two seconds later, perhaps waiting for a server, the program ends with the message
+/// and exit code of an interrupted run. No temporary files are left. The second signal ends the program immediately in
+/// this way, as SIGQUIT always does. SIGPIPE and SIGXFSZ are ignored: writes to a closed pipe or a full file fail
+/// instead. Call first in main(); with glibc it runs even before, ahead of all other code.
 void install_signal_handlers();
 
-/// True once SIGINT, SIGTERM or SIGHUP has arrived, but for one that content_with_interrupt() used up.
+/// True after SIGINT, SIGTERM or SIGHUP, unless content_with_interrupt() consumed it.
 bool interrupted();
 
-/// Treats the first of these signals, if it has arrived, as a request for the result so far: the run continues and
-/// writes it, and the next signal counts as the first. Returns true from then on. May be called by any thread.
+/// Treats the first of these signals, if any, as a request for the result so far: the run continues and writes it. The
+/// next signal counts as the first. Returns true from then on. May be called on any thread.
 bool content_with_interrupt();
 
-/// The run has printed its last sentence: a signal from now on prints none.
+/// Call after the last message: later signals print none.
 void keep_interrupts_quiet();
 
 }  // namespace scarp::cli

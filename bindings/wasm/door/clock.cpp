@@ -1,4 +1,4 @@
-// The C++ library's own clock can throw, and what it throws has sentences that printf makes: 10 kB.
+// The C++ library's clock can throw, with messages formatted by printf: 10 kB.
 #include <chrono>
 #include <ctime>
 

@@ -34,7 +34,7 @@ void keep_exception() {
     throw;
   } catch (const std::bad_alloc&) {
     last_error().kind = ErrorKind::kMemory;
-    last_error().message = "out of memory";  // so short that it asks for none
+    last_error().message = "out of memory";  // short enough to need no allocation
   } catch (const std::exception& error) {
     keep({ErrorKind::kInternal, std::string("internal error: ") + error.what() + "; please report it"});
   } catch (...) {

@@ -1,8 +1,8 @@
-// Common parts of all functions of the WebAssembly door: numbers, sentences, and no exception that goes out.
+// Common parts of all functions of the WebAssembly interface: numbers and messages. No exception escapes.
 //
-// JavaScript sees memory and doubles. Arguments and results are structs of doubles alone, which it writes and reads as
-// one Float64Array each; a pointer among them is its address. The functions are those of bindings/c/scarp_c.h on the
-// core alone, without the program's options by name.
+// JavaScript sees memory and doubles. Arguments and results are structs of doubles only, each a Float64Array for
+// JavaScript; a pointer is passed as its address. The functions are those of bindings/c/scarp_c.h for the core, without
+// options by name.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace scarp::wasm {
 
-/// For scarp_error_kind() and scarp_error_text().
+/// Stores the error for scarp_error_kind() and scarp_error_text().
 void keep(const Error& error);
-/// The one that is being handled.
+/// Stores the current exception.
 void keep_exception();
 
-/// Runs `work`, which returns a Result; `none` where it fails.
+/// Runs `work`, which returns a Result; returns `none` if it fails.
 template <class T, class Work>
 T guarded(T none, Work&& work) noexcept {
   try {
@@ -35,7 +35,7 @@ T guarded(T none, Work&& work) noexcept {
   return none;
 }
 
-/// The same of a handle, which JavaScript frees.
+/// Runs `work` and returns a handle, which JavaScript frees.
 template <class T, class Work>
 T* give(Work&& work) noexcept {
   return guarded<std::unique_ptr<T>>(nullptr, work).release();
@@ -56,17 +56,17 @@ inline std::optional<std::uint64_t> budget(double number) {
   return number > 0 ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(number)) : std::nullopt;
 }
 
-/// `geotransform`: GDAL's, of pixel corners.
+/// `geotransform`: like GDAL's, of pixel corners.
 struct Field {
   double samples, cols, rows, nodata, sample_rounding;
-  double place;  ///< 0: on the grid; 1: by the geotransform; 2: it is in degrees, and the mesh in metres
+  double place;  ///< 0: on the grid; 1: by the geotransform; 2: by a geotransform in degrees, with the mesh in metres
   double geotransform[6];
 };
-/// From samples, whose centres have whole numbers, to x and y.
+/// Maps samples, whose centres have integer coordinates, to x and y.
 std::array<double, 6> affine_of(const Field& given);
 Result<HeightField> take_field(const Field& given);
 
-/// Asks JavaScript, which may cancel.
+/// Calls JavaScript, which may cancel.
 ProgressCallback ask_javascript();
 
 }  // namespace scarp::wasm

@@ -3,8 +3,7 @@
 #include <iterator>
 
 extern "C" {
-/// Prints a number in ASCII, at most 400 letters, and returns how many. Style: e, f, g; precision -1: the fewest
-/// digits.
+/// Prints a number in ASCII and returns its length, at most 400. Style: e, f, g; precision -1: the fewest digits.
 __attribute__((import_module("scarp"), import_name("number"))) std::int32_t scarp_number(
     double value, std::int32_t is_float, std::int32_t style, std::int32_t precision, char* out);
 }

@@ -1,5 +1,5 @@
-// Highway's list of what the processor can do is compiled for one machine; WebAssembly has one target, known when it is
-// compiled.
+// Highway's detection of processor features is compiled for a single machine: WebAssembly has one target, known at
+// compile time.
 #include <hwy/targets.h>
 
 namespace hwy {

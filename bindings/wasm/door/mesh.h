@@ -1,4 +1,4 @@
-// The contents of a mesh's handle, and its layout for JavaScript.
+// The contents of a mesh handle and its layout for JavaScript.
 #pragma once
 
 #include "door.h"
@@ -9,8 +9,8 @@ namespace scarp::wasm {
 
 /// The measured error of a mesh. Errors are vertical, mesh minus sample, in z units.
 struct Report {
-  double stop = -1;    ///< why the run ended: 0 max_error, 1 max_triangles, 2 max_vertices, 3 every sample is exact
-  double effort = -1;  ///< 0 fast, 1 normal, 2 high, 3 max; -1 where a mesh was only measured
+  double stop = -1;    ///< reason of the end: 0 max_error, 1 max_triangles, 2 max_vertices, 3 every sample is exact
+  double effort = -1;  ///< 0 fast, 1 normal, 2 high, 3 max; -1 for a measured mesh
   double vertices = 0, triangles = 0;
   double samples = 0, uncovered = 0, stray = 0;
   double max_error = 0, max_error_col = -1, max_error_row = -1;
@@ -22,7 +22,7 @@ Report describe(const Measurement& measured);
 struct WholeMesh {
   Mesh mesh;
   Report report;
-  double cell[2] = {0, 0};  ///< sides of a cell of the raster along x and y, of either sign; 0: not known
+  double cell[2] = {0, 0};  ///< sides of a raster cell along x and y, with sign; 0: unknown
 };
 
 struct MeshView {

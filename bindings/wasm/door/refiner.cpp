@@ -15,7 +15,7 @@ SCARP_EXPORT(scarp_refiner_create) Refiner* scarp_refiner_create(const Field* gi
   });
 }
 /// Inserts until the max error is at most `max_error`, or there are `max_vertices` (0: any number), or `most` were
-/// inserted. Returns how many were; -1: failed.
+/// inserted. Returns how many were inserted; -1: failed.
 SCARP_EXPORT(scarp_refiner_run)
 double scarp_refiner_run(Refiner* refiner, double max_error, double max_vertices, double most) {
   return guarded<double>(-1, [&]() -> Result<double> {

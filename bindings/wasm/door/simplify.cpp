@@ -9,7 +9,7 @@
 
 namespace scarp::wasm {
 
-/// By the numbers of their lists in scarp/options.h. NaN and 0: not given.
+/// Enums by their numbers in scarp/options.h. NaN and 0: not given.
 struct Options {
   double max_error, max_triangles, max_vertices;
   double effort, vertices, order, objective;
@@ -88,7 +88,7 @@ SCARP_EXPORT(scarp_simplify) WholeMesh* scarp_simplify(const Field* given_field,
   });
 }
 
-/// Positions: 3 doubles a vertex, offsets from the origin, which are judged as they are.
+/// Positions: 3 doubles a vertex, offsets from the origin, judged unchanged.
 SCARP_EXPORT(scarp_measure)
 std::int32_t scarp_measure(const Field* given_field, const double* origin, const double* positions, double vertices,
                            const std::uint32_t* corners, double triangles, Report* out) {

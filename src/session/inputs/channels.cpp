@@ -69,7 +69,7 @@ void set_magnitude(Channels& channels) {
   }
 }
 
-/// Fails where a height has no texture.
+/// Fails for a height without a texture value.
 Result<void> check_coverage(const OwnedChannels& texture, const OwnedHeightField& heights) {
   for (std::size_t band = 0; band < texture.bands.size(); ++band) {
     const std::vector<float>& values = texture.bands[band];
@@ -86,7 +86,7 @@ Result<void> check_coverage(const OwnedChannels& texture, const OwnedHeightField
   return {};
 }
 
-/// The bands of `more` behind those of `channels`.
+/// Appends the bands of `more` to those of `channels`.
 void append(OwnedChannels& channels, OwnedChannels more) {
   if (channels.bands.empty()) {
     channels = std::move(more);

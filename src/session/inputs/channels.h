@@ -1,5 +1,4 @@
-// Textures and images: further values at the samples, which count as errors in addition to the heights or in their
-// place.
+// Textures and images: sample values whose errors count in addition to those of heights, or in their place.
 #pragma once
 
 #include <string>
@@ -16,28 +15,28 @@ namespace scarp::cli {
 struct Channels {
   OwnedChannels bands;
   std::vector<std::string> names;  ///< "red", "band 4", …
-  std::vector<double> scales;      ///< Channel::scale of each band
+  std::vector<double> scales;      ///< Channel::scale per band
   double height_scale = 1;
-  double relief = 0;     ///< reference of a percentage, with --image: the largest range of a band, 255 if all are bytes
-  double magnitude = 0;  ///< largest norm of the scaled values, at most: what the judge's rounding is relative to
+  double relief = 0;     ///< reference of percentages with --image: the largest range of a band; 255 if all are bytes
+  double magnitude = 0;  ///< upper bound of the norm of scaled values, which scales the judge's rounding
 
   std::size_t count() const { return bands.bands.size(); }
   bool empty() const { return bands.bands.empty(); }
-  /// True if 8-bit colours, or grey, hold all of the data.
+  /// True if 8-bit colours or grey hold all data.
   bool are_colors() const { return bands.is_8bit && (count() == 1 || (count() == 3 && bands.is_color)); }
-  /// Gives `field`, on the same grid, these channels. They must stay alive.
+  /// Gives `field`, on the same grid, these channels, which must outlive it.
   void attach_to(HeightField& field) const;
 };
 
-/// The textures of the plan, which must lie on the grid of `heights` and have a value wherever it has. The error of a
-/// sample is then the norm of |height error| and of w/(1 − w) · relief · |error| / range of each channel, all channels
-/// together counting once.
+/// Reads the textures of the plan, which must lie on the grid of `heights` and have values wherever it has. The error
+/// of a sample is then the norm of |height error| and of w/(1 − w) · relief · |error| / range of each channel; all
+/// channels together count once.
 Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& heights,
                                const ProgressCallback& progress);
 
-/// An image as a height field of zeros, nodata where a band has no value, and its bands as channels. The error of a
-/// sample is the norm of weight · |error| of each band, in grey levels; bands that are not bytes are brought to the
-/// largest range of any of them.
+/// An image: a height field of zeros with its bands as channels; nodata where a band has no value. A sample's error is
+/// the norm of weight · |error| of each band, in grey levels. Bands other than bytes are scaled to the largest range
+/// among them.
 struct Image {
   OwnedHeightField field;
   Channels channels;

@@ -15,13 +15,13 @@ namespace {
 
 using enum OptionId;
 
-/// Names the option that named a file, as "--tolerance FILE".
+/// Prefixes the error with the option that named a file, as in "--tolerance FILE".
 tl::unexpected<Error> name_option(OptionId option, const char* between, Error error) {
   if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}{}{}", option, between, error.message);
   return tl::unexpected(std::move(error));
 }
 
-/// The raster's values, on the grid of `raster`, whole or within the limit.
+/// The values on the grid of `raster`, entirely in memory or within the limit.
 Result<OwnedHeightField> read_values(OptionId option, const std::string& path, const RasterInfo& raster,
                                      const OwnedHeightField& field, const CompanionRun& run, bool in_windows,
                                      double scale = 1) {
@@ -38,7 +38,7 @@ Result<OwnedHeightField> read_values(OptionId option, const std::string& path, c
   return values;
 }
 
-/// How many units of the heights are one of a raster that names its own.
+/// The length unit of `values` in units of the heights.
 double units_of(const RasterInfo& values, const RasterInfo& heights) {
   const bool are_known = !values.unit.empty() && values.unit_in_metres > 0 && heights.unit_in_metres > 0;
   return are_known && values.unit_in_metres != heights.unit_in_metres ? values.unit_in_metres / heights.unit_in_metres
@@ -49,7 +49,7 @@ void add_warnings(const OwnedHeightField& values, Companions& companions) {
   companions.warnings.insert(companions.warnings.end(), values.info.warnings.begin(), values.info.warnings.end());
 }
 
-/// A command that brings a raster onto the grid of `raster`.
+/// A command that resamples a raster to the grid of `raster`.
 std::string suggest_command(const RasterInfo& raster, int cols, int rows, const RasterInfo& other, int other_cols,
                             int other_rows) {
   const std::string file = shell_word(other.path);
@@ -64,13 +64,13 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
   const std::array<double, 6>& o = other.geotransform;
   const bool is_covered = crs.empty() && o[2] == 0 && o[4] == 0 && o[1] > 0 && o[5] < 0 && o[0] <= g[0] &&
                           o[3] >= g[3] && o[0] + o[1] * other_cols >= east && o[3] + o[5] * other_rows <= south;
-  // Elsewhere it has no value: gdalwarp writes 0 else.
+  // Without this, gdalwarp writes 0 outside.
   const char* beyond = is_covered ? "" : "-ot Float32 -dstnodata nan ";
   return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {}{} {}", crs, g[0], south, east, g[3], cols,
                      rows, beyond, file, new_file(".tif"));
 }
 
-/// In the order in which they were given.
+/// In the order given.
 Result<std::vector<Region>> read_regions(const GivenOptions& given, const RasterInfo& raster,
                                          const ProgressCallback& progress, Companions& companions) {
   ReadLinesOptions options;
@@ -106,7 +106,7 @@ void warn_of_missing(const GivenOptions& given, const std::vector<bool>& found, 
   }
 }
 
-/// Fails if the memory has no room for the regions in addition to heights that have a source.
+/// Fails if the regions do not fit in memory next to heights with a source.
 Result<void> check_regions(const OwnedHeightField& field, const std::vector<Region>& regions, std::uint64_t memory) {
   std::uint64_t vertices = 0;
   for (const Region& region : regions) {
@@ -116,7 +116,7 @@ Result<void> check_regions(const OwnedHeightField& field, const std::vector<Regi
   return check_room(field, memory, kBytesPerVertex * vertices, name_of(kRoi));
 }
 
-/// The tolerances of --tolerance and --roi, in windows where the heights are.
+/// Reads the tolerances of --tolerance and --roi, in windows like the heights.
 Result<void> read_tolerances(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                              std::optional<double> bound, const CompanionRun& run, Companions& companions) {
   const bool in_windows = field.source != nullptr;
@@ -149,7 +149,7 @@ Result<void> read_tolerances(const GivenOptions& given, const RasterInfo& raster
   return in_windows ? check_room(field, run.memory, companions.bytes, name_of(*find_tolerance(given))) : Result<void>();
 }
 
-/// The weights of --mask, in windows where the heights are.
+/// Reads the weights of --mask, in windows like the heights.
 Result<void> read_weights(const std::string& path, const RasterInfo& raster, const OwnedHeightField& field,
                           const CompanionRun& run, Companions& companions) {
   const bool in_windows = field.source != nullptr;
@@ -165,7 +165,7 @@ Result<void> read_weights(const std::string& path, const RasterInfo& raster, con
   return {};
 }
 
-/// Reads the steps of --script, which count in addition to heights that have a source.
+/// Reads the steps of --script, which use memory in addition to heights with a source.
 Result<void> read_steps(const std::string& path, const OwnedHeightField& field, const CompanionRun& run,
                         Companions& companions) {
   SCARP_TRY(companions.script, read_script(path, field.cols, field.rows));

@@ -1,4 +1,4 @@
-// Rasters and scripts next to INPUT that set, sample by sample, what counts.
+// Rasters and scripts besides INPUT that set bounds sample by sample.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,26 @@
 
 namespace scarp::cli {
 
-/// The contents of the files; empty where none was given.
+/// The contents of the files; empty for options not given.
 struct Companions {
-  OwnedWeights mask;  ///< with a source where the heights have one, as tolerances
+  OwnedWeights mask;  ///< has a source if the heights have one, like tolerances
   OwnedTolerances tolerances;
   Script script;
   std::vector<std::string> warnings;
 
   bool has_tolerance() const { return !tolerances.values.empty() || tolerances.source; }
-  /// Bytes in addition to those of heights that have a source.
+  /// Bytes in addition to those of heights with a source.
   std::uint64_t bytes = 0;
 
   bool has_weights() const { return !mask.empty() || has_tolerance(); }
-  /// The script removes samples' bounds; they count in the largest errors all the same.
+  /// True if the script removes bounds of samples, which still count in the largest errors.
   bool ignores_samples() const { return !script.ignored.empty(); }
   bool inserts_samples() const { return !script.inserted.empty(); }
   /// The bounds that simplify() and judge_mesh() borrow.
   Tolerances bounds() const;
 };
 
-/// How a run reads them. The rest counts where the heights have a source.
+/// How a run reads them. `memory` and `threads` matter only for heights with a source.
 struct CompanionRun {
   const ProgressCallback& progress;
   std::uint64_t memory = 0;  ///< the process's limit; REQUIRED then
@@ -40,14 +40,14 @@ struct CompanionRun {
 };
 
 /// Reads and checks the files, which must lie on the grid of `raster`.
-/// Mask: values below 0 are refused; if the largest is above 1, all are divided by it; no value means weight 0.
-/// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: a sample in one has the smaller
-/// of its tolerance and the raster's; `bound` holds beyond them. `raster`: that of the field, as it was read. Fails
-/// with kUsage if the memory has no room for them in addition to heights that have a source.
+/// Refuses negative values. Mask: if the largest value exceeds 1, all are divided by it; no value means weight 0.
+/// Tolerance: no value means no bound. A sample in a region of interest has the smaller of the region's tolerance and
+/// the raster's; `bound` holds elsewhere. `raster`: the field's, as read. Fails with kUsage if they do not fit in
+/// memory next to heights with a source.
 Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                                    std::optional<double> bound, const CompanionRun& run);
 
-/// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
+/// Fails with a remedy unless `other`, given by `option`, lies on the grid of `raster`.
 Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const std::string& option,
                         const RasterInfo& other, int other_cols, int other_rows);
 

@@ -1,4 +1,4 @@
-// Polygons that the surface ends at.
+// Polygons that bound the surface.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace scarp::cli {
 
 /// The contents of the files.
 struct Cut {
-  Cutline cutline;             ///< empty where the samples outside are nodata
+  Cutline cutline;             ///< empty if samples outside are nodata
   std::uint64_t polygons = 0;  ///< number of polygons in the files, before an inset
-  std::uint64_t masked = 0;    ///< samples that were made nodata
-  std::uint64_t bytes = 0;     ///< bytes of the index that separates them where the samples are not in memory
+  std::uint64_t masked = 0;    ///< samples made nodata
+  std::uint64_t bytes = 0;     ///< bytes of the index of these samples, if samples are not in memory
 
-  /// For the judge; null where everything counts.
+  /// For the judge; null if no cut applies.
   const Cutline* judged() const { return cutline.rings.empty() ? nullptr : &cutline; }
 };
 
-/// Reads the polygons in the CRS of the raster, `raster` being its file's metadata, and makes the samples of `field`
-/// outside nodata where that was asked for. Sentences for the user in `warnings`.
+/// Reads the polygons in the CRS of the raster, whose metadata is `raster`. On request makes the samples of `field`
+/// outside nodata. Adds sentences for the user to `warnings`.
 Result<Cut> read_cut(const GivenOptions& given, const RasterInfo& raster, const ProgressCallback& progress,
                      OwnedHeightField& field, std::vector<std::string>& warnings);
 

@@ -1,4 +1,4 @@
-// Lines of vector files, as the mesh must hold them.
+// Lines of vector files that become edges of the mesh.
 #pragma once
 
 #include <string>
@@ -15,12 +15,11 @@ namespace scarp::cli {
 Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
                                      std::vector<std::string>& warnings);
 
-/// The lines of --breaklines, in the CRS of the raster; sentences for the user in `warnings`.
+/// The lines of --breaklines in the CRS of the raster. Adds sentences for the user to `warnings`.
 Result<LineConstraints> read_breaklines(const GivenOptions& given, const RasterInfo& raster, int rows,
                                         const ProgressCallback& progress, std::vector<std::string>& warnings);
 
-/// Refuses lines where the CRS that --crs names bends the grid of the raster.
-/// `lines`: the option that asks for them; empty: there are none.
+/// Refuses lines if the CRS of --crs makes the raster's frame curved. `lines`: the option of the lines; empty: none.
 Result<void> check_frame_of_lines(const std::string& lines, const Frame& frame, const std::string& crs_option,
                                   const std::string& input);
 

@@ -13,11 +13,11 @@ namespace scarp::cli {
 namespace {
 
 constexpr std::uint64_t kCodeBytes = 60'000'000;  // the share of the code in kProgramBytes
-constexpr std::uint64_t kCacheBytes = 8'400'000;  // bytes of a file's cache in addition to its samples
+constexpr std::uint64_t kCacheBytes = 8'400'000;  // bytes of a file's cache besides its samples
 constexpr std::uint64_t kBytesPerSample = 4;
 
-/// Large blocks go back to the system as soon as they are free: glibc would keep more and more of them, and a budget's
-/// search, run after run, would pass the limit.
+/// Returns large blocks to the system immediately. glibc would retain more and more of them, and a budget search with
+/// many runs would exceed the limit.
 void give_back_early() {
 #ifdef M_MMAP_THRESHOLD
   constexpr int kLarge = 1 << 16;
@@ -25,15 +25,15 @@ void give_back_early() {
 #endif
 }
 
-/// The share of the limit that the samples may use, in addition to others.
+/// The share of the limit for samples, after other needs.
 std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
   return limit > kProgramBytes + others ? (limit - kProgramBytes - others) / 2 : 0;
 }
 
-/// Rounded up.
+/// Rounds up.
 std::uint64_t megabytes(std::uint64_t bytes) { return (bytes + 999'999) / 1'000'000; }
 
-/// The least memory that a run with all samples in memory needs.
+/// The minimum memory of a run with all samples in memory.
 double megabytes_in_memory(const OwnedHeightField& field, const MemoryNeeds& needs = {}) {
   const double bytes = static_cast<double>(needs.per_sample) * field.cols * field.rows;
   return std::ceil((2 * bytes + static_cast<double>(kProgramBytes + needs.others)) / 1e6) + 1;
@@ -49,7 +49,7 @@ Result<OwnedHeightField> read_within(const std::string& path, ReadOptions option
   options.run.memory.limit = std::max<std::uint64_t>(share * kBytesPerSample / needs.per_sample, 1);
   Result<OwnedHeightField> field = open_height_field(path, options);
   if (!field || !field->source || options.run.memory.limit == share) return field;
-  // A file that has to be read in windows anyway may have all of the share for its cache.
+  // A file that must be read in windows anyway may use the whole share for its cache.
   const std::uint64_t samples = static_cast<std::uint64_t>(field->cols) * static_cast<std::uint64_t>(field->rows);
   if (kBytesPerSample * samples <= share) return field;
   options.run.memory.limit = share;
@@ -80,7 +80,7 @@ Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std:
                         const std::string& options) {
   const std::uint64_t taken = bytes_taken(field, limit);
   if (taken + bytes <= limit) return {};
-  const bool has_cache = field.source && !field.source->is_in_memory();  // a share of half of what the program allows
+  const bool has_cache = field.source && !field.source->is_in_memory();  // its share is half of what the program leaves
   const std::uint64_t needed = has_cache ? kProgramBytes + 2 * bytes : taken + bytes;
   return fail(ErrorKind::kUsage, fmt::format("{} is too little: {} takes {}M; allow {}M and what the mesh needs",
                                              OptionId::kMemory, options, megabytes(bytes), megabytes(needed)));

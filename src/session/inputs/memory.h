@@ -21,45 +21,44 @@ inline constexpr std::uint64_t kVectorBytes = 6'000'000;
 /// The memory that a run needs in addition to the mesh.
 struct MemoryNeeds {
   std::uint64_t others = 0;      ///< bytes of files other than the raster
-  std::uint64_t per_sample = 4;  ///< bytes, where all samples are in memory: the samples, and bounds of their own
+  std::uint64_t per_sample = 4;  ///< bytes of a sample in memory, with its bound
 };
 
 /// Bytes of a sample in memory that has a bound of its own.
 inline constexpr std::uint64_t kBoundedSampleBytes = 24;
 
-/// read_height_field(), or, with a limit, open_height_field(): one half of what the program itself does not use of it
-/// is for the samples, with what each of them needs, or their file's cache.
+/// Calls read_height_field() or, with a limit, open_height_field(). Half of the memory left by the program is for the
+/// samples with their bounds, or for their file's cache.
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
                                      const std::optional<std::uint64_t>& limit, const MemoryNeeds& needs = {});
 
-/// The part of `limit` that a run on a field that was read within it cannot use: the program, and the samples or the
-/// cache of their file, with the share of others.
+/// The bytes of `limit` unavailable to a run on a field read within it: for the program, samples or their file's cache,
+/// and other files.
 std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit);
 
-/// Opens another raster on the same grid, where the field was read within the limit and has a source. In memory it uses
-/// at most a quarter of what the program does not use; one that stays in its file shares the cache.
+/// Opens another raster on the grid of a field that was read within the limit and has a source. In memory it uses at
+/// most a quarter of the memory that the program does not use; otherwise it shares the cache.
 Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions options, std::uint64_t limit);
-/// The bytes that it uses in addition to bytes_taken().
+/// The bytes of `other` in addition to bytes_taken().
 std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField& field, std::uint64_t limit);
 
-/// Fails with kUsage if the limit has no room for so many bytes more of what `options` name.
+/// Fails with kUsage if the limit has no room for the bytes that `options` need.
 Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes,
                         const std::string& options);
 
-/// The side of a picture that memory has room for in addition to a mesh: 1400 pixels, less where samples are streamed.
+/// The side of a picture that fits in memory next to a mesh: 1400 pixels, fewer if samples are streamed.
 int picture_side(const OwnedHeightField& field, const MemoryShare& memory, std::uint64_t vertices);
 
-/// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; names a memory that
-/// is enough.
+/// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs. The message names a
+/// sufficient memory limit.
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, const MemoryNeeds& needs = {});
 
-/// Rewrites the library's errors about a memory limit, and about rasters that were not read as a whole, in terms of
-/// --memory.
+/// Rewrites the library's errors about a memory limit, or about rasters not entirely in memory, in terms of --memory.
 Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Error error);
 
-/// Gives a raster that was not read before the range that the judge has found.
+/// Adds the range found by the judge to the info of a raster that was not read.
 void complete_info(const HeightRange& judged, RasterInfo& info);
-/// The same of the range in `now`, if it has one.
+/// Adds the range in `now`, if any.
 void complete_info(const RasterInfo& now, RasterInfo& info);
 
 }  // namespace scarp::cli

@@ -15,7 +15,7 @@ namespace {
 
 using enum OptionId;
 
-/// The six numbers; nothing if the file does not hold them, or in a wrong form.
+/// The six numbers; nothing if they are missing or malformed.
 std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh) {
   const auto entry = mesh.metadata.find("to_source");
   if (entry == mesh.metadata.end()) return std::nullopt;
@@ -44,7 +44,7 @@ std::array<double, 6> frame_before(const std::array<double, 6>& to_source, const
   return affine;
 }
 
-/// In cells: less than that apart, two frames are one that was written with other roundings.
+/// In cells: frames closer than this are the same frame, rounded differently.
 constexpr double kSamePlace = 1e-3;
 
 /// The largest distance of any corner of the raster in the two frames, in cells.
@@ -94,7 +94,7 @@ Extent extent_of(const Mesh& mesh) {
 }
 
 Extent extent_of(const HeightField& field) {
-  constexpr int kSteps = 16;  // along a side: other CRSs bend it
+  constexpr int kSteps = 16;  // samples of a side, which other CRSs bend
   std::vector<double> x, y;
   for (int k = 0; k <= kSteps; ++k) {
     const double col = (field.cols - 1.0) * k / kSteps, row = (field.rows - 1.0) * k / kSteps;
@@ -123,7 +123,7 @@ GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh) {
   constexpr std::pair<const char*, OptionId> kKeys[] = {
       {"crs_option", kCrs}, {"z_scale", kZScale}, {"z_offset", kZOffset}, {"unit", kZUnit}, {"cell_size", kCellSize}};
   for (const auto& [key, option] : kKeys) {
-    if (option == kZScale && given.has(kZUnit)) continue;  // it may hold the way from that unit to metres
+    if (option == kZScale && given.has(kZUnit)) continue;  // it may contain the conversion of that unit to metres
     const auto entry = mesh.metadata.find(key);
     if (!given.has(option) && entry != mesh.metadata.end()) asked.set(option, Given(entry->second));
   }
@@ -131,7 +131,7 @@ GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh) {
 }
 
 void turn_up(bool is_y_up, const std::string& path, Mesh& mesh) {
-  // A file that declares which axis is up was turned by that.
+  // A file that declares its up axis was turned accordingly.
   if (!is_y_up || mesh.metadata.contains("up") || find_mesh_format(path) == MeshFormat::kGlb) return;
   mesh.metadata["up"] = "y";
   undo_y_up(mesh);

@@ -1,4 +1,4 @@
-// The position of a mesh, and that of the raster that judges it.
+// The position of a mesh and of the raster that judges it.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Extent {
   std::array<double, 2> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
   void add(double x, double y);
-  /// Area in common as a share of the area of both; 0 where they do not meet.
+  /// Common area as a share of the area of both; 0 if they are disjoint.
   double overlap(const Extent& other) const;
   /// "x 0 to 100 and y -20 to 80".
   std::string text() const;
@@ -27,21 +27,20 @@ Extent extent_of(const Mesh& mesh);
 Extent extent_of(const HeightField& field);
 Extent extent_of(const PointSet& points);
 
-/// The raster's options, completed by the mesh's metadata where they were not given.
+/// The raster's options; those not given are completed by the mesh's metadata.
 GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh);
-/// Turns a mesh whose file, `path`, does not declare which axis is up, if y is.
+/// Turns a mesh that has y up, if the format of its file `path` does not declare the axis.
 void turn_up(bool is_y_up, const std::string& path, Mesh& mesh);
 
-/// For a mesh without metadata about its frame: the raster's own coordinates, if it fits the raster there better than
-/// in the frame that was read. True where heights have become metres in that one and must be read anew, as "source".
+/// For a mesh without metadata about its frame: switches to the raster's own coordinates if the mesh fits better there
+/// than in the frame that was read. True if heights were converted to metres and must be read again as "source".
 bool fit_frame(const Mesh& mesh, OwnedHeightField& field);
 
-/// For a mesh whose metadata give its position in numbers (`to_source`): the frame in which they hold for the samples,
-/// in place of one around the raster's own centre, which may not be the mesh's. Returns warnings. Does nothing to
-/// rasters without georeference, and where both frames are the same.
+/// For a mesh whose metadata contain its position (`to_source`): uses the mesh's frame instead of one around the
+/// raster's centre. Returns warnings. Does nothing for rasters without georeference or if both frames agree.
 std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field);
 
-/// Why nothing can be judged: "it covers no sample of RASTER: …".
+/// The reason why nothing can be judged: "it covers no sample of RASTER: …".
 std::string describe_elsewhere(const Extent& mesh, const Extent& reference, const std::string& what);
 
 }  // namespace scarp::cli

@@ -11,7 +11,7 @@
 namespace scarp::cli {
 namespace {
 
-/// The remedy. --nodata names one value, in place of the one that counts already (NaN always does).
+/// The remedy. --nodata replaces the nodata value in use, if any (NaN is always nodata).
 std::string remedy_of(const std::string& value, const std::string& kept, const RasterInfo& info) {
   if (kept.empty()) return fmt::format("give {} {}", OptionId::kNodata, value);
   const char* placeless = info.has_georeference ? "" : "-to SRC_METHOD=NO_GEOTRANSFORM -to DST_METHOD=NO_GEOTRANSFORM ";
@@ -27,7 +27,7 @@ std::vector<std::string> warn_of_undeclared_nodata(const RasterInfo& info, const
   const bool has_kept = info.valid < samples && info.nodata && std::isfinite(*info.nodata);
   std::string kept = has_kept ? fmt::format("{}", *info.nodata) : "";
   for (const UndeclaredNodata& nodata : info.undeclared_nodata) {
-    // Text as short as it can be without becoming another float32.
+    // The shortest text for this float32.
     const std::string height = fmt::format("{}", static_cast<float>(nodata.of.height));
     const std::string value = fmt::format("{}", static_cast<float>(nodata.value));
     const std::string remedy = remedy_of(value, kept, info);

@@ -1,4 +1,4 @@
-// Heights that were meant to be nodata.
+// Heights that were probably meant as nodata.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace scarp::cli {
 
-/// A sentence for each height that most likely stands for nodata, with the option to give, or, where another nodata
-/// value counts already, the command that makes one of both. `field` is the field that the info describes.
+/// A warning for each height that most likely stands for nodata, with the option that declares it. If another nodata
+/// value is in use, it has a command that merges both. `info` describes `field`.
 std::vector<std::string> warn_of_undeclared_nodata(const RasterInfo& info, const HeightField& field);
 
 }  // namespace scarp::cli

@@ -1,4 +1,4 @@
-// Lakes and rivers that the mesh must hold.
+// Lakes and rivers that become part of the mesh.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace scarp::cli {
 
-/// Makes the lakes of --water flat, or finds those of its flats=N, and reads the lines of --rivers. `memory`:
-/// without that of the lakes.
+/// Flattens the lakes of --water, or finds lakes by its flats=N, and reads the lines of --rivers. `memory`: without the
+/// lakes' share.
 Result<void> read_waters(const GivenOptions& given, const ProgressCallback& progress, const MemoryShare& memory,
                          OwnedHeightField& field, Features& features, std::vector<std::string>& warnings);
 
-/// Bytes that the field keeps for the lakes, where its samples are not in memory as one array.
+/// Bytes of the lakes for a field whose samples are not in memory as one array.
 std::uint64_t bytes_of(const std::vector<Lake>& lakes);
 
 }  // namespace scarp::cli

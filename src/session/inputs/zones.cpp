@@ -19,7 +19,7 @@ void drop_heights(Line& line) {
   for (auto& point : line.points) point[2] = std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The polygons of a file. Without an attribute features are numbered in their order, after the number of the rest.
+/// The polygons of a file. Without an attribute, features are numbered in their order, after the number of the rest.
 Result<std::vector<Zone>> make_zones(const std::vector<Line>& lines, const Given& field) {
   std::vector<Zone> zones;
   std::map<std::uint32_t, std::size_t> zone_of;  // by polygon
@@ -41,7 +41,7 @@ Result<std::vector<Zone>> make_zones(const std::vector<Line>& lines, const Given
   return zones;
 }
 
-/// The map `second` of what `first` is the map of: first⁻¹, then second.
+/// The map from `first` to `second` of the same points: first⁻¹, then second.
 std::array<double, 6> between(const std::array<double, 6>& first, const std::array<double, 6>& second) {
   const auto& a = first;
   const double determinant = a[1] * a[5] - a[2] * a[4];
@@ -89,7 +89,7 @@ Result<ZonePlan> read_zones(const GivenOptions& given, const RasterInfo& raster,
 
 MeshZones find_zones(const ZonePlan& plan, const Frame& frame, const Mesh& mesh) {
   const std::array<double, 6> to_map = between(frame.affine, plan.affine);
-  // Lines lie on a lattice of 256ths of a sample, and move by three halves of its step where they cross.
+  // Lines lie on a lattice of 256ths of a sample and move by up to 1.5 lattice steps where they cross.
   const auto& a = plan.affine;
   const double reach = 0.01 * std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
   MeshZones zones;

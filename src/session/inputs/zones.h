@@ -1,4 +1,4 @@
-// Materials by polygon and node strings along lines: their files, and what of a mesh they hold.
+// Materials by polygon and node strings along lines: reads their files and assigns parts of a mesh.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ namespace scarp::cli {
 /// The material outside of all polygons.
 inline constexpr std::uint32_t kElsewhere = 1;
 
-/// Polygons and lines as they were read, which are also breaklines of the mesh.
+/// The polygons and lines as read, which are also breaklines of the mesh.
 struct ZonePlan {
   std::vector<Zone> zones;
   std::vector<Line> strings;
   std::array<double, 6> affine{};  ///< from samples to their coordinates
 };
 
-/// Reads the files, and adds their lines to the breaklines of a mesh, without heights.
+/// Reads the files and adds their lines, without heights, to the breaklines of a mesh.
 Result<ZonePlan> read_zones(const GivenOptions& given, const RasterInfo& raster, int rows,
                             const ProgressCallback& progress, LineConstraints& breaklines,
                             std::vector<std::string>& warnings);

@@ -1,4 +1,4 @@
-// Textures and images next to the heights or in their place, as options name them.
+// Options for textures and images, besides the heights or in their place.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace scarp::cli {
 
-/// The textures that the options ask for.
+/// The requested textures.
 struct ChannelPlan {
   bool image = false;                 ///< INPUT itself is the image; the heights are 0
-  std::vector<std::string> textures;  ///< files in addition to INPUT, in the order given
+  std::vector<std::string> textures;  ///< files besides INPUT, in the order given
   double texture_weight = 0.5;        ///< 0: heights only … 1: textures only
   Norm norm = Norm::kSum;
-  std::vector<double> weights;  ///< weights of the channels; empty: all alike
+  std::vector<double> weights;  ///< weights of the channels; empty: all equal
 
   bool has_channels() const { return image || !textures.empty(); }
 };

@@ -14,7 +14,7 @@ namespace {
 struct GoalUnit {
   const char* suffix;
   const char* unit;
-  double of_one;  ///< how many are one of `unit`
+  double of_one;  ///< its number in one `unit`
 };
 
 constexpr GoalUnit kGoalUnits[] = {{"%", "", 1}, {"mm", "", 1}, {"cm", "m", 100}, {"m", "m", 1}, {"ft", "ft", 1}};
@@ -68,7 +68,7 @@ Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& 
                             "known here: give a number without a unit, or name their unit ({})",
                             option, goal.unit, heights.unit, OptionId::kZUnit));
   constexpr double kFoot = 0.3048;
-  const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // any kind: the heights' own feet are meant
+  const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // feet of any kind mean the heights' own feet
   const double of_goal = goal.unit == "m" ? 1 : are_feet ? metres : kFoot;
   const double given = goal.value;
   if (of_goal != metres) goal.value *= of_goal / metres;

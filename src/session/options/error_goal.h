@@ -1,4 +1,4 @@
-// The value of -e/--max-error and of --fail-above: how large an error may be.
+// The value of -e/--max-error and of --fail-above.
 #pragma once
 
 #include <string>
@@ -17,18 +17,18 @@ struct ErrorGoal {
   bool percent_of_relief = false;
   bool is_on_print = false;  ///< in millimetres of a print
   std::string unit;          ///< unit of the value, "m" or "ft"; empty: that of the heights
-  /// In z units, for a raster of the given relief.
+  /// The goal in z units for a raster with the given relief.
   double absolute(double relief) const { return percent_of_relief ? value / 100 * relief : value; }
 };
-/// A number, perhaps with % or a unit behind it: m, cm, ft, or mm of a print.
+/// Parses a number, perhaps followed by % or a unit: m, cm, ft, or mm of a print.
 Result<ErrorGoal> parse_error_goal(OptionId option, const std::string& text);
-/// Fails for a goal in millimetres of a print, where there is none.
+/// Fails for a goal in millimetres of a print if there is no print.
 Result<void> refuse_print(OptionId option, const ErrorGoal& goal);
-/// Puts a goal that names its unit into that of the heights. A warning reports if theirs is assumed; kUsage if it is no
-/// length.
+/// Converts a goal with a unit to the unit of the heights. Warns if that unit is assumed; fails with kUsage if it is
+/// not a length.
 Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& goal,
                          std::vector<std::string>& warnings);
-/// Adds the share of the relief that was asked for to the library's error about a max error.
+/// Adds the requested share of the relief to the library's error about a max error.
 Error name_goal(const ErrorGoal& goal, double relief, Error error);
 
 }  // namespace scarp::cli

@@ -18,7 +18,7 @@ namespace {
 using enum OptionId;
 using Rows = std::vector<const OptionRow*>;
 
-/// The parts that the option's value can have in the command.
+/// The parts of the option's value that the command allows.
 Rows parts_of(Commands command, OptionId id) {
   Rows parts;
   for (const OptionRow* row : accepted_rows(command)) {
@@ -27,7 +27,7 @@ Rows parts_of(Commands command, OptionId id) {
   return parts;
 }
 
-/// The part whose ",key=" or ",key" begins there; null if none does.
+/// The part whose ",key=" or ",key" begins there, or null.
 const OptionRow* find_part(const Rows& parts, std::string_view text) {
   for (const OptionRow* part : parts) {
     const std::string_view key = part->key;
@@ -38,7 +38,7 @@ const OptionRow* find_part(const Rows& parts, std::string_view text) {
   return nullptr;
 }
 
-/// The place where the next part begins, at `from` or behind a comma; the end of the text if there is none.
+/// The start of the next part, at `from` or after a comma; the end of the text if none.
 std::size_t find_next_part(const Rows& parts, std::string_view text, std::size_t from) {
   for (std::size_t at = from; at < text.size(); ++at) {
     const bool may_begin = at == 0 || text[at - 1] == ',';
@@ -47,7 +47,7 @@ std::size_t find_next_part(const Rows& parts, std::string_view text, std::size_t
   return text.size();
 }
 
-/// Fails for ",inser=2" in what is left of a value without its parts.
+/// Fails for ",inser=2" in the rest of a value without its parts.
 Result<void> check_keys(const OptionRow& row, const Rows& parts, const std::string& text) {
   const std::size_t comma = text.rfind(','), equals = text.find('=', comma);
   if (comma == std::string::npos || equals == std::string::npos || row.id == kRoi) return {};
@@ -59,7 +59,7 @@ Result<void> check_keys(const OptionRow& row, const Rows& parts, const std::stri
   return fail(ErrorKind::kUsage, fmt::format("{} has no key {}: choose {}", row.name, shell_word(key), known));
 }
 
-/// A number that the row allows.
+/// Parses a number in the row's range.
 Result<double> judge(const OptionRow& row, const std::string& text) {
   const std::string name = row.title();
   const auto refuse = [&](std::string what) {
@@ -79,7 +79,7 @@ Result<double> judge(const OptionRow& row, const std::string& text) {
 void GivenOptions::add_row(CLI::App& command, const OptionRow& row) {
   Entry& entry = this->entry(row.id);
   const std::string names = std::string(row.short_name) + (row.short_name[0] != 0 ? "," : "") + row.name;
-  if (row.id == kHelp || row.id == kHelpAll || row.id == kVersion) return;  // CLI11 has them itself
+  if (row.id == kHelp || row.id == kHelpAll || row.id == kVersion) return;  // CLI11 has them built in
   if (row.type == OptionType::kFlag) {
     command.add_flag(names, entry.is_given);
   } else if (row.is_repeatable || row.value_count() > 1) {
@@ -87,7 +87,7 @@ void GivenOptions::add_row(CLI::App& command, const OptionRow& row) {
     if (row.value_count() > 1)
       option->expected(row.value_count());
     else if (!row.is_argument())
-      option->allow_extra_args(false);  // one value each time that the option is given
+      option->allow_extra_args(false);  // one value per occurrence of the option
   } else {
     command.add_option(names, entry.text)->required(row.is_required);
   }

@@ -1,4 +1,4 @@
-// The options of one command line as they were given: registered, parsed, judged and spelled canonically by the table.
+// The options of one command line: registered, parsed, validated and spelled canonically by the table.
 #pragma once
 
 #include <array>
@@ -23,25 +23,25 @@ class GivenOptions {
 
   explicit GivenOptions(Commands command) : command_(command) {}
 
-  /// Adds the command to the program, with all of its options, which are written here: *this must stay where it is.
-  /// Parsing ends with the table's rules (option_rules.h); a broken one is thrown as CLI::ParseError.
+  /// Adds the command to the program, with all its options. Parsing writes to *this, which must not move. Finally it
+  /// checks the table's rules (option_rules.h) and throws a violation as CLI::ParseError.
   CLI::App* add_to(CLI::App& program);
 
   Commands command() const { return command_; }
   bool has(OptionId id) const { return entry(id).is_given; }
-  /// The value; nothing if the option was not given, or may be given again.
+  /// The value; nothing if the option was not given or is repeatable.
   const Given& operator[](OptionId id) const { return entry(id).text; }
-  /// All values of an option that may be given again, or has several.
+  /// All values of an option that is repeatable or has several values.
   const std::vector<std::string>& all(OptionId id) const { return entry(id).texts; }
   /// Forgets all values, before another parse.
   void clear() { entries_ = {}; }
-  /// The same options, of another command.
+  /// The same options for another command.
   GivenOptions as(Commands command) const;
-  /// Gives the option another value, or none.
+  /// Sets or removes the option's value.
   void set(OptionId id, Given text);
   void set(OptionId id, Texts texts);
 
-  /// A number that the option's row allows; nothing if the option was not given.
+  /// The option's number, checked against its row's range; nothing if not given.
   Result<std::optional<double>> number(OptionId id) const;
   Result<std::optional<std::uint64_t>> count(OptionId id) const;
   /// The value that the word stands for.
@@ -52,21 +52,21 @@ class GivenOptions {
     SCARP_TRY(const T value, choose(name_of(id), *text, choices));
     return std::optional(value);
   }
-  /// Threads: 0 (all cores, also if not given) to 1024.
+  /// Number of threads, up to 1024; 0, the default: all cores.
   Result<int> threads() const;
 
-  /// The rasters, points or sets that the command reads; never empty after parsing a command that needs one.
+  /// The rasters, points or tilesets that the command reads. Never empty after parsing a command that needs one.
   const std::vector<std::string>& inputs() const;
   const std::string& input() const { return inputs().front(); }
   /// The first of the options that was given; nothing if none was.
   std::optional<OptionId> first_of(std::initializer_list<OptionId> ids) const;
-  /// Every option that was given, but for arguments, in the order of the table.
+  /// Every option that was given, except arguments, in the order of the table.
   std::vector<const OptionRow*> given() const;
-  /// Every file that options name to be read, in the order of the table: the values of all rows of
-  /// OptionType::kInputFile, a layer behind a name included ("FILE:LAYER"), the number of a region ("=M") omitted.
+  /// Every input file that options name, in the order of the table. Includes the layer ("FILE:LAYER") but not the
+  /// tolerance of a region ("=M").
   std::vector<std::string> files_read() const;
-  /// " --max-error 1 --cutline site.gpkg,inset=2": all that can change the mesh, in the order of the table, with names
-  /// of files without their folders. Omits defaults.
+  /// " --max-error 1 --cutline site.gpkg,inset=2": all options that can change the mesh, in the order of the table,
+  /// without folders of files and without defaults.
   std::string canonical() const;
 
  private:
@@ -79,7 +79,7 @@ class GivenOptions {
   const Entry& entry(OptionId id) const { return entries_[static_cast<std::size_t>(id)]; }
   Entry& entry(OptionId id) { return entries_[static_cast<std::size_t>(id)]; }
   void add_row(CLI::App& command, const OptionRow& row);
-  /// Moves the parts of "FILE,inset=2" to their own entries.
+  /// Moves parts of a value such as "FILE,inset=2" to their own entries.
   Result<void> separate_parts();
   Result<void> settle();
   std::string canonical(const OptionRow& row, const std::vector<const OptionRow*>& rows) const;

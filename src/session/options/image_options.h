@@ -10,17 +10,17 @@
 
 namespace scarp::cli {
 
-/// The image that the options ask for.
+/// The requested image.
 struct ImagePlan {
   std::optional<std::string> drape;  ///< a file
-  int drape_size = 0;                ///< pixels on the longer side; 0: as many as the file has there
+  int drape_size = 0;                ///< pixels on the longer side; 0: as many as the file has in that area
   ImageFormat drape_format = ImageFormat::kJpeg;
   std::optional<int> normal_map;  ///< pixels on the longer side
 
   bool any() const { return drape || normal_map; }
 };
 
-/// Fails with kUsage for values out of range, and for OUTPUT without a place for images.
+/// Fails with kUsage for values out of range and for an OUTPUT format without images.
 Result<ImagePlan> parse_images(const GivenOptions& given, const OutputFormat& format);
 /// jpeg, png or webp. DEFAULT: jpeg. Fails with kUsage.
 Result<ImageFormat> parse_image_format(const GivenOptions& given);

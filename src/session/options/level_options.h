@@ -1,4 +1,4 @@
-// --lods and --lock-border: meshes that meet their neighbours and replace each other.
+// --lods and --lock-border: meshes that meet their neighbours and can replace each other.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace scarp::cli {
 
-/// Nothing without --lods. Fails where the value is none, and for an OUTPUT that holds no levels.
+/// Nothing without --lods. Fails for an invalid value or an OUTPUT without levels.
 Result<std::optional<Levels>> parse_levels(const GivenOptions& given, const OutputFormat& format);
 
-/// hills.glb → hills_lod0.glb, the finest.
+/// The path of a level: hills.glb → hills_lod0.glb, the finest.
 std::string level_path(const std::string& output, int level);
 
 }  // namespace scarp::cli

@@ -1,4 +1,4 @@
-// Lines, lakes and rivers, as options name them.
+// Options for lines, lakes, rivers and cuts.
 #pragma once
 
 #include "scarp/features.h"
@@ -7,17 +7,17 @@
 
 namespace scarp::cli {
 
-/// The option that puts lines of a file into the mesh; nothing if there is none.
+/// The first option given that adds lines of a file to the mesh, if any.
 std::optional<OptionId> find_lines(const GivenOptions& given);
-/// The option that asks for lakes; nothing if there is none.
+/// The first option given that adds lakes, if any.
 std::optional<OptionId> find_lakes(const GivenOptions& given);
-/// The option that asks for a cut along polygons; nothing if there is none.
+/// The first option given that cuts along polygons, if any.
 std::optional<OptionId> find_cut(const GivenOptions& given);
-/// Fails with kUsage for a value of these options that is none.
+/// Fails with kUsage for an invalid value of these options.
 Result<void> check_lines(const GivenOptions& given);
 
-/// The rule where lines of different heights meet; nothing if it was not given. REQUIRES: check_lines() has passed,
-/// here and below.
+/// The rule for lines of different heights that meet; nothing if not given. REQUIRES: check_lines() has passed, here
+/// and below.
 std::optional<LineConflict> conflict_rule(const GivenOptions& given);
 std::optional<WallGoals> wall_goals(const GivenOptions& given);
 std::optional<RidgeGoals> ridge_goals(const GivenOptions& given);

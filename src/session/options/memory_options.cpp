@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMostBytes = 1e18;
 
-/// 1000 or 1024 to the power that the unit means; nothing for an unknown one.
+/// The value of a unit, a power of 1000 or 1024; nothing for an unknown one.
 std::optional<double> find_unit(std::string unit) {
   std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
   if (!unit.empty() && unit.back() == 'b') unit.pop_back();
@@ -41,7 +41,7 @@ Result<std::optional<std::uint64_t>> parse_memory(const GivenOptions& given) {
 Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc::result_out_of_range) number = std::strtod(text.c_str(), nullptr);  // infinity, or next to 0
+  if (error == std::errc::result_out_of_range) number = std::strtod(text.c_str(), nullptr);  // infinity, or almost 0
   const char* last = text.data() + text.size();
   const char* unit = end;
   while (unit != last && *unit == ' ') ++unit;

@@ -11,10 +11,10 @@
 
 namespace scarp::cli {
 
-/// Limit of the process in bytes; nothing if not given.
+/// The process's memory limit in bytes; nothing if not given.
 Result<std::optional<std::uint64_t>> parse_memory(const GivenOptions& given);
 
-/// Bytes of the code, including that of GDAL, and of the memory that it always needs.
+/// Bytes of the code, including GDAL, and of memory in use in every run.
 inline constexpr std::uint64_t kProgramBytes = 72'000'000;
 
 /// "1G", "1.5 GiB", "800M" as bytes: k, M, G, T are powers of 1000, Ki, Mi, Gi, Ti of 1024; a B may follow.

@@ -1,5 +1,5 @@
-// The one table of refusals between options: some need others, some exclude each other. Conflicts of the library's own
-// settings are in src/pieces/conflicts.h.
+// The table of rules between options: some need others, some exclude each other. Conflicts of the library's settings
+// are in src/pieces/conflicts.h.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct OptionRule {
   OptionTerm one;
   enum class Kind { kNeeds, kExcludes } kind;
   std::array<OptionTerm, 4> others;  ///< kNeeds: one of them. kExcludes: each of them
-  const char* why = "";              ///< end of the sentence
+  const char* why = "";              ///< end of the message
   Commands commands = kEveryCommand;
 };
 
@@ -24,7 +24,7 @@ std::span<const OptionRule> option_rules();
 
 /// Fails with kUsage if the options break the rule; the message is one sentence.
 Result<void> check_rule(const OptionRule& rule, const GivenOptions& given);
-/// The same for the first rule of the command that they break.
+/// Checks all rules of the command and fails at the first that is broken.
 Result<void> check_rules(Commands command, const GivenOptions& given);
 
 }  // namespace scarp::cli

@@ -36,7 +36,7 @@ std::optional<OutputFormat> find_format(const std::string& word) {
   return format;
 }
 
-/// The format of an extension: the formats' names, and those of rasters.
+/// The format of an extension, by names of mesh and raster formats.
 std::optional<OutputFormat> find_format_of_extension(const std::string& extension) {
   if (extension.size() < 2 || extension == ".dem") return std::nullopt;
   if (const auto mesh = find_mesh_format(extension)) return find_format(traits_of(*mesh).name);

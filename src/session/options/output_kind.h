@@ -1,4 +1,4 @@
-// The kind of OUTPUT: a mesh file, a drawing of the mesh's edges, or the approximation resampled on the grid.
+// The kind of OUTPUT: a mesh file, a drawing of the mesh's edges, or a raster of the approximation on the grid.
 #pragma once
 
 #include <cstdint>
@@ -19,43 +19,43 @@ struct OutputFormat {
 
   /// "glb", "svg", "dem", …
   const char* name() const;
-  /// "GLB", "SVG", …: for sentences.
+  /// "GLB", "SVG", …: for messages.
   std::string title() const;
-  /// About the bytes that encode_as() needs for a vertex and its two triangles, the file's bytes included.
+  /// Approximate bytes that encode_as() needs for a vertex and its two triangles, including the bytes in the file.
   std::uint64_t bytes_per_vertex() const;
   bool is_mesh() const { return kind == OutputKind::kMesh; }
   bool is_glb() const { return is_mesh() && mesh == MeshFormat::kGlb; }
   bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
-  /// Positions are rounded to float32.
+  /// True if positions are rounded to float32.
   bool is_float32() const { return is_mesh() && traits_of(mesh).is_float32; }
   bool has_lengths_only() const { return is_mesh() && traits_of(mesh).has_lengths_only; }
   bool holds_zones() const { return is_mesh() && traits_of(mesh).holds_zones; }
   bool holds_solids_only() const { return is_mesh() && traits_of(mesh).holds_solids_only; }
-  /// Can be a print: its coordinates are millimetres to those who print it.
+  /// True if the format is used for printing: readers assume millimetres.
   bool holds_prints() const { return is_mesh() && traits_of(mesh).holds_prints; }
-  /// Has a place for normals, uvs and colours.
+  /// True if the format can hold normals, uvs and colours.
   bool holds_attributes() const { return is_mesh() && traits_of(mesh).holds_attributes; }
-  /// True if its content does not rely on z being the height.
+  /// True if the content does not rely on z being the height.
   bool holds_space() const;
-  /// True if it has a CRS, and no place for it that all readers of the format use: a .prj file holds it.
+  /// True if the format has a CRS but no place for it that all readers support: a .prj file holds it.
   bool has_projection_beside() const { return is_mesh() && traits_of(mesh).has_projection_file; }
-  /// The frame of x and y unless a CRS was asked for.
+  /// The frame of x and y unless a CRS was requested.
   DefaultFrame default_frame() const;
-  /// In which unit its heights are.
+  /// The unit of its heights.
   HeightsIn heights_in() const;
 };
 
-/// True if --up is y.
+/// Parses --up: true for y.
 Result<bool> parse_up(const Given& up);
 
-/// True if the mesh is turned y up before it is written, by --up or as readers of the format expect it. Not for GLB,
-/// whose writer does that itself. kUsage if the format knows one axis only, and it is the other.
+/// True if the mesh must be turned y up before writing: --up, or readers of the format expect it. Not for GLB, whose
+/// writer does so. kUsage if the format supports only the other axis.
 Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print);
 
-/// By --of if it was given, else by the output's extension.
+/// Uses --of if given, else the output's extension.
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
 
-/// In which unit heights are in a mesh file, by its name.
+/// The unit of heights in a mesh file, by its name.
 HeightsIn heights_in(const std::string& mesh_path);
 /// The default frame of a mesh file, by its name.
 DefaultFrame default_frame(const std::string& mesh_path);

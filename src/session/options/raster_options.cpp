@@ -14,7 +14,7 @@ using enum OptionId;
 
 constexpr Choice<Decode> kDecodes[] = {{"terrarium", Decode::kTerrarium}, {"mapbox", Decode::kMapbox}};
 
-/// Scale, offset and unit of the heights, and the size of a cell.
+/// Parses scale, offset and unit of the heights, and the cell size.
 Result<void> parse_heights(const GivenOptions& given, ReadOptions& options) {
   SCARP_TRY(const auto scale, given.number(kZScale));
   SCARP_TRY(const auto offset, given.number(kZOffset));

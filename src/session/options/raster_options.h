@@ -1,4 +1,4 @@
-// The options of every command that reads a raster.
+// Options shared by all commands that read a raster.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,14 @@
 
 namespace scarp::cli {
 
-/// How the rasters are read: band, extent, resolution, coding, CRS and heights.
+/// The options for reading: band, extent, resolution, coding, CRS and heights.
 Result<ReadOptions> parse_reading(const GivenOptions& given);
-/// Completes the library's error about a raster that cannot be read: what else standard input and vector data can be.
+/// Completes the library's error about a raster that cannot be read, with the alternatives for standard input and
+/// vector data.
 Error explain_reading(const GivenOptions& given, Error error);
-/// --nodata: a number or NaN, nothing where it is not given. Fails with kUsage for another word.
+/// --nodata: a number or NaN, nothing if not given. Fails with kUsage for other words.
 Result<std::optional<double>> parse_nodata(const GivenOptions& given);
-/// The farthest sample to fill from; without the option 100 if nodata is filled, else 0.
+/// The largest distance from which nodata is filled. DEFAULT: 100 if nodata is filled, else 0.
 Result<double> parse_fill_distance(const GivenOptions& given, bool is_filled);
 
 }  // namespace scarp::cli

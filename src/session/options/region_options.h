@@ -1,4 +1,4 @@
-// Options that give samples weights or bounds of their own.
+// Options that give samples individual weights or bounds.
 #pragma once
 
 #include <string>
@@ -7,20 +7,20 @@
 
 namespace scarp::cli {
 
-/// The option that gives samples bounds of their own, other than weights; nothing if there is none.
+/// The first option given that sets individual bounds other than weights, if any.
 std::optional<OptionId> find_tolerance(const GivenOptions& given);
-/// True if samples are given weights or bounds of their own.
+/// True if samples have individual weights or bounds.
 bool gives_bounds(const GivenOptions& given);
 
-/// A region of interest, as --roi names it.
+/// A region of interest of --roi.
 struct RegionFile {
-  std::string path;  ///< with the layer
+  std::string path;  ///< includes the layer
   double tolerance;
 };
 
-/// FILE[:LAYER]=M. Fails with kUsage.
+/// Parses FILE[:LAYER]=M. Fails with kUsage.
 Result<RegionFile> parse_region(const std::string& text);
-/// Fails with kUsage for a region or a falloff that is none.
+/// Fails with kUsage for an invalid region or falloff.
 Result<void> check_regions(const GivenOptions& given);
 
 }  // namespace scarp::cli

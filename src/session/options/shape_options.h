@@ -7,7 +7,7 @@
 namespace scarp::cli {
 
 Result<ShapeGoals> parse_shape(const GivenOptions& given);
-/// The first that was given; nothing if none was.
+/// The first shape option that was given, if any.
 std::optional<OptionId> find_shape(const GivenOptions& given);
 
 }  // namespace scarp::cli

@@ -12,7 +12,7 @@ namespace {
 
 using enum OptionId;
 
-/// KEY=VALUE, or a word alone, whose value is empty.
+/// KEY=VALUE, or a lone word without a value.
 using Pair = std::pair<std::string, std::optional<std::string>>;
 
 std::vector<Pair> split_pairs(const std::string& text) {
@@ -30,10 +30,10 @@ std::vector<Pair> split_pairs(const std::string& text) {
 
 struct Length {
   double value = 0;
-  bool is_metric = false;  ///< it was given as mm, cm, m or in
+  bool is_metric = false;  ///< given as mm, cm, m or in
 };
 
-/// A length above 0 in millimetres if it has a unit.
+/// A length above 0, in millimetres if it has a unit.
 Result<Length> parse_length(const std::string& name, const std::string& text) {
   constexpr std::pair<const char*, double> kUnits[] = {{"mm", 1}, {"cm", 10}, {"in", 25.4}, {"m", 1000}};
   std::string number = text;
@@ -60,7 +60,7 @@ Result<void> refuse_key(OptionId option, const std::string& key, const char* key
 Result<void> take_solid(const Pair& pair, PrintOptions& plan, std::vector<std::string>& warnings) {
   const auto& [key, value] = pair;
   const std::string name = fmt::format("{} {}", kSolid, key);
-  if (key == "walls" && !value) return {};  // a solid always has them
+  if (key == "walls" && !value) return {};  // a solid always has walls
   if (!value && parse_length(name, key))
     return fail(ErrorKind::kUsage,
                 fmt::format("{} {} names no key: give size={}", kSolid, shell_word(key), shell_word(key)));

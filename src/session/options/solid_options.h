@@ -12,7 +12,7 @@ namespace scarp::cli {
 /// Nothing without --solid.
 Result<std::optional<PrintOptions>> parse_solid(const GivenOptions& given, std::vector<std::string>& warnings);
 
-/// "hills-r1-c2.stl": the file of a print tile.
+/// "hills-r1-c2.stl": the path of a print tile.
 std::string tile_path(const std::string& output, int row, int column);
 
 }  // namespace scarp::cli

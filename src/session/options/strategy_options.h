@@ -8,14 +8,14 @@
 
 namespace scarp::cli {
 
-/// Sets effort, objective and order of the options, and all of the strategy.
+/// Sets effort, objective and order in the options, and the whole strategy.
 Result<void> parse_strategy(const GivenOptions& given, SimplifyOptions& options, Strategy& strategy);
-/// The first option that asks for a strategy of the 1995 paper; empty if there is none.
+/// The first option given that selects a strategy of the 1995 paper; empty if none.
 std::string find_strategy(const GivenOptions& given);
-/// True if the greedy order was asked for, by name or by naming one of its algorithms.
+/// True if the greedy order was requested, by name or by one of its algorithms.
 bool asks_for_greedy(const GivenOptions& given);
 
-/// [global*]F with F one of local, local8, curvature, (f+1), sqrt(f+1); or global alone. Blanks do not count.
+/// Parses [global*]F with F one of local, local8, curvature, (f+1), sqrt(f+1); or global alone. Ignores blanks.
 Result<Importance> parse_importance(const std::string& text);
 /// The text that parse_importance() reads as the same importance.
 std::string importance_name(const Importance& importance);

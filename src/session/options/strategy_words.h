@@ -1,4 +1,4 @@
-// The words for the library's strategies, for those who parse them and those who report them.
+// Words for the library's strategies, for parsing and reports.
 #pragma once
 
 #include "scarp/paper.h"

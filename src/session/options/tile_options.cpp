@@ -69,7 +69,7 @@ Result<Datum> parse_vertical(const std::string& text) {
                   kVertical, text));
 }
 
-/// "1737400,1737400".
+/// Parses "1737400,1737400".
 Result<Geodetic> parse_ellipsoid(const std::string& text) {
   const std::size_t comma = text.find(',');
   SCARP_TRY(const double a, parse_number(name_of(kEllipsoid), text.substr(0, comma)));

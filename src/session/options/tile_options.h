@@ -1,4 +1,4 @@
-// The sources and settings of tiles: the options of tile, tile plan and serve.
+// Sources and settings of tiles: the options of tile, tile plan and serve.
 #pragma once
 
 #include <optional>
@@ -11,24 +11,24 @@
 
 namespace scarp::cli {
 
-/// The box of --only in degrees. East of a box across the antimeridian is beyond 180. Fails with kUsage.
+/// The box of --only in degrees; its east exceeds 180 if it crosses the antimeridian. Fails with kUsage.
 Result<std::optional<DegreeBox>> parse_box(const GivenOptions& given);
 
-/// Enclosed voids of at most so many samples a side are filled, unless --nodata-policy asks otherwise.
+/// Enclosed voids of at most this many samples a side are filled, unless --nodata-policy differs.
 inline constexpr int kVoidSide = 100;
 
-/// One spelling for each datum of --vertical, so that equal sets have equal bytes.
+/// A canonical spelling for each datum of --vertical: equal sets have equal bytes.
 std::string vertical_word(const std::string& text);
 
 Result<PyramidSettings> parse_tile_settings(const GivenOptions& given);
 Result<Datum> parse_datum(const GivenOptions& given);
-/// How the rasters are read.
+/// The options for reading rasters.
 Result<ReadOptions> parse_tile_reading(const GivenOptions& given);
 Result<WaterFiles> parse_waters(const GivenOptions& given);
 Result<std::optional<TileDrape>> parse_tile_drape(const GivenOptions& given);
-/// The kind that --grid names; nothing without.
+/// The grid of --grid; nothing if not given.
 Result<std::optional<GridKind>> parse_grid(const GivenOptions& given);
-/// The format that --of names, or that of tiles of the grid, which need not be known yet.
+/// The format of --of, or the default of the grid, which may still be unknown.
 Result<TileFormat> parse_tile_format(const GivenOptions& given, std::optional<GridKind> grid_of_tiles);
 
 }  // namespace scarp::cli

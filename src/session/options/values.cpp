@@ -10,7 +10,7 @@
 namespace scarp::cli {
 namespace {
 
-/// 50k, 2M, 1e5: a number with the letter of a power of 1000 behind it; nothing for other text.
+/// 50k, 2M, 1e5: a number that may end with the letter of a power of 1000; nothing for other text.
 std::optional<double> find_rounded_count(std::string_view text) {
   double factor = 1;
   if (!text.empty()) {
@@ -32,7 +32,7 @@ std::optional<double> find_number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
-  return error == std::errc() ? value : std::strtod(std::string(text).c_str(), nullptr);  // infinity, or next to 0
+  return error == std::errc() ? value : std::strtod(std::string(text).c_str(), nullptr);  // infinity, or almost 0
 }
 
 Result<void> check_size(std::string_view option, const std::string& text, const std::optional<double>& value) {
@@ -62,7 +62,7 @@ Result<std::uint64_t> parse_count(std::string_view option, const std::string& te
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_digits = end == text.data() + text.size() && error != std::errc::invalid_argument;
   const std::optional<double> rounded = is_digits ? std::nullopt : find_rounded_count(text);
-  constexpr double kMost = 0x1p53;  // up to which doubles are exact
+  constexpr double kMost = 0x1p53;  // integers up to this are exact in double
   if ((is_digits && error == std::errc::result_out_of_range) || (rounded && *rounded > kMost)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is too large: give a smaller number", option, text));
   }

@@ -14,13 +14,13 @@
 
 namespace scarp::cli {
 
-/// The text of an option as the user gave it; nothing if the option was not given. Every value is parsed by the
-/// functions below, so that each complaint names its option and its value.
+/// The text of an option as the user gave it; nothing if not given. The functions below parse all values, so every
+/// error names its option and value.
 using Given = std::optional<std::string>;
 
-/// The whole text as a number; "inf" and "nan" are numbers here. Nothing for other text.
+/// The whole text as a number, including "inf" and "nan"; nothing for other text.
 std::optional<double> find_number(std::string_view text);
-/// Fails for digits, as in 1e999, that stand for more than a number can be.
+/// Fails for digits beyond the range of a number, such as 1e999.
 Result<void> check_size(std::string_view option, const std::string& text, const std::optional<double>& value);
 /// A finite number.
 Result<double> parse_number(std::string_view option, const std::string& text);
@@ -36,7 +36,7 @@ struct Choice {
   T value;
 };
 
-/// The value that the word names. Else the sentence lists the words.
+/// The value of the word; otherwise fails with a list of all words.
 template <class T, std::size_t N>
 Result<T> choose(std::string_view option, const std::string& word, const Choice<T> (&choices)[N]) {
   std::string names;

@@ -1,4 +1,4 @@
-// Options that do not go together, by the library's table.
+// Conflicts of options, by the library's table.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,17 @@
 
 namespace scarp::cli {
 
-/// Refuses options that conflict, as far as that is known before a file is read.
+/// Refuses conflicts that are known before files are read.
 Result<void> check_conflicts(const GivenOptions& given, const SimplifyPlan& plan);
 
-/// The same of all that simplify() would refuse, once the files are read.
+/// Refuses everything that simplify() would refuse, after the files are read.
 Result<void> check_conflicts(const GivenOptions& given, const HeightField& field, const SimplifyOptions& options);
 
-/// The same of tiles. Without a grid or a format, which then depend on the raster, it checks what is known without
-/// them.
+/// Refuses conflicting settings of tiles. Grid and format are absent if they depend on the raster; then it checks the
+/// rest.
 Result<void> check_conflicts(const GivenOptions& given, std::optional<GridKind> grid, std::optional<TileFormat> format);
 
-/// The first of the library's settings that does not go with streamed samples, as the options that gave it; nothing if
-/// there is none.
+/// The first setting that conflicts with streamed samples, as its options; nothing if none does.
 std::optional<std::string> find_unstreamed(const GivenOptions& given, const SimplifyPlan& plan);
 
 }  // namespace scarp::cli

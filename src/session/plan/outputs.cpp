@@ -29,19 +29,19 @@ bool names_device(const std::string& path) {
   return is_stdout(path) || is_device(fs::status(path, error));
 }
 
-/// The name behind links, also behind those that lead to no file yet.
+/// Resolves symbolic links, including those to files that do not exist yet.
 fs::path follow_links(fs::path path) {
   constexpr int kMostLinks = 40;
   std::error_code error;
   for (int k = 0; k < kMostLinks && fs::is_symlink(path, error); ++k) {
     const fs::path target = fs::read_symlink(path, error);
     if (error) break;
-    path = path.parent_path() / target;  // an absolute target replaces all
+    path = path.parent_path() / target;  // an absolute target replaces the whole path
   }
   return path;
 }
 
-/// Equal for two names of one file, whether it is there or not; empty where that cannot be found out.
+/// Equal for two names of one file, existing or not; empty if unknown.
 std::string identity_of(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return fmt::format("{} {}", status.st_dev, status.st_ino);
@@ -50,8 +50,7 @@ std::string identity_of(const std::string& path) {
   return error ? std::string() : full.string();
 }
 
-/// The identity of what an output replaces: a file, also one that standard output was opened on; empty for devices and
-/// pipes.
+/// The identity of the file that an output replaces, also behind standard output; empty for devices and pipes.
 std::string identity_of_output(const std::string& path) {
   if (!is_stdout(path)) return names_device(path) ? "" : identity_of(path);
   struct stat status {};
@@ -59,8 +58,8 @@ std::string identity_of_output(const std::string& path) {
   return is_file ? fmt::format("{} {}", status.st_dev, status.st_ino) : "";
 }
 
-/// Why no file can be made in the folder, which exists; empty if one can. Permissions do not show it, for root and in
-/// /proc.
+/// The reason why no file can be made in an existing folder; empty if one can. Permissions do not show this for root
+/// and in /proc.
 std::string find_obstacle(const fs::path& folder) {
   std::string name = (folder / ".scarp-XXXXXX").string();
   const int file = mkstemp(name.data());
@@ -109,13 +108,13 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
     if (is_stdout(output.path)) return !identity_of_output(output.path).empty();
     return overwrite && !names_device(output.path) && fs::exists(output.path, ignored);
   });
-  std::map<std::string, std::string> read;  // and the input that it belongs to
+  std::map<std::string, std::string> read;  // with the input that it belongs to
   for (const std::string& input : inputs) {
     read.emplace(identity_of(input == "-" ? "/dev/stdin" : input), input);
     if (!may_replace) continue;
     for (const std::string& part : list_files(input)) read.emplace(identity_of(part), input);
   }
-  std::map<std::string, std::string> written;  // and the option that names it
+  std::map<std::string, std::string> written;  // with the option that names it
   const PlannedOutput* to_stdout = nullptr;
   for (const PlannedOutput& output : outputs) {
     if (is_stdout(output.path)) {

@@ -1,4 +1,4 @@
-// Checks of output files before any work is done: a missing folder must not show up after an hour of work.
+// Checks output files before the work: a missing folder must not be found after an hour.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace scarp::cli {
 
-/// A file that the run will write, and the option that asked for it ("OUTPUT", "--report", …).
+/// A file that the run will write, and its option ("OUTPUT", "--report", …).
 struct PlannedOutput {
   std::string option;
   std::string path;
 };
 
-/// Everything that can be known about output files before the work begins: their folders exist and can be written,
-/// nothing is replaced without `overwrite`, none is an input or another output.
+/// All checks of output files that are possible before the work: folders exist and are writable, nothing is replaced
+/// without `overwrite`, none is an input or another output.
 Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
                            bool overwrite);
-/// Fails for a picture or a raster whose name does not end as its row names, and is no device.
+/// Fails for a picture or raster without the ending that its row requires, except devices.
 Result<void> check_ending(const OptionRow& row, const PlannedOutput& output);
 
 }  // namespace scarp::cli

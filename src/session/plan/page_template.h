@@ -8,11 +8,11 @@
 
 namespace scarp::cli {
 
-/// The place of a mesh and the raster in it.
+/// The place in the template for a mesh and the raster.
 inline constexpr std::string_view kPlaceOfData = "<!--SCARP-DATA-->";
 
-/// The page that `make viewer` builds: share/scarp/viewer.html next to the program's folder. Fails
-/// with kInput where it is not there.
+/// The page that `make viewer` builds: share/scarp/viewer.html next to the program's folder. Fails with kInput if it is
+/// missing.
 Result<std::string> read_page_template();
 
 }  // namespace scarp::cli

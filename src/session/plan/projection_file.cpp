@@ -23,15 +23,14 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Scarp's own outputs whose CRS, if they have one, needs no .prj file.
+/// True for Scarp's outputs that never need a .prj file, even with a CRS.
 bool needs_none(const fs::path& name) {
   const auto format = choose_output_format(Given(), name.string());
   return lower_extension(name.string()) == ".json" ||
          (format && format->kind != OutputKind::kDem && !format->has_projection_beside());
 }
 
-/// A file, not of this run, that has the name before the extension in common with the .prj file; empty if there is
-/// none.
+/// A file of another run with the name of the .prj file and another extension; empty if none.
 std::string find_owner(const SimplifyPlan& plan, const fs::path& projection) {
   std::vector<fs::path> ours{projection.filename(), fs::path(plan.output).filename()};
   for (const auto* other : {&plan.preview, &plan.render, &plan.error_raster, &plan.html, &plan.report}) {

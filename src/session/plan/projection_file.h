@@ -1,4 +1,4 @@
-// The .prj file next to a mesh on a map: the CRS, for the formats that have no place for it.
+// The .prj file next to a georeferenced mesh, for formats that cannot hold a CRS.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 namespace scarp::cli {
 
 struct ProjectionFile {
-  std::string path;  ///< the mesh's, but for the extension
+  std::string path;  ///< the mesh's, with another extension
   std::string text;
 };
 
-/// For the mesh, or each level, whose x and y are in `crs`. Empty where none is needed: the format or the mesh has no
-/// CRS, or the file holds it already. Fails with kOutput where it would replace what it may not: any file without
-/// --overwrite, and with it one that belongs to other files of its name.
+/// Files for the mesh, or each level, with x and y in `crs`. Empty if none is needed: format or mesh have no CRS, or
+/// the mesh file holds it. Fails with kOutput if it must not replace a file: any file without --overwrite; with it, one
+/// that belongs to other files of that name.
 Result<std::vector<ProjectionFile>> plan_projection_files(const SimplifyPlan& plan, const std::string& crs);
 
 }  // namespace scarp::cli

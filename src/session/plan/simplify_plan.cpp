@@ -72,7 +72,7 @@ Result<void> plan_strategy(const GivenOptions& given, SimplifyPlan& plan) {
 }
 
 Result<void> plan_lines(const GivenOptions& given, SimplifyPlan& plan) {
-  // Water is level where all corners of its triangles are: at samples and on its shore.
+  // Water is level if all corners of its triangles are: at samples and on its shore.
   if (find_lakes(given)) plan.simplify.quality.vertices = Vertices::kSamples;
   return check_lines(given);
 }
@@ -102,7 +102,7 @@ Result<void> plan_solid(const GivenOptions& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// Checks the needs of solids and of the format.
+/// Checks the requirements of solids and of the format.
 Result<void> plan_solid_format(const SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   if (format.holds_solids_only() && !plan.solid && !plan.base)
@@ -128,7 +128,7 @@ Result<void> plan_zones(const GivenOptions& given, SimplifyPlan& plan) {
                                              plan.format.title(), list_mesh_endings(holds_zones)));
 }
 
-/// Checks attributes that the format has no place for: refuses if nothing would remain, else warns.
+/// Checks attributes that the format cannot hold: refuses if nothing would remain, else warns.
 Result<void> plan_attributes(const GivenOptions& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   const std::string title = format.title();
@@ -143,7 +143,7 @@ Result<void> plan_attributes(const GivenOptions& given, SimplifyPlan& plan) {
   if (given.has(kDouble) && !format.is_ply())
     return fail(ErrorKind::kUsage, fmt::format("{} is for PLY: the positions of {} are what they are", kDouble, title));
   SCARP_TRY(const bool is_y_up, choose_y_up(given[kUp], format, plan.solid.has_value()));
-  // Who reads earth-centred coordinates expects them as they are.
+  // Readers of earth-centred coordinates expect them unchanged.
   plan.is_y_up = is_y_up && (given[kUp] || crs == "enu" || !is_in_space(crs));
   if (given.has(kCompress) && !format.is_glb()) {
     return fail(ErrorKind::kUsage, fmt::format("{} writes GLB, and OUTPUT is {}: choose .glb", kCompress, title));
@@ -234,7 +234,7 @@ Result<void> plan_space(const GivenOptions& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// "scarp simplify dem.tif OUTPUT --max-error 1"; with a strategy of the paper it is scarp classic.
+/// "scarp simplify dem.tif OUTPUT --max-error 1"; scarp classic for a strategy of the paper.
 std::string canonical_command(const GivenOptions& given) {
   std::string options = given.canonical();
   if (asks_for_greedy(given)) options += fmt::format(" {} greedy", kOrder);
@@ -247,7 +247,7 @@ std::string canonical_command(const GivenOptions& given) {
   return command + " OUTPUT" + options;
 }
 
-/// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
+/// The first option given that needs more than a few samples at a time, if any.
 std::optional<std::string> find_need_of_samples(const GivenOptions& given, const SimplifyPlan& plan) {
   if (const auto unstreamed = find_unstreamed(given, plan)) return unstreamed;
   if (plan.policy != NodataPolicy::kHole) return name_of(kNodataPolicy);
@@ -261,12 +261,12 @@ Result<void> plan_memory(const GivenOptions& given, SimplifyPlan& plan) {
   if (!plan.memory) return {};
   plan.simplify.run.memory.limit = *plan.memory;
   plan.simplify.run.memory.per_vertex = plan.format.bytes_per_vertex();
-  // A solid's bottom and walls are as many vertices again; a print is judged while its mesh is in memory.
+  // A solid's bottom and walls double the vertices; a print is judged while its mesh is in memory.
   constexpr std::uint64_t kMeshBytes = 48;
   if (plan.base) plan.simplify.run.memory.per_vertex = 2 * plan.simplify.run.memory.per_vertex + kMeshBytes;
   if (plan.solid) plan.simplify.run.memory.per_vertex += 4 * kMeshBytes;
   plan.needs_samples = find_need_of_samples(given, plan);
-  // The proof sees the range of all other rasters, but of this one with its lakes.
+  // The proof finds the range of all other rasters, but not of one with lakes.
   const bool is_flattened = !given.all(kWater).empty();
   plan.read.with_range = is_flattened || (plan.error_goal && plan.error_goal->percent_of_relief);
   return {};
@@ -294,7 +294,7 @@ Result<SimplifyPlan> plan_simplify(const GivenOptions& given, const std::vector<
                           plan_border, plan_conflicts, plan_outputs, plan_page, plan_zones, plan_space, plan_memory}) {
     SCARP_RETURN_IF_ERROR(step(given, plan));
   }
-  // Last: who has mistaken an option reads of that first.
+  // Checked last, so that a wrong option is reported first.
   SCARP_RETURN_IF_ERROR(check_outputs(plan.outputs, files_read, plan.overwrite));
   return plan;
 }

@@ -29,10 +29,10 @@ struct SimplifyPlan {
   OutputFormat format;
   ReadOptions read;
   std::optional<ErrorGoal> error_goal;
-  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what files hold
+  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and without contents of files
   Strategy strategy;
-  bool by_paper = false;        ///< by simplify_by_paper(), with the strategy
-  std::string strategy_option;  ///< option that asks for it
+  bool by_paper = false;        ///< runs simplify_by_paper() with the strategy
+  std::string strategy_option;  ///< the option that selects it
   ChannelPlan channels;
   ImagePlan images;
   NodataPolicy policy = NodataPolicy::kHole;
@@ -43,22 +43,22 @@ struct SimplifyPlan {
   std::optional<Levels> levels;
   bool levels_in_one = false;
   std::optional<std::string> preview, render, error_raster, html, report;
-  std::string page_template;  ///< template of the page, where `html` asks for one
+  std::string page_template;  ///< template of the page, if `html` requests one
   bool compress = false;
   bool overwrite = false;
   bool is_y_up = false;                      ///< see choose_y_up()
-  bool doubles = false;                      ///< doubles as positions of a PLY
+  bool doubles = false;                      ///< a PLY has double positions
   std::optional<std::uint64_t> memory;       ///< bytes that the process may use
   std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
   std::vector<std::string> warnings;
   std::string canonical_command;  ///< see GivenOptions::canonical()
 
-  /// True if each level has a file of its own; else OUTPUT holds them all.
+  /// True if each level has its own file; else OUTPUT holds all.
   bool has_file_per_level() const { return levels && !levels_in_one; }
   bool has_file_per_tile() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 
-/// `files_read`: those that no output may replace.
+/// `files_read`: files that no output may replace.
 Result<SimplifyPlan> plan_simplify(const GivenOptions& given, const std::vector<std::string>& files_read);
 
 }  // namespace scarp::cli

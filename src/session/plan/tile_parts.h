@@ -1,4 +1,4 @@
-// The agreement of the processes of a plan of tiles: where parts lie, and how much memory a share has.
+// Conventions shared by the processes of a tile plan: the folder of parts and the memory of a share.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace scarp::cli {
 
-/// The raster's share of a process's memory, unless --memory sets it: a share of the blocks needs a part of the raster.
+/// A process's memory for the raster without --memory: a share of the blocks needs a part of the raster.
 inline constexpr std::uint64_t kShareRasterBytes = 256'000'000;
 
 /// --parts, or else a folder next to the plan: "world.parts" for "world.json".
 inline std::string parts_folder(const std::string& plan, const Given& parts) {
   return parts ? *parts : std::filesystem::path(plan).replace_extension(".parts").string();
 }
-/// The same of a plan that was read: one that follows another uses the other's.
+/// The folder of a plan that was read: a follow-up plan uses that of the earlier one.
 inline std::string parts_folder(const std::string& plan, const Given& parts, const TileJob& job) {
   return !parts && !job.parts.empty() ? job.parts : parts_folder(plan, parts);
 }

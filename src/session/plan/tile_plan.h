@@ -1,4 +1,4 @@
-// From the options of tiles to a job: rasters opened, the pyramid planned.
+// From options of tiles to a job: opens rasters and plans the pyramid.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,20 @@
 
 namespace scarp::cli {
 
-/// A raster that is open, and the job of making its tiles.
+/// An open raster and the job of making its tiles.
 struct OpenedJob {
   std::unique_ptr<GlobeRaster> raster;
   TileJob job;
-  std::vector<std::string> warnings = {};  ///< sentences about lines
+  std::vector<std::string> warnings = {};  ///< about lines
 };
 
-/// The job's rasters. Fails as check_rasters() and GlobeRaster::open() do.
+/// Opens the job's rasters. Fails as check_rasters() and GlobeRaster::open() do.
 Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 
-/// The rasters and settings that the options name, opened and planned. `memory`: bytes for the raster, 0 for any. Fails
+/// Opens the rasters and plans the settings that the options name. `memory`: bytes for the raster; 0: unlimited. Fails
 /// as the options, GlobeRaster::open() and plan_pyramid() do.
 Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& progress, std::uint64_t memory = 0);
-/// Rasters that follow those of an earlier plan, with its settings. Fails as follow_job() and open_tiles() do.
+/// Opens rasters that follow those of an earlier plan, with its settings. Fails as follow_job() and open_tiles() do.
 Result<OpenedJob> follow_tiles(const GivenOptions& given, const TileJob& earlier, const ProgressCallback& progress);
 
 }  // namespace scarp::cli

@@ -77,7 +77,7 @@ std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::v
 void warn_of_far_lines(const Simplified& simplified, double error, std::vector<std::string>& warnings) {
   constexpr double kMostErrors = 10;
   const FarthestLine& line = simplified.farthest_line;
-  // Zeros seldom are heights, so that they need not lie far from the raster.
+  // Heights are seldom zero, so a small distance from the raster suffices.
   if (line.distance > (line.is_at_zero ? 1 : kMostErrors) * error) {
     warnings.push_back(
         fmt::format("{}: {} lies up to {} from the raster{}: {}{} gives lines the heights of the raster", kBreaklines,

@@ -1,4 +1,4 @@
-// Lines and areas that the mesh holds: objects of a report, lines of a summary, and warnings.
+// Lines and areas in the mesh: objects of a report, lines of a summary, and warnings.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ namespace scarp::cli {
 Json describe_lines(const GivenOptions& given, const Simplified& simplified);
 /// Line of the summary; empty without lines.
 std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits);
-/// Sentences for breaklines and rivers that lie farther from the raster than any error explains: ten times `error`.
+/// Warns of breaklines and rivers that lie farther from the raster than errors can explain: ten times `error`.
 void warn_of_far_lines(const Simplified& simplified, double error, std::vector<std::string>& warnings);
 
-/// Warns of lines that are no rivers.
+/// Warns of lines that are not rivers.
 void warn_of_dry_lines(const Features& features, const std::vector<River>& rivers, std::vector<std::string>& warnings);
 /// The "water" and "rivers" lists of a report.
 Json describe_lakes(const std::vector<Lake>& lakes);
@@ -35,7 +35,7 @@ std::string waters_lines(const std::vector<Lake>& lakes, const std::vector<River
 Json describe_cliffs(const GivenOptions& given, const std::optional<Cliffs>& cliffs);
 /// Line of the summary; empty without --cliff.
 std::string cliffs_line(const std::optional<Cliffs>& cliffs);
-/// Warns where walls were asked for and none was found.
+/// Warns if walls were requested but none was found.
 void warn_of_missing_walls(const GivenOptions& given, const std::optional<Cliffs>& cliffs,
                            std::vector<std::string>& warnings);
 
@@ -43,17 +43,16 @@ void warn_of_missing_walls(const GivenOptions& given, const std::optional<Cliffs
 Json describe_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges);
 /// Line of the summary; empty without --ridges.
 std::string ridges_line(const std::optional<Ridges>& ridges);
-/// Warns where ridges were asked for and none was found.
+/// Warns if ridges were requested but none was found.
 void warn_of_missing_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges,
                             std::vector<std::string>& warnings);
 
-/// The "cutline" object of a report; null without. `outside`: samples that were cut off, besides those that are nodata
-/// now.
+/// The "cutline" object of a report; null without a cut. `outside`: samples cut off, besides those made nodata.
 Json describe_cut(const GivenOptions& given, const Cut& cut, std::uint64_t outside);
 /// "2 polygons, 1,234 samples outside left out".
 std::string cut_words(const Cut& cut, std::uint64_t outside);
 
-/// For a report: "materials" and "node_strings", null where they were not asked for.
+/// Adds "materials" and "node_strings" to a report, null if not requested.
 void add_zones(Json& report, const GivenOptions& given, const MeshZones& zones);
 /// Lines of the summary.
 std::string zones_lines(const GivenOptions& given, const MeshZones& zones);

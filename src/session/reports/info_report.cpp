@@ -45,7 +45,7 @@ struct Box {
   }
 };
 
-/// Ten digits: coordinates of a projected CRS to the millimetre.
+/// Ten digits: coordinates of a projected CRS in millimetres.
 std::string range_line(const char* name, const Box& box, std::size_t axis) {
   return fact_line(name, fmt::format("{:.10g} to {:.10g}, {:.6g} in all", box.low[axis], box.high[axis],
                                      box.high[axis] - box.low[axis]));
@@ -79,7 +79,7 @@ bool has_offsets(const MeshFile& file) {
   return file.axes.has_offsets && file.mesh.origin != std::array<double, 3>{0, 0, 0};
 }
 
-/// Differences between the file's own numbers and the printed ranges, which are z up and absolute.
+/// Explains how the file's numbers differ from the printed ranges, which are z up and absolute.
 std::string describe_axes(const MeshFile& file) {
   std::string text = "z is up";
   if (file.axes.up == 'y') text = "y is up (above: z)";
@@ -94,14 +94,14 @@ Json axes_report(const MeshFile& file) {
               {"offsets_from", has_offsets(file) ? Json(file.mesh.origin) : Json(nullptr)}};
 }
 
-/// "up" is reported for the file, and the mesh that was read is z up in any case.
+/// "up" is reported for the file; the mesh that was read is always z up.
 std::map<std::string, std::string> metadata_of(const MeshFile& file) {
   std::map<std::string, std::string> metadata = file.mesh.metadata;
   metadata.erase("up");
   return metadata;
 }
 
-/// An error as -e accepts it: outputs in metres read a number alone as metres.
+/// An error in the form of -e: for outputs in metres a plain number is in metres.
 std::string goal_words(double error, const RasterInfo& info) {
   const double metres = info.unit_in_metres;
   if (metres == 1 || metres == 0) return format_number(error);

@@ -1,4 +1,4 @@
-// The report of `scarp info` on a raster, on points and on a mesh.
+// Reports of `scarp info` on a raster, points or a mesh.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct MeshFile {
 std::string raster_facts(const OwnedHeightField& field);
 /// The table below the facts.
 std::string suggestion_table(const OwnedHeightField& field, const Suggestions& suggestions);
-/// Without rows where none were asked for.
+/// Omits rows if none were requested.
 Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions, int band,
                    const std::string& command_line);
 

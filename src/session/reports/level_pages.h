@@ -1,4 +1,4 @@
-// Levels of a set of tiles for the viewer's page.
+// Levels of a tileset for the viewer's page.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace scarp::cli {
 
-/// Limit of tiles as they are kept: above this a page opens too slowly.
+/// Limit of a level's tiles in bytes: a page with more opens too slowly.
 inline constexpr std::uint64_t kMostTileBytes = 8'000'000;
 
-/// A mesh for each level, of which `path` is the set. Fails as encode_glb() does.
+/// A mesh for each level of the set `path`. Fails as encode_glb() does.
 Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<LevelMesh>& levels);
 
 }  // namespace scarp::cli

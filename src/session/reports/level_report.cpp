@@ -9,7 +9,7 @@
 namespace scarp::cli {
 namespace {
 
-/// The facts that a level and the run itself report alike.
+/// The facts common to a level and the run itself.
 struct LevelNumbers {
   std::optional<double> asked;
   const Simplified& simplified;

@@ -9,7 +9,7 @@
 
 namespace scarp::cli {
 
-/// The "levels" of the report, the finest first; null without --lods.
+/// The "levels" of the report, from the finest to the coarsest; null without --lods.
 Json describe_levels(const SimplifyPlan& plan, const Outcome& outcome);
 /// Lines of the summary; empty without --lods.
 std::string levels_lines(const Outcome& outcome);

@@ -22,7 +22,7 @@ std::string describe_place(const std::array<std::int32_t, 2>& at) {
   return fmt::format("at column {}, row {}", at[0], at[1]);
 }
 
-/// Why the mesh fails by what its errors weigh; nothing if it does not.
+/// The reason why weighed errors fail, if they do.
 std::optional<std::string> find_excess(const Judged& judged) {
   const double rounding = judged.field.sample_rounding;
   if (judged.judgement.weighted && judged.companions.has_tolerance() && judged.judgement.weighted->over > 0) {
@@ -62,7 +62,7 @@ std::string describe_heights(const Judged& judged) {
   return text;
 }
 
-/// Channels, masks and tolerances.
+/// Describes channels, masks and tolerances.
 std::string describe_weighed(const Judged& judged) {
   std::string text;
   if (judged.judgement.heights.samples == 0) return text;

@@ -28,9 +28,9 @@ struct Judged {
   Judgement judgement;
   std::optional<ErrorGoal> goal;      ///< goal of --fail-above
   std::optional<double> fail_above;   ///< in z units
-  std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
+  std::optional<std::string> broken;  ///< reason why the mesh fails; nothing if it passes or no bound was given
   int band = 1;
-  bool is_y_up = false;  ///< true if --up asks for it
+  bool is_y_up = false;  ///< --up requests it
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 
@@ -40,7 +40,7 @@ struct Judged {
     channels.attach_to(view);
     return view;
   }
-  /// The largest error of samples with a bound: the heights' error; of an image, the norm.
+  /// The largest error of samples with a bound: of heights, or the norm for an image.
   LargestError bounded() const { return plan.image ? judgement.combined->bounded : judgement.bounded; }
   bool has_verdict() const { return fail_above || companions.has_tolerance(); }
 };

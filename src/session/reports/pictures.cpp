@@ -29,7 +29,7 @@ MarkKind kind_of(const Line& line) {
                                        : MarkKind::kBreakline;
 }
 
-/// Metres that a cell is wide and high; zeros where they are not known.
+/// The size of a cell in metres; zeros if unknown.
 std::array<double, 2> cell_metres(const RasterInfo& info) {
   return info.has_georeference && info.cell_x_m > 0 ? std::array{info.cell_x_m, info.cell_y_m} : std::array{0.0, 0.0};
 }

@@ -1,4 +1,4 @@
-// The parts of the program's pictures besides heights and errors: scale, units, titles, lines.
+// Parts of the program's pictures besides heights and errors: scale, units, titles, lines.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace scarp::cli {
 
-/// With the lakes, rivers, breaklines, ridges, walls and cutlines of the run.
+/// Includes the run's lakes, rivers, breaklines, ridges, walls and cutlines.
 PreviewOptions preview_options(const Outcome& outcome, int max_side);
 /// `unit`: of the errors.
 ErrorMapOptions error_map_options(const RasterInfo& info, const std::string& unit, const std::string& mesh_path,
                                   int max_side);
-/// "m" for the metre by any name, else the unit as the file has it.
+/// "m" for the metre by any name, else the file's unit.
 std::string short_unit(const std::string& unit);
 
 }  // namespace scarp::cli

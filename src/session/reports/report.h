@@ -1,4 +1,4 @@
-// Reports as JSON. simplify, measure and info give the same things the same names; docs/cli/reports.md lists them.
+// Reports as JSON. simplify, measure and info use common names, listed in docs/cli/reports.md.
 #pragma once
 
 #include <optional>
@@ -14,30 +14,30 @@
 
 namespace scarp::cli {
 
-/// " m", " m (ft in the file)", or nothing: behind a height.
+/// " m", " m (ft in the file)", or nothing: follows a height.
 std::string heights_unit(const RasterInfo& info);
 /// The "input" object: the raster as it was read.
 Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band);
-/// The "frame" object: what the mesh's x and y are, and the way back to the raster's coordinates.
+/// The "frame" object: the meaning of the mesh's x and y, and the way back to the raster's coordinates.
 Json describe_frame(const Frame& frame, const RasterInfo& info, int rows);
-/// The place of the mesh in the source's coordinates, as members of the object; null where there is none.
+/// Adds the mesh's place in the source's coordinates; null if unknown.
 void add_place(Json& json, const std::optional<PlaceInSource>& place);
-/// "stopped_by": the goal that ended the run, as its option is called.
+/// "stopped_by": the goal that ended the run, by its option's name.
 const char* stop_name(StopReason stop);
 /// Triangles of the full grid: 2·(cols − 1)·(rows − 1).
 std::uint64_t full_grid_triangles(const HeightField& field);
-/// Adds max_error … p999; sample_rounding, where it is not 0.
+/// Adds max_error … p999, and sample_rounding unless it is 0.
 void add_errors(Json& report, const Measurement& measured, double sample_rounding);
 /// Adds samples … void_cells_covered and the "topology" object.
 void add_coverage(Json& report, const Measurement& measured);
-/// Both.
+/// Adds errors and coverage.
 void add_measurement(Json& report, const Measurement& measured, double sample_rounding);
-/// Adds bounded_max_error and bounded_max_error_at, which is [-1, -1] if all errors are 0.
+/// Adds bounded_max_error and bounded_max_error_at: [-1, -1] if all errors are 0.
 void add_bounded(Json& report, const LargestError& bounded);
 /// The "channels" list: each channel's name, scale, max_error … p999 and samples, in its own units.
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured);
-/// Writes the report of a mesh that has its name already; where that fails the error mentions it.
+/// Writes the report of a mesh that is already under its final name. If that fails, the error mentions the mesh.
 Result<void> write_report(const Json& report, const std::string& path, bool overwrite, const std::string& mesh);
 
 }  // namespace scarp::cli

@@ -13,7 +13,7 @@
 namespace scarp::cli {
 namespace {
 
-/// Those counts that are not 0: "3 in sharp corners, 2 elsewhere".
+/// Counts other than 0: "3 in sharp corners, 2 elsewhere".
 std::string list_counts(std::initializer_list<std::pair<std::uint64_t, const char*>> counts) {
   std::string list;
   for (const auto& [count, where] : counts) {
@@ -22,14 +22,14 @@ std::string list_counts(std::initializer_list<std::pair<std::uint64_t, const cha
   return list;
 }
 
-/// Why angles are too small.
+/// The reason for angles that are too small.
 std::string describe_below(const ShapeReport& shape) {
   return list_counts({{shape.forced, "in sharp corners of lines or outline"},
                       {shape.below_beside_lines, "where lines or outline leave no room"},
                       {shape.below - shape.forced - shape.below_beside_lines, "where vertices would be too close"}});
 }
 
-/// Why edges are too short.
+/// The reason for edges that are too short.
 std::string describe_shorter(const ShapeGoals& goals, const ShapeReport& shape) {
   const char* elsewhere = goals.min_angle > 0 ? "for the max error or angles" : "for the max error";
   if (goals.grade)

@@ -1,4 +1,4 @@
-// The shapes of triangles that were asked for, and those that were made.
+// The requested and the reached shapes of triangles.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace scarp::cli {
 
-/// The "shape" object of a report; null where nothing was asked.
+/// The "shape" object of a report; null without shape goals.
 Json describe_shape(const ShapeGoals& goals, const Simplified& simplified);
-/// Line of the summary; empty where nothing was asked.
+/// Line of the summary; empty without shape goals.
 std::string shape_line(const ShapeGoals& goals, const Simplified& simplified);
-/// Warns of the goals that yielded to others, in numbers.
+/// Warns of goals that yielded to others, with numbers.
 void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

@@ -23,7 +23,7 @@ struct Level {
   Simplified simplified;
 };
 
-/// Everything that the files, the report and the summary contain.
+/// All contents of the files, the report and the summary.
 struct Outcome : SimplifyRun {
   OwnedHeightField field;
   RasterInfo as_read;  ///< before nodata was filled
@@ -32,13 +32,13 @@ struct Outcome : SimplifyRun {
   Features features;
   Cut cut;
   ZonePlan zone_plan;
-  MeshZones zones;  ///< found in the mesh
-  Picture drape;    ///< empty where no image is draped
+  MeshZones zones;  ///< zones found in the mesh
+  Picture drape;    ///< empty without a draped image
   std::uint64_t filled = 0;
   std::vector<Level> coarser;
   std::optional<LargestError> bounded;  ///< largest error of samples that are not ignored; images: norms
-  std::optional<double> bounded_goal;   ///< with ignored samples: largest error that the goal bounds
-  std::optional<double> psnr;           ///< PSNR of the rendering, in dB; +infinity if it is the image
+  std::optional<double> bounded_goal;   ///< largest error that the goal bounds, if samples are ignored
+  std::optional<double> psnr;           ///< PSNR of the rendering in dB; +infinity if it equals the image
 
   /// The field with its channels.
   HeightField view() const {
@@ -48,11 +48,11 @@ struct Outcome : SimplifyRun {
   }
 };
 
-/// The error that the goal bounds, as reached; where a script ignores samples, that of the others.
+/// The reached error that the goal bounds, without samples that a script ignores.
 struct GoalError {
-  double value = 0;         ///< compared with the bound, without the rounding of samples
+  double value = 0;         ///< without the rounding of samples, for comparison with the bound
   const char* name = "";    ///< "max error", "weighted max error", …
-  bool is_rounded = false;  ///< to float32, by which it may exceed the bound
+  bool is_rounded = false;  ///< positions are rounded to float32, by which the error may exceed the bound
 };
 GoalError find_goal_error(const Outcome& outcome);
 

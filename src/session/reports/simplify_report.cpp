@@ -26,7 +26,7 @@ bool has_tolerance_and_budget(const SimplifyPlan& plan, const Outcome& outcome) 
   return outcome.companions.has_tolerance() && (plan.simplify.goals.max_triangles || plan.simplify.goals.max_vertices);
 }
 
-/// Errors of heights and channels, as they are and as they were weighed.
+/// Adds errors of heights and channels, plain and weighted.
 void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
   if (!plan.channels.image) add_errors(report, simplified.measurement, outcome.field.sample_rounding);
@@ -48,7 +48,7 @@ void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outco
   if (outcome.psnr) report["psnr"] = finite_or_word(*outcome.psnr);
 }
 
-/// ", ignored samples left out": samples for which a bound does not hold, though the errors count them.
+/// ", ignored samples left out": samples without a bound, whose errors count nevertheless.
 const char* describe_exceptions(const Outcome& outcome) {
   return outcome.companions.ignores_samples() ? ", ignored samples left out" : "";
 }
@@ -169,7 +169,7 @@ namespace {
 
 using enum OptionId;
 
-/// STL holds offsets from an origin that only Scarp reads in its header.
+/// STL holds offsets from an origin in its header that only Scarp reads.
 std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   const std::array<double, 3>& o = mesh.origin;
   if (!plan.format.is_mesh() || plan.format.mesh != MeshFormat::kStl || plan.solid || (o[0] == 0 && o[1] == 0))
@@ -177,7 +177,7 @@ std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   return fmt::format("; the file holds offsets from {:.10g}, {:.10g}", o[0], o[1]);
 }
 
-/// A raster lies where the one lies that it was made of, whatever the frame of the mesh; a PGM does not know where.
+/// A raster lies where its input lies, whatever the frame of the mesh; a PGM has no place.
 Frame frame_of_output(const SimplifyPlan& plan, const Outcome& outcome) {
   const RasterInfo& info = outcome.field.info;
   if (plan.format.kind != OutputKind::kDem) return outcome.field.frame;
@@ -191,7 +191,7 @@ Frame frame_of_output(const SimplifyPlan& plan, const Outcome& outcome) {
   return frame;
 }
 
-/// So that the numbers hold for those of the file.
+/// Makes the numbers hold for those in the file.
 void add_offset(const SimplifyPlan& plan, const Mesh& mesh, Json& frame) {
   const std::string words = offset_words(plan, mesh);
   if (words.empty()) return;

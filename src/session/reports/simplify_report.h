@@ -1,4 +1,4 @@
-// The report of `scarp simplify` on a run.
+// The report of `scarp simplify`.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A print of a terrain: in the report and in the summary.
+// The print of a terrain in report and summary.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace scarp::cli {
 
-/// The "solid" object of the report; `paths` has the file of each print tile, or one for all.
+/// The "solid" object of the report. `paths`: one file for each print tile, or one for all.
 Json describe_print(const PrintOptions& plan, const Print& print, const std::vector<std::string>& paths);
-/// Its part of the summary.
+/// Lines of the summary.
 std::string print_lines(const PrintOptions& plan, const Print& print);
 
 }  // namespace scarp::cli

@@ -1,4 +1,4 @@
-// The findings of scarp tile check, in words and as JSON.
+// The findings of scarp tile check as text and JSON.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace scarp::cli {
 
 /// Adds tiles, triangles, edges …, "levels", "faults" and "described".
 void add_tile_check(Json& report, const TileCheck& check);
-/// A table of the levels, the faults, and counts.
+/// A table of the levels, followed by faults and counts.
 std::string make_check_summary(const std::string& set, const TileCheck& check, double seconds);
 /// One sentence for a set with faults: how many of each kind, and the first.
 std::string describe_faults(const std::string& set, const TileCheck& check);

@@ -182,14 +182,14 @@ std::string summarize_model(const TileJob& job, const PyramidReport& report, con
 
 std::vector<std::string> warnings_of_raster(const GlobeRaster& raster) {
   std::vector<std::string> warnings = raster.warnings();
-  // Degrees are what tiles are made in.
+  // Tiles are always in degrees.
   std::erase_if(warnings, [](const std::string& one) { return one.find("x and y are degrees") != std::string::npos; });
   return warnings;
 }
 
 namespace {
 
-/// Tiles of all levels that `count` counts, and the levels, as "9, 10"; nothing where there are none.
+/// The number of tiles that `count` counts, and their levels as "9, 10"; nothing if there are none.
 std::optional<std::pair<std::string, std::string>> count_tiles(const PyramidReport& report,
                                                                std::uint64_t LevelSummary::*count,
                                                                const char* what = "tile") {
@@ -208,8 +208,8 @@ constexpr std::string_view kCliffs =
     "next to a cliff, the raster's own edge above the background included, positions in 32767ths of a tile are too "
     "coarse";
 
-/// For a plan that binds samples: the errors that the finest level with such tiles keeps at nodes and at samples, and
-/// the remedy.
+/// For a plan that binds samples: the errors at nodes and at samples on the finest level with such tiles, and the
+/// remedy.
 std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
   std::size_t z = report.levels.size() - 1;
   while (report.levels[z].over == 0) --z;
@@ -218,7 +218,7 @@ std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
   const std::string kept =
       fmt::format("level {} has {} at nodes and {} at samples where {} were asked", z, format_metres(level.node_error),
                   format_metres(level.source_error), format_metres(asked));
-  // Nodes that lie closer help samples between them; a cliff is as steep for its positions as before.
+  // Closer nodes help samples between them; a cliff stays too steep for positions.
   if (level.node_error <= asked)
     return kept + ". Nodes are too far apart for such samples: give a larger --zoom or --max-error";
   return fmt::format("{}. At nodes that is {}: give a larger --max-error", kept, kCliffs);

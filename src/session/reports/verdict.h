@@ -1,4 +1,4 @@
-// Does a measured mesh keep a bound?
+// Checks whether a measured mesh keeps a bound.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace scarp::cli {
 
-/// ", and values rounded to float32 by up to R,": the rounding that a max error does not count; empty where the samples
-/// are the values.
+/// ", and values rounded to float32 by up to R,": the rounding that a max error excludes; empty if samples equal
+/// values.
 std::string describe_rounding(double sample_rounding);
 
-/// The sentence about why the mesh does not keep `bound` on the values in the raster's file, which lie up to
-/// `sample_rounding` away from the float32 samples that were judged: too large an error and where, samples that no
-/// triangle covers and the first of them, a fault of its topology. Nothing if it keeps it.
+/// Explains why the mesh does not keep `bound`: the largest error and its place, the number and first of uncovered
+/// samples, or a topological fault. The bound applies to the values in the file, up to `sample_rounding` away from the
+/// judged float32 samples. Nothing if the mesh keeps it.
 std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
                                                const HeightRange& heights);
 
-/// "1 flipped triangle, 2 overlaps": what is_sound() objects to; empty if it is sound.
+/// "1 flipped triangle, 2 overlaps": the faults that is_sound() finds; empty if sound.
 std::string list_faults(const Measurement& measured);
 
 }  // namespace scarp::cli

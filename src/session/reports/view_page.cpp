@@ -49,7 +49,7 @@ Result<std::vector<float>> copy_samples(const HeightField& field) {
   return samples;
 }
 
-/// Whole numbers of 16 bits where all samples are.
+/// Uses 16-bit integers if all samples are.
 void add_samples(const std::vector<float>& samples, Json& json) {
   const bool are_whole = std::ranges::all_of(
       samples, [](float z) { return std::isnan(z) || (std::abs(z) <= 32767 && z == std::trunc(z)); });
@@ -65,7 +65,7 @@ void add_samples(const std::vector<float>& samples, Json& json) {
   json["samples"] = encode_values(whole);
 }
 
-/// Metres of a unit of x, y and z of the mesh; null where they are not known.
+/// Metres per unit of the mesh's x, y and z; null if unknown.
 Json find_metres(const OwnedHeightField& field) {
   const RasterInfo& info = field.info;
   const auto& affine = field.frame.affine;
@@ -112,7 +112,7 @@ Result<ViewPage> make_view_page(const std::string& page_template, const std::str
     data["metres"] = find_metres(*field);
     data["unit"] = short_unit(field->info.unit);
   }
-  // "</script" and "<!--" would end the script, or begin a comment.
+  // "</script" and "<!--" would end the script or begin a comment.
   std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
   const std::string script = "<script type=\"application/json\" id=\"scarp-data\">" + text + "</script>";

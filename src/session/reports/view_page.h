@@ -1,4 +1,4 @@
-// The viewer's page: one HTML file that holds a mesh and the raster that judges it.
+// The viewer's page: one HTML file with meshes and the raster that judges them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace scarp::cli {
 
-/// A mesh, as GLB, and the file that it is of.
+/// A mesh as GLB, and its file.
 struct PageMesh {
   std::string path;
   std::uint64_t file_bytes = 0;
@@ -19,12 +19,12 @@ struct PageMesh {
 
 struct ViewPage {
   std::vector<std::uint8_t> html;
-  /// Why the page does not hold the raster; nothing if it does, or if there is none.
+  /// Reason why the page lacks the raster; nothing if it has it or none was given.
   std::optional<std::string> left_out;
 };
 
-/// `path` is what the meshes are of, which the page is named after. `field` may be null. Fails with kInput for samples
-/// that cannot be read.
+/// The page is named after `path`, the file of the meshes. `field` may be null. Fails with kInput for unreadable
+/// samples.
 Result<ViewPage> make_view_page(const std::string& page_template, const std::string& path,
                                 const std::vector<PageMesh>& meshes, const OwnedHeightField* field);
 

@@ -11,7 +11,7 @@
 namespace scarp::cli {
 namespace {
 
-/// The options where there are some, else the library's word.
+/// The options, if any, else the library's word.
 std::vector<std::string> words_of(Field field) {
   using enum OptionId;
   const auto with = [](OptionId id, const char* note) { return fmt::format("{} ({})", id, note); };
@@ -49,7 +49,7 @@ std::vector<std::string> words_of(Field field) {
 }
 
 std::vector<std::string> words_of(Fields fields) {
-  // Differences that the program's options do not show.
+  // Differences without an option.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
   std::vector<std::string> words;
@@ -72,7 +72,7 @@ bool is_of_tiles(const ConflictRule& rule) {
 nlohmann::ordered_json describe_conflicts() {
   auto rows = nlohmann::ordered_json::array();
   for (const ConflictRule& rule : conflict_rules()) {
-    // The program reads the weights and tolerances of streamed samples as these.
+    // The program treats weights and tolerances of streamed samples like these.
     const bool is_of_source = rule.one.has(Field::kSource);
     const Fields other = is_of_source ? rule.other.without(Field::kTolerance).without(Field::kMask) : rule.other;
     if (other.empty()) continue;

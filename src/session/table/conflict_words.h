@@ -1,4 +1,4 @@
-// The library's table of conflicts, with the names of options: as JSON for programs, and for the page of conflicts.
+// The library's table of conflicts in terms of options: as JSON and for the page of conflicts.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -8,8 +8,8 @@
 
 namespace scarp::cli {
 
-/// In the order of Field; kNone where no option gives the setting: positions are as the format has them, and Ctrl-C
-/// ends a run.
+/// In the order of Field; kNone if no option gives the setting: the format decides about positions, and Ctrl-C ends a
+/// run.
 inline constexpr OptionTerm kFieldOptions[] = {
     {OptionId::kMaxError},
     {OptionId::kMaxTriangles},
@@ -67,7 +67,7 @@ inline constexpr OptionTerm kFieldOptions[] = {
 };
 static_assert(std::size(kFieldOptions) == kFieldCount);
 
-/// The option that gives a setting, with its value where that matters.
+/// The option for a setting, with its value if that matters.
 constexpr OptionTerm option_of(Field field) { return kFieldOptions[static_cast<int>(field)]; }
 
 }  // namespace scarp::cli

@@ -23,7 +23,7 @@ bool is_any(const MeshFormatTraits& /*traits*/) { return true; }
 
 bool is_readable(const MeshFormatTraits& traits) { return traits.is_read; }
 
-/// The usual ending of each format that is so, or all of its endings.
+/// The usual ending of each selected format, or all its endings.
 Words endings_of(OfFormat is_so, bool all = false) {
   Words words;
   for (const MeshFormatTraits* traits : mesh_formats()) {

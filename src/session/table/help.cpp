@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kWidth = 100, kColumn = 33;
 constexpr std::ptrdiff_t kScreen = 40;  // lines
 
-/// The words in lines of at most kWidth, all but the first behind kColumn blanks.
+/// Wraps the words at kWidth; all lines but the first are indented by kColumn blanks.
 std::string wrap(const std::string& text) {
   std::string wrapped;
   std::size_t at = kColumn;
@@ -37,13 +37,13 @@ std::string wrap(const std::string& text) {
   return wrapped + "\n";
 }
 
-/// `left`, and the text to the right of it, or below where `left` is wide.
+/// `left` with the text to the right, or below if `left` is wide.
 std::string entry(const std::string& left, const std::string& text) {
   const bool is_wide = left.size() + 2 > kColumn;
   return left + (is_wide ? "\n" : "") + std::string(is_wide ? kColumn : kColumn - left.size(), ' ') + wrap(text);
 }
 
-/// The help with the range, the default and whether the option may be given again.
+/// The help with the range, the default and repeatability.
 std::string full_help(const OptionRow& row) {
   std::string text = row.help;
   if (const std::string range = row.range_text(); range.find(" to ") != std::string::npos)
@@ -66,7 +66,7 @@ std::string title_of(const GroupRow& group) {
   return fmt::format("\n{}{}:\n", group.name, group.note[0] != 0 ? fmt::format(" ({})", group.note) : "");
 }
 
-/// By subject.
+/// Groups the rows by subject.
 std::string list_options(const std::vector<const OptionRow*>& rows) {
   std::string text;
   for (const GroupRow& group : group_rows()) {
@@ -100,7 +100,7 @@ bool is_brief_goal(const OptionRow* row) {
   return row->brief[0] != 0 && (row->group == OptionGroup::kGoals || row->group == OptionGroup::kVerdict);
 }
 
-/// Arguments, goals or the verdict, and the most used of all others.
+/// Arguments, goals or the verdict, and the most used other options.
 std::string list_briefly(const std::vector<const OptionRow*>& rows) {
   std::string arguments, goals, others;
   for (const OptionRow* row : rows) {

@@ -12,16 +12,16 @@ class App;
 
 namespace scarp::cli {
 
-/// The program's help: its commands, and three to begin with.
+/// The program's help: its commands, with three to start with.
 std::string program_help();
-/// A command's help. No line is longer than 100 characters. Unless `all` options are asked for, those of a command that
-/// would not fit a screen are the most used ones, one line each.
+/// A command's help, with lines of at most 100 characters. Without `all`, if the options would not fit a screen, only
+/// the most used ones follow, one line each.
 std::string command_help(const CommandRow& command, bool all);
-/// The tables of options (of one command, or of all: null) and of mesh formats as JSON. Keys keep their names.
+/// The tables of options (of one command; null: all) and mesh formats as JSON. Keys are stable.
 std::string help_json(const CommandRow* command);
-/// "choose simplify, measure or info", of all commands.
+/// "choose simplify, measure or info": lists all commands.
 std::string choose_command();
-/// Throws std::logic_error if the table has an option that the program does not accept.
+/// Throws std::logic_error if the program rejects an option of the table.
 void check_table(const CLI::App& program);
 
 }  // namespace scarp::cli

@@ -9,12 +9,12 @@
 namespace scarp::cli {
 namespace {
 
-/// The option of which the word is a name, null if there is none.
+/// The option with this name, or null.
 const CLI::Option* find_option(const CLI::App& command, const std::string& word) {
   return word.rfind('-', 0) == 0 ? command.get_option_no_throw(word) : nullptr;
 }
 
-/// True for a command's options and for all that begins like a long one; -5 is a value.
+/// True for a command's options and for words that begin like a long option; -5 is a value.
 bool reads_as_option(const CLI::App& command, const std::string& word) {
   const bool is_long = word.size() > 2 && word.rfind("--", 0) == 0 && std::isalpha(static_cast<unsigned char>(word[2]));
   return is_long || find_option(command, word) != nullptr;

@@ -1,4 +1,4 @@
-// The command that argv names, and an option without its value, directly before another option.
+// Finds the command in argv, and an option without its value before another option.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@ class App;
 
 namespace scarp::cli {
 
-/// The command with that name; nullptr if there is none.
+/// The command with that name; nullptr if none.
 const CLI::App* find_command(const CLI::App& program, std::string_view name);
 
-/// The complaint about the first word that reads as an option where the value of the one before it belongs, as in
-/// "--report --overwrite", which CLI11 would read as a value. A value that reads like an option is given as
-/// "--report=--overwrite". Nothing if there is none. Examines the options of the command that argv names.
+/// Complains about the first option-like word in place of a value, as in "--report --overwrite", which CLI11 would read
+/// as a value. Such a value needs "=": "--report=--overwrite". Nothing if there is none. Checks the options of the
+/// command in argv.
 std::optional<std::string> find_missing_value(const CLI::App& program, int argc, const char* const* argv);
 
 }  // namespace scarp::cli

@@ -1,4 +1,4 @@
-// The rows of the table of options, by subject; option_table.h for those who read them.
+// The rows of the table of options by subject; callers use option_table.h.
 #pragma once
 
 #include <span>

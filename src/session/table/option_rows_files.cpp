@@ -1,4 +1,4 @@
-// Options for the files that are read and written.
+// Options for input and output files.
 #include <fmt/format.h>
 
 #include "session/table/format_words.h"
@@ -10,7 +10,7 @@ namespace {
 using enum OptionId;
 using enum OptionType;
 
-/// The formats whose frame is this one unless a CRS is asked for.
+/// The formats that have this frame unless a CRS is requested.
 template <DefaultFrame frame>
 std::string list_frame() {
   return list_mesh_endings([](const MeshFormatTraits& traits) { return traits.frame == frame; }, "and");

@@ -1,4 +1,4 @@
-// Options for the goals of a mesh, and for the effort.
+// Options for the goals of a mesh and the effort.
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {

@@ -1,4 +1,4 @@
-// Lines and areas that the mesh must have, shapes of its triangles, and solids.
+// Lines and areas in the mesh, shapes of its triangles, and solids.
 #include <fmt/format.h>
 
 #include "session/table/format_words.h"

@@ -1,4 +1,4 @@
-// How a run behaves: memory, threads, what it prints; and the fields of scarp generate.
+// Options of a run: memory, threads, messages; and the fields of scarp generate.
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {

@@ -1,4 +1,4 @@
-// Missing samples, samples that matter more than others, colours, and scattered points.
+// Missing samples, weighted samples, colours, and scattered points.
 #include "session/table/option_rows.h"
 
 namespace scarp::cli {

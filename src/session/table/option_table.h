@@ -1,5 +1,5 @@
-// The one table of options. Registration, parsing, ranges, the canonical command, `--help`, `scarp help --json`, the
-// man page, the completions, the page of all options and the settings of C and Python are made from it.
+// The only table of options. It defines registration, parsing, ranges, the canonical command, `--help`, `scarp help
+// --json`, the man page, the completions, the page of all options and the settings of C and Python.
 #pragma once
 
 #include <fmt/format.h>
@@ -156,7 +156,7 @@ enum class OptionId {
   kNone,  ///< no option; their number
 };
 
-/// In the order in which help lists them.
+/// In the order of the help.
 enum class OptionGroup {
   kArguments,
   kGoals,
@@ -181,12 +181,12 @@ enum class OptionGroup {
 
 enum class OptionType {
   kFlag,        ///< has no value
-  kNumber,      ///< a number, perhaps with a unit behind it
+  kNumber,      ///< a number, possibly followed by a unit
   kCount,       ///< a whole number
-  kText,        ///< any text; `choices` are proposals
+  kText,        ///< any text; `choices` are suggestions
   kChoice,      ///< one of `choices`
-  kInputFile,   ///< the run reads it; `choices` are the endings of its name, if not any will do
-  kOutputFile,  ///< the run writes it
+  kInputFile,   ///< a file that the run reads; `choices` are its endings, if restricted
+  kOutputFile,  ///< a file that the run writes
   kFolder,
 };
 
@@ -195,7 +195,7 @@ using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kHelpCommand = 16,
                           kVersionCommand = 32, kTile = 64, kServe = 128, kTilePlan = 256, kTileRun = 512,
                           kTileFinish = 1024, kTileCheck = 2048, kView = 4096;
-/// The options that `scarp classic` has in addition to those of simplify, which accepts them, too, until 0.4.
+/// The options that `scarp classic` has besides those of simplify. simplify also accepts them until 0.4.
 inline constexpr Commands kStrategies = 8192;
 inline constexpr Commands kClassic = kSimplify | kStrategies;
 inline constexpr Commands kEveryCommand = 16383;
@@ -206,7 +206,7 @@ struct OptionRow {
   OptionId id;
   const char* name;             ///< "--max-error"; "INPUT" for an argument without a name
   const char* short_name = "";  ///< "-e"
-  /// The option whose value this is a KEY=VALUE of: `--cutline FILE,inset=2`. Its own name is the spelling of 0.2.
+  /// The option whose value contains this KEY=VALUE: `--cutline FILE,inset=2`. `name` is the spelling of 0.2.
   OptionId part_of = OptionId::kNone;
   const char* key = "";
   Commands commands;
@@ -215,32 +215,32 @@ struct OptionRow {
   const char* value = "";    ///< name of the value in help; empty: the choices
   const char* choices = "";  ///< words, separated by blanks
   const char* unit = "";
-  const char* by_default = "";  ///< empty: the option does nothing unless it is given
-  double least = -kNoLimit;     ///< the least number
-  double above = -kNoLimit;     ///< the number that all are above
-  double most = kNoLimit;       ///< the largest number
-  const char* limit_why = "";   ///< reason of a limit, for the sentence that refuses a number beyond it
-  const char* range = "";       ///< in words, where the three above do not express it
+  const char* by_default = "";  ///< empty: the option has no effect unless given
+  double least = -kNoLimit;     ///< inclusive lower limit
+  double above = -kNoLimit;     ///< exclusive lower limit
+  double most = kNoLimit;       ///< inclusive upper limit
+  const char* limit_why = "";   ///< reason of a limit, for errors
+  const char* range = "";       ///< range in words, if the three above do not express it
   bool is_repeatable = false;
   bool is_required = false;
-  bool is_of_mesh = true;      ///< can change the mesh: stands in the canonical command
-  bool is_for_points = false;  ///< holds where the input is scattered points, too
+  bool is_of_mesh = true;      ///< can change the mesh: part of the canonical command
+  bool is_for_points = false;  ///< also valid for scattered points
   const char* help;            ///< one or two sentences; completions use the first
-  const char* brief = "";      ///< one line for -h, where all options do not fit a screen; empty: not among them
+  const char* brief = "";      ///< one line for -h if all options do not fit a screen; empty: omitted there
 
   bool is_argument() const { return name[0] != '-'; }
   std::vector<std::string> list_choices() const;
   /// "M|P%", "hole|fill|background"; empty for a flag.
   std::string value_text() const;
-  /// "0 to 33", "above 0"; empty if any value will do.
+  /// "0 to 33", "above 0"; empty without limits.
   std::string range_text() const;
   /// "--cutline inset" for a part, else the name.
   std::string title() const;
-  /// How many values follow the name: 4 for "XMIN YMIN XMAX YMAX".
+  /// Number of values after the name: 4 for "XMIN YMIN XMAX YMAX".
   int value_count() const;
 };
 
-/// An option, or one of its values.
+/// An option or one of its values.
 struct OptionTerm {
   OptionId id = OptionId::kNone;
   const char* value = "";  ///< empty: any; "!hole": any but hole
@@ -250,21 +250,21 @@ struct CommandRow {
   Commands command;  ///< one bit
   const char* name;
   const char* summary;
-  const char* usage;  ///< behind the name
-  const char* notes;  ///< examples and exit codes, ends of lines included
+  const char* usage;  ///< follows the name
+  const char* notes;  ///< examples and exit codes, with line ends
 };
 
 struct GroupRow {
   OptionGroup group;
   const char* name;
-  const char* note;  ///< behind the name where help lists the group; may be empty
+  const char* note;  ///< follows the name in help; may be empty
 };
 
 std::span<const CommandRow> command_rows();
 std::span<const GroupRow> group_rows();
-/// Every row that the command has, in the order in which help lists them.
+/// The rows of the command, in the order of the help.
 std::vector<const OptionRow*> rows_of(Commands command);
-/// The same, and those that it accepts as they were spelled earlier.
+/// The same plus rows that it accepts under earlier spellings.
 std::vector<const OptionRow*> accepted_rows(Commands command);
 /// The row of the option ("--max-error", "-e") if one of the commands has it; else null.
 const OptionRow* find_option(Commands commands, std::string_view name);
@@ -276,12 +276,12 @@ const CommandRow* find_command(std::string_view name);
 std::string name_of(const OptionTerm& term);
 /// "tile-plan".
 const char* command_name(Commands command);
-/// The option as sentences name it: "--max-error", "--cutline inset".
+/// The option's name in messages: "--max-error", "--cutline inset".
 const std::string& name_of(OptionId id);
 
 }  // namespace scarp::cli
 
-/// An option is printed by its name.
+/// Prints an option by its name.
 template <>
 struct fmt::formatter<scarp::cli::OptionId> : fmt::formatter<std::string_view> {
   auto format(scarp::cli::OptionId id, fmt::format_context& context) const {

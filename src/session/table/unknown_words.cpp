@@ -20,12 +20,11 @@ namespace {
 
 struct Foreign {
   const char* words;   ///< words of other programs, without dashes, separated by blanks
-  OptionId meant;      ///< Scarp's option; kNone if there is none
+  OptionId meant;      ///< Scarp's option; kNone if it has none
   const char* advice;  ///< in place of "did you mean"; may be empty
 };
 
-/// Names that users of GDAL, hmm, delatin, gltfpack and mesh programs type. An entry whose option the command does not
-/// have is passed over.
+/// Names from GDAL, hmm, delatin, gltfpack and mesh programs. Entries for options that the command lacks are skipped.
 constexpr Foreign kForeign[] = {
     {"error err epsilon eps zerror z-error max-err maxerror tol threshold", OptionId::kMaxError, ""},
     {"percent percentage relative", OptionId::kMaxError, "a share of the relief is an error with a % behind it: -e 1%"},
@@ -68,7 +67,7 @@ constexpr Foreign kForeign[] = {
     {"optimize quality level compression-level", OptionId::kEffort, ""},
 };
 
-/// Lower case but for single letters, with dashes for underscores, without dashes in front and a value behind.
+/// Lower case, except single letters; dashes for underscores; without leading dashes and value.
 std::string bare(const std::string& word) {
   std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
   name.resize(std::min(name.find('='), name.size()));
@@ -79,9 +78,9 @@ std::string bare(const std::string& word) {
   return name;
 }
 
-/// True if one of the words is this one, or, of four letters or more, at most `most` letters away.
+/// True if one of the words equals this one or, with four letters or more, is at most `most` edits away.
 bool holds_word(std::string_view words, std::string_view word, std::size_t most = 0) {
-  constexpr std::size_t kLongest = 64;  // length of the longest of them
+  constexpr std::size_t kLongest = 64;  // length of the longest word
   if (word.size() > kLongest) return false;
   for (std::size_t begin = 0; begin < words.size();) {
     const std::size_t end = std::min(words.find(' ', begin), words.size());
@@ -102,7 +101,7 @@ std::vector<std::string> names_of(const CLI::App* command) {
   return names;
 }
 
-/// The text of ask_for(), or better advice; empty if nothing is like the word.
+/// The text of ask_for(), or better advice; empty if no word is similar.
 std::string advise(const CLI::App* command, const std::string& word) {
   const std::string name = bare(word);
   const std::vector<std::string> names = names_of(command);

@@ -1,4 +1,4 @@
-// A set of tiles on its way into its container, counted.
+// A tileset that counts its tiles on the way to the container.
 #pragma once
 
 #include <cstdint>

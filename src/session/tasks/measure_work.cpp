@@ -24,8 +24,8 @@ namespace {
 
 using enum OptionId;
 
-/// Fills mesh.channels from its 8-bit colours where the file holds nothing else, and checks their number. `path` is the
-/// mesh's, for the sentence.
+/// Fills mesh.channels from 8-bit colours if the file has nothing else, and checks their number. `path`: the mesh's,
+/// for the error.
 Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path) {
   const std::size_t bands = channels.count();
   if (mesh.channel_count > 0 && static_cast<std::size_t>(mesh.channel_count) == bands) return {};
@@ -48,7 +48,7 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
                           format_plural(bands, "band")));
 }
 
-/// The likeliest mistake of all: the mesh before the raster.
+/// Detects the most likely mistake: the mesh before the raster.
 Result<void> check_order(const GivenOptions& given) {
   if (given.inputs().size() != 1 || !find_mesh_file(given.input()) || find_mesh_format(lower_extension(*given[kMesh])))
     return {};

@@ -1,4 +1,4 @@
-// scarp measure without its terminal: reads a raster and a mesh, and judges the one by the other.
+// scarp measure without its terminal: reads a raster and a mesh, and judges the mesh.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct StreamedErrors {
 
 /// Reads raster and mesh, and judges.
 Result<void> judge_inputs(const GivenOptions& given, const Runner& runner, Judged& judged, StreamedErrors& errors);
-/// The files of --map and --error-raster.
+/// Writes the files of --map and --error-raster.
 Result<void> write_error_files(const GivenOptions& given, const Judged& judged, StreamedErrors& streamed);
 
 }  // namespace scarp::cli

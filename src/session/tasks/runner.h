@@ -1,4 +1,4 @@
-// Who runs a command: the program in a terminal, or a caller of the library's C door.
+// The caller of a command: the program in a terminal, or a user of the C library.
 #pragma once
 
 #include <functional>
@@ -10,11 +10,11 @@ namespace scarp::cli {
 
 struct Runner {
   ProgressCallback progress;
-  /// Polled by slow efforts, once on_keeping() was called: true if the mesh so far will do. May be empty.
+  /// Polled by slow efforts after on_keeping(): true if the mesh so far is sufficient. May be empty.
   std::function<bool()> is_enough = {};
-  /// From now on there is a mesh that keeps the promise. May be empty.
+  /// Called once a mesh keeps the promise. May be empty.
   std::function<void()> on_keeping = {};
-  /// May change how inputs are read, before they are. May be empty.
+  /// May change the read options before inputs are read. May be empty.
   std::function<void(ReadOptions&)> on_plan = {};
 };
 

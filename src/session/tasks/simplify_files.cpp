@@ -68,7 +68,7 @@ Result<void> add_picture(const std::string& path, const Picture& picture, std::v
   return {};
 }
 
-/// The approximation in its colours, which is then compared with the image; or as a hillshade.
+/// Draws the approximation in its colours, then compared with the image, or as a hillshade.
 Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
   const Picture rendered = draw_gouraud(outcome.field, outcome.simplified.mesh);
   if (!outcome.channels.empty()) outcome.psnr = find_psnr(rendered, draw_channels(outcome.channels.bands));
@@ -82,7 +82,7 @@ Result<void> add_preview(const SimplifyPlan& plan, const Outcome& outcome, std::
   return add_picture(*plan.preview, picture, files);
 }
 
-/// Writes rows as `make` hands them out.
+/// Writes rows as `make` delivers them.
 Result<std::shared_ptr<RasterFile>> write_rows(
     const SimplifyPlan& plan, const std::string& path, const Outcome& outcome,
     const std::function<Result<void>(const std::function<void(int row, std::span<const float> values)>& on_row)>&
@@ -99,7 +99,7 @@ Result<std::shared_ptr<RasterFile>> write_rows(
   return std::make_shared<RasterFile>(std::move(raster));
 }
 
-/// Judges the heights once more, and writes each row as it comes.
+/// Judges the heights again and writes each row immediately.
 Result<void> add_streamed_errors(const SimplifyPlan& plan, JudgeOptions options, const Outcome& outcome,
                                  std::vector<ReadyFile>& files) {
   auto raster = write_rows(plan, *plan.error_raster, outcome, [&](const auto& on_row) -> Result<void> {
@@ -112,7 +112,7 @@ Result<void> add_streamed_errors(const SimplifyPlan& plan, JudgeOptions options,
   return {};
 }
 
-/// Signed errors of the heights; of an image, the norms over its bands.
+/// Writes signed errors of heights, or for an image the norms over its bands.
 Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& progress, const Outcome& outcome,
                               std::vector<ReadyFile>& files) {
   JudgeOptions options;
@@ -147,7 +147,7 @@ std::vector<Mesh> named_solids(const SimplifyPlan& plan, const Outcome& outcome)
   return solids;
 }
 
-/// A file for each print tile; the first of them replaces OUTPUT's file.
+/// Adds a file for each print tile; the first replaces OUTPUT's file.
 Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
   const std::vector<std::string> paths = print_paths(plan, *outcome.print);
   const std::vector<Mesh> solids = named_solids(plan, outcome);
@@ -162,19 +162,19 @@ Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome
   return {};
 }
 
-/// The approximation on the raster's grid.
+/// Encodes the approximation on the raster's grid.
 Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Outcome& outcome) {
   const Mesh& mesh = outcome.simplified.mesh;
   SCARP_TRY(const std::vector<float>& heights, resample(outcome.field, mesh, plan.simplify.run.threads));
   return encode_raster({heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
 }
 
-/// True if OUTPUT is made from the samples as well as from the mesh.
+/// True if OUTPUT needs samples besides the mesh.
 bool reads_samples(const SimplifyPlan& plan) {
   return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value() || plan.html.has_value();
 }
 
-/// Fills in OUTPUT.
+/// Encodes OUTPUT.
 Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, ReadyFile& file) {
   const Mesh& mesh = outcome.simplified.mesh;
   const bool is_dem = plan.format.kind == OutputKind::kDem;
@@ -195,7 +195,7 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
   return {};
 }
 
-/// In place of OUTPUT, which holds the finest level: all of them, in a file each or in one.
+/// Replaces OUTPUT, the finest level, by all levels: separate files or one.
 Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
   std::vector<ReadyFile> levels{std::move(files.front())};
   for (Level& level : outcome.coarser) {
@@ -220,7 +220,7 @@ Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vect
   return {};
 }
 
-/// 1, 2 or 5 times a power of ten, with at most 20 multiples on the relief.
+/// 1, 2 or 5 times a power of ten, at most 20 multiples of which span the relief.
 double round_interval(const Mesh& mesh) {
   double low = 0, high = 0;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -236,7 +236,7 @@ double round_interval(const Mesh& mesh) {
   return 10 * power;
 }
 
-/// A FeatureCollection as GDAL writes it: a CRS is named unless the mesh is in a frame of its own.
+/// A FeatureCollection like GDAL's: it names the CRS unless the mesh is in a frame of its own.
 Result<void> add_contours(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
   const Mesh& mesh = outcome.simplified.mesh;
   SCARP_TRY(const auto interval, plan.given.number(kContourInterval));
@@ -319,7 +319,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (plan.given.first_of({kMaterials, kNodeStrings}))
     outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
-  // They may use more memory than the mesh and its file.
+  // They may need more memory than the mesh and its file.
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
   SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
   if (plan.levels) {

@@ -1,4 +1,4 @@
-// The files of a run of `scarp simplify`, encoded and ready to be written.
+// Encodes the files of `scarp simplify`, ready to be written.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace scarp::cli {
 
-/// Compression, and the images that a GLB file holds.
+/// Compression and images of a GLB file.
 Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome);
-/// Closes the mesh into a solid where that was asked for, and writes into it who made it and where it lies.
+/// Closes the mesh into a solid on request, and records its origin and place.
 Result<void> complete_mesh(const SimplifyPlan& plan, Outcome& outcome);
 
-/// Every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for. The field's samples
-/// are given back before OUTPUT is encoded, unless it is made from them.
+/// Encodes all files except the report, OUTPUT first, after closing the mesh into a solid on request. Releases the
+/// field's samples before encoding OUTPUT unless that needs them.
 Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
                                             Outcome& outcome);
 

@@ -33,7 +33,7 @@ using enum OptionId;
 
 constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
 
-/// Bytes of vector files, in addition to the raster's.
+/// Bytes of vector files, besides the raster's.
 std::uint64_t vector_bytes(const SimplifyPlan& plan) {
   const auto file = plan.given.first_of({kBreaklines, kWater, kRivers, kMaterials, kNodeStrings, kCutline, kRoi});
   return file ? kVectorBytes : 0;
@@ -149,7 +149,7 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   return {};
 }
 
-/// OBJ has no place for channels other than colours: an image would lose its bound, a texture its values.
+/// OBJ cannot hold channels other than colours: an image would lose its bound, a texture its values.
 Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channels) {
   const bool is_obj = plan.format.is_mesh() && plan.format.mesh == MeshFormat::kObj;
   if (!is_obj || channels.empty() || channels.are_colors()) return {};
@@ -163,14 +163,14 @@ Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channel
   return {};
 }
 
-/// A judgement beyond simplify()'s own proof.
+/// Records a judgement beyond simplify()'s own proof.
 void add_judging(Clock::time_point start, Outcome& outcome) {
   const double seconds = seconds_since(start);
   outcome.simplified.passes.push_back({"judge", seconds});
   outcome.simplified.seconds_measure += seconds;
 }
 
-/// simplify() reports the largest errors of all samples; where some are ignored, this finds those of the others.
+/// simplify() reports the largest errors over all samples; if some are ignored, this finds those of the others.
 Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
   const Companions& companions = outcome.companions;
@@ -196,7 +196,7 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   return {};
 }
 
-/// The engine proves its own result; a mesh whose proof does not hold is never written.
+/// The engine proves its own result; a mesh whose proof fails is never written.
 Result<void> check_promise(const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
   const Measurement& measured = simplified.measurement;
@@ -207,7 +207,7 @@ Result<void> check_promise(const Outcome& outcome) {
   const std::optional<double> asked = has_tolerance ? simplified.tolerance_factor : outcome.asked;
   if (asked && (!has_budget_ended || has_tolerance)) {
     const double height_scale = outcome.channels.empty() ? 1 : outcome.channels.height_scale;
-    // With weights the engine subtracted the rounding of the samples from each bound before it weighed the errors.
+    // With weights, the engine subtracted the samples' rounding from each bound before weighing errors.
     const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
     const double allowance =
         judging_allowance(*asked, measured.heights) + 1e-12 * outcome.channels.magnitude +
@@ -221,8 +221,8 @@ Result<void> check_promise(const Outcome& outcome) {
   return fail(ErrorKind::kPromise, kBroken + format_plural(measured.uncovered, "sample") + " without a triangle");
 }
 
-/// simplify() omits the topology where it holds by construction; a report states what was checked, not what must hold.
-/// A print is judged as a whole: its proof was that of the terrain.
+/// simplify() omits the topology if it holds by construction, but a report contains only what was checked. A print is
+/// judged as a whole: its proof covered the terrain.
 Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan& plan, Outcome& outcome) {
   MeasureOptions options;
   options.cutline = outcome.cut.judged();
@@ -239,13 +239,13 @@ Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan
   return {};
 }
 
-/// Slow efforts hold a mesh that keeps the bound all the while.
+/// True for slow efforts, which always have a mesh that keeps the bound.
 bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
   const bool is_long = options.quality.effort == Effort::kHigh || options.quality.effort == Effort::kMax;
   return is_long && !options.goals.max_triangles && !options.goals.max_vertices && options.run.memory.limit == 0;
 }
 
-/// Simplifies all levels. The finest is what is returned, the others are the outcome's.
+/// Simplifies all levels. Returns the finest; the others are in the outcome.
 Result<Simplified> simplify_as_levels(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
   Result<std::vector<Simplified>> levels = simplify_levels(outcome.view(), options, *plan.levels);
   if (!levels) return tl::unexpected(std::move(levels.error()));
@@ -256,7 +256,7 @@ Result<Simplified> simplify_as_levels(const SimplifyPlan& plan, const SimplifyOp
   return std::move(levels->front());
 }
 
-/// simplify_for_print(), with the names of options in its complaints.
+/// simplify_for_print() with errors in terms of options.
 Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightField& field,
                                          const SimplifyOptions& options) {
   if (plan.is_split() && !field.frame.is_affine()) {
@@ -275,7 +275,7 @@ Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightFi
   return tl::unexpected(std::move(error));
 }
 
-/// A print is made with its mesh.
+/// A print is made together with its mesh.
 Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
   if (plan.by_paper) {
     return simplify_by_paper(outcome.view(), {options.goals, options.tolerances, options.features.points,
@@ -285,7 +285,7 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   if (!plan.solid) return simplify(outcome.view(), options);
   SCARP_TRY(PrintedTerrain printed, simplify_as_print(*plan.solid, outcome.field, options));
   outcome.print = std::move(printed.print);
-  // The mesh may be smaller than the samples, and the print of it at a larger scale than was estimated.
+  // The mesh may be smaller than the samples, and its print at a larger scale than estimated.
   if (plan.solid->max_error && outcome.asked)
     outcome.asked = std::min(*outcome.asked, *plan.solid->max_error / outcome.print->placement.scale[2]);
   return std::move(printed.simplified);
@@ -322,7 +322,7 @@ Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runn
   SCARP_RETURN_IF_ERROR(check_frame_of_lines(find_lines(plan.given) ? name_of(*find_lines(plan.given)) : "", frame,
                                              plan.read.crs, plan.input));
   SimplifyOptions options = plan.simplify;
-  // Filled nodata is not the same on both sides of an edge.
+  // Filled nodata differs on both sides of an edge.
   if (options.output.normals && options.domain.border.is_locked && plan.policy == NodataPolicy::kHole) {
     const OwnedHeightField& field = outcome.field;
     SCARP_TRY(options.domain.border.beyond,

@@ -12,7 +12,7 @@ namespace scarp::cli {
 /// Reads the inputs, simplifies, and checks the promise. Warnings go to `plan` and `outcome`.
 Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runner& runner, Outcome& outcome);
 
-/// The limit of the process, and the bytes that it uses in addition to the mesh; of no limit: zeros.
+/// The process's limit and the bytes in use besides the mesh; zeros without a limit.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);
 
 }  // namespace scarp::cli

@@ -1,4 +1,4 @@
-// A script that hands a plan to SLURM: an array of shares, and what joins them when all have ended.
+// A script that submits a plan to SLURM: an array of shares, then a job that joins them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Work on a level of a run as if it were the run's own mesh.
+// Treats a level of a run as the run's own mesh.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// The type of reports, for those who hand them on; json_text.h for those who make them.
+// The type of reports, forward-declared; json_text.h creates reports.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -23,23 +23,23 @@ std::string format_share(double part, double whole);
 /// "1 triangle", "2 triangles".
 std::string format_plural(std::uint64_t n, std::string_view noun);
 
-/// The last component of a path or URL, without a URL's query (which may hold a key).
+/// The last component of a path or URL, without a URL's query, which may contain a key.
 std::string base_name(const std::string& path);
-/// The word as a POSIX shell would need it: quoted where it holds more than letters, digits and plain punctuation.
+/// Quotes the word for a POSIX shell if it has more than letters, digits and plain punctuation.
 std::string shell_word(const std::string& word);
 
 /// A line of a summary.
 std::string summary_line(const char* name, const std::string& value);
 
-/// Writes `text` to stderr. A failure is ignored, since it cannot be reported.
+/// Writes `text` to stderr. Ignores failures, which cannot be reported.
 void print_to_stderr(std::string_view text);
-/// `scarp: SENTENCE` on stderr, in one line whatever the message holds.
+/// `scarp: SENTENCE` on stderr, always in one line.
 void print_error(const Error& error);
 /// `scarp: warning: SENTENCE` on stderr, one line each.
 void print_warnings(const std::vector<std::string>& warnings);
-/// Writes `text` to stdout. kOutput if it cannot be written; a reader that has closed its pipe is no error.
+/// Writes `text` to stdout. kOutput if that fails, unless the reader has closed its pipe.
 Result<void> print_to_stdout(const std::string& text);
-/// The same for the summary of files that are written; prints nothing if the caller has closed stdout.
+/// Prints the summary of written files like print_to_stdout(); nothing if the caller has closed stdout.
 Result<void> print_summary(const std::string& text);
 
 /// The exit code of an error: 1 usage, 2 input, 3 promise, 4 output, 5 cancelled, 70 internal.

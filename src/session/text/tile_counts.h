@@ -4,7 +4,7 @@
 
 namespace scarp::cli {
 
-/// The tiles that a command has made so far.
+/// The tiles made so far.
 struct TileCounts {
   std::uint64_t tiles = 0, bytes = 0;
 };

@@ -1,5 +1,5 @@
-// Triangles have corners on units of the tile, nodes lie on its steps-th parts: in parts of both, a (units · steps)th,
-// all are whole numbers, and the functions of the sides that separate in from out are exact in 64 bits.
+// Corners of triangles are multiples of the tile's units, nodes multiples of 1 / steps of a side. As multiples of 1 /
+// (units · steps) all are integers, and the edge functions are exact in 64 bits.
 #include "tiles/mesh/node_scan.h"
 
 #include <algorithm>
@@ -11,26 +11,26 @@ namespace {
 
 constexpr std::int32_t kLanes = 4;
 
-/// A point in such parts, y to the south. From a node to the next are as many as the tile has units.
+/// A point in such multiples, y to the south. Two neighbouring nodes are `units` multiples apart.
 struct UnitPoint {
   std::int64_t x = 0, y = 0;
 };
 
-/// The region on the right of a way to the south, or on the left of one to the north, on rows that the way crosses.
+/// A triangle's side, restricted to the rows that it crosses.
 class Side {
  public:
   Side(UnitPoint from, UnitPoint to, std::int64_t node)
       : from_(from), dx_(to.x - from.x), dy_(to.y - from.y), node_(node) {
     slope_ = static_cast<double>(dx_) / static_cast<double>(dy_);
   }
-  /// The first column east of the side on a row of nodes, or on it; REQUIRES: not level.
+  /// The first column of nodes on the side or east of it. REQUIRES: not level.
   std::int32_t first(std::int32_t row) const {
     std::int32_t col = near(row);
     while (is_east(col - 1, row)) --col;
     while (!is_east(col, row)) ++col;
     return col;
   }
-  /// The last column west of the side, or on it.
+  /// The last column of nodes on the side or west of it.
   std::int32_t last(std::int32_t row) const {
     std::int32_t col = near(row);
     while (is_west(col + 1, row)) ++col;
@@ -39,7 +39,7 @@ class Side {
   }
 
  private:
-  /// A column next to the side, up to rounding.
+  /// A column next to the side, within the rounding error.
   std::int32_t near(std::int32_t row) const {
     const auto y = static_cast<double>(node_ * row - from_.y);
     return static_cast<std::int32_t>(
@@ -85,7 +85,7 @@ class NodeScan {
           look_at(row, short_side.first(row), long_side.last(row));
       }
     };
-    // The middle corner's row belongs to the upper part, or to the lower one where the upper is level.
+    // The middle corner's row belongs to the upper part, or to the lower one if the upper one is level.
     const std::int32_t last_above = row_to(middle.y);
     if (top.y < middle.y) rows(Side(top, middle, node_), row_from(top.y), last_above);
     const std::int32_t first_below = row_from(middle.y);
@@ -127,7 +127,7 @@ class NodeScan {
     std::fill_n(covered_.begin() + static_cast<std::ptrdiff_t>(side_ * static_cast<std::size_t>(row)) + first, count,
                 std::uint8_t{1});
     const auto error = [&](std::int32_t i) { return std::abs(start + step * i - double{heights[i]}); };
-    // Maxima side by side, for vectors.
+    // Maxima in lanes, for vectorization.
     std::array<double, kLanes> lanes{};
     for (std::int32_t i = 0; i < whole; i += kLanes) {
       for (std::int32_t k = 0; k < kLanes; ++k) {

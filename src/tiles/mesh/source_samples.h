@@ -1,4 +1,4 @@
-// Compares a tile with the samples of its source, each at its own place between the nodes.
+// Compares a tile with the samples of its source at their places between the nodes.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 namespace scarp {
 
 struct SampleVerdict {
-  double error = 0;                  ///< the largest; NaN: the source shows no samples
-  std::vector<FarPoint> far_points;  ///< the worst of each triangle, of those beyond the limit
+  double error = 0;                  ///< largest error; NaN: the source has no samples
+  std::vector<FarPoint> far_points;  ///< worst sample of each triangle beyond the limit
 };
 
-/// Samples in a cell with a node that has no height do not count. `nodes`: of the tile. Fails as the source does.
+/// Ignores samples in a cell with a node that has no height. `nodes`: of the tile. Fails as the source does.
 Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& grid, const TileNodes& nodes,
                                        const NodeSource& source,
                                        double limit = std::numeric_limits<double>::infinity());

@@ -8,9 +8,9 @@
 namespace scarp {
 namespace {
 
-/// Tolerances that are tried, each 63/64 of the one before; then every node is a vertex.
+/// Number of tolerances to try, each 63/64 of the one before; then every node becomes a vertex.
 constexpr int kTrials = 64;
-/// Share of the max error; the rest is for rounding in the judge.
+/// Share of the max error; the rest covers rounding in the judge.
 constexpr double kShare = 511.0 / 512;
 
 /// Largest error of the line through `vertices` as clients decode it.

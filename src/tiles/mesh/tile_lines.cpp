@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// A node of a level's lattice on the whole globe, from 180° W and the north pole; columns continue around it.
+/// A node of a level's lattice on the whole globe, from 180° W and the north pole; columns continue beyond a turn.
 using Node = std::array<std::int64_t, 2>;
 using Place = std::array<double, 2>;
 
@@ -23,7 +23,7 @@ double distance_to(const Place& p, const Place& a, const Place& b) {
   return std::hypot(p[0] - a[0] - share * dx, p[1] - a[1] - share * dy);
 }
 
-/// Douglas and Peucker's, without recursion.
+/// The algorithm of Douglas and Peucker, without recursion.
 std::vector<Place> simplify_line(const std::vector<Place>& line) {
   std::vector<bool> stays(line.size(), false);
   stays.front() = stays.back() = true;
@@ -51,14 +51,13 @@ std::vector<Place> simplify_line(const std::vector<Place>& line) {
   return kept;
 }
 
-/// A node where a segment passes the edges of tiles, and how far along it, as a fraction.
+/// A node where a segment crosses edges of tiles, and its position along the segment as a fraction.
 struct Crossing {
   Node node;
   std::int64_t share, whole;
 };
 
-/// Adds the crossings of a segment with the tiles' edges that are so many steps apart, across `axis`; those between low
-/// and high alone.
+/// Adds the crossings of a segment with tile edges across `axis`, `cells` steps apart, between low and high only.
 void add_crossings(const Node& a, const Node& b, std::size_t axis, std::int64_t cells, std::int64_t low,
                    std::int64_t high, std::vector<Crossing>& crossings) {
   const std::size_t other = 1 - axis;
@@ -67,7 +66,7 @@ void add_crossings(const Node& a, const Node& b, std::size_t axis, std::int64_t 
   for (std::int64_t at = (floor_of(from, cells) + 1) * cells; at < to; at += cells) {
     if (at == a[axis] || at == b[axis]) continue;
     const std::int64_t share = way * (at - a[axis]);
-    // The nearest node on the edge; of two the one farther south or east.
+    // The nearest node on the edge; for ties the one farther south or east.
     const Int128 up = 2 * Int128{b[other] - a[other]} * share + whole, down = 2 * Int128{whole};
     const Int128 rounded = up / down - (up % down < 0 ? 1 : 0);
     Crossing crossing{{}, share, whole};
@@ -77,7 +76,7 @@ void add_crossings(const Node& a, const Node& b, std::size_t axis, std::int64_t 
   }
 }
 
-/// The part of the lattice that matters.
+/// The relevant part of the lattice.
 struct Extent {
   std::int64_t west, north, east, south;
 };
@@ -166,13 +165,13 @@ class LevelLines {
     }
   }
 
-  /// Adds the step to the tile that both ends lie in; along an edge the tiles' outlines have it already.
+  /// Adds the step to the tile that contains both ends. Skips steps along an edge, which outlines of tiles include.
   void add_step(const Node& a, const Node& b) {
     if (a == b) return;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (a[axis] == b[axis] && a[axis] % cells_ == 0) return;
     }
-    // The tile of the middle, which lies on no edge; computed from twice the middle.
+    // The tile of the middle, which lies on no edge; computed from the doubled middle.
     const std::int64_t column = floor_of(a[0] + b[0], 2 * cells_), row = floor_of(a[1] + b[1], 2 * cells_);
     const auto local = [&](const Node& node) {
       return std::array<std::int64_t, 2>{node[0] - column * cells_, node[1] - row * cells_};
@@ -196,7 +195,7 @@ class LevelLines {
   Tiles tiles_;
 };
 
-/// Without jumps around the globe.
+/// The line without jumps around the globe.
 std::vector<Place> unrolled(const DegreeLine& line) {
   std::vector<Place> places;
   for (const auto& [longitude, latitude] : line) {

@@ -1,8 +1,8 @@
-// Lines that the meshes of tiles have as edges.
+// Lines that become edges of tile meshes.
 //
-// A level knows a line on its own lattice, `cells` steps a tile: the line is simplified to half a step, its vertices go
-// to the nearest nodes of the lattice, and where it passes from a tile to the next there is one more, the nearest node
-// on the edge. All this is a function of the line and the level, so that both tiles have the same vertex on their edge.
+// A level has its own lattice for lines, `cells` steps a tile. A line is simplified to half a step, and its vertices
+// are moved to the nearest lattice nodes. Where it crosses an edge between tiles, the nearest node on the edge becomes
+// a vertex. All this depends only on the line and the level: both tiles have the same vertex on their edge.
 #pragma once
 
 #include <array>
@@ -21,21 +21,21 @@ namespace scarp {
 
 class TileLines {
  public:
-  /// A node of a tile: column, row, from its north-western corner.
+  /// A node of a tile: column and row from its north-western corner.
   using Node = std::array<std::int32_t, 2>;
-  /// The lines that pass a tile.
+  /// The lines through a tile.
   struct Paths {
-    std::vector<std::array<Node, 2>> steps;  ///< straight; none of them along an edge of the tile
+    std::vector<std::array<Node, 2>> steps;  ///< segments; none of them along an edge of the tile
     EdgeVertices edges;                      ///< nodes that must be vertices, ascending, each once
   };
 
-  /// Builds the lines of levels 0 … max_zoom. `covered`: elsewhere nothing is known, but for tiles around it down to
-  /// the block level.
+  /// Builds the lines of levels 0 … max_zoom. `covered`: lines exist only there, and in neighbouring tiles down to the
+  /// block level.
   TileLines(std::vector<DegreeLine> lines, const TileGrid& grid, int cells, int max_zoom, int block_level,
             const DegreeBox& covered);
 
   const std::vector<DegreeLine>& lines() const { return lines_; }
-  /// Null: nothing passes it.
+  /// Null if no line passes through the tile.
   const Paths* find(TileId id) const;
 
  private:

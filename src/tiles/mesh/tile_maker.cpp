@@ -1,4 +1,4 @@
-// A tile from its nodes: edges first, then the mesh between them, then the proof of what clients will decode.
+// Makes a tile from its nodes: edges, then the mesh between them, then the proof of the decoded mesh.
 #include "tiles/mesh/tile_maker.h"
 
 #include <fmt/format.h>
@@ -27,12 +27,12 @@
 namespace scarp {
 namespace {
 
-/// Meshes that are made at most, until what clients decode satisfies the level's max error.
+/// Meshes to try until the decoded one satisfies the level's max error.
 constexpr int kMeshTrials = 12;
-/// Vertices lie on these parts of a step: those of lines anywhere, free ones on eighths.
+/// Lattice steps between nodes: vertices of lines lie anywhere, free ones on eighths.
 constexpr std::int32_t kParts = 256;
-/// Share of the max error for edges if samples are bound: only the nodes of an edge decide its mesh, and samples lie
-/// next to it.
+/// Share of the max error for edges if samples are bound: only the edge's nodes decide its mesh, but samples lie next
+/// to it.
 constexpr double kEdgeShare = 0.25;
 
 class TileMaker {
@@ -59,7 +59,7 @@ class TileMaker {
     std::optional<TerrainTile> best;
     double least = std::numeric_limits<double>::infinity();
     for (int trial = 0; trial < kMeshTrials; ++trial) {
-      // A little less each time: the rounding of a forced vertex may break the bound elsewhere.
+      // A smaller error in each trial: the rounding of a forced vertex may break the bound elsewhere.
       auto mesh = refine((max_error - level_.quantum / 2) * (1 - trial / 128.0));
       if (!mesh && std::count(is_left_out_.begin(), is_left_out_.end(), false) > 0) {
         leave_lines_out({}, true);
@@ -85,7 +85,7 @@ class TileMaker {
       force_around(verdict.offenders);
       force_around(verdict.beside);
       if (worst <= max_error || verdict.offenders.size() + verdict.beside.size() == 0) break;
-      // The land between the nodes is too far from a sample.
+      // The surface between the nodes is too far from a sample.
       if (forced_.size() == before && verdict.error <= max_error) break;
     }
     if (!best) return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} folds over", id_.z, id_.x, id_.y));
@@ -93,7 +93,7 @@ class TileMaker {
     return std::move(*best);
   }
 
-  /// Between the lowest and the highest node of the mesh: a larger max error changes nothing.
+  /// The range of heights in the mesh: larger max errors have no effect.
   double relief() const {
     const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
     return double{*high} - double{*low};
@@ -107,7 +107,7 @@ class TileMaker {
     return static_cast<std::size_t>(row - land_.top) * static_cast<std::size_t>(cols()) + static_cast<std::size_t>(col);
   }
 
-  /// The samples that the engine sees: multiples of the quantum; on the edges the lines themselves.
+  /// Sets the samples for the engine: multiples of the quantum, on edges the edge lines.
   void lay_edges() {
     samples_.resize(index(0, land_.bottom + 1));
     for (std::int32_t row = land_.top; row <= land_.bottom; ++row) {
@@ -129,7 +129,7 @@ class TileMaker {
     edges_.right = lay_edge(down, &EdgeVertices::right, [&](std::int32_t i) { return std::pair{right, top + i}; });
   }
 
-  /// Number of the tile's nodes between two of the lattice of lines.
+  /// Steps between nodes of the tile per step of the lines' lattice.
   std::int32_t line_step() const { return steps() / plan_.cells; }
 
   template <class Place>
@@ -163,8 +163,8 @@ class TileMaker {
     return static_cast<float>(level_.quantum * quanta_of(double{height}, level_.quantum));
   }
 
-  /// Nodes of which the mesh is too far become vertices, and those around them, so that no needle of a triangle ends
-  /// there, whose corner's rounding would tilt it.
+  /// Forces nodes with too large errors to be vertices, and nodes around them: otherwise a needle may end there, tilted
+  /// by rounding its corner.
   void force_around(const std::vector<SampleAt>& nodes) {
     for (const auto& [col, row] : nodes) {
       for (std::int32_t y = std::max(row - 1, land_.top + 1); y <= std::min(row + 1, land_.bottom - 1); ++y) {
@@ -175,7 +175,7 @@ class TileMaker {
     }
   }
 
-  /// Distance of a node from a straight piece of a line, in nodes.
+  /// Distance of a node from a segment of a line, in nodes.
   double distance_to_line(std::size_t k, std::int32_t col, std::int32_t row) const {
     const auto& [from, to] = paths_->steps[k];
     const double dx = (to[0] - from[0]) * line_step(), dy = (to[1] - from[1]) * line_step();
@@ -184,7 +184,7 @@ class TileMaker {
     return std::hypot(x - share * dx, y - share * dy);
   }
 
-  /// So near a line, and not on it, that a triangle between them would be a needle.
+  /// True if the node is off a line, but so close that a triangle between them would be a needle.
   bool is_beside_line(std::int32_t col, std::int32_t row) const {
     for (std::size_t k = 0; k < is_left_out_.size(); ++k) {
       if (is_left_out_[k]) continue;
@@ -194,7 +194,7 @@ class TileMaker {
     return false;
   }
 
-  /// Omits the pieces of lines whose triangles turn over there when they are rounded; or all.
+  /// Omits segments of lines near triangles that rounding turns over, or all segments.
   void leave_lines_out(const std::vector<SampleAt>& folds, bool all) {
     for (std::size_t k = 0; k < is_left_out_.size(); ++k) {
       const auto is_near = [&](const SampleAt& at) { return distance_to_line(k, at.col, at.row) <= 1; };
@@ -238,7 +238,7 @@ class TileMaker {
   }
 
   TerrainTile quantize(const Mesh& mesh) const {
-    // A mesh of whole numbers, for the order of its vertices.
+    // A mesh with integer positions, for the order of its vertices.
     Mesh whole;
     whole.triangles = mesh.triangles;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -263,7 +263,7 @@ class TileMaker {
     return tile;
   }
 
-  /// Twice its area, in units.
+  /// Twice the triangle's area, in units.
   static std::int64_t area_of(const TerrainTile& tile, std::size_t first) {
     const std::uint32_t a = tile.triangles[first], b = tile.triangles[first + 1], c = tile.triangles[first + 2];
     const std::int64_t abx = tile.u[b] - tile.u[a], aby = tile.v[b] - tile.v[a];
@@ -271,8 +271,7 @@ class TileMaker {
     return abx * acy - acx * aby;
   }
 
-  /// Unfolds slivers next to lines that rounding has turned over: moves an inner corner to the best place up to two
-  /// quanta away.
+  /// Unfolds slivers next to lines after rounding: moves an inner corner by at most two quanta to the best place.
   static void unfold(TerrainTile& tile) {
     std::vector<std::vector<std::size_t>> stars;
     const auto least_area = [&](std::uint32_t v) {
@@ -340,7 +339,7 @@ class TileMaker {
   const std::int32_t units_;
   const TileRows rows_;
   const TileJudge& judge_;
-  const TileLines::Paths* paths_ = nullptr;  ///< null: no line passes the tile
+  const TileLines::Paths* paths_ = nullptr;  ///< null: no line passes through the tile
   std::vector<bool> is_left_out_;            ///< by step of the paths
   std::vector<float> samples_;
   EdgeVertices edges_;

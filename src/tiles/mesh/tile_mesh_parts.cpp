@@ -19,7 +19,7 @@ std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, c
   std::vector<std::array<std::uint8_t, 2>> normals;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
     const std::int32_t col = nearest_node(tile.u[k], steps, tile.units), row = rows.nearest(tile.v[k]);
-    // The node's degrees by its place on the globe, so that tiles on either side of an edge have the same bits.
+    // Degrees of the node by its place on the globe, so that tiles on both sides of an edge have the same bits.
     const double longitude = window.longitude(window.col + col), latitude = window.latitude(window.row + row);
     const Ground::Axes axes = ground.axes(longitude, latitude);
     Space normal = axes.up;

@@ -1,4 +1,4 @@
-// The parts of a tile's mesh besides its vertices: normals, sag, and its positions for the judge.
+// The parts of a tile's mesh besides its vertices: normals, sag, and positions for the judge.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 
 namespace scarp {
 
-/// The node next to a place of 0 … `units` on a side of so many steps.
+/// The node nearest to a place of 0 … `units` on a side of so many steps.
 inline std::int32_t nearest_node(std::uint16_t place, std::int32_t steps, std::int32_t units) {
   return static_cast<std::int32_t>((std::int64_t{place} * steps * 2 + units) / (2 * std::int64_t{units}));
 }
 
-/// Nodes to either side that a normal is made of: 1/256 of the tile, at least one.
+/// Nodes to either side that affect a normal: 1/256 of the tile, at least one.
 std::int32_t normal_reach(std::int32_t steps);
 
-/// Central differences at the nearest node of each vertex: a function of node and level, so equal in all tiles there.
-/// At a pole away from the earth.
+/// Central differences at the nearest node of each vertex. They depend only on node and level, so adjacent tiles agree.
+/// At a pole the normal points away from the earth.
 std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, const TileNodes& nodes,
                                                       const TileRows& rows, const TileGrid& grid, const Ground& ground);
 
-/// How far the ground's curve rises above the flat triangles at most: r² / 2R, r the radius of the smallest circle
-/// around a triangle, R the smallest radius of curvature.
+/// The largest height of the curved ground above flat triangles: r² / 2R, where r is the radius of a triangle's
+/// smallest enclosing circle, R the smallest radius of curvature.
 double largest_sag(const TerrainTile& tile, const TileGrid& grid, const Ground& ground);
 
 /// The mesh that clients decode, x and y in steps from the south-western node, heights in metres as float32.

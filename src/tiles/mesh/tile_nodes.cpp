@@ -85,7 +85,7 @@ bool TileNodes::has_heights_around(double col, double row) const {
 }
 
 TileNodes TileNodes::flat(const PyramidPlan& plan, TileId id, std::int32_t least_steps) {
-  // Above the blocks, where the land ends between nodes, as many as tiles have there.
+  // Above the blocks the land may end between nodes; tiles then have this many steps.
   const std::int32_t most = id.z >= plan.block_level ? steps_of(plan, id.z) : 2 * kCoarseCells;
   TileNodes nodes;
   nodes.steps_ = least_steps;

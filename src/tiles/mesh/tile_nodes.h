@@ -9,43 +9,43 @@
 
 namespace scarp {
 
-/// Cells a side of the tiles that the levels above the blocks are made of: coarse_nodes.h.
+/// Cells a side of coarse tiles, which form the levels above the blocks: coarse_nodes.h.
 inline constexpr std::int32_t kCoarseCells = 128;
-/// Nodes of a side of a tile at or below the plan's block level.
+/// Steps of a side of a tile at or below the plan's block level.
 inline std::int32_t steps_of(const PyramidPlan& plan, int z) { return plan.cells << (plan.max_zoom() - z); }
 
-/// Nodes from the western and to the southern side of a tile.
+/// Nodes of a tile: columns from its western side to `right`, rows from `top` to `bottom`.
 struct NodeArea {
   std::int32_t top = 0, right = 0, bottom = 0;
 
   friend bool operator==(const NodeArea&, const NodeArea&) = default;
 };
-/// The part with land of a tile with so many steps: all of it, but for tiles that a local grid's raster fills in part.
+/// The part with land of a tile with so many steps: the whole tile, unless a local grid's raster only partly covers it.
 NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps);
 
-/// steps + 1 nodes a side, and `halo` more on each side; beyond the grid's ends the last row's own.
+/// steps + 1 nodes a side, and `halo` more on each side; beyond the grid's ends the last row repeats.
 class TileNodes {
  public:
   /// `steps`: of the tile's sides. Nodes without a height get the background's.
   static Result<TileNodes> read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                 const NodeSource& source);
 
-  /// Nodes all of one height, with one more around; at least so many steps, and as many as needed to end where the land
-  /// does.
+  /// Nodes of the same height, with one more around. At least `least_steps` steps, more if needed to end where the land
+  /// ends.
   static TileNodes flat(const PyramidPlan& plan, TileId id, std::int32_t least_steps);
 
   std::int32_t steps() const { return steps_; }
   const NodeArea& land() const { return land_; }
   bool has_heights() const { return has_heights_; }  ///< true if at least one of its own nodes has a height
-  /// True if some of its own nodes got the background's height.
+  /// True if some of its own nodes have the background's height.
   bool has_voids() const { return !voids_.empty(); }
-  /// True if the four of its own nodes around a place between them had heights. REQUIRES: 0 <= col, row <= steps.
+  /// True if the four of its own nodes around a place had heights. REQUIRES: 0 <= col, row <= steps.
   bool has_heights_around(double col, double row) const;
-  /// All nodes, those around it too, have the background's height.
+  /// True if all nodes, including the halo, have the background's height.
   bool is_flat() const { return is_flat_; }
   /// REQUIRES: −halo <= col, row <= steps + halo. Rows go south.
   float at(std::int32_t col, std::int32_t row) const { return heights_[index(col, row)]; }
-  /// The heights of a row from a column on, side by side.
+  /// The heights of a row from a column on, contiguous.
   const float* from(std::int32_t col, std::int32_t row) const { return &heights_[index(col, row)]; }
 
  private:
@@ -53,8 +53,8 @@ class TileNodes {
     return static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
            static_cast<std::size_t>(col + halo_);
   }
-  /// Nodes without a height get the background's. `first_col`, `end_col`: of its own nodes only these columns have
-  /// heights.
+  /// Gives the background's height to nodes without one. Of its own nodes only the columns from `first_col` to
+  /// `end_col` have heights.
   void fill_voids(float background, std::int32_t first_col, std::int32_t end_col);
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 

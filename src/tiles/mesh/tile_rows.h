@@ -1,5 +1,5 @@
-// The latitudes of a tile's rows of nodes for clients, who divide the degrees between its southern and its northern end
-// into 32767 equal steps, or into those of a local grid.
+// Latitudes of a tile's rows of nodes as clients place them. Clients divide the degrees between its southern and
+// northern end into 32767 equal steps, or into those of a local grid.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class TileRows {
 
   std::int32_t steps() const { return steps_; }
   bool are_even() const { return lines_.empty(); }
-  /// In steps below the northern end: the row's number where rows are evenly apart.
+  /// Steps below the northern end: the row's number if rows are evenly spaced.
   double line(std::int32_t row) const { return are_even() ? row : lines_[static_cast<std::size_t>(row)]; }
-  /// The row at or above a line, of those that have one below.
+  /// The row at or above a line, except the last row.
   std::int32_t above(double line) const;
-  /// The row next to a vertex's v.
+  /// The row nearest to a vertex's v.
   std::int32_t nearest(std::uint16_t v) const;
   /// v, 0 … grid.side_units() from the southern end, of a place `parts` of `per_step` steps north of it.
   std::uint16_t v_of(std::int64_t parts, std::int32_t per_step = 1) const;
@@ -28,9 +28,9 @@ class TileRows {
  private:
   TileGrid grid_;
   std::int32_t steps_;
-  std::int64_t first_row_, last_row_;  ///< the tile's northern row and the last of all, from the grid's northern end
+  std::int64_t first_row_, last_row_;  ///< the tile's northern row and the grid's last, from the grid's northern end
   double south_, north_;               ///< degrees
-  std::vector<double> lines_;          ///< empty where rows are evenly apart
+  std::vector<double> lines_;          ///< empty if rows are evenly spaced
 };
 
 }  // namespace scarp

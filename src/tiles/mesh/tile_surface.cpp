@@ -9,9 +9,9 @@
 namespace scarp {
 namespace {
 
-/// A point this far beyond a side, times the side's length, is still in the triangle. Rounding makes 1e-7 of it.
+/// A point within this distance · side length beyond a side still counts as inside. Rounding contributes 1e-7.
 constexpr double kSlack = 1e-6;
-/// Triangles that a walk passes at most before all are scanned: on meshes that are not Delaunay it may go in circles.
+/// Maximum number of triangles in a walk before all are scanned: on non-Delaunay meshes a walk may cycle.
 constexpr int kLongestWalk = 64;
 
 template <class Facet>
@@ -42,7 +42,7 @@ TileSurface::TileSurface(const TerrainTile& tile, double limit, Counts counts)
 }
 
 void TileSurface::link(const TerrainTile& tile) {
-  // Half-edges by their first vertex, as lists.
+  // Linked lists of half-edges by first vertex.
   const std::vector<std::uint32_t>& corners = tile.triangles;
   std::vector<std::uint32_t> first(tile.u.size(), kNone), next(corners.size());
   for (std::uint32_t h = 0; h < corners.size(); ++h) next[h] = std::exchange(first[corners[h]], h);

@@ -1,8 +1,7 @@
-// The mesh of a tile, and how far it is from rows of points.
+// The mesh of a tile and its error at rows of points.
 //
-// The points of a row lie side by side on a straight line, so that most lie in the triangle of the one before: there
-// the mesh's height along the row is linear. If the row exits a triangle, a walk across the edges that the next point
-// lies beyond finds its triangle.
+// The points of a row lie closely on a straight line, so most lie in the triangle of the previous one: there the mesh's
+// height along the row is linear. Where the row leaves a triangle, a walk across edges finds the next one.
 #pragma once
 
 #include <array>
@@ -23,7 +22,7 @@ struct PointRow {
   std::span<const float> heights;
 };
 
-/// A point that the mesh is too far from.
+/// A point whose error exceeds the limit.
 struct FarPoint {
   double u = 0, v = 0, height = 0, error = 0;
 };
@@ -31,18 +30,18 @@ struct FarPoint {
 /// Largest |mesh − height| over points in a tile.
 class TileSurface {
  public:
-  /// True if a point counts: asked only for those that would change the answer.
+  /// True if a point counts: called only for points that would change the result.
   using Counts = std::function<bool(double u, double v)>;
 
-  /// REQUIRES: triangles are positive and cover the tile. `limit`: far_points() are those with a larger error.
+  /// REQUIRES: triangles are positive and cover the tile. `limit`: far_points() have a larger error.
   explicit TileSurface(const TerrainTile& tile, double limit = std::numeric_limits<double>::infinity(),
                        Counts counts = {});
 
-  /// Points outside the tile do not count. Cost: some nanoseconds a point.
+  /// Ignores points outside the tile. Cost: some nanoseconds a point.
   void judge(const PointRow& row);
 
   double largest_error() const { return worst_; }
-  /// The worst of each triangle, by triangles.
+  /// The worst point of each triangle, by triangles.
   std::vector<FarPoint> far_points() const;
 
  private:
@@ -50,7 +49,7 @@ class TileSurface {
 
   struct Facet {
     std::array<double, 3> x{}, y{}, z{};
-    std::array<std::uint32_t, 3> beyond{kNone, kNone, kNone};  ///< across the side opposite to a corner
+    std::array<std::uint32_t, 3> beyond{kNone, kNone, kNone};  ///< the neighbour across the side opposite to a corner
   };
 
   void link(const TerrainTile& tile);
@@ -61,8 +60,8 @@ class TileSurface {
   Counts counts_;
   double side_ = 0;  ///< side of the tile, in units
   double limit_ = 0, worst_ = 0;
-  std::uint32_t start_ = 0;    ///< triangle where the row before began
-  std::vector<FarPoint> far_;  ///< by facet, where there is a limit
+  std::uint32_t start_ = 0;    ///< triangle where the previous row began
+  std::vector<FarPoint> far_;  ///< by facet, if there is a limit
 };
 
 }  // namespace scarp

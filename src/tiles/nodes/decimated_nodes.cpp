@@ -5,7 +5,7 @@
 namespace scarp {
 namespace {
 
-/// Nodes between two wanted ones, up to which all are read.
+/// Up to so many steps between wanted nodes, all nodes are read.
 constexpr std::int64_t kReadThrough = 64;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Few nodes of many.
+// Nodes on a coarser lattice.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// Coarser lattices of a source that is read on its finest one: each height is the source's own at that place.
+/// Coarser lattices of a source that is read on its finest one. Each height is the source's at that place.
 class DecimatedNodes final : public NodeSource {
  public:
   /// `per_turn`: steps of the finest lattice around the globe. Borrows the source.

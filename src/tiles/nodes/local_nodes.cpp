@@ -9,7 +9,7 @@
 namespace scarp {
 namespace {
 
-/// Samples that are shown at once, about.
+/// Approximate number of samples visited at once.
 constexpr std::int64_t kSamplesTogether = 1 << 20;
 
 class LocalNodes final : public NodeSource {

@@ -1,4 +1,4 @@
-// Nodes above the ellipsoid, of heights above the sea.
+// Raises nodes from heights above the sea to heights above the ellipsoid.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace scarp {
 namespace {
 
-/// Places whose zero is exact are at most this apart: the geoid bends by less than a centimetre between.
+/// Distance of places with exact zeros: between them the geoid is linear to less than a centimetre.
 constexpr double kAnchorDegrees = 1.0 / 32;
-/// A side of a box whose samples are raised at once.
+/// Side of a box whose samples are raised at once.
 constexpr double kMostDegrees = 8;
 
 class RaisedNodes final : public NodeSource {
@@ -64,7 +64,7 @@ class RaisedNodes final : public NodeSource {
   bool has_samples() const override { return source_.has_samples(); }
 
   Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
-    // A large box is read in parts, so that there are not too many places whose zero is exact.
+    // Reads a large box in parts to limit the number of exact zeros.
     if (box.east - box.west > kMostDegrees || box.north - box.south > kMostDegrees) {
       const double x = (box.west + box.east) / 2, y = (box.south + box.north) / 2;
       for (const DegreeBox& part : {DegreeBox{box.west, box.south, x, y}, DegreeBox{x, box.south, box.east, y},
@@ -73,7 +73,7 @@ class RaisedNodes final : public NodeSource {
       }
       return {};
     }
-    std::optional<ZeroGrid> zeros;  // zeros of a part of the earth where samples are
+    std::optional<ZeroGrid> zeros;  // zeros of the current part of the earth
     std::vector<float> raised;
     return source_.visit_samples(box, [&](const SampleRow& row) {
       const auto [first, end] =
@@ -91,7 +91,7 @@ class RaisedNodes final : public NodeSource {
   }
 
  private:
-  /// Zeros over a box, bilinear between those that are exact.
+  /// Zeros over a box: bilinear between exact ones.
   class ZeroGrid {
    public:
     ZeroGrid(const DegreeBox& box, const HeightZero& zero)

@@ -13,16 +13,16 @@ namespace scarp {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-/// Places on the raster are multiples of this part of a cell, so that a node on a sample is on it.
+/// Places on the raster are multiples of this part of a cell: a node on a sample hits it exactly.
 constexpr double kPlaceSteps = 0x1p20;
-/// Nodes between two whose place on the raster is exact.
+/// Node steps between exact places on the raster.
 constexpr int kAnchorSteps = 16;
 
-/// A place along one axis of the raster: the sample before it, and the weights of the four around it.
+/// A place along one axis of the raster: the sample before it, and the weights of the four samples around it.
 struct Taps {
-  std::int64_t first = 0;  ///< sample of weights[0]; the place lies between the second and the third
+  std::int64_t first = 0;  ///< sample of weights[0]; the place lies between the second and third sample
   std::array<double, 4> weights{};
-  double part = 0;  ///< between the second and the third, 0 … 1
+  double part = 0;  ///< position between them, 0 … 1
 };
 
 Taps taps_at(double place) {
@@ -33,7 +33,7 @@ Taps taps_at(double place) {
           t};
 }
 
-/// A part of the raster, samples beyond its edges repeated.
+/// A part of the raster; edge samples are repeated outside.
 class Part {
  public:
   static Result<Part> read(const HeightField& field, std::int64_t col, std::int64_t row, int cols, int rows,
@@ -44,7 +44,7 @@ class Part {
     const auto clamped = [](std::int64_t i, int count) { return std::clamp<std::int64_t>(i, 0, count - 1); };
     const std::int64_t first_row = clamped(row, field.rows), last_row = clamped(row + rows - 1, field.rows);
     const int height = static_cast<int>(last_row - first_row + 1);
-    // Runs of columns that lie side by side in the raster.
+    // Runs of columns that are contiguous in the raster.
     for (int k = 0; k < cols;) {
       const std::int64_t from = wraps ? wrap(col + k, field.cols) : clamped(col + k, field.cols);
       int count = 1;
@@ -72,7 +72,7 @@ class Part {
   int cols_ = 0;
 };
 
-/// Bilinear between those of the four samples that are heights; none where the nearest is not.
+/// Bilinear interpolation of the valid ones of four samples; nodata if the nearest is.
 float bilinear(const float* upper, const float* lower, double tx, double ty) {
   const std::array<float, 4> samples{upper[0], upper[1], lower[0], lower[1]};
   const std::array<double, 4> weights{(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
@@ -120,7 +120,7 @@ class RasterNodes final : public NodeSource {
   struct Axis {
     std::vector<Taps> taps;
     std::vector<bool> is_inside;
-    std::int64_t first = 0, last = -1;  ///< samples that the taps of nodes inside reach
+    std::int64_t first = 0, last = -1;  ///< samples needed by the taps of nodes inside
 
     void add(double place, int count, bool turns) {
       const bool inside = turns || (place >= -0.5 && place <= count - 0.5);
@@ -134,7 +134,7 @@ class RasterNodes final : public NodeSource {
     int count() const { return static_cast<int>(last - first + 1); }
   };
 
-  /// Column of the raster at a longitude: the one of all turns that lies on the raster or nearest behind its start.
+  /// Column of the raster at a longitude: of all turns the one on the raster, or nearest after its start.
   double column_of(double longitude_degrees) const {
     const double cell = place_.affine[1], turn = 360 / std::abs(cell);
     double place = (longitude_degrees - place_.affine[0]) / cell;
@@ -152,7 +152,7 @@ class RasterNodes final : public NodeSource {
     }
     if (x.count() > 2 * window.cols * std::max(1.0, spacing(window)) + 64) return read_in_halves(window, out);
     SCARP_TRY(auto&& part, Part::read(field_, x.first, y.first, x.count(), y.count(), turn_));
-    // A row of samples between columns, four of them at hand, then a row of nodes between the four.
+    // Interpolates along rows of samples, of which four are held, then across them to a row of nodes.
     std::array<std::vector<double>, 4> between;
     std::array<std::int64_t, 4> held{-1, -1, -1, -1};
     for (auto& one : between) one.resize(static_cast<std::size_t>(window.cols));
@@ -197,12 +197,12 @@ class RasterNodes final : public NodeSource {
     return {};
   }
 
-  /// Samples a node's step spans, along a parallel.
+  /// Samples per node step along a parallel.
   double spacing(const NodeWindow& window) const {
     return window.grid.largest_step(window.per_turn) / std::abs(place_.affine[1]);
   }
 
-  /// A window across the seam of a raster that goes all round reaches its first and its last columns.
+  /// Reads a window across the seam of a raster that spans the whole turn: its first and last columns.
   Result<void> read_in_halves(const NodeWindow& window, std::span<float> out) const {
     const int half = window.cols / 2;
     for (const auto& [first, count] : {std::pair{0, half}, std::pair{half, window.cols - half}}) {
@@ -228,8 +228,7 @@ class RasterNodes final : public NodeSource {
             ((y - a[3]) * a[1] - (x - a[0]) * a[4]) / determinant_};
   }
 
-  /// The raster's places of nodes: in degrees the exact ones, else interpolated between those of each 16th node of the
-  /// globe.
+  /// Places of nodes on the raster: exact in degrees, else interpolated between each 16th node of the globe.
   class Anchors {
    public:
     Anchors(const RasterNodes& nodes, const NodeWindow& window) : nodes_(nodes), window_(window) {
@@ -242,7 +241,7 @@ class RasterNodes final : public NodeSource {
       const std::int64_t down = before(window.row + window.rows - 1) + 2 - first_y_;
       for (std::int64_t j = 0; j < down; ++j) {
         for (std::size_t i = 0; i < across_; ++i) {
-          // Beyond the pole the pole's own place: no node lies there.
+          // Beyond the pole uses the pole's place: no node lies there.
           const std::int64_t row = std::min((first_y_ + j) * kAnchorSteps, window.last_row());
           xs_.push_back(window.longitude((first_x_ + static_cast<std::int64_t>(i)) * kAnchorSteps));
           ys_.push_back(window.latitude(row));
@@ -270,7 +269,7 @@ class RasterNodes final : public NodeSource {
     }
 
    private:
-    /// The anchor at a node or before it.
+    /// The anchor at or before a node.
     static std::int64_t before(std::int64_t i) {
       return i >= 0 ? i / kAnchorSteps : -((-i + kAnchorSteps - 1) / kAnchorSteps);
     }
@@ -332,7 +331,7 @@ class RasterNodes final : public NodeSource {
     return {};
   }
 
-  /// A pole is one place: its nodes all have the height of the one at 180° W.
+  /// A pole is one place: all its nodes have the height of the one at 180° W.
   Result<void> level_poles(const NodeWindow& window, std::span<float> out) const {
     for (int j = 0; j < window.rows; ++j) {
       const std::int64_t row = window.row + j;
@@ -349,7 +348,7 @@ class RasterNodes final : public NodeSource {
   HeightField field_;
   RasterPlace place_;
   double determinant_ = 0;
-  bool turn_ = false;  ///< the raster goes all round, so that its last column is next to its first
+  bool turn_ = false;  ///< the raster spans the whole turn: its last column is next to its first
 };
 
 }  // namespace

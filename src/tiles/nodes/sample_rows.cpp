@@ -9,20 +9,20 @@
 namespace scarp {
 namespace {
 
-/// Samples between two whose place is exact, each way.
+/// Samples between exact places in each direction.
 constexpr int kAnchorSamples = 16;
-/// Samples that are read at once, about.
+/// Approximate number of samples read at once.
 constexpr int kRowSamplesTogether = 1 << 20;
-/// Places in a box that are examined, each way, to find the raster's part of it.
+/// Places per direction that are examined to find the raster's part in a box.
 constexpr int kLooks = 33;
-/// Nearer to the poles than this, meridians are not side by side.
+/// Closer to the poles, meridians are not parallel enough.
 constexpr double kStraightLatitude = 85;
 
 double nearest_turn(double degrees, double to) { return degrees - 360 * std::floor((degrees - to) / 360 + 0.5); }
 
 }  // namespace
 
-/// Places in the raster.
+/// A range of places in the raster.
 class SampleRows::Reach {
  public:
   void add(double col, double row) {
@@ -141,7 +141,7 @@ Result<void> SampleRows::visit_placed(const DegreeBox& box, const SampleVisitor&
       if (std::isfinite(apart)) step = std::max(step, apart);
     }
   }
-  // Between the places examined the raster may reach farther, by less than from one to the next.
+  // Between examined places the raster may reach farther, by less than their distance.
   reach.grow(step);
   const Window window = window_over(reach);
   if (window.is_empty()) return {};

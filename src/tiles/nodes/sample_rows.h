@@ -11,10 +11,10 @@ class SampleRows {
   /// Borrows both.
   SampleRows(const HeightField& field, const RasterPlace& place);
 
-  /// Like NodeSource::visit_samples(), for a raster whose x, with `turn` added, and y are degrees.
+  /// Like NodeSource::visit_samples(), for a raster in degrees; `turn` is added to x.
   Result<void> visit_in_degrees(const DegreeBox& box, double turn, const SampleVisitor& visit) const;
-  /// The same for a raster in another CRS: each 16th sample of each 16th row has its exact place, in between places are
-  /// bilinear; near poles all are exact. REQUIRES: place.to_degrees.
+  /// Visits the samples of a raster in another CRS. Each 16th sample of each 16th row is placed exactly, others by
+  /// bilinear interpolation; near poles all are exact. REQUIRES: place.to_degrees.
   Result<void> visit_placed(const DegreeBox& box, const SampleVisitor& visit) const;
 
  private:

@@ -1,4 +1,4 @@
-// Several sources as one, in the order of their priority.
+// Combines several sources in the order of their priority.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,10 +11,10 @@
 namespace scarp {
 namespace {
 
-/// Degrees that a source's own rounding may add to what it covers.
+/// Degrees by which a source's rounding may extend its cover.
 constexpr double kBeyond = 1e-9;
 
-/// Columns or rows of a window, the first and the one after the last.
+/// Columns or rows of a window: first and one past the last.
 struct Range {
   int first = 0, end = 0;
 
@@ -80,8 +80,8 @@ class StackedNodes final : public NodeSource {
   }
 
  private:
-  /// The part of the window in which the source may have heights that are missing in `heights`, which is empty or has
-  /// all nodes of the window; false where there is none.
+  /// Narrows the window to the part where the source may have heights missing in `heights`, which is empty or has all
+  /// nodes of the window. False if there is none.
   static bool narrow(const DegreeBox& covered, std::span<const float> heights, NodeWindow& window) {
     if (window.latitude(window.row) < covered.south - kBeyond ||
         window.latitude(window.row + window.rows - 1) > covered.north + kBeyond)
@@ -96,7 +96,7 @@ class StackedNodes final : public NodeSource {
     }
     Range cols, rows;
     for (int j = 0; j < window.rows; ++j) {
-      // A pole is one place, at all longitudes.
+      // A pole is one place at all longitudes.
       const bool is_pole = window.is_pole(window.row + j);
       if (!any && !is_pole) continue;
       if (!is_between(covered.south, window.latitude(window.row + j), covered.north)) continue;

@@ -22,12 +22,12 @@ float rounded_up(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
-/// A corner of a piece of a triangle, in cells from the tile's north-western corner, and the mesh's height there.
+/// A corner of a piece of a triangle, in cells from the tile's north-western corner, with the mesh's height.
 struct Corner {
   double x = 0, y = 0, z = 0;
 };
 
-/// A piece of a triangle, convex.
+/// A convex piece of a triangle.
 using Piece = std::vector<Corner>;
 
 /// Cuts off the part of the piece where sign · coordinate > sign · limit.
@@ -48,8 +48,8 @@ void cut(Piece& piece, double Corner::*coordinate, double limit, double sign, Pi
   piece.swap(scratch);
 }
 
-/// Extremes of mesh − surface on a piece in a cell: at its corners, or along its sides where the slope along them is
-/// that of the surface. Inside there is none, for the surface is a saddle.
+/// Extremes of mesh − surface on a piece in a cell. They lie at its corners, or along sides where the slopes of both
+/// agree; never inside, as the surface is a saddle.
 struct Extremes {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -155,7 +155,7 @@ CoarseTile CoarseTile::flat(float height) {
 CoarseTile CoarseTile::join(const TileGrid& grid, TileId id, const std::array<const CoarseTile*, 4>& children) {
   CoarseTile tile;
   const TileRows rows(grid, id, 2 * kCoarseCells);
-  // A local grid's raster may end on the border of two tiles, of which the one beyond is none.
+  // A local grid's raster may end on the border of two tiles, the second of which does not exist.
   const bool has_north = grid.has({id.z + 1, 2 * id.x, 2 * id.y + 1});
   const auto child_of = [&](std::int32_t& col, std::int32_t& row, std::int32_t last) {
     std::size_t which = 0;
@@ -238,7 +238,7 @@ const CoarseTile& CoarseLevel::at(std::uint32_t x, std::uint32_t y) const {
 
 Result<void> CoarseLevel::read(const NodeWindow& window, std::span<float> out) const {
   const std::int64_t down = window.grid.rows(z_), turn = std::int64_t{window.grid.columns(z_)} * kCoarseCells;
-  // Beyond a local grid's land its last nodes are repeated.
+  // Beyond a local grid's land the last nodes are repeated.
   const NodeRange columns = window.grid.land_columns(turn), rows = window.grid.land_rows(turn);
   const std::int64_t last_column = (columns.last - 1) / kCoarseCells;
   for (int j = 0; j < window.rows; ++j) {
@@ -303,7 +303,7 @@ CoarseVerdict bound_errors(const TerrainTile& tile, const TileGrid& grid, const 
       }
     }
   }
-  // Allowance for the rounding of the arithmetic of pieces.
+  // Allowance for rounding in piece arithmetic.
   for (double* const error : {&worst.node_error, &worst.source_error}) *error = *error * (1 + 1e-9) + 1e-6;
   return worst;
 }

@@ -1,14 +1,13 @@
-// Nodes above the blocks: reduced, with what each cell lost.
+// Nodes above the blocks: decimated, with error bounds for each cell.
 //
-// A coarse tile holds 128 × 128 cells of its place. Each cell knows by how much the nodes of the source lie below and
-// above the bilinear surface between its corners, over all nodes in it: bilinear in degrees, as triangles are planes in
-// degrees, whatever the rows of nodes are. Four coarse tiles become one of the level
-// above, every second node omitted: the bilinear surfaces of both differ by one that is bilinear too, so that its
-// extremes are at corners, and bounds add up. Where they add up to more than the heights in the cell allow, these
-// count.
+// A coarse tile holds 128 × 128 cells. Each cell bounds the distance of the source's nodes in it below and above the
+// bilinear surface between its corners. Bilinear means in degrees, as triangles are planes in degrees, whatever the
+// spacing of rows. Four coarse tiles become one of the level above by omitting every second node. The difference of
+// both bilinear surfaces is bilinear too, so its extremes are at corners, and bounds add up. If the sum exceeds the
+// range of heights in the cell, the range is used.
 //
-// The source's samples lie between the nodes, and may lie outside the bounds of a cell's nodes. One number bounds by
-// how much, be it from the surface or from the range of heights; of a joined cell it is the largest of its parts.
+// The source's samples lie between the nodes and may exceed the bounds of a cell's nodes. One number bounds the excess,
+// over the surface as well as the range of heights; a joined cell has the largest of its parts.
 #pragma once
 
 #include <array>
@@ -22,14 +21,14 @@
 
 namespace scarp {
 
-/// Bounds of the nodes in a cell: of node − bilinear surface, and of the heights themselves.
+/// Bounds over the nodes in a cell: of node − bilinear surface, and of heights.
 struct CoarseCell {
   float low = 0, high = 0;
   float min = 0, max = 0;
-  float apart = 0;  ///< largest distance of the samples in it from both; NaN where they are not known
+  float apart = 0;  ///< largest excess of samples over both bounds; NaN if unknown
 };
 
-/// Heights at the corners of a cell; x and y 0 … 1 from its north-western corner.
+/// Heights at the corners of a cell; x and y are 0 … 1 from its north-western corner.
 struct Corners {
   double nw = 0, ne = 0, sw = 0, se = 0;
 
@@ -41,18 +40,18 @@ struct Corners {
 
 class CoarseTile {
  public:
-  /// Reduces the nodes of a tile, a multiple of kCoarseCells a side, and the samples that `source` shows there. Fails
-  /// as it does.
+  /// Reduces the nodes of a tile, a multiple of kCoarseCells a side, and the samples of `source` in it. Fails as the
+  /// source does.
   static Result<CoarseTile> reduce(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
                                    const NodeSource& source);
-  /// Without heights.
+  /// A tile without heights.
   static CoarseTile flat(float height);
   /// Makes a tile of the level above. `children`: north-west, north-east, south-west, south-east.
   static CoarseTile join(const TileGrid& grid, TileId id, const std::array<const CoarseTile*, 4>& children);
 
   /// Little-endian floats: nodes, then cells.
   std::vector<std::uint8_t> to_bytes() const;
-  /// The reverse, of a tile with heights. Fails with kInput for another number of bytes.
+  /// The inverse of to_bytes() for a tile with heights. Fails with kInput for another number of bytes.
   static Result<CoarseTile> from_bytes(std::span<const std::uint8_t> bytes);
 
   float node(std::int32_t col, std::int32_t row) const {
@@ -92,7 +91,7 @@ class CoarseLevel final : public NodeSource {
 
 struct CoarseVerdict {
   double node_error = 0;
-  double source_error = 0;  ///< NaN where it is not known
+  double source_error = 0;  ///< NaN if unknown
 };
 
 /// Bounds |mesh − node| over all nodes of the source under a tile of the level above `level`, and |mesh − sample|.

@@ -1,4 +1,4 @@
-// Finds the tiles of a pyramid without making one.
+// Finds the tiles of a pyramid without making them.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -31,7 +31,7 @@ Result<Flags> find_heights(const PyramidPlan& plan, TileId block, const NodeSour
     for (std::size_t k = 0; k < heights.size(); ++k) {
       if (std::isnan(heights[k])) continue;
       const auto col = static_cast<std::int32_t>(k % static_cast<std::size_t>(steps + 1));
-      // A node between two tiles is both's.
+      // A node between two tiles belongs to both.
       const auto mark = [&](std::int32_t x) { has[static_cast<std::size_t>(y * side + x)] = true; };
       if (col < steps) mark(col / cells);
       if (col > 0) mark((col - 1) / cells);
@@ -40,7 +40,7 @@ Result<Flags> find_heights(const PyramidPlan& plan, TileId block, const NodeSour
   return has;
 }
 
-/// The same, of the place alone.
+/// The same by place alone.
 Flags find_covered(const PyramidPlan& plan, TileId block) {
   const int deeper = plan.max_zoom() - block.z;
   const std::uint32_t side = std::uint32_t{1} << deeper;
@@ -53,7 +53,7 @@ Flags find_covered(const PyramidPlan& plan, TileId block) {
   return has;
 }
 
-/// Adds the tiles below a block: of each level those with heights, and their siblings if the plan wants them.
+/// Adds the tiles below a block: on each level those with heights, and their siblings if the plan requires them.
 void add_below(const PyramidPlan& plan, TileId block, Flags has, std::vector<std::vector<std::uint64_t>>& levels) {
   for (int z = plan.max_zoom(); z > block.z; --z) {
     const int deeper = z - block.z;

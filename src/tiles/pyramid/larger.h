@@ -1,4 +1,3 @@
-// The larger of two errors.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +6,7 @@
 
 namespace scarp {
 
-/// NaN, not known, if one of them is.
+/// The larger error; NaN (unknown) if either is NaN.
 template <class T>
 T larger(T a, T b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<T>::quiet_NaN() : std::max(a, b);

@@ -17,58 +17,58 @@ namespace scarp {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-/// Levels of tiles below a block's own. A block of 128 cells a tile then has 4096 × 4096 of them.
+/// Levels of tiles below a block's own. A block with 128 cells per tile then has 4096 × 4096 cells.
 constexpr int kBlockDepth = 5;
-/// A quantum is at most this share of the max error.
+/// Usual lower limit of max error / quantum.
 constexpr double kQuantaOfError = 32;
-/// And at most this one: heights are rounded to it, which the error has to hold besides.
+/// Absolute lower limit: heights are rounded to the quantum, which uses part of the error.
 constexpr double kLeastQuantaOfError = 4;
-/// Limit on a globe, in metres: finer heights are noise, and 2²⁴ of them hold no mountain.
+/// Smallest quantum on a globe, in metres: finer heights are noise, and 2²⁴ quanta hold no mountain.
 constexpr double kLeastQuantum = 0x1p-10;
 /// Quanta that quantized-mesh holds in a tile.
 constexpr double kQuantaOfTile = 32767;
-/// Quanta that a float32 holds exactly: engine and GLB have heights in these.
+/// Quanta that a float32 holds exactly: engine and GLB store heights in quanta.
 constexpr double kQuantaOfFloat = 0x1p24;
-/// Cubic interpolation between samples goes beyond them by no more than this share of their range, on either side.
+/// Cubic interpolation exceeds the samples by at most this share of their range on either side.
 constexpr double kOvershoot = 0.3;
 /// The finest level's nodes may be this many cells of the source apart.
 constexpr double kSpacing = 1.1;
-/// Metres that heights lie from the ellipsoid at most: on the earth, where larger ones are undeclared nodata, and on
-/// planets with higher mountains.
+/// Largest distance of heights from the ellipsoid in metres: on the earth, where larger heights are undeclared nodata,
+/// and on planets with higher mountains.
 constexpr double kHighestOnEarth = 20000, kHighest = 60000;
 
-/// Limit on a local grid, whose heights may be in units of one's own.
+/// Limit on a local grid, whose heights may have any unit.
 constexpr double kHighestLocal = 1e6;
 
-/// Relief of it in cells, at most: 24 bits hold it in eighths of one.
+/// Its largest relief in cells: 24 bits hold it in eighths of a cell.
 constexpr double kSteepest = 0x1p20;
 
-/// Edges between grid points are so short that the sag is at most an eighth of the geometric error.
+/// Segments of an edge, so short that the sag is at most an eighth of the geometric error.
 int segments_of(int z, const TileGrid& grid) {
   if (grid.is_flat()) return 1;
   const int halves = z + std::countr_zero(grid.roots());  // number of halves of a whole turn
   return halves < 11 ? 64 >> ((halves + 1) / 2) : 1;
 }
 
-/// Degrees between two nodes, the geometric mean of both ways.
+/// Degrees between two nodes, as the geometric mean of both directions.
 double degrees_of_step(int z, int cells, double latitude, const TileGrid& grid) {
   return grid.largest_step(grid.per_turn(z, cells)) * std::sqrt(grid.row_step(latitude));
 }
 
-/// The same on the ground, in metres.
+/// Metres between two nodes on the ground.
 double spacing_of(int z, int cells, double latitude, const TileGrid& grid, const Globe& globe) {
   const Globe::Radii radii = globe.radii(latitude);
   return degrees_of_step(z, cells, latitude, grid) * (kPi / 180) * std::sqrt(radii.meridian * radii.parallel);
 }
 
-/// The part of a box that a grid has; nothing where it ends before it.
+/// The part of a box within a grid; nothing if they are disjoint.
 std::optional<DegreeBox> part_on(const TileGrid& grid, const DegreeBox& box) {
   const DegreeBox all = grid.bounds();
   if (box.south >= all.north || box.north <= all.south) return {};
   return DegreeBox{box.west, std::max(box.south, all.south), box.east, std::min(box.north, all.north)};
 }
 
-/// True if each row of nodes of a block has a v of its own: rows of some grids crowd at its ends.
+/// True if each row of nodes of a block has a distinct v: on some grids rows crowd at its ends.
 bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
   const TileRows rows(grid, {z, 0, grid.rows(z) - 1}, steps);
   for (std::int32_t row = 0; !rows.are_even() && row < steps; ++row) {
@@ -80,7 +80,7 @@ bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
 int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, const Globe& globe) {
   if (grid.is_flat()) return grid.finest_local(cells);
   const DegreeBox& covered = source.covered;
-  // Nodes are arbitrarily dense at a covered pole: the edge counts.
+  // Nodes are arbitrarily dense at a covered pole, so the cover's edge counts.
   const double latitude = covered.north >= 90    ? std::max(covered.south, 0.0)
                           : covered.south <= -90 ? std::min(covered.north, 0.0)
                                                  : (covered.south + covered.north) / 2;
@@ -97,7 +97,7 @@ int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, co
 class Quanta {
  public:
   Quanta(double low, double high, bool is_flat) : low_(low), high_(high), is_flat_(is_flat) {
-    // A tile has to hold its relief, here that of the whole source.
+    // A tile must hold its relief, here that of the whole source.
     const double room = (high - low) / kQuantaOfTile;
     if (room > 0) compact_ = 2 * power_of_two_below(room);
     least_ = std::max(kLeastQuantum, compact_);
@@ -111,7 +111,7 @@ class Quanta {
   /// REQUIRES: a max error of least_error() or more.
   double of(double max_error) const {
     const double fine = std::max(power_of_two_below(max_error / kQuantaOfError), least_);
-    // GLB holds any relief, and needs fewer bytes for one of so few steps.
+    // GLB holds any relief, but needs fewer bytes with few quanta.
     return std::max(fine, std::min(compact_, power_of_two_below(max_error / kLeastQuantaOfError)));
   }
   Result<void> check(double max_error, int level) const {
@@ -135,10 +135,10 @@ class Quanta {
   double compact_ = 0, least_ = 0;
 };
 
-/// True if it goes all round the globe.
+/// True if the box spans the whole turn.
 bool is_round(const TileGrid& grid, const DegreeBox& box) { return !grid.is_flat() && box.east - box.west >= 360; }
 
-/// The range of all, around all.
+/// Combines ranges and covers of all sources.
 SourceFacts join_facts(std::span<const SourceFacts> stack, const TileGrid& grid) {
   SourceFacts all = stack.front();
   for (const SourceFacts& one : stack) {
@@ -155,7 +155,7 @@ SourceFacts join_facts(std::span<const SourceFacts> stack, const TileGrid& grid)
   return all;
 }
 
-/// The intersection of two boxes; where they meet in two places, the larger. A source that goes all round covers any
+/// The intersection of two boxes, or the larger of two intersections. A source that spans the whole turn covers any
 /// box.
 std::optional<DegreeBox> intersection_of(const TileGrid& grid, const DegreeBox& covered, const DegreeBox& only) {
   std::optional<DegreeBox> best;

@@ -1,4 +1,4 @@
-// A block: the tile of the block level and all below it, of nodes that are read once.
+// Makes a block: the tile of the block level and all below it, from nodes that are read once.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -20,7 +20,7 @@
 namespace scarp {
 namespace {
 
-/// All nodes of a block and around it, read by all threads; nothing where none has a height.
+/// All nodes of a block and around it, read by all threads; nothing without heights.
 Result<std::optional<HeldNodes>> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source,
                                             int threads) {
   if (!is_covered(plan, block)) return std::optional<HeldNodes>();
@@ -35,7 +35,7 @@ std::uint64_t mixed(std::uint64_t hash, double value) {
   return hash ^ (hash >> 32);
 }
 
-/// A hash of the nodes, and of each sample with its place, whatever the order in which the source shows them.
+/// A hash of the nodes, and of each sample with its place, independent of the order in which the source visits them.
 Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldNodes& nodes) {
   const DegreeBox box = plan.grid.bounds_of(block);
   std::uint64_t sum = nodes.hash();
@@ -54,7 +54,7 @@ Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldN
   return std::max<std::uint64_t>(sum, 1);
 }
 
-/// With the shapes that masks show, for they are no nodes.
+/// Adds the water shapes of masks, which are not in the nodes.
 std::uint64_t with_masks(const PyramidPlan& plan, TileId block, std::uint64_t nodes) {
   if (!plan.has_water_mask || !plan.waters) return nodes;
   const std::uint64_t shapes = WaterMasks(*plan.waters).hash(block);
@@ -79,7 +79,7 @@ Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSourc
   return TileNodes::read(plan, id, steps, normal_reach(steps), source);
 }
 
-/// Nothing for a tile without heights, unless it is the block's own or a wanted sibling of one that may have some.
+/// Nothing for a tile without heights, unless it is the block's own or a required sibling of a tile that may have some.
 Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source,
                                             const TileEncoder& encode) {
   if (!is_wanted(plan, id)) return std::optional<KeptTile>();

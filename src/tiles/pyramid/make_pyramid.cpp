@@ -1,4 +1,4 @@
-// All tiles: block by block, then the levels above, of what the blocks handed upwards.
+// Makes all tiles: block by block, then the levels above from what the blocks passed up.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -83,7 +83,7 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
 
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink, const Run& run) {
   const std::vector<TileId> blocks = find_blocks(plan);
-  // A tile above the blocks needs about a thousandth of a block's time, or a unit of its cost.
+  // A tile above the blocks needs about a thousandth of a block's time, or one unit of its cost.
   std::uint64_t cost = blocks.size(), done = 0;
   for (const TileId block : blocks) cost += block_cost(plan, block);
   const auto share_of = [&](std::uint64_t part) { return static_cast<double>(part) / static_cast<double>(cost); };

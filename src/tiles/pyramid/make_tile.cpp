@@ -1,4 +1,4 @@
-// A tile alone, of any level.
+// Makes a single tile of any level.
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// The first mesh that does not fold is the tile, whatever its error: finish_pyramid() has no other.
+/// Accepts the first mesh without folds, whatever its error: finish_pyramid() has no other choice.
 TileProof no_proof() {
   return {[](const TerrainTile&) -> Result<TileVerdict> {
             return TileVerdict{0, {}};

@@ -17,8 +17,7 @@ bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& cov
   return false;
 }
 
-/// The position of a tile on Hilbert's curves through the roots, each from its south-western to its south-eastern
-/// corner.
+/// The position of a tile on Hilbert curves through the roots, each from its south-western to its south-eastern corner.
 std::uint64_t place_on_curve(TileId id) {
   const std::uint32_t last = (std::uint32_t{1} << id.z) - 1;
   std::uint32_t x = id.x & last, y = id.y;
@@ -39,7 +38,7 @@ std::uint64_t place_on_curve(TileId id) {
 }  // namespace
 
 int finest_level(const PyramidPlan& plan, TileId id) {
-  // More on each side, so that heights on a border, or as near as normals reach, count on both of its sides.
+  // A margin on each side: heights on a border, or within the reach of normals, count on both of its sides.
   const double node = (normal_reach(steps_of(plan, plan.block_level)) + 1) *
                       plan.grid.largest_step(plan.grid.per_turn(plan.max_zoom(), plan.cells));
   const DegreeBox box = plan.grid.bounds_of(id);

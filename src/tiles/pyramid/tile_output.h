@@ -1,4 +1,4 @@
-// Tiles on their way to a sink, counted.
+// Counts tiles on their way to a sink.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,19 @@
 
 namespace scarp {
 
-/// Adds the report of other tiles of the same pyramid.
+/// Adds a report on other tiles of the same pyramid.
 void add_report(PyramidReport& report, const PyramidReport& more);
 
 class TileOutput {
  public:
   TileOutput(const PyramidPlan& plan, TileSink& sink, const Run& run);
 
-  /// Makes the tiles on all threads and puts them in this order; `make` returns nothing for a tile that is not wanted.
-  /// Progress: the share of these tiles. Fails as `make` and the sink do, and with kCancelled.
+  /// Makes the tiles on all threads and puts them in this order; `make` returns nothing for an unwanted tile. Progress:
+  /// the share of these tiles. Fails as `make` and the sink do, and with kCancelled.
   Result<void> make(const std::vector<TileId>& tiles,
                     const std::function<Result<std::optional<KeptTile>>(TileId, const TileEncoder&)>& make);
 
-  /// Its tiles sorted.
+  /// The report with its tiles sorted.
   PyramidReport take_report();
 
  private:

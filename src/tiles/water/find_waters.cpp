@@ -1,4 +1,4 @@
-// Levels of lakes and profiles of rivers on the nodes' lattice, which the library's functions for rasters find: a part
+// Levels of lakes and profiles of rivers on the nodes' lattice. The library's functions for rasters find them: a part
 // of the lattice is a raster whose samples are nodes.
 #include <fmt/format.h>
 
@@ -17,10 +17,10 @@
 namespace scarp {
 namespace {
 
-/// Nodes a side that are read at a time.
+/// Nodes a side per read.
 constexpr int kChunk = 64;
 
-/// Nodes of a box as samples, read in chunks. Callers go from row to row, so that those of the last rows are kept.
+/// Nodes of a box as samples, read in chunks. Callers proceed row by row, so chunks of the last rows are cached.
 class NodeSamples final : public SampleSource {
  public:
   NodeSamples(const NodeSource& nodes, const TileWaters& waters, const NodeBox& box)
@@ -83,7 +83,7 @@ HeightField field_of(const NodeSamples& samples, const NodeBox& box) {
   return field;
 }
 
-/// The way down from the ellipsoid.
+/// Converts from heights above the ellipsoid.
 class Below final : public HeightZero {
  public:
   explicit Below(std::shared_ptr<const HeightZero> zero) : zero_(std::move(zero)) {}
@@ -97,7 +97,7 @@ class Below final : public HeightZero {
   std::shared_ptr<const HeightZero> zero_;
 };
 
-/// Lines on the lattice, those of one polygon together, in the turn in which the source covers them.
+/// Places lines on the lattice, those of one polygon together, in the turn that the source covers.
 class Placing {
  public:
   explicit Placing(const TileWaters& waters)
@@ -122,7 +122,7 @@ class Placing {
   }
 
  private:
-  /// Continues longitudes beyond the antimeridian. An edge of just a turn is one along a side of the whole map.
+  /// Continues longitudes beyond the antimeridian. An edge of exactly one turn is a side of the whole map.
   static Result<void> go_on(Line& line) {
     constexpr double kNothing = 1e-9;
     for (std::size_t k = 1; k < line.points.size(); ++k) {

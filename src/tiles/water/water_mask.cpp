@@ -1,4 +1,4 @@
-// The water mask of a tile: how much of each texel lies in polygons.
+// The water mask of a tile: the share of each texel in polygons.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace scarp {
 namespace {
 
 constexpr int kMaskSide = 256;  ///< texels, as quantized-mesh has them
-constexpr int kMaskParts = 4;   ///< places a texel, each way
+constexpr int kMaskParts = 4;   ///< places a texel in each direction
 constexpr int kMaskPlaces = kMaskSide * kMaskParts;
 
-/// The places of a tile that lie in polygons.
+/// The places of a tile inside polygons.
 class MaskPlaces {
  public:
   MaskPlaces(const TileWaters& waters, TileId id) : is_water_(std::size_t{kMaskPlaces} * kMaskPlaces, 0) {
@@ -25,12 +25,12 @@ class MaskPlaces {
     const NodePlaces nodes(waters.grid, waters.per_turn);
     left_ = nodes.col(box.west);
     per_col_ = kMaskPlaces / (nodes.col(box.east) - left_);
-    // Texels are evenly apart in degrees.
+    // Texels are equally spaced in degrees.
     for (int j = 0; j < kMaskPlaces; ++j)
       rows_.push_back(nodes.row(box.north + (box.south - box.north) * ((j + 0.5) / kMaskPlaces)));
   }
 
-  /// Even-odd, shifted by so many columns.
+  /// Adds a lake by the even-odd rule, shifted by so many columns.
   void add(const TileLake& lake, double shift) {
     crossings_.resize(kMaskPlaces);
     for (auto& row : crossings_) row.clear();
@@ -78,7 +78,7 @@ class MaskPlaces {
   }
 
  private:
-  /// The first place whose middle is at this column or east of it.
+  /// The first place whose middle is at or east of this column.
   int place_at(double col) const {
     return static_cast<int>(std::clamp(std::ceil((col - left_) * per_col_ - 0.5), 0.0, double{kMaskPlaces}));
   }

@@ -70,7 +70,7 @@ std::vector<SampleRun> nodes_of(const TileLake& lake, const NodeBox& box) {
   LineRuns marks(affine_of(box), box.cols, box.rows);
   const std::vector<Line> rings = lines_of(lake);
   marks.add_polygons(rings);
-  // Like flatten_lakes(): nodes that lie on the shore but for rounding are part of the lake.
+  // Like flatten_lakes(): nodes within rounding of the shore are part of the lake.
   for (const Line& ring : rings) marks.add_course(ring, 1.0 / 128);
   return marks.runs();
 }

@@ -1,4 +1,4 @@
-// Lakes and rivers on the lattice: the nodes around them, and the nodes that they hold.
+// Lakes and rivers on the lattice: their nodes and surrounding boxes.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace scarp {
 
-/// Nodes of a lattice. Columns may lie beyond a turn.
+/// Nodes of a lattice. Columns may exceed a turn.
 struct NodeBox {
   std::int64_t col = 0, row = 0;
   int cols = 0, rows = 0;
 };
 
-/// Number of nodes side by side that lines can count.
+/// Largest number of nodes in a row that lines can count.
 inline constexpr std::int64_t kMostNodes = (std::int64_t{1} << 22) - 1;
 
-/// Nodes on both sides of points, two more, and no more of them than the source covers; nothing: it covers none.
-/// `cols` and `rows` may be more than kMostNodes.
+/// The box of nodes around points, with a margin of two nodes, clipped to the source's; nothing if disjoint. `cols` and
+/// `rows` may exceed kMostNodes.
 class NodesAround {
  public:
   void add(double col, double row);
@@ -35,15 +35,15 @@ class NodesAround {
 
 /// Coordinates are columns and rows of the lattice.
 std::vector<Line> lines_of(const TileLake& lake);
-/// Nothing outside the source, or for a lake with more nodes side by side than lines can count.
+/// Nothing outside the source, or for a lake with more nodes in a row than lines can count.
 std::optional<NodeBox> box_of(const TileLake& lake, const TileWaters& waters);
 
-/// From nodes of a box, counted from its first, to columns and rows of the lattice.
+/// Maps nodes of a box, counted from its first, to columns and rows of the lattice.
 inline std::array<double, 6> affine_of(const NodeBox& box) {
   return {static_cast<double>(box.col), 1, 0, static_cast<double>(box.row), 0, 1};
 }
 
-/// The nodes of a lake. Columns and rows count from the first node of its box.
+/// The nodes of a lake. Columns and rows are relative to its box.
 std::vector<SampleRun> nodes_of(const TileLake& lake, const NodeBox& box);
 
 /// A node next to a river.
@@ -51,7 +51,7 @@ struct RiverNode {
   std::int64_t row = 0, col = 0;
   float height = 0;
 };
-/// By rows, each once, at the lowest of the river's heights next to it.
+/// Sorted by rows, each once, with the lowest height of the river near it.
 std::vector<RiverNode> nodes_of(const TileRiver& river);
 
 }  // namespace scarp

@@ -19,7 +19,7 @@ constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 /// Nodes a side of a box whose samples are examined at once.
 constexpr double kMostNodesAtOnce = 1024;
 
-/// The water that claims a node. If two claim it, the greater has it.
+/// The water that claims a node. The greatest claim wins.
 enum class Claim : std::uint8_t { kNone, kRim, kRiver, kLake };
 
 std::int64_t ceil_of(std::int64_t a, std::int64_t b) { return -floor_of(-a, b); }
@@ -33,12 +33,12 @@ class Claims {
         claims_(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows), Claim::kNone),
         heights_(claims_.size(), kNoHeight) {}
 
-  /// Nodes from the first column to the one before the last, of the fine lattice in any turn, in one of its rows.
+  /// Adds a claim on nodes [first, end) in a row of the fine lattice, in any turn.
   void add(std::int64_t row, std::int64_t first, std::int64_t end, Claim claim, float height) {
     const std::int64_t j = floor_of(row, stride_) - window_.row;
     if (row % stride_ != 0 || j < 0 || j >= window_.rows || window_.is_pole(window_.row + j)) return;
     const std::int64_t coarse_turn = window_.per_turn;
-    // Columns of the window, and then of each turn in which it meets them.
+    // Columns of the window in each turn that meets them.
     const std::int64_t from = ceil_of(first, stride_), to = ceil_of(end, stride_);
     if (from >= to) return;
     const std::int64_t least = ceil_of(window_.col - to + 1, coarse_turn),
@@ -50,7 +50,7 @@ class Claims {
     }
   }
 
-  /// Rows of the fine lattice that matter.
+  /// Relevant rows of the fine lattice.
   std::int64_t first_row() const { return window_.row * stride_ - 1; }
   std::int64_t last_row() const { return (window_.row + window_.rows - 1) * stride_ + 1; }
 
@@ -76,7 +76,7 @@ class Claims {
   bool is_any_ = false;
 };
 
-/// Heights of one window, for who raises them.
+/// Heights of one window, as a source to raise.
 class HeldHeights final : public NodeSource {
  public:
   explicit HeldHeights(std::span<const float> heights) : heights_(heights) {}
@@ -130,7 +130,7 @@ class WateredNodes final : public NodeSource {
     return {};
   }
 
-  /// Water changes heights, and makes none.
+  /// Water changes heights but never adds any.
   NodeWindow land(const NodeWindow& window) const override { return source_.land(window); }
 
   bool has_samples() const override { return source_.has_samples(); }
@@ -189,13 +189,13 @@ class WateredNodes final : public NodeSource {
     const TileRiver* river;
     NodeBox box;
   };
-  /// The samples of each, once they were read.
+  /// Nodes of lakes and rivers that were read so far.
   struct Kept {
     std::vector<std::shared_ptr<const std::vector<SampleRun>>> lakes;
     std::vector<std::shared_ptr<const std::vector<RiverNode>>> rivers;
   };
 
-  /// A sample between four nodes: the level of a lake that all four belong to, none where some of them have water.
+  /// The height of a sample between four nodes: the level of a lake with all four, nothing if only some have water.
   static float sample_at(const Claims& claims, const std::vector<float>& raised, const NodeWindow& window, double x,
                          double y, float height) {
     const auto before = [](double place, int count) {
@@ -217,7 +217,7 @@ class WateredNodes final : public NodeSource {
     return static_cast<float>(upper + ty * (lower - upper));
   }
 
-  /// True if a box, and a node around it, meets the window's in any turn.
+  /// True if a box, with a node around it, meets the window in any turn.
   bool meets(const NodeBox& box, const NodeWindow& window) const {
     const std::int64_t turn = waters_->per_turn, stride = turn / window.per_turn;
     const std::int64_t first = window.col * stride, last = (window.col + window.cols - 1) * stride;
@@ -271,7 +271,7 @@ class WateredNodes final : public NodeSource {
     return claims;
   }
 
-  /// From heights above the zero to those above the ellipsoid.
+  /// Converts heights above the zero to heights above the ellipsoid.
   Result<void> raise(const NodeWindow& window, std::vector<float>& heights) const {
     if (!zero_) return {};
     const std::vector<float> above = heights;

@@ -330,7 +330,7 @@ test('weights and tolerances bind each sample', () => {
       1 + ROUNDING * 1000,
   );
   assert.ok(weighted.triangleCount < simplifySync(z, width, height, { maxError: 1 }).triangleCount);
-  // Their nearest float32 are a tolerance above and a weight below, which the height would just keep.
+  // Their nearest float32 are a tolerance above and a weight below, which the height would barely keep.
   const low = new Float32Array(25);
   const near = Math.fround(0.1);
   const exact = Float64Array.from(low);
@@ -468,7 +468,7 @@ test('what ran before leaves no memory behind', { skip: !globalThis.gc && 'needs
     }
     for (let k = 0; k < 20; ++k) assert.throws(() => simplifySync(z, width, height, {}));
   };
-  // A collection may hand its findings to another thread to free.
+  // Garbage collection may delegate freeing to another thread.
   const kept = async most => {
     for (let k = 0; k < 100; ++k) {
       globalThis.gc();

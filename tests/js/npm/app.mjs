@@ -1,5 +1,4 @@
-// An application of twenty lines, which every bundler packs: it simplifies here and in a worker, and reports the
-// result.
+// An application of twenty lines for all bundlers: simplifies here and in a worker, and reports the result.
 import { Refiner, createPool, encodeGlb, ready, simplifySync } from 'scarp';
 import { hashOf } from './canonical.mjs';
 import { hills } from './rasters.mjs';

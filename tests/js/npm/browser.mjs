@@ -1,6 +1,5 @@
-// The package in Chromium: browser.mjs CHROMIUM TOLD [BUNDLE...]. A plain module makes the meshes of Node; each BUNDLE,
-// a page in this folder or next to it (file:), or from the dev server of vite without a configuration (dev:), reports
-// TOLD.
+// The package in Chromium: browser.mjs CHROMIUM TOLD [BUNDLE...]. A plain module makes Node's meshes. Each BUNDLE, a
+// page in this folder or next to it (file:), or from vite's dev server without configuration (dev:), reports TOLD.
 import { pathToFileURL } from 'node:url';
 import { openPage } from './open_page.mjs';
 import { serve } from './serve.mjs';
@@ -8,8 +7,7 @@ import { serve } from './serve.mjs';
 const [program, told, ...bundles] = process.argv.slice(2);
 const server = await serve(process.cwd());
 const { browser, page, errors } = await openPage(server.address, { width: 400, height: 300 }, program);
-/// The dev server, and a page of it; it packs what the page imports at the first visit. Its cache is not where the
-/// package is.
+/// The dev server and a page of it. It packs the page's imports at the first visit, and caches outside the package.
 async function openDev(page) {
   const { createServer } = await import('vite');
   const dev = await createServer({
@@ -68,7 +66,7 @@ try {
       dev?.address ??
         (bundle.startsWith('file:') ? pathToFileURL(bundle.slice(5)).href : `${server.address}/${bundle}`),
     );
-    if (dev) await page.goto('about:blank'); // or it misses the server
+    if (dev) await page.goto('about:blank'); // else it misses the server
     await dev?.close();
     console.log(bundle, answer);
     if (answer !== told) fail(`${bundle} tells ${answer}, and Node ${told}`);

@@ -1,4 +1,4 @@
-// Packs app.mjs as described by the guides of the bundlers: bundle.mjs NAME, into the folder NAME.
+// Packs app.mjs by the guides of the bundlers: bundle.mjs NAME, into the folder NAME.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 
@@ -8,7 +8,7 @@ const page = script => `${head}<script type="module" src="${script}"></script>\n
 fs.mkdirSync(name, { recursive: true });
 switch (name) {
   case 'esbuild': {
-    // does not change new URL(): the module and the worker go next to the script
+    // keeps new URL() unchanged: the module and the worker are placed next to the script
     const { build } = await import('esbuild');
     await build({
       entryPoints: ['app.mjs', 'node_modules/scarp/worker.js'],
@@ -23,7 +23,7 @@ switch (name) {
     break;
   }
   case 'inline': {
-    // one page that opens from a file
+    // a page that works from a file
     const { build } = await import('esbuild');
     const {
       outputFiles: [script],

@@ -1,4 +1,4 @@
-// One hash for a mesh, whatever the order of its triangles and of their corners. Runs in Node and in browsers.
+// A hash of a mesh, independent of the order of triangles and their corners. Runs in Node and in browsers.
 
 const NODE = 'node:crypto';
 

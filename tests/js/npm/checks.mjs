@@ -1,4 +1,4 @@
-// The raster of the tests of the package, and assertions on its errors.
+// The raster of the package's tests, and assertions on errors.
 import assert from 'node:assert/strict';
 import { ScarpError } from 'scarp/full';
 import { hills } from './rasters.mjs';

@@ -1,5 +1,4 @@
-// A page of deck.gl: its TerrainLayer draws one picture of heights, and tiles of the web, by the loader that the
-// address names.
+// A page of deck.gl: its TerrainLayer draws a height image and web tiles with the loader named in the address.
 import { Deck, MapView } from '@deck.gl/core';
 import { TerrainLayer } from '@deck.gl/geo-layers';
 import { TerrainLoader as Theirs } from '@loaders.gl/terrain';
@@ -24,7 +23,7 @@ async function drawHeights() {
   return URL.createObjectURL(await canvas.convertToBlob());
 }
 
-/// Draws one layer until it has its data; reports its meshes, and how much of the canvas it covers.
+/// Draws one layer until it has its data; reports its meshes and its share of the canvas.
 function draw(layer, viewState) {
   const canvas = document.querySelector('canvas');
   return new Promise((resolve, reject) => {

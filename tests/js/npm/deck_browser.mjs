@@ -1,5 +1,5 @@
-// deck.gl in Chromium: deck_browser.mjs CHROMIUM SHOTS. TerrainLayer draws with the loader of this package as with its
-// own, and without its own's cliffs at the last row and column.
+// deck.gl in Chromium: deck_browser.mjs CHROMIUM SHOTS. TerrainLayer draws the same with this package's loader as with
+// its own, without cliffs at the last row and column.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { build } from 'esbuild';

@@ -1,4 +1,4 @@
-// In place of delatin, martini and loaders.gl: the same names and shapes, and a bound that holds.
+// Replacements of delatin, martini and loaders.gl: the same names and shapes, with a bound that holds.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import TheirDelatin from 'delatin';

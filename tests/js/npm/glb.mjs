@@ -1,4 +1,4 @@
-// Writes GLBs for readers of others: glb.mjs NAME WIDTH HEIGHT ERROR. Prints triangles, and the bytes of each.
+// Writes GLBs for foreign readers: glb.mjs NAME WIDTH HEIGHT ERROR. Prints triangles, and the bytes of each.
 import fs from 'node:fs';
 import { encodeGlb, measure, ready, simplifySync } from 'scarp';
 
@@ -18,7 +18,7 @@ const files = {
   'loose.glb': encodeGlb(plain, { compress: true }),
 };
 for (const [file, bytes] of Object.entries(files)) fs.writeFileSync(file, bytes);
-// A cell whose multiples float32 does not hold.
+// A cell whose multiples are not exact in float32.
 const fine = simplifySync(z, width, height, {
   maxError,
   effort: 'high',

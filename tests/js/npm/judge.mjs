@@ -1,9 +1,9 @@
-// A judge that shares nothing with Scarp: the error of each triangle's plane at each sample that it covers, one by one.
+// A judge without Scarp's code: the error of each triangle's plane at each sample that it covers.
 
-/// Share of a height that the judge's own arithmetic may round.
+/// Relative rounding error allowed for the judge's arithmetic.
 export const ROUNDING = 2 ** -48;
 
-/// `columns`, `rows`: where vertices are, in samples, the first row at the top; `z`: their heights.
+/// `columns`, `rows`: places of vertices in samples, the first row at the top; `z`: their heights.
 export function judge(samples, width, height, { columns, rows, z, triangles }) {
   const worst = new Float64Array(width * height).fill(-1);
   for (let t = 0; t < triangles.length; t += 3) {

@@ -1,4 +1,4 @@
-// Numbers in sentences as C prints them: numbers.mjs CASES.json, a list of [value, is float32, style, precision,
+// Numbers in messages, printed like in C: numbers.mjs CASES.json, a list of [value, is float32, style, precision,
 // printed].
 import assert from 'node:assert/strict';
 import fs from 'node:fs';

@@ -1,4 +1,4 @@
-// The work of a page of the browser test: the cases of same.mjs here, cancelled work, and refusals.
+// The work of a page in the browser test: the cases of same.mjs, cancelled work, and refusals.
 import { createPool, ready, simplifySync } from './node_modules/scarp/index.js';
 import { hashOf } from './canonical.mjs';
 import { heightsOf, hills } from './rasters.mjs';

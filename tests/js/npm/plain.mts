@@ -1,4 +1,4 @@
-// The declarations without types of a browser; compiled, never run.
+// The declarations without a browser's types; compiled, never run.
 import { Refiner, createPool, measure, ready, simplify, simplifySync, encodeGlb } from 'scarp';
 import { Tiler } from 'scarp/full';
 import { makeTerrainMesh } from 'scarp/loaders';

@@ -106,7 +106,7 @@ test('a signal cancels what runs, what waits and what has not begun', async () =
   const work = (signal, onProgress) =>
     pool.simplify(large, 600, 400, { maxError: 0.01, effort: 'max', signal, onProgress });
   const [runs, waits] = [new AbortController(), new AbortController()];
-  // The running call has reported progress before it has answered, so that it is cancelled at work.
+  // The running call reports progress before its answer, so it is cancelled at work.
   const running = work(runs.signal, () => {
     waits.abort();
     runs.abort('enough');

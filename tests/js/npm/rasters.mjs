@@ -1,4 +1,4 @@
-// Rasters that tests make for themselves.
+// Rasters that tests generate.
 export function hills(width, height, seed = 1) {
   let state = seed;
   const random = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
@@ -12,5 +12,5 @@ export function hills(width, height, seed = 1) {
   });
 }
 
-/// The samples of a file of float32; the value that stands for none is NaN.
+/// The samples of a float32 file, with its nodata value as NaN.
 export const heightsOf = buffer => new Float32Array(buffer).map(z => (z === -9999 ? NaN : z));

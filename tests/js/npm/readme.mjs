@@ -1,4 +1,4 @@
-// The blocks of the package's README in Chromium, each on a page of its own: readme.mjs CHROMIUM README.
+// The blocks of the package's README in Chromium, each on a separate page: readme.mjs CHROMIUM README.
 import fs from 'node:fs';
 import { openPage } from './open_page.mjs';
 import { serve } from './serve.mjs';

@@ -1,4 +1,4 @@
-// Calls that the package refuses, in Node, each with a sentence.
+// Calls that the package refuses in Node, each with a message.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import test from 'node:test';
@@ -19,7 +19,7 @@ import { height, refuses, width, z } from './checks.mjs';
 await ready();
 
 const flat = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], indices: [0, 1, 2] };
-/// Calls, the code of the error that each throws, and its sentence.
+/// Calls with the error code and message that each throws.
 const cases = [
   [() => simplifySync(z, width, height + 1, { maxError: 1 }), 'usage', /8051 values, and a raster of 97 x 84 has 8148/],
   [() => simplifySync(z, 1, z.length, { maxError: 1 }), 'usage', /width is 1/],

@@ -1,6 +1,6 @@
-// WebAssembly makes the program's meshes: same.mjs CASES, a file of lines "NAME WIDTH HEIGHT ERROR EFFORT": NAME.f32
-// holds the samples, and NAME_EFFORT.glb is the program's. Also judged here. Prints the cases, and writes them with
-// their hashes to cases.json, for browsers.
+// WebAssembly makes the program's meshes: same.mjs CASES, a file of lines "NAME WIDTH HEIGHT ERROR EFFORT". NAME.f32
+// has the samples, NAME_EFFORT.glb is the program's. Also judges them. Prints the cases, and writes them with hashes to
+// cases.json for browsers.
 import fs from 'node:fs';
 import { ready, simplifySync } from 'scarp';
 import { hashOf } from './canonical.mjs';

@@ -1,4 +1,4 @@
-// Serves a folder on this machine. Paths that begin with a name of HEADERS are the same files with these headers.
+// Serves a folder on this machine. Paths that begin with a name in HEADERS give the same files with these headers.
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';

@@ -1,13 +1,13 @@
-// The program's tiles, but for the order of their triangles, and its layer.json: tiles.mjs CRS NAME WIDTH HEIGHT WEST
-// SOUTH EAST NORTH FOLDER
+// Compares with the program's tiles, except the order of triangles, and its layer.json: tiles.mjs CRS NAME WIDTH HEIGHT
+// WEST SOUTH EAST NORTH FOLDER
 //
-// Prints how many were compared, and how many of them have their error.
+// Prints how many were compared, and for how many the error is known.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import zlib from 'node:zlib';
 import { Tiler, ready } from 'scarp/full';
 
-/// The header, and the triangles of quantized-mesh with the normals of their corners, as one text.
+/// The header and triangles of quantized-mesh, with normals of their corners, as text.
 function canonical(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const count = view.getUint32(88, true);
@@ -77,7 +77,7 @@ const [mine, theirs] = [
 ];
 for (const key of Object.keys(mine).filter(key => !['version', 'tiles', 'bounds'].includes(key)))
   assert.deepEqual(mine[key], theirs[key], key);
-// The program covers a little more of a raster that is not in degrees.
+// The program's cover of a raster not in degrees is slightly larger.
 const slack = crs === 'mercator' ? (mine.bounds[2] - mine.bounds[0]) / width : 0;
 mine.bounds.forEach((degree, k) =>
   assert.ok(Math.abs(degree - theirs.bounds[k]) <= slack, `bounds: ${mine.bounds} here, and ${theirs.bounds} there`),

@@ -1,4 +1,4 @@
-// The declarations as an editor sees them; compiled, never run.
+// The declarations as in an editor; compiled, never run.
 import {
   Refiner,
   ScarpError,

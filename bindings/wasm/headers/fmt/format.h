@@ -1,5 +1,5 @@
-// The part of {fmt} that the core uses; {fmt} would be a quarter of a small module by its tables and its printing of
-// floats. Here JavaScript prints the numbers. A format that this does not know is an error of the compiler.
+// The part of {fmt} that the core uses. The tables and float printing of {fmt} would be a quarter of a small module;
+// here JavaScript prints numbers. An unknown format is a compile-time error.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace fmt {
 
-/// `precision` -1: the fewest digits that give the number back.
+/// `precision` -1: the fewest digits that round-trip.
 struct Spec {
   char style = 'g';  ///< e, f, g
   bool has_sign = false;
@@ -32,7 +32,7 @@ struct Argument {
 
 namespace detail {
 
-/// After `{`, at `at`: [INDEX] [:[+].PRECISION(e|f|g)] and `}`. False: another one.
+/// Parses after `{`, at `at`: [INDEX] [:[+].PRECISION(e|f|g)] and `}`. False for anything else.
 constexpr bool read_field(std::string_view text, std::size_t& at, std::size_t& index, Spec& spec) {
   const auto is_digit = [&] { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
   const auto take = [&](char what) { return at < text.size() && text[at] == what && ++at; };
