@@ -369,12 +369,15 @@ struct PointLine {
 struct PointSet {
   std::vector<double> x, y, z;   ///< coordinates, of equal size; all finite
   std::vector<PointLine> lines;  ///< lines that no triangle crosses. EMPTY: none
-  std::string path;              ///< their source, for messages
-  std::string format;            ///< "CSV", "GPKG", …
-  std::string crs;               ///< CRS of x and y: "EPSG:32611", WKT, or empty
-  std::string description;       ///< one line for reports: the meaning and unit of x and y
-  bool is_local = false;         ///< x and y are metres from the middle of the points
-  double unit_in_metres = 0;     ///< unit of x and y; 0 for degrees and unknown units
+  /// Rings of polygons, by the indices of their corners, at which the surface ends; holes are rings, too. All points
+  /// lie inside, by the rule of even and odd. From cut_to_boundary(). EMPTY: the surface ends at a hull.
+  std::vector<std::vector<std::uint32_t>> boundary;
+  std::string path;           ///< their source, for messages
+  std::string format;         ///< "CSV", "GPKG", …
+  std::string crs;            ///< CRS of x and y: "EPSG:32611", WKT, or empty
+  std::string description;    ///< one line for reports: the meaning and unit of x and y
+  bool is_local = false;      ///< x and y are metres from the middle of the points
+  double unit_in_metres = 0;  ///< unit of x and y; 0 for degrees and unknown units
   /// Metadata of z, as of a raster's heights: unit, unit_in_metres, unit_is_assumed, file_unit, z_scale, z_offset; and
   /// crs_unit, crs_unit_in_metres of x and y in the file.
   RasterInfo heights = {};

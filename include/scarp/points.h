@@ -10,10 +10,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "scarp/height_field.h"
+#include "scarp/lines.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/simplify.h"
@@ -36,6 +38,27 @@ struct SimplifiedPoints {
   std::uint64_t loose = 0;       ///< pieces of lines that are no edges, since they cross others of their height
   HullFit hull_fit;              ///< without boundary_length and lines
 };
+
+/// Adds lines, in the coordinates of the points, as edges of the mesh: their vertices become points. A vertex without a
+/// height (NaN) gets that of the Delaunay triangulation of the points given, beyond their hull that of the hull's
+/// nearest place. Returns how many lie beyond. Fails with kInput for points that have no surface. Cost: O(vertices),
+/// with vertices without a height expected O(n log n) for n points.
+Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points);
+
+/// The result of cut_to_boundary().
+struct BoundaryCut {
+  std::uint64_t points_outside = 0;  ///< number of points given up
+  std::uint64_t corners = 0;         ///< points added: corners of the boundary, and where lines cross it
+  std::uint64_t corners_beyond =
+      0;                ///< corners beyond the points' convex hull: their heights are those of its nearest place
+  double farthest = 0;  ///< distance of the farthest of them, in units of x and y
+};
+
+/// Ends the surface at polygons, given as rings: drops the points outside, cuts lines there, and sets
+/// PointSet::boundary. The heights of its corners are those of the Delaunay triangulation of the points given. To be
+/// called once, after add_lines(). Fails with kInput without a ring and for points that have no surface. Cost: expected
+/// O(n log n).
+Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, PointSet& points);
 
 /// The goals, and how to reach them. At least one of the goals; the first that is reached ends the run.
 struct PointOptions {

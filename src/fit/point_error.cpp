@@ -55,7 +55,7 @@ struct PointError::Task {
     return {dx * cy - dy * cx, bx * dy - by * dx};
   }
   bool holds(const Weights& w) const { return w.b >= 0 && w.c >= 0 && w.b + w.c <= area; }
-  /// Of the plane above the sample.
+  /// The height of the plane above the sample.
   double error(const Weights& w, float sample) const { return (z - double{sample}) + (w.b * rise_b + w.c * rise_c); }
 
   double slope_x() const { return rise_b * cy - rise_c * by; }

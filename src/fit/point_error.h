@@ -22,9 +22,8 @@ class PointError {
   /// The window stays alive. REQUIRES: threshold >= 0, finite.
   PointError(const PointWindow& window, double threshold, double rounding);
 
-  /// As the functions of TriangleError with these names; `limit`: slack × threshold. A sample is {its index in the
-  /// window, 0}. Triangles so steep that the samples'
-  /// rounding counts break the bound, too, but have an energy.
+  /// The functions of TriangleError with these names, for points; `limit`: slack × threshold. A sample is {its index in
+  /// the window, 0}. Triangles so steep that the samples' rounding counts break the bound, too, but have an energy.
   Verdict assess(const Corners& corners, float energy_limit, double limit, ErrorRule::Power power) const;
   TriangleError::Pull pull(const Corners& corners, ErrorRule::Power power) const;
   void add_moments(const Corners& corners, ErrorRule::Power power, TriangleError::Moments& moments) const;

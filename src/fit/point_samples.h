@@ -68,7 +68,7 @@ class PointWindow {
   std::vector<float> x_, y_, z_;  // steps from the window's first, which float32 holds; a last one more
   std::vector<float> unsorted_x_, unsorted_y_, unsorted_z_;
   std::vector<std::uint32_t> begins_;  // by bucket
-  std::int32_t cols_ = 1, rows_ = 1;   // of buckets
+  std::int32_t cols_ = 1, rows_ = 1;   // size in buckets
   int shift_ = 0;                      // logarithm of the side of a bucket, in steps
 };
 

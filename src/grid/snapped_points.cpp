@@ -186,6 +186,10 @@ Result<void> check(const PointSet& points) {
     if (std::any_of(line.points.begin(), line.points.end(), [&](std::uint32_t p) { return p >= points.size(); }))
       return fail(ErrorKind::kUsage, line.name + " has a point that the set has not");
   }
+  for (const auto& ring : points.boundary) {
+    if (std::any_of(ring.begin(), ring.end(), [&](std::uint32_t p) { return p >= points.size(); }))
+      return fail(ErrorKind::kUsage, "the boundary has a point that the set has not");
+  }
   return {};
 }
 
@@ -236,7 +240,8 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   result.lattice = snapped.lattice;
   result.lattice.west = x.least;
   result.lattice.north = y.most;
-  const bool has_lines = !points.lines.empty(), has_echoes = has_lines || steps != PointSteps::kFinest;
+  const bool has_lines = !points.lines.empty() || !points.boundary.empty(),
+             has_echoes = has_lines || steps != PointSteps::kFinest;
   if (has_echoes) result.place.resize(points.size());
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;

@@ -86,9 +86,9 @@ Result<ScatteredDomain> build_concave_domain(const SnappedPoints& points, Scatte
   // Two ends moved by half a step each, and rounding; an edge of just this length stays.
   const double longest = length / points.lattice.step * (1 + 1e-12) + (points.is_exact ? 0 : 1);
   take_away_long(hull, longest);
-  const std::vector<std::uint32_t> outline = outline_of(hull);
+  const std::vector<std::vector<std::uint32_t>> outlines{outline_of(hull)};
   hull = {Triangulation(2, 2), {}, {}, 0};
-  return build_domain(points, outline);
+  return build_domain(points, outlines);
 }
 
 }  // namespace scarp

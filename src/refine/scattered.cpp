@@ -1,5 +1,7 @@
 #include "refine/scattered.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -35,19 +37,45 @@ double width_across(std::span<const Point> at, const std::vector<std::uint32_t>&
   return static_cast<double>(most - least) / distance(a, b);
 }
 
-/// Marks what is reached from the rectangle's border without crossing a constrained edge.
-void mark_beyond(Triangulation& tin) {
-  std::vector<HalfEdge> entered;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (tin.twin(h) == kNone && !tin.is_constrained(h)) entered.push_back(h);
+/// True for a place inside rings by the rule of even and odd. Coordinates of the place are three times those of points.
+bool is_inside(const SnappedPoints& points, const std::vector<std::vector<std::uint32_t>>& rings, std::int64_t x,
+               std::int64_t y) {
+  bool is_inside = false;
+  for (const auto& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point a = points.at[ring[i]], b = points.at[ring[(i + 1) % ring.size()]];
+      const std::int64_t ay = std::int64_t{3} * a.y - y, by = std::int64_t{3} * b.y - y;
+      if ((ay > 0) == (by > 0)) continue;
+      const std::int64_t ax = std::int64_t{3} * a.x - x, bx = std::int64_t{3} * b.x - x;
+      const __int128 side = static_cast<__int128>(ax) * by - static_cast<__int128>(bx) * ay;
+      if ((side > 0) == (by > ay)) is_inside = !is_inside;
+    }
   }
-  while (!entered.empty()) {
-    const Triangle t = entered.back() / 3;
-    entered.pop_back();
-    if (tin.is_outside(t)) continue;
-    tin.set_outside(t, true);
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-      if (tin.twin(h) != kNone && !tin.is_constrained(h)) entered.push_back(tin.twin(h));
+  return is_inside;
+}
+
+/// Marks the triangles outside the rings, whose edges are constrained: all in an area between them alike.
+void mark_beyond(const SnappedPoints& points, ScatteredDomain& domain) {
+  Triangulation& tin = domain.tin;
+  std::vector<bool> is_seen(tin.triangle_count());
+  std::vector<Triangle> area;
+  for (Triangle first = 0; first < tin.triangle_count(); ++first) {
+    if (is_seen[first]) continue;
+    const auto [a, b, c] = tin.corners(first);
+    const bool is_outside =
+        !is_inside(points, domain.outlines, std::int64_t{a.x} + b.x + c.x, std::int64_t{a.y} + b.y + c.y);
+    area.assign(1, first);
+    is_seen[first] = true;
+    while (!area.empty()) {
+      const Triangle t = area.back();
+      area.pop_back();
+      if (is_outside) tin.set_outside(t, true);
+      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+        const HalfEdge g = tin.twin(h);
+        if (g == kNone || tin.is_constrained(h) || is_seen[g / 3]) continue;
+        is_seen[g / 3] = true;
+        area.push_back(g / 3);
+      }
     }
   }
 }
@@ -73,27 +101,35 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points) {
                                        : "all points lie at two places; a surface needs at least three places");
   const std::vector<std::uint32_t> hull = convex_hull(points.at);
   if (hull.size() < 3) return fail(ErrorKind::kInput, "all points lie on one line, so there is no surface to simplify");
-  auto domain = build_domain(points, hull);
+  auto domain = build_domain(points, {hull});
   if (domain) domain->width = points.lattice.step * width_across(points.at, hull);
   return domain;
 }
 
-Result<ScatteredDomain> build_domain(const SnappedPoints& points, const std::vector<std::uint32_t>& outline) {
-  ScatteredDomain domain{Triangulation(points.lattice.cols, points.lattice.rows), {}, outline, 4};
+Result<ScatteredDomain> build_domain(const SnappedPoints& points,
+                                     const std::vector<std::vector<std::uint32_t>>& outlines) {
+  ScatteredDomain domain{Triangulation(points.lattice.cols, points.lattice.rows), {}, outlines, 4};
   domain.point_of.assign(4, kNone);
-  // Coarse to fine: one after the other around a circle, every corner would change the triangles of all before it.
-  for (std::size_t stride = std::bit_ceil(outline.size()); stride > 0; stride /= 2) {
-    for (std::size_t i = 0; i < outline.size(); i += stride) {
-      if (i % (2 * stride) != 0) insert_corner(domain, points, outline[i]);
+  std::vector<std::vector<Vertex>> rings;
+  for (const auto& outline : outlines) {
+    // Coarse to fine: one after the other around a circle, every corner would change the triangles of all before it.
+    for (std::size_t stride = std::bit_ceil(outline.size()); stride > 0; stride /= 2) {
+      for (std::size_t i = 0; i < outline.size(); i += stride) {
+        if (i % (2 * stride) != 0) insert_corner(domain, points, outline[i]);
+      }
+    }
+    rings.emplace_back();
+    for (const std::uint32_t point : outline) rings.back().push_back(insert_corner(domain, points, point));
+  }
+  for (const auto& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vertex from = ring[i], to = ring[(i + 1) % ring.size()];
+      if (from == to || domain.tin.constrain(from, to)) continue;
+      const std::uint32_t source = points.source[domain.point_of[from]];
+      return fail(ErrorKind::kInput, fmt::format("edges of the boundary cross near point {} (counted from 0)", source));
     }
   }
-  std::vector<Vertex> vertices(outline.size());
-  for (std::size_t i = 0; i < outline.size(); ++i) vertices[i] = insert_corner(domain, points, outline[i]);
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    if (!domain.tin.constrain(vertices[i], vertices[(i + 1) % outline.size()]))
-      return fail(ErrorKind::kInternal, "two edges of the points' boundary cross");
-  }
-  mark_beyond(domain.tin);
+  mark_beyond(points, domain);
   return domain;
 }
 

@@ -31,8 +31,8 @@ namespace scarp {
 struct ScatteredDomain {
   Triangulation tin;
   std::vector<std::uint32_t> point_of;  ///< by vertex; kNone for corners of the rectangle, and free vertices
-  std::vector<std::uint32_t> outline;   ///< the points at the corners of its boundary, positively oriented
-  std::uint32_t unused = 0;             ///< vertices without a point
+  std::vector<std::vector<std::uint32_t>> outlines;  ///< rings of the points at the corners of its boundary
+  std::uint32_t unused = 0;                          ///< vertices without a point
   /// By vertex, of free vertices, which are no points; others: NaN. EMPTY: all are points, as refinement makes them.
   std::vector<double> heights = {};
   double width = 0;  ///< how far the hull reaches across a line between two of its farthest corners, as x and y
@@ -50,8 +50,10 @@ struct ScatteredDomain {
 /// The triangulation of the convex hull's corners. Fails with kInput if there are fewer than three points or all lie on
 /// one line.
 Result<ScatteredDomain> build_domain(const SnappedPoints& points);
-/// The triangulation of the corners of a simple polygon, positively oriented, that holds all points.
-Result<ScatteredDomain> build_domain(const SnappedPoints& points, const std::vector<std::uint32_t>& outline);
+/// The triangulation of the corners of polygons, given as rings, whose inside by the rule of even and odd holds all
+/// points. Fails with kInput where rings cross.
+Result<ScatteredDomain> build_domain(const SnappedPoints& points,
+                                     const std::vector<std::vector<std::uint32_t>>& outlines);
 
 class ScatteredRefinement {
  public:

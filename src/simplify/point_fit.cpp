@@ -100,23 +100,23 @@ PointAims::PointAims(double max_error, std::span<const double> heights) {
 }
 
 Result<PointFit> fit_points(const SnappedPoints& points, const PointSet& given, std::span<const double> heights,
-                            const PointAims& aims, std::span<const std::uint32_t> fixed, const PointOptions& options,
+                            const PointAims& aims, std::span<const std::uint32_t> fixed, const PointRecipe& recipe,
                             ScatteredDomain& domain) {
+  const PointOptions& options = recipe.options;
   const Quality& quality = options.quality;
-  const EffortTraits& traits = traits_of(quality.effort);
   const AllSamples all(points, given);
   const PointSamples& samples = all.samples();
   FitOptions fit_options;
   fit_options.points = &samples;
   fit_options.threshold = aims.fit;
   fit_options.threads = options.run.threads;
-  fit_options.depth = traits.depth;
-  fit_options.vertices_are_free = traits.moves_vertices && quality.vertices != Vertices::kSamples;
+  fit_options.depth = recipe.traits.depth;
+  fit_options.vertices_are_free = recipe.frees_vertices;
   fit_options.min_shape = quality.min_shape.value_or(fit_options.vertices_are_free ? kUsualShape : 0);
   fit_options.floor_yields = !quality.min_shape;
   fit_options.most_side = kMostSide;
   fit_options.is_time_up = options.run.is_time_up;
-  fit_options.goes_on = traits.goes_on && options.run.is_time_up;
+  fit_options.goes_on = recipe.traits.goes_on && options.run.is_time_up;
   Reporter reporter(options.run.progress);
   if (options.run.progress) {
     fit_options.progress = [&](double share, std::uint64_t vertices) {

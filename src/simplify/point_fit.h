@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "grid/snapped_points.h"
-#include "pieces/effort.h"
 #include "refine/scattered.h"
 #include "scarp/points.h"
 #include "scarp/result.h"
+#include "simplify/point_recipe.h"
 
 namespace scarp {
 
@@ -31,7 +31,7 @@ struct PointFit {
 /// vertices stay, sorted. `heights`: of points as vertices. Fails with kCancelled. REQUIRES: every point keeps
 /// aims.refinement; the lattice has kMaxFitSteps at most in what triangles reach over, or nothing is done there.
 Result<PointFit> fit_points(const SnappedPoints& points, const PointSet& given, std::span<const double> heights,
-                            const PointAims& aims, std::span<const std::uint32_t> fixed, const PointOptions& options,
+                            const PointAims& aims, std::span<const std::uint32_t> fixed, const PointRecipe& recipe,
                             ScatteredDomain& domain);
 
 }  // namespace scarp

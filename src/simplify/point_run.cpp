@@ -25,22 +25,23 @@ namespace {
 /// One run of the engine towards the goals.
 class PointRun {
  public:
-  PointRun(const PointTask& task, const PointOptions& options, ScatteredDomain domain)
+  PointRun(const PointTask& task, const PointRecipe& recipe, ScatteredDomain domain)
       : points_(task.points),
         snapped_(task.snapped),
         heights_(task.heights),
-        options_(options),
+        recipe_(recipe),
+        options_(recipe.options),
         lines_(task.lines),
-        budget_(options.max_triangles, options.max_vertices),
-        bound_(options.max_error.value_or(0)),
+        budget_(options_.max_triangles, options_.max_vertices),
+        bound_(options_.max_error.value_or(0)),
         aims_(bound_, heights_),
         width_(task.width),
-        fits_(traits_of(options.quality.effort).fits && bound_ > 0 && aims_.is_open()),
+        fits_(recipe.removes && bound_ > 0 && aims_.is_open()),
         is_on_lattice_(task.steps == PointSteps::kFloat32),
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
         refinement_(std::in_place, snapped_, heights_, domain_, fits_ ? aims_.refinement : bound_),
-        reporter_(options.run.progress) {
+        reporter_(options_.run.progress) {
     for (double z : snapped_.z) largest_height_ = std::max(largest_height_, std::abs(z));
   }
 
@@ -70,8 +71,8 @@ class PointRun {
     if (!fits_ || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
     std::sort(mended_.begin(), mended_.end());
-    SCARP_TRY(const auto& fitted, fit_points(snapped_, points_, heights_, aims_, mended_, options_, domain_));
-    result.effort = options_.quality.effort;
+    SCARP_TRY(const auto& fitted, fit_points(snapped_, points_, heights_, aims_, mended_, recipe_, domain_));
+    result.effort = recipe_.effort;
     if (!lines_.empty()) {
       refinement_.emplace(snapped_, heights_, domain_, bound_);
       if (refinement_->done()) flat_ = refinement_->flip_flats(lines_.on_lines());
@@ -153,7 +154,7 @@ class PointRun {
     const std::vector<std::uint32_t> inserted(domain_.point_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
                                               domain_.point_of.begin() + static_cast<std::ptrdiff_t>(best_.vertices));
     refinement_.reset();
-    domain_ = *build_domain(snapped_, domain_.outline);
+    domain_ = *build_domain(snapped_, domain_.outlines);
     for (const std::uint32_t point : inserted) {
       const Point p = snapped_.at[point];
       domain_.insert(point, p, domain_.tin.locate(p, domain_.tin.last_touched()));
@@ -268,7 +269,7 @@ class PointRun {
     MeasureOptions judge;
     judge.run.threads = options_.run.threads;
     judge.run.progress = options_.run.progress;
-    judge.inlets = options_.boundary_length.has_value();
+    judge.inlets = options_.boundary_length || !points_.boundary.empty();
     if (options_.max_error) judge.collect_above = bound_ + allowance();
     for (;;) {
       const auto start = Clock::now();
@@ -328,6 +329,7 @@ class PointRun {
   const PointSet& points_;
   const SnappedPoints& snapped_;
   std::span<const double> heights_;
+  const PointRecipe& recipe_;
   const PointOptions& options_;
   const PointLines& lines_;
   Budget budget_;
@@ -348,9 +350,9 @@ class PointRun {
 
 }  // namespace
 
-Result<PointMesh> run_points(const PointTask& task, const PointOptions& options, ScatteredDomain domain) {
+Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, ScatteredDomain domain) {
   const auto start = Clock::now();
-  PointRun run(task, options, std::move(domain));
+  PointRun run(task, recipe, std::move(domain));
   PointMesh made;
   SCARP_TRY(made.simplified, run.execute(start));
   made.flat = run.flat();

@@ -10,6 +10,7 @@
 #include "refine/scattered.h"
 #include "scarp/points.h"
 #include "scarp/result.h"
+#include "simplify/point_recipe.h"
 
 namespace scarp {
 
@@ -17,19 +18,19 @@ namespace scarp {
 struct PointTask {
   const PointSet& points;
   const SnappedPoints& snapped;
-  std::span<const double> heights;  ///< of points as vertices: z, or that rounded to float32
+  std::span<const double> heights;  ///< heights of points as vertices: z, or that rounded to float32
   const PointLines& lines;
   PointSteps steps;
-  double width;  ///< of the hull, as ScatteredDomain::width
+  double width;  ///< width of the hull: ScatteredDomain::width
 };
 
 struct PointMesh {
   Simplified simplified;
-  std::uint64_t flat = 0, loose = 0;  ///< as in SimplifiedPoints
+  std::uint64_t flat = 0, loose = 0;  ///< those of SimplifiedPoints
 };
 
-/// One mesh: towards the max error, or until insertion reaches a budget. Fails as simplify_points() does. REQUIRES:
-/// checked options with a chosen effort; the domain has the ends of lines as vertices.
-Result<PointMesh> run_points(const PointTask& task, const PointOptions& options, ScatteredDomain domain);
+/// One mesh: towards the max error, or until insertion reaches a budget. Fails as simplify_points() does. REQUIRES: the
+/// domain has the ends of lines as vertices.
+Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, ScatteredDomain domain);
 
 }  // namespace scarp

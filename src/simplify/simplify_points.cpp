@@ -13,45 +13,16 @@
 
 #include "grid/far_points.h"
 #include "grid/snapped_points.h"
-#include "pieces/checks.h"
-#include "pieces/effort.h"
 #include "refine/concave_outline.h"
 #include "refine/hull_fit.h"
 #include "scarp/points.h"
 #include "simplify/budget_search.h"
+#include "simplify/point_recipe.h"
 #include "simplify/point_run.h"
 
 namespace scarp {
 
 namespace {
-
-Result<void> check_options(const PointOptions& options) {
-  if (!options.max_error && !options.max_triangles && !options.max_vertices)
-    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
-  if (options.boundary_length && !(*options.boundary_length > 0))
-    return fail(ErrorKind::kUsage,
-                fmt::format("boundary_length must be above 0, and {} is not", *options.boundary_length));
-  const Quality& quality = options.quality;
-  if (quality.shape.any())
-    return fail(ErrorKind::kUsage, "angles and lengths of edges are for rasters, not for points");
-  if (quality.order == Order::kDominant)
-    return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
-  if (quality.vertices == Vertices::kFree && !traits_of(quality.effort).moves_vertices)
-    return fail(ErrorKind::kUsage, "free vertices need high or max effort");
-  return check_max_error(options.max_error);
-}
-
-Result<void> check_lines(const PointSet& points, const PointOptions& options) {
-  if (!points.lines.empty() && options.boundary_length)
-    return fail(ErrorKind::kUsage,
-                "boundary_length cannot be combined with lines such as contours, which may cross what it takes away: "
-                "leave it out");
-  if (points.lines.empty() || (!options.max_triangles && !options.max_vertices)) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} cannot be combined with lines such as contours, which need vertices of their own beyond "
-                          "any budget: ask for a max error",
-                          options.max_triangles ? "max_triangles" : "max_vertices"));
-}
 
 /// Heights that vertices have in a mesh of float32 positions.
 Result<std::vector<double>> round_heights(const PointSet& points, const SnappedPoints& snapped) {
@@ -97,28 +68,30 @@ Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, c
                           far.empty() ? "" : "; " + far));
 }
 
-/// True if vertices are removed after refinement.
-bool removes(const PointOptions& options) {
-  return traits_of(options.quality.effort).fits && !(options.max_error && *options.max_error == 0);
+using Outlines = std::vector<std::vector<std::uint32_t>>;
+
+/// The lattice points of a set's own boundary.
+Outlines snap_boundary(const PointSet& points, const SnappedPoints& snapped) {
+  Outlines outlines;
+  for (const auto& ring : points.boundary) {
+    outlines.emplace_back();
+    for (const std::uint32_t corner : ring) outlines.back().push_back(snapped.place[corner]);
+  }
+  return outlines;
 }
 
-PointSteps steps_of(const PointSet& points, const PointOptions& options) {
-  if (options.float32_positions && (removes(options) || !points.lines.empty())) return PointSteps::kFloat32;
-  return removes(options) ? PointSteps::kFit : PointSteps::kFinest;
-}
-
-Result<PointMesh> run_from(const PointTask& task, const PointOptions& options,
-                           const std::vector<std::uint32_t>& outline) {
-  SCARP_TRY(auto&& domain, build_domain(task.snapped, outline));
+Result<PointMesh> run_from(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
+  SCARP_TRY(auto&& domain, build_domain(task.snapped, outlines));
   for (const std::uint32_t point : task.lines.ends()) {
     const Point p = task.snapped.at[point];
     domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
   }
-  return run_points(task, options, std::move(domain));
+  return run_points(task, recipe, std::move(domain));
 }
 
 /// The mesh of a budget, by runs for several errors.
-Result<Simplified> search(const PointTask& task, const PointOptions& asked, const std::vector<std::uint32_t>& outline) {
+Result<Simplified> search(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
+  const PointOptions& asked = recipe.options;
   SimplifyOptions options;
   options.goals = {asked.max_error, asked.max_triangles, asked.max_vertices};
   options.quality = asked.quality;
@@ -129,11 +102,10 @@ Result<Simplified> search(const PointTask& task, const PointOptions& asked, cons
     once.max_error = towards.goals.max_error;
     once.max_triangles = towards.goals.max_triangles;
     once.max_vertices = towards.goals.max_vertices;
-    if (scale.refines_only) once.quality.effort = Effort::kFast;
-    SCARP_TRY(auto&& made, run_from(task, once, outline));
+    SCARP_TRY(auto&& made, run_from(task, PointRecipe(task.points, once, scale.refines_only), outlines));
     return std::move(made.simplified);
   };
-  search.traits = traits_of(asked.quality.effort);
+  search.traits = recipe.traits;
   search.most = [&] {
     const auto [least, most] = std::minmax_element(task.snapped.z.begin(), task.snapped.z.end());
     return 2 * (*most - *least);
@@ -146,16 +118,16 @@ Result<Simplified> search(const PointTask& task, const PointOptions& asked, cons
 
 std::array<double, 2> local_origin(const PointSet& points) { return {middle(points.x), middle(points.y)}; }
 
-Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& asked) try {
-  SCARP_RETURN_IF_ERROR(check_options(asked));
-  SCARP_RETURN_IF_ERROR(check_lines(points, asked));
-  PointOptions options = asked;
-  if (options.quality.effort == Effort::kAuto) options.quality.effort = Effort::kNormal;
-  const PointSteps steps = steps_of(points, options);
-  SCARP_TRY(const auto& snapped, snap_points(points, options.duplicates, steps));
+Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
+  SCARP_RETURN_IF_ERROR(check_point_options(points, options));
+  const PointRecipe recipe(points, options);
+  SCARP_TRY(const auto& snapped, snap_points(points, options.duplicates, recipe.steps));
   SCARP_TRY(auto&& domain, build_domain(snapped));
   SCARP_RETURN_IF_ERROR(check_width(points, snapped, domain));
-  if (options.boundary_length) {
+  const double width = domain.width;
+  if (!points.boundary.empty()) {
+    SCARP_TRY(domain, build_domain(snapped, snap_boundary(points, snapped)));
+  } else if (options.boundary_length) {
     SCARP_TRY(domain, build_concave_domain(snapped, std::move(domain), *options.boundary_length));
   }
   SCARP_TRY(const auto& lines, PointLines::build(points, snapped));
@@ -163,20 +135,21 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   if (options.float32_positions) {
     SCARP_TRY(rounded, round_heights(points, snapped));
   }
-  const PointTask task{points, snapped, options.float32_positions ? std::span<const double>(rounded) : snapped.z,
-                       lines,  steps,   domain.width};
+  const PointTask task{points, snapped,      options.float32_positions ? std::span<const double>(rounded) : snapped.z,
+                       lines,  recipe.steps, width};
   SimplifiedPoints result;
   result.points = points.size();
   result.duplicates = snapped.duplicates;
-  result.on_hull = domain.outline.size();
+  for (const auto& ring : domain.outlines) result.on_hull += ring.size();
   result.lattice_step = snapped.lattice.step;
-  if (!options.boundary_length && points.lines.empty()) result.hull_fit = find_hull_fit(snapped);
-  const std::vector<std::uint32_t> outline = domain.outline;
-  if (removes(options) && (options.max_triangles || options.max_vertices)) {
-    SCARP_TRY(result.simplified, search(task, options, outline));
+  if (!options.boundary_length && points.boundary.empty() && points.lines.empty())
+    result.hull_fit = find_hull_fit(snapped);
+  const Outlines outlines = domain.outlines;
+  if (recipe.searches) {
+    SCARP_TRY(result.simplified, search(task, recipe, outlines));
     return result;
   }
-  SCARP_TRY(auto&& made, run_from(task, options, outline));
+  SCARP_TRY(auto&& made, run_from(task, recipe, outlines));
   result.simplified = std::move(made.simplified);
   result.flat = made.flat;
   result.loose = made.loose;

@@ -274,8 +274,8 @@ RC_GTEST_PROP(concave, meshes_keep_the_promise_at_every_point_and_end_at_the_out
   RC_ASSERT(std::abs(worst - m.max_error) < 1e-5);
   const auto domain = build_concave_domain(snapped, std::move(*hull), length);
   if (!domain) RC_FAIL(domain.error().message);
-  RC_ASSERT(result->on_hull == domain->outline.size());
-  const double expected = area_of(snapped, domain->outline);
+  RC_ASSERT(result->on_hull == domain->outlines.front().size());
+  const double expected = area_of(snapped, domain->outlines.front());
   RC_ASSERT(std::abs(area_of(mesh) - expected) <= 1e-6 * expected + 4 * snapped.lattice.step * length);
 }
 
@@ -365,8 +365,8 @@ TEST(concave, hull_is_suggested_for_bays_and_not_in_pieces_for_tracks) {
     EXPECT_LT(fit.boundary_length, 300);
     const auto points = *snap_points(bay, DuplicatePolicy::kFirst);
     const auto domain = build_concave_domain(points, *hull_of(points), fit.boundary_length);
-    EXPECT_LT(area_of(points, domain->outline), 0.82 * 1e6);
-    EXPECT_GT(area_of(points, domain->outline), 0.70 * 1e6);
+    EXPECT_LT(area_of(points, domain->outlines.front()), 0.82 * 1e6);
+    EXPECT_GT(area_of(points, domain->outlines.front()), 0.70 * 1e6);
     Uniform any(seed);
     for (const double across : {5.0, 20.0, 100.0}) {
       const HullFit tracks =

@@ -8,6 +8,7 @@
 #include "session/reports/report.h"
 #include "session/reports/simplify_run.h"
 #include "session/tasks/mesh_output.h"
+#include "session/tasks/points_dem.h"
 #include "session/tasks/points_work.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
@@ -23,6 +24,10 @@ using enum OptionId;
 
 Result<ReadyFile> encode(const SimplifyPlan& plan, PointsOutcome& outcome) {
   SCARP_RETURN_IF_ERROR(complete_mesh(plan, outcome));
+  if (plan.format.kind == OutputKind::kDem) {
+    SCARP_TRY(auto&& raster, encode_points_dem(plan, outcome));
+    return ReadyFile{plan.output, plan.format.name(), std::move(raster)};
+  }
   turn_as_planned(plan, outcome.simplified.mesh);
   SCARP_TRY(auto&& bytes, encode_as(plan.format, outcome.simplified.mesh,
                                     {.compress = plan.compress, .threads = plan.simplify.run.threads},

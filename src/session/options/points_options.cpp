@@ -51,18 +51,21 @@ Result<DuplicatePolicy> parse_policy(const GivenOptions& given) {
   return policy.value_or(DuplicatePolicy::kFirst);
 }
 
-Result<std::optional<double>> parse_boundary(const GivenOptions& given) {
+Result<BoundaryChoice> parse_boundary(const GivenOptions& given) {
   constexpr std::string_view kConcave = "concave:";
   const Given& text = given[kBoundary];
-  if (!text || *text == "hull") return std::optional<double>();
+  if (!text || *text == "hull") return BoundaryChoice{};
   if (text->starts_with(kConcave)) {
     const Result<double> length = parse_number(name_of(kBoundary), text->substr(kConcave.size()));
-    if (length && *length > 0) return *length;
+    if (length && *length > 0) return BoundaryChoice{*length, ""};
+  } else if (text->find('.') != std::string::npos) {
+    return BoundaryChoice{std::nullopt, *text};
   }
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} {} is neither hull nor concave:LENGTH, such as concave:50: LENGTH is a number above 0 in "
-                          "the unit of x and y",
-                          kBoundary, shell_word(*text)));
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} {} is neither hull nor concave:LENGTH, such as concave:50, nor a file of polygons: LENGTH "
+                  "is a number above 0 in the unit of x and y",
+                  kBoundary, shell_word(*text)));
 }
 
 }  // namespace scarp::cli

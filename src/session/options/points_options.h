@@ -21,7 +21,11 @@ Result<void> check_kind_of_input(const GivenOptions& given);
 /// --duplicates. Fails with kUsage.
 Result<DuplicatePolicy> parse_policy(const GivenOptions& given);
 const char* policy_name(DuplicatePolicy policy);
-/// The LENGTH of --boundary concave:LENGTH; nothing for the convex hull.
-Result<std::optional<double>> parse_boundary(const GivenOptions& given);
+/// --boundary.
+struct BoundaryChoice {
+  std::optional<double> length;  ///< of concave:LENGTH
+  std::string file;              ///< of polygons; neither: the convex hull
+};
+Result<BoundaryChoice> parse_boundary(const GivenOptions& given);
 
 }  // namespace scarp::cli

@@ -78,6 +78,12 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   report["input"]["on_hull"] = outcome.on_hull;
   report["input"]["lattice_step"] = outcome.lattice_step;
   report["input"]["boundary"] = outcome.boundary;
+  if (outcome.cut) {
+    report["input"]["boundary_cut"] = Json{{"points_outside", outcome.cut->points_outside},
+                                           {"corners", outcome.cut->corners},
+                                           {"corners_beyond", outcome.cut->corners_beyond},
+                                           {"farthest", outcome.cut->farthest}};
+  }
   report["input"]["suggested_boundary"] =
       or_null(outcome.suggested_boundary.empty() ? Given() : Given(outcome.suggested_boundary));
   report["frame"] = describe_frame(outcome.points);
@@ -114,16 +120,20 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   if (!outcome.points.columns.empty()) text += summary_line("read as", outcome.points.columns);
   if (!outcome.points.lines.empty())
     text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");
+  if (outcome.cut)
+    text += summary_line("boundary", fmt::format("{}: {}, {} outside left out", base_name(outcome.boundary),
+                                                 format_plural(outcome.cut->corners, "corner"),
+                                                 format_plural(outcome.cut->points_outside, "point")));
   text += summary_line("duplicates", outcome.duplicates == 0
                                          ? "none"
                                          : fmt::format("{}, the {} of each place counts",
                                                        format_count(outcome.duplicates), policy_name(outcome.policy)));
   text += summary_line("lattice step", format_number(outcome.lattice_step));
   text += files_lines(plan, files);
-  text += summary_line("vertices", fmt::format("{}, {} of the points, {} on the hull", format_count(outcome.vertices),
+  text += summary_line("vertices", fmt::format("{}, {} of the points, {} on the {}", format_count(outcome.vertices),
                                                format_share(static_cast<double>(outcome.vertices),
                                                             static_cast<double>(outcome.points.size())),
-                                               format_count(outcome.on_hull)));
+                                               format_count(outcome.on_hull), outcome.cut ? "boundary" : "hull"));
   const std::string flats =
       fmt::format(", {} ({}) flat between points of equal height", format_count(outcome.flat),
                   format_share(static_cast<double>(outcome.flat), static_cast<double>(outcome.triangles)));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/height_field.h"
+#include "scarp/points.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_run.h"
 #include "session/text/json.h"
@@ -27,6 +28,7 @@ struct PointsOutcome : SimplifyRun {
   std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
   double lattice_step = 0;
   std::string boundary = "hull";                ///< value of --boundary
+  std::optional<BoundaryCut> cut;               ///< by polygons
   std::string suggested_boundary;               ///< empty: none
   std::optional<std::array<double, 2>> centre;  ///< centre of the local frame, where the mesh has one and the points
                                                 ///< have not

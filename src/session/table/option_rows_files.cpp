@@ -272,8 +272,9 @@ const OptionRow kFileRows[] = {
      .value = "S",
      .by_default = "1",
      .above = 0,
-     .help = "Cell width of a raster without georeference, such as a heightmap for a game. With a georeference only "
-             "together with --crs grid."},
+     .is_for_points = true,
+     .help = "Cell width of a raster without georeference, such as a heightmap for a game; with a georeference only "
+             "together with --crs grid. For points: cell width of a raster as OUTPUT."},
     {.id = kCellSize,
      .name = "--cell-size",
      .commands = kTile | kTilePlan | kTileCheck,

@@ -258,17 +258,18 @@ constexpr OptionRow kSampleRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kPoints,
      .type = kText,
-     .value = "hull|concave:LENGTH",
+     .value = "hull|concave:LENGTH|FILE",
      .by_default = "hull",
      .is_for_points = true,
-     .help = "Boundary of the mesh: the convex hull of the points, or a concave one. Triangles with a boundary edge "
-             "longer than LENGTH, in the unit of x and y, are removed while the mesh stays in one piece."},
+     .help = "Boundary of the mesh: the convex hull of the points, a concave one, or the polygons of a vector file. "
+             "concave removes triangles with a boundary edge longer than LENGTH, in the unit of x and y, while the mesh "
+             "stays in one piece."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kMeasure,
      .group = OptionGroup::kPoints,
      .type = kText,
-     .value = "hull|concave:LENGTH",
+     .value = "hull|concave:LENGTH|FILE",
      .by_default = "from the mesh file, else hull",
      .is_for_points = true,
      .help = "Allowed boundary: the points' convex hull, or, with concave, one loop within the hull."},

@@ -7,10 +7,12 @@
 
 #include "scarp/points.h"
 #include "session/inputs/mesh_place.h"
+#include "session/inputs/point_features.h"
 #include "session/options/error_goal.h"
 #include "session/options/raster_options.h"
 #include "session/table/option_table.h"
 #include "session/tasks/mesh_output.h"
+#include "session/tasks/points_dem.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
@@ -160,13 +162,9 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
                 "with -t or -p");
   SCARP_TRY(plan, plan_simplify(given, given.files_read()));
   if (runner.on_plan) runner.on_plan(plan.read);
-  if (plan.format.kind == OutputKind::kDem)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
-                            "such as .glb or .ply",
-                            *given[kOutput], shell_word(base_name(given.input()))));
+  SCARP_RETURN_IF_ERROR(check_cell_size(plan, given));
   SCARP_TRY(const auto& policy, parse_policy(given));
-  SCARP_TRY(const auto& boundary_length, parse_boundary(given));
+  SCARP_TRY(const auto& boundary, parse_boundary(given));
 
   outcome.policy = policy;
   outcome.boundary = given[kBoundary].value_or("hull");
@@ -175,13 +173,15 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   SCARP_TRY(PointSet points, read(given, as, runner.progress));
   if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
   SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
+  SCARP_RETURN_IF_ERROR(add_breaklines(given, runner.progress, points));
+  SCARP_TRY(outcome.cut, cut_to_boundary(given, runner.progress, points));
   outcome.points = std::move(points);
   if (!outcome.points.lines.empty() && (given[kMaxTriangles] || given[kMaxPoints]))
     return fail(ErrorKind::kUsage,
                 fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
                             "beyond any budget; ask for an error with -e",
                             *given.first_of({kMaxTriangles, kMaxPoints}), shell_word(base_name(given.input()))));
-  if (!outcome.points.lines.empty() && boundary_length)
+  if (!outcome.points.lines.empty() && boundary.length)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} {} cannot be combined with lines, and {} holds them: they may cross what it "
                             "takes away; leave it out",
@@ -206,7 +206,7 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   options.max_vertices = plan.simplify.goals.max_vertices;
   options.float32_positions = plan.format.is_float32();  // points do not lie where float32 is exact
   options.duplicates = outcome.policy;
-  options.boundary_length = boundary_length;
+  options.boundary_length = boundary.length;
   options.quality = plan.simplify.quality;
   options.run.is_time_up = plan.simplify.run.is_time_up;
   options.run.threads = plan.simplify.run.threads;
@@ -260,13 +260,14 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
     if (!given.has(option) && entry != judged.mesh.metadata.end()) asked.set(option, Given(entry->second));
   }
   SCARP_TRY(judged.policy, parse_policy(asked));
-  SCARP_TRY(const auto& boundary_length, parse_boundary(asked));
+  SCARP_TRY(const auto& boundary, parse_boundary(asked));
   const std::string path = given.input();
   SCARP_TRY(const auto as, remember_reading(given, judged.mesh, *given[kMesh]));
   Result<PointSet> points = read(asked, as, runner.progress);
   if (!points && !given[kCrs] && !as.crs.empty())
     return tl::unexpected(explain_frame(std::move(points.error()), as.crs, *given[kMesh], path));
   SCARP_RETURN_IF_ERROR(points);
+  SCARP_RETURN_IF_ERROR(cut_to_boundary(asked, runner.progress, *points));
   judged.points = std::move(*points);
   if (!given[kCrs]) put_back(judged.points, judged.mesh);
   if (goal) {
@@ -280,7 +281,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   MeasureOptions options;
   options.run.threads = threads;
   options.run.progress = runner.progress;
-  options.inlets = boundary_length.has_value();
+  options.inlets = boundary.length || !boundary.file.empty();
   SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);

@@ -1,0 +1,34 @@
+// The surface through all points of a set: the Delaunay triangulation of their convex hull.
+#pragma once
+
+#include <array>
+
+#include "refine/scattered.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+class PointSurface {
+ public:
+  /// Fails as snap_points() and build_domain() do. Cost: expected O(n log n).
+  static Result<PointSurface> make(const PointSet& points);
+
+  struct Height {
+    double z = 0;
+    double distance = 0;  ///< from the hull, in units of x and y, where the place lies beyond; then z is that of the
+                          ///< nearest place on it
+  };
+  Height at(double x, double y) const;
+
+ private:
+  PointSurface(SnappedPoints snapped, ScatteredDomain domain)
+      : snapped_(std::move(snapped)), domain_(std::move(domain)) {}
+  Height beyond(double x, double y) const;
+
+  SnappedPoints snapped_;
+  ScatteredDomain domain_;
+  mutable Triangle hint_ = 0;
+};
+
+}  // namespace scarp

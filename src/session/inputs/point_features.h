@@ -1,0 +1,20 @@
+// Lines and the boundary that vector files add to scattered points.
+#pragma once
+
+#include <optional>
+
+#include "scarp/points.h"
+#include "scarp/run.h"
+#include "session/options/points_options.h"
+
+namespace scarp::cli {
+
+/// Reads the files of --breaklines, in the CRS and the unit of the points, and adds their lines. A vertex beyond the
+/// points that needs a height causes a warning.
+Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
+
+/// Ends the points at the polygons of --boundary, if that names a file.
+Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, const ProgressCallback& progress,
+                                                   PointSet& points);
+
+}  // namespace scarp::cli

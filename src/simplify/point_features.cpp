@@ -1,0 +1,265 @@
+// Lines and a boundary for scattered points.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "refine/point_surface.h"
+#include "scarp/points.h"
+
+namespace scarp {
+
+namespace {
+
+using Place = std::array<double, 2>;
+
+std::uint32_t add_point(PointSet& points, double x, double y, double z) {
+  points.x.push_back(x);
+  points.y.push_back(y);
+  points.z.push_back(z);
+  return static_cast<std::uint32_t>(points.size() - 1);
+}
+
+/// Edges of rings, by bands of y.
+class RingEdges {
+ public:
+  struct Edge {
+    Place from, to;
+    std::size_t ring, index;  ///< starts at this vertex of the ring
+  };
+
+  explicit RingEdges(std::span<const Line> rings) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+      const auto& vertices = rings[ring].points;
+      for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
+        edges_.push_back({{vertices[k][0], vertices[k][1]}, {vertices[k + 1][0], vertices[k + 1][1]}, ring, k});
+        low = std::min(low, vertices[k][1]);
+        high = std::max(high, vertices[k][1]);
+      }
+    }
+    south_ = low;
+    bands_.resize(std::clamp<std::size_t>(edges_.size(), 1, 1 << 16));
+    per_height_ = high > low ? static_cast<double>(bands_.size()) / (high - low) : 0;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const auto [first, last] = std::minmax({band_of(edges_[e].from[1]), band_of(edges_[e].to[1])});
+      for (std::size_t band = first; band <= last; ++band) bands_[band].push_back(e);
+    }
+  }
+
+  const Edge& edge(std::size_t e) const { return edges_[e]; }
+
+  /// By the rule of even and odd; a place on an edge counts as inside.
+  bool holds(double x, double y) const {
+    bool is_inside = false;
+    for (const std::size_t e : bands_[band_of(y)]) {
+      const auto& [from, to, ring, index] = edges_[e];
+      const double side = (to[0] - from[0]) * (y - from[1]) - (to[1] - from[1]) * (x - from[0]);
+      const bool is_between = (from[1] > y) != (to[1] > y);
+      if (side == 0 && std::min(from[0], to[0]) <= x && x <= std::max(from[0], to[0]) &&
+          std::min(from[1], to[1]) <= y && y <= std::max(from[1], to[1]))
+        return true;
+      if (is_between && (side > 0) == (to[1] > from[1])) is_inside = !is_inside;
+    }
+    return is_inside;
+  }
+
+  /// Calls visit(edge) once for the edges in the bands of a segment.
+  template <class Visit>
+  void each_near(double y_from, double y_to, const Visit& visit) const {
+    std::vector<std::size_t> near;
+    const auto [first, last] = std::minmax({band_of(y_from), band_of(y_to)});
+    for (std::size_t band = first; band <= last; ++band)
+      near.insert(near.end(), bands_[band].begin(), bands_[band].end());
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::size_t e : near) visit(e);
+  }
+
+ private:
+  std::size_t band_of(double y) const {
+    const double band = (y - south_) * per_height_;
+    return band > 0 ? std::min(static_cast<std::size_t>(band), bands_.size() - 1) : 0;
+  }
+
+  std::vector<Edge> edges_;
+  std::vector<std::vector<std::size_t>> bands_;
+  double south_ = 0, per_height_ = 0;
+};
+
+/// A place where a line meets the boundary.
+struct Meeting {
+  std::size_t edge;
+  double along_edge, along_segment;
+  std::uint32_t point;
+};
+
+/// The boundary's own points: its corners, and the places where lines meet it, ring by ring.
+class BoundaryMaker {
+ public:
+  BoundaryMaker(std::span<const Line> rings, PointSet& points) : rings_(rings), edges_(rings), points_(points) {}
+
+  Result<BoundaryCut> run() {
+    SCARP_TRY(const auto& surface, PointSurface::make(points_));
+    cut_lines();
+    BoundaryCut cut;
+    cut.points_outside = drop_outside();
+    add_rings(surface, cut);
+    return cut;
+  }
+
+ private:
+  /// Cuts lines where they leave the boundary, and adds points there.
+  void cut_lines() {
+    std::vector<PointLine> kept;
+    for (const PointLine& line : points_.lines) {
+      PointLine part{{}, line.name};
+      const auto finish = [&] {
+        if (part.points.size() > 1) kept.push_back(part);
+        part.points.clear();
+      };
+      for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+        const std::uint32_t a = line.points[k], b = line.points[k + 1];
+        if (part.points.empty() && edges_.holds(points_.x[a], points_.y[a])) part.points.push_back(a);
+        for (const Meeting& meeting : meetings_of(a, b)) {
+          part.points.push_back(meeting.point);
+          const Place next = place_after(a, b, meeting.along_segment);
+          if (!edges_.holds(next[0], next[1])) finish();
+        }
+        if (edges_.holds(points_.x[b], points_.y[b])) {
+          part.points.push_back(b);
+        } else {
+          finish();
+        }
+      }
+      finish();
+    }
+    points_.lines = std::move(kept);
+  }
+
+  /// A little farther along a segment.
+  Place place_after(std::uint32_t a, std::uint32_t b, double share) const {
+    const double farther = share + (1 - share) * 1e-6;
+    return {points_.x[a] + farther * (points_.x[b] - points_.x[a]),
+            points_.y[a] + farther * (points_.y[b] - points_.y[a])};
+  }
+
+  /// Crossings of a segment with the boundary, in order; each becomes a point of both.
+  std::vector<Meeting> meetings_of(std::uint32_t a, std::uint32_t b) {
+    std::vector<Meeting> found;
+    const double ax = points_.x[a], ay = points_.y[a], bx = points_.x[b], by = points_.y[b];
+    edges_.each_near(ay, by, [&](std::size_t e) {
+      const auto& [from, to, ring, index] = edges_.edge(e);
+      const double ux = bx - ax, uy = by - ay, vx = to[0] - from[0], vy = to[1] - from[1];
+      const double cross = ux * vy - uy * vx;
+      if (cross == 0) return;
+      const double wx = from[0] - ax, wy = from[1] - ay;
+      const double s = (wx * vy - wy * vx) / cross, t = (wx * uy - wy * ux) / cross;
+      if (!(s > 0 && s < 1 && t > 0 && t < 1)) return;
+      found.push_back({e, t, s, 0});
+    });
+    std::sort(found.begin(), found.end(),
+              [](const Meeting& p, const Meeting& q) { return p.along_segment < q.along_segment; });
+    for (Meeting& meeting : found) {
+      const double s = meeting.along_segment;
+      const double z = points_.z[a] + s * (points_.z[b] - points_.z[a]);
+      meeting.point = add_point(points_, ax + s * (bx - ax), ay + s * (by - ay), z);
+      own_.resize(points_.size(), false);
+      own_[meeting.point] = true;
+      meetings_.push_back(meeting);
+    }
+    return found;
+  }
+
+  /// Drops the points beyond the boundary; returns how many.
+  std::uint64_t drop_outside() {
+    own_.resize(points_.size(), false);
+    std::vector<std::uint32_t> names(points_.size(), 0);
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+      const double x = points_.x[i], y = points_.y[i], z = points_.z[i];
+      if (!own_[i] && !edges_.holds(x, y)) continue;
+      names[i] = count;
+      points_.x[count] = x;
+      points_.y[count] = y;
+      points_.z[count] = z;
+      ++count;
+    }
+    const std::uint64_t dropped = points_.size() - count;
+    for (auto* values : {&points_.x, &points_.y, &points_.z}) values->resize(count);
+    for (PointLine& line : points_.lines) {
+      for (std::uint32_t& point : line.points) point = names[point];
+    }
+    for (Meeting& meeting : meetings_) meeting.point = names[meeting.point];
+    return dropped;
+  }
+
+  void add_rings(const PointSurface& surface, BoundaryCut& cut) {
+    std::sort(meetings_.begin(), meetings_.end(), [](const Meeting& p, const Meeting& q) {
+      return p.edge != q.edge ? p.edge < q.edge : p.along_edge < q.along_edge;
+    });
+    auto meeting = meetings_.begin();
+    std::size_t edge = 0;
+    for (const Line& ring : rings_) {
+      std::vector<std::uint32_t> corners;
+      for (std::size_t k = 0; k + 1 < ring.points.size(); ++k, ++edge) {
+        const double x = ring.points[k][0], y = ring.points[k][1];
+        const auto height = surface.at(x, y);
+        if (height.distance > 0) ++cut.corners_beyond;
+        cut.farthest = std::max(cut.farthest, height.distance);
+        corners.push_back(add_point(points_, x, y, height.z));
+        for (; meeting != meetings_.end() && meeting->edge == edge; ++meeting) corners.push_back(meeting->point);
+      }
+      cut.corners += corners.size();
+      points_.boundary.push_back(std::move(corners));
+    }
+  }
+
+  std::span<const Line> rings_;
+  RingEdges edges_;
+  PointSet& points_;
+  std::vector<Meeting> meetings_;
+  std::vector<bool> own_;  // by point: it is a meeting
+};
+
+}  // namespace
+
+Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points) {
+  const bool any_soft = std::any_of(lines.begin(), lines.end(), [](const Line& line) {
+    return std::any_of(line.points.begin(), line.points.end(), [](const auto& point) { return std::isnan(point[2]); });
+  });
+  std::optional<PointSurface> surface;
+  if (any_soft) {
+    SCARP_TRY(auto&& made, PointSurface::make(points));
+    surface.emplace(std::move(made));
+  }
+  std::uint64_t beyond = 0;
+  for (const Line& line : lines) {
+    PointLine chain{{}, line.name};
+    for (const auto& [x, y, z] : line.points) {
+      const auto height = std::isnan(z) ? surface->at(x, y) : PointSurface::Height{z, 0};
+      if (height.distance > 0) ++beyond;
+      chain.points.push_back(add_point(points, x, y, height.z));
+    }
+    if (line.is_ring()) {
+      chain.points.back() = chain.points.front();
+      points.x.pop_back();
+      points.y.pop_back();
+      points.z.pop_back();
+    }
+    points.lines.push_back(std::move(chain));
+  }
+  return beyond;
+}
+
+Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, PointSet& points) {
+  if (rings.empty()) return fail(ErrorKind::kInput, "the boundary has no polygon");
+  return BoundaryMaker(rings, points).run();
+}
+
+}  // namespace scarp

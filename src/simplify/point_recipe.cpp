@@ -1,0 +1,61 @@
+#include "simplify/point_recipe.h"
+
+#include <fmt/format.h>
+
+#include "pieces/checks.h"
+
+namespace scarp {
+
+namespace {
+
+Result<void> check_goals(const PointOptions& options) {
+  if (!options.max_error && !options.max_triangles && !options.max_vertices)
+    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
+  if (options.boundary_length && !(*options.boundary_length > 0))
+    return fail(ErrorKind::kUsage,
+                fmt::format("boundary_length must be above 0, and {} is not", *options.boundary_length));
+  const Quality& quality = options.quality;
+  if (quality.shape.any())
+    return fail(ErrorKind::kUsage, "angles and lengths of edges are for rasters, not for points");
+  if (quality.order == Order::kDominant)
+    return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
+  if (quality.vertices == Vertices::kFree && !traits_of(quality.effort).moves_vertices)
+    return fail(ErrorKind::kUsage, "free vertices need high or max effort");
+  return check_max_error(options.max_error);
+}
+
+Result<void> check_lines(const PointSet& points, const PointOptions& options) {
+  if (!points.boundary.empty() && options.boundary_length)
+    return fail(ErrorKind::kUsage, "boundary_length and a boundary of polygons exclude each other: omit one");
+  if (!points.lines.empty() && options.boundary_length)
+    return fail(ErrorKind::kUsage,
+                "boundary_length cannot be combined with lines such as contours, which may cross what it takes away: "
+                "leave it out");
+  if (points.lines.empty() || (!options.max_triangles && !options.max_vertices)) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} cannot be combined with lines such as contours, which need vertices of their own beyond "
+                          "any budget: ask for a max error",
+                          options.max_triangles ? "max_triangles" : "max_vertices"));
+}
+
+}  // namespace
+
+Result<void> check_point_options(const PointSet& points, const PointOptions& options) {
+  SCARP_RETURN_IF_ERROR(check_goals(options));
+  return check_lines(points, options);
+}
+
+PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, bool refines_only)
+    : options(asked),
+      effort(refines_only                            ? Effort::kFast
+             : asked.quality.effort == Effort::kAuto ? Effort::kNormal
+                                                     : asked.quality.effort),
+      traits(traits_of(effort)),
+      removes(traits.fits && !(asked.max_error && *asked.max_error == 0)),
+      searches(removes && (asked.max_triangles || asked.max_vertices)),
+      frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
+      steps(asked.float32_positions && (removes || !points.lines.empty()) ? PointSteps::kFloat32
+            : removes                                                     ? PointSteps::kFit
+                                                                          : PointSteps::kFinest) {}
+
+}  // namespace scarp

@@ -1,0 +1,27 @@
+// The recipe of a run on scattered points: decisions that follow from its options, made once.
+#pragma once
+
+#include "grid/snapped_points.h"
+#include "pieces/effort.h"
+#include "scarp/points.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// Fails with kUsage: no goal, a number out of its range, options that exclude each other.
+Result<void> check_point_options(const PointSet& points, const PointOptions& options);
+
+/// REQUIRES: checked options.
+struct PointRecipe {
+  PointRecipe(const PointSet& points, const PointOptions& asked, bool refines_only = false);
+
+  PointOptions options;
+  Effort effort;        ///< never kAuto
+  EffortTraits traits;  ///< the work of that effort
+  bool removes;         ///< vertices are removed after refinement
+  bool searches;        ///< a budget is met by runs for several errors
+  bool frees_vertices;  ///< vertices may move off the points
+  PointSteps steps;     ///< lattice of the points
+};
+
+}  // namespace scarp

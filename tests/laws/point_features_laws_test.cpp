@@ -1,0 +1,158 @@
+// Laws of scattered points with lines and a boundary: the survey.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "point_sets.h"
+#include "scarp/measure.h"
+#include "scarp/points.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
+
+double land(double x, double y) { return 30 * std::sin(x / 130) + 20 * std::cos(y / 90 + x / 300); }
+
+PointSet survey(std::mt19937& random, int count) {
+  PointSet points;
+  const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  for (int i = 0; i < count; ++i) {
+    points.x.push_back(std::round(uniform() * 1e5) / 100);
+    points.y.push_back(std::round(uniform() * 1e5) / 100);
+    points.z.push_back(land(points.x.back(), points.y.back()) + 4 * uniform());
+  }
+  return points;
+}
+
+/// A ring around (500, 500) whose corners are between two distances from it.
+Line star(std::mt19937& random, int corners, double nearest, double farthest, LineRole role) {
+  Line ring;
+  ring.role = role;
+  ring.polygon = 0;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    const double reach = nearest + (farthest - nearest) * static_cast<double>(random()) / 4294967296.0;
+    ring.points.push_back({500 + reach * std::cos(angle), 500 + reach * std::sin(angle), kNoHeight});
+  }
+  ring.points.push_back(ring.points.front());
+  return ring;
+}
+
+double area_of(const Line& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < ring.points.size(); ++i)
+    sum += ring.points[i][0] * ring.points[i + 1][1] - ring.points[i + 1][0] * ring.points[i][1];
+  return std::abs(sum) / 2;
+}
+
+double area_of(const Mesh& mesh) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto a = mesh.vertex(mesh.triangles[3 * t]), b = mesh.vertex(mesh.triangles[3 * t + 1]),
+               c = mesh.vertex(mesh.triangles[3 * t + 2]);
+    sum += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+  return sum / 2;
+}
+
+/// From the west to the east through the middle, so that it crosses every boundary.
+Line dike(std::mt19937& random, bool is_soft) {
+  Line line;
+  line.name = "dike";
+  for (int i = 0; i <= 6; ++i) {
+    const double x = 20 + 160.0 * i, y = 500 + static_cast<double>(random() % 60);
+    line.points.push_back({x, y, is_soft ? kNoHeight : land(x, y) + 6});
+  }
+  return line;
+}
+
+RC_GTEST_PROP(point_features, keep_the_promise_within_a_boundary_with_holes_and_a_line, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  PointSet points = survey(random, *rc::gen::inRange(60, 300));
+  if (*rc::gen::arbitrary<bool>()) *add_lines(std::vector{dike(random, *rc::gen::arbitrary<bool>())}, points);
+  std::vector<Line> rings{star(random, *rc::gen::inRange(4, 20), 180, 450, LineRole::kOuter)};
+  const bool has_hole = *rc::gen::arbitrary<bool>();
+  if (has_hole) rings.push_back(star(random, *rc::gen::inRange(3, 9), 30, 100, LineRole::kHole));
+  const auto cut = cut_to_boundary(rings, points);
+  if (!cut) RC_FAIL(cut.error().message);
+  const double goal = *rc::gen::element(0.0, 0.5, 2.0, 10.0);
+  const Effort effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  const auto made =
+      simplify_points(points, {.max_error = goal, .float32_positions = false, .quality = {.effort = effort}});
+  if (!made) RC_FAIL(made.error().message);
+  const Mesh& mesh = made->simplified.mesh;
+  const Measurement& m = made->simplified.measurement;
+  RC_ASSERT(m.is_sound());
+  RC_ASSERT(m.uncovered == 0u);
+  RC_ASSERT(m.border_loops == (has_hole ? 2u : 1u));
+  RC_ASSERT(m.max_error <= goal + 1e-9);
+  const auto [missed, worst] = testing::judge_by_brute_force(points, mesh);
+  RC_ASSERT(missed == 0);
+  RC_ASSERT(worst <= goal + 1e-5);
+  const double expected = area_of(rings[0]) - (has_hole ? area_of(rings[1]) : 0);
+  RC_ASSERT(std::abs(area_of(mesh) - expected) < 1e-4 * expected);
+}
+
+RC_GTEST_PROP(point_features, keep_the_promise_in_float32, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  PointSet points = survey(random, *rc::gen::inRange(60, 300));
+  *add_lines(std::vector{dike(random, *rc::gen::arbitrary<bool>())}, points);
+  if (!cut_to_boundary(std::vector{star(random, 12, 180, 450, LineRole::kOuter)}, points)) RC_FAIL("not cut");
+  const double goal = *rc::gen::element(0.5, 2.0, 10.0);
+  const Effort effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  const auto made = simplify_points(points, {.max_error = goal, .quality = {.effort = effort}});
+  if (!made) RC_FAIL(made.error().message);
+  RC_ASSERT(made->simplified.measurement.max_error <= goal + 1e-9);
+  RC_ASSERT(made->simplified.measurement.uncovered == 0u);
+  RC_ASSERT(made->simplified.measurement.is_sound());
+}
+
+TEST(point_features, soft_lines_follow_the_points_and_corners_beyond_them_are_counted) {
+  PointSet points;
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {100.0, 0.0}, {100.0, 100.0}, {0.0, 100.0}}) {
+    points.x.push_back(x);
+    points.y.push_back(y);
+    points.z.push_back(x / 10);
+  }
+  Line line;
+  line.points = {{10, 20, kNoHeight}, {90, 60, kNoHeight}};
+  EXPECT_EQ(*add_lines(std::vector{line}, points), 0u);
+  EXPECT_NEAR(points.z[4], 1, 1e-6);
+  EXPECT_NEAR(points.z[5], 9, 1e-6);
+  ASSERT_EQ(points.lines.size(), 1u);
+  Line ring;
+  ring.role = LineRole::kOuter;
+  ring.points = {{-20, 0, 0}, {50, 0, 0}, {50, 100, 0}, {-20, 100, 0}, {-20, 0, 0}};
+  const auto cut = *cut_to_boundary(std::vector{ring}, points);
+  EXPECT_EQ(cut.points_outside, 3u);
+  EXPECT_EQ(cut.corners_beyond, 2u);
+  EXPECT_DOUBLE_EQ(cut.farthest, 20);
+  const auto made = *simplify_points(points, {.max_error = 1.0, .float32_positions = false});
+  EXPECT_NEAR(area_of(made.simplified.mesh), 7000, 1e-6);
+  EXPECT_EQ(made.simplified.measurement.uncovered, 0u);
+}
+
+TEST(point_features, refuse_rings_that_cross) {
+  std::mt19937 random(3);
+  PointSet points = survey(random, 50);
+  Line ring;
+  ring.role = LineRole::kOuter;
+  ring.points = {{100, 100, 0}, {900, 900, 0}, {900, 100, 0}, {100, 900, 0}, {100, 100, 0}};
+  ASSERT_TRUE(cut_to_boundary(std::vector{ring}, points));
+  const auto made = simplify_points(points, {.max_error = 1.0});
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().kind, ErrorKind::kInput);
+  EXPECT_NE(made.error().message.find("edges of the boundary cross near point"), std::string::npos);
+}
+
+}  // namespace
+
+}  // namespace scarp
