@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/ring_bands.h"
+
 namespace scarp::judge {
 namespace {
 
@@ -34,6 +36,26 @@ double depth(const std::vector<Spot>& chain, double sign, const Spot& p) {
   return sign * turn(a, b, p) / std::hypot(b.x - a.x, b.y - a.y);
 }
 
+/// Counts the open edges for which is_inside(a place outside their middle).
+template <class IsInside>
+std::uint64_t count_edges(const Mesh& mesh, std::span<const OpenEdge> open, double tolerance,
+                          const IsInside& is_inside) {
+  const double step = std::max(4 * tolerance, 4 * position_noise(mesh));
+  std::uint64_t count = 0;
+  for (const OpenEdge& edge : open) {
+    const auto at = [&](std::uint32_t v) {
+      return Spot{mesh.positions[3 * std::size_t{v}], mesh.positions[3 * std::size_t{v} + 1]};
+    };
+    const Spot a = at(edge.from), b = at(edge.to);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0)) continue;
+    // Triangles lie to the left of their edges.
+    count +=
+        is_inside(Spot{(a.x + b.x) / 2 + step * (b.y - a.y) / length, (a.y + b.y) / 2 - step * (b.x - a.x) / length});
+  }
+  return count;
+}
+
 }  // namespace
 
 std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
@@ -46,20 +68,20 @@ std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapp
   std::sort(spots.begin(), spots.end(),
             [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   const auto lower = chain_of(spots, 1), upper = chain_of(spots, -1);
-  const double step = std::max(4 * tolerance, 4 * position_noise(mesh));
-  std::uint64_t count = 0;
-  for (const OpenEdge& edge : open) {
-    const auto at = [&](std::uint32_t v) {
-      return Spot{mesh.positions[3 * std::size_t{v}], mesh.positions[3 * std::size_t{v} + 1]};
-    };
-    const Spot a = at(edge.from), b = at(edge.to);
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (!(length > 0)) continue;
-    // Triangles lie to the left of their edges.
-    const Spot beside{(a.x + b.x) / 2 + step * (b.y - a.y) / length, (a.y + b.y) / 2 - step * (b.x - a.x) / length};
-    count += depth(lower, 1, beside) > 0 && depth(upper, -1, beside) > 0;
+  return count_edges(mesh, open, tolerance,
+                     [&](const Spot& beside) { return depth(lower, 1, beside) > 0 && depth(upper, -1, beside) > 0; });
+}
+
+std::uint64_t count_boundary_gaps(const PointSet& points, const Mesh& mesh, std::span<const OpenEdge> open,
+                                  double tolerance) {
+  std::vector<PlaceRing> rings;
+  for (const auto& ring : points.boundary) {
+    rings.emplace_back();
+    for (const std::uint32_t i : ring)
+      rings.back().push_back({points.x[i] - mesh.origin[0], points.y[i] - mesh.origin[1]});
   }
-  return count;
+  const RingBands bands(rings);
+  return count_edges(mesh, open, tolerance, [&](const Spot& beside) { return bands.holds(beside.x, beside.y); });
 }
 
 }  // namespace scarp::judge

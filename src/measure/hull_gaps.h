@@ -1,4 +1,4 @@
-// Holes in a surface over scattered points, whose domain is their convex hull.
+// Holes in a surface over scattered points, whose domain is their convex hull, or their boundary.
 #pragma once
 
 #include <cstdint>
@@ -13,5 +13,9 @@ namespace scarp::judge {
 /// than that inside the points' convex hull. Cost: O(open edges · log hull), plus a sort of the points.
 std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance);
+
+/// The same for points with a boundary of their own, by its polygons.
+std::uint64_t count_boundary_gaps(const PointSet& points, const Mesh& mesh, std::span<const OpenEdge> open,
+                                  double tolerance);
 
 }  // namespace scarp::judge

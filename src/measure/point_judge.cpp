@@ -255,7 +255,11 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     count_faults(mesh, options.run.threads, result);
     measure_angles(mesh, judged, options.run.threads, result);
     result.t_junctions = count_t_junctions(mesh, connections);
-    if (!options.inlets || edges.loops > 1) result.gaps = count_hull_gaps(points, snapped, mesh, edges.open, tolerance);
+    if (!points.boundary.empty()) {
+      result.gaps = count_boundary_gaps(points, mesh, edges.open, tolerance);
+    } else if (!options.inlets || edges.loops > 1) {
+      result.gaps = count_hull_gaps(points, snapped, mesh, edges.open, tolerance);
+    }
     if (connections.is_single_layer) return result;
     bool is_stopped = false;
     result.overlaps = count_overlaps(mesh, judged, options.run.threads, [&](double fraction) {

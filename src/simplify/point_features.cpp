@@ -9,14 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/ring_bands.h"
 #include "refine/point_surface.h"
 #include "scarp/points.h"
 
 namespace scarp {
 
 namespace {
-
-using Place = std::array<double, 2>;
 
 std::uint32_t add_point(PointSet& points, double x, double y, double z) {
   points.x.push_back(x);
@@ -25,72 +24,15 @@ std::uint32_t add_point(PointSet& points, double x, double y, double z) {
   return static_cast<std::uint32_t>(points.size() - 1);
 }
 
-/// Edges of rings, by bands of y.
-class RingEdges {
- public:
-  struct Edge {
-    Place from, to;
-    std::size_t ring, index;  ///< starts at this vertex of the ring
-  };
-
-  explicit RingEdges(std::span<const Line> rings) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-      const auto& vertices = rings[ring].points;
-      for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
-        edges_.push_back({{vertices[k][0], vertices[k][1]}, {vertices[k + 1][0], vertices[k + 1][1]}, ring, k});
-        low = std::min(low, vertices[k][1]);
-        high = std::max(high, vertices[k][1]);
-      }
-    }
-    south_ = low;
-    bands_.resize(std::clamp<std::size_t>(edges_.size(), 1, 1 << 16));
-    per_height_ = high > low ? static_cast<double>(bands_.size()) / (high - low) : 0;
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      const auto [first, last] = std::minmax({band_of(edges_[e].from[1]), band_of(edges_[e].to[1])});
-      for (std::size_t band = first; band <= last; ++band) bands_[band].push_back(e);
-    }
+std::vector<PlaceRing> places_of(std::span<const Line> rings) {
+  std::vector<PlaceRing> places;
+  for (const Line& ring : rings) {
+    places.emplace_back();
+    for (std::size_t k = 0; k + 1 < ring.points.size(); ++k)
+      places.back().push_back({ring.points[k][0], ring.points[k][1]});
   }
-
-  const Edge& edge(std::size_t e) const { return edges_[e]; }
-
-  /// By the rule of even and odd; a place on an edge counts as inside.
-  bool holds(double x, double y) const {
-    bool is_inside = false;
-    for (const std::size_t e : bands_[band_of(y)]) {
-      const auto& [from, to, ring, index] = edges_[e];
-      const double side = (to[0] - from[0]) * (y - from[1]) - (to[1] - from[1]) * (x - from[0]);
-      const bool is_between = (from[1] > y) != (to[1] > y);
-      if (side == 0 && std::min(from[0], to[0]) <= x && x <= std::max(from[0], to[0]) &&
-          std::min(from[1], to[1]) <= y && y <= std::max(from[1], to[1]))
-        return true;
-      if (is_between && (side > 0) == (to[1] > from[1])) is_inside = !is_inside;
-    }
-    return is_inside;
-  }
-
-  /// Calls visit(edge) once for the edges in the bands of a segment.
-  template <class Visit>
-  void each_near(double y_from, double y_to, const Visit& visit) const {
-    std::vector<std::size_t> near;
-    const auto [first, last] = std::minmax({band_of(y_from), band_of(y_to)});
-    for (std::size_t band = first; band <= last; ++band)
-      near.insert(near.end(), bands_[band].begin(), bands_[band].end());
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    for (const std::size_t e : near) visit(e);
-  }
-
- private:
-  std::size_t band_of(double y) const {
-    const double band = (y - south_) * per_height_;
-    return band > 0 ? std::min(static_cast<std::size_t>(band), bands_.size() - 1) : 0;
-  }
-
-  std::vector<Edge> edges_;
-  std::vector<std::vector<std::size_t>> bands_;
-  double south_ = 0, per_height_ = 0;
-};
+  return places;
+}
 
 /// A place where a line meets the boundary.
 struct Meeting {
@@ -102,7 +44,8 @@ struct Meeting {
 /// The boundary's own points: its corners, and the places where lines meet it, ring by ring.
 class BoundaryMaker {
  public:
-  BoundaryMaker(std::span<const Line> rings, PointSet& points) : rings_(rings), edges_(rings), points_(points) {}
+  BoundaryMaker(std::span<const Line> rings, PointSet& points)
+      : rings_(rings), edges_(places_of(rings)), points_(points) {}
 
   Result<BoundaryCut> run() {
     SCARP_TRY(const auto& surface, PointSurface::make(points_));
@@ -154,7 +97,7 @@ class BoundaryMaker {
     std::vector<Meeting> found;
     const double ax = points_.x[a], ay = points_.y[a], bx = points_.x[b], by = points_.y[b];
     edges_.each_near(ay, by, [&](std::size_t e) {
-      const auto& [from, to, ring, index] = edges_.edge(e);
+      const auto& [from, to] = edges_.edge(e);
       const double ux = bx - ax, uy = by - ay, vx = to[0] - from[0], vy = to[1] - from[1];
       const double cross = ux * vy - uy * vx;
       if (cross == 0) return;
@@ -221,7 +164,7 @@ class BoundaryMaker {
   }
 
   std::span<const Line> rings_;
-  RingEdges edges_;
+  RingBands edges_;
   PointSet& points_;
   std::vector<Meeting> meetings_;
   std::vector<bool> own_;  // by point: it is a meeting

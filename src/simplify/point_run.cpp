@@ -269,7 +269,7 @@ class PointRun {
     MeasureOptions judge;
     judge.run.threads = options_.run.threads;
     judge.run.progress = options_.run.progress;
-    judge.inlets = options_.boundary_length || !points_.boundary.empty();
+    judge.inlets = options_.boundary_length.has_value();
     if (options_.max_error) judge.collect_above = bound_ + allowance();
     for (;;) {
       const auto start = Clock::now();

@@ -281,7 +281,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   MeasureOptions options;
   options.run.threads = threads;
   options.run.progress = runner.progress;
-  options.inlets = boundary.length || !boundary.file.empty();
+  options.inlets = boundary.length.has_value();
   SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
