@@ -72,6 +72,8 @@ SHOWN = [
     "grid/generate.h",
     "io/commands.h",
     "io/gzip.h",
+    "io/raster/crs_description.h",
+    "io/raster/height_unit.h",
     "jobs/live_tiles.h",
     "measure/judge.h",
     "pieces/conflicts.h",
