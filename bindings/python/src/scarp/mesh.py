@@ -41,6 +41,18 @@ class Report(NamedTuple):
     seconds: float
 
 
+class Volumes(NamedTuple):
+    """The volumes between two surfaces above the area that both cover, in the units of x, y and z of the first."""
+
+    cut: float  #: volume where the surface after lies below the one before
+    fill: float  #: volume where it lies above
+    net: float  #: cut - fill
+    uncertainty: Optional[float]  #: each of these is known to that, by the max errors of the meshes; None: one holds none
+    common_area: float  #: area that both cover
+    before_outside: float  #: area of the surface before that the one after does not cover
+    after_outside: float  #: area of the surface after that the one before does not cover
+
+
 def report_of(struct: Any, place: Any = None) -> Report:
     """`place` maps a sample of the library to one of the source."""
     made = struct.effort in _EFFORTS
