@@ -185,10 +185,10 @@ scarp_status scarp_measure_points(const scarp_points* points, const scarp_mesh* 
 typedef struct scarp_volumes {
   uint32_t struct_size;
   int32_t reserved;
-  double cut;          /* volume where the second surface lies below the first */
-  double fill;         /* volume where it lies above */
+  double cut;          /* volume with the second surface below the first */
+  double fill;         /* volume with the second surface above the first */
   double net;          /* cut - fill */
-  double uncertainty;  /* each of these is known to that, by the max errors of the meshes; NaN where one holds none */
+  double uncertainty;  /* bound of the three, by the max errors of the meshes; NaN if a mesh has none */
   double common_area;  /* area that both cover */
   double from_outside; /* area of the first that the second does not cover */
   double to_outside;   /* area of the second that the first does not cover; 0 for a level */

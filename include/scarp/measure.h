@@ -149,37 +149,36 @@ Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, Dup
 // Volumes between surfaces.
 
 /// The volumes between two surfaces above the area that both cover, seen from above. Volumes are in the units of x, y
-/// and z: cubic metres where all three are metres. None is negative.
+/// and z: cubic metres if all three are metres. None is negative.
 struct Volumes {
-  double cut = 0;           ///< volume where the second surface lies below the first: to be dug away
-  double fill = 0;          ///< volume where it lies above: to be heaped up
+  double cut = 0;           ///< volume with the second surface below the first: ground to dig away
+  double fill = 0;          ///< volume with the second surface above the first: ground to heap up
   double common_area = 0;   ///< area that both surfaces cover
   double from_outside = 0;  ///< area of the first surface that the second does not cover
   double to_outside = 0;    ///< area of the second surface that the first does not cover; 0 for a level
 
-  /// Cut that is left over: the integral of first − second over the common area.
+  /// The surplus of the cut: the integral of first − second over the common area.
   double net() const { return cut - fill; }
   /// From the second surface to the first.
   Volumes reversed() const { return {fill, cut, common_area, to_outside, from_outside}; }
 };
 
-/// The volumes between two surfaces, from the ground before to the ground after. Each triangle of one is clipped by
-/// those of the other, and above such a part the formula for the volume is exact: neither is sampled. Sums of doubles
-/// are compensated; their rounding is about 1e-15 of the largest |z| times the common area, and more in triangles that
-/// are that much thinner than long. The volumes of a mesh against itself are exactly 0. Swapped meshes give the same
-/// bits, with cut and fill exchanged. Areas outside below 1e-12 of a surface count as 0. Run::threads and
-/// Run::progress count; threads never change the result.
+/// The volumes between two surfaces, from the ground before to the ground after. Each triangle of one surface is
+/// clipped by those of the other, and the volume above such a part is an exact formula: neither surface is sampled.
+/// Sums of doubles are compensated; the rounding is about 1e-15 of the largest |z| times the common area. A mesh
+/// against itself has volumes of exactly 0. Swapped meshes give the same bits, with cut and fill exchanged. Outside
+/// areas below 1e-12 of a surface count as 0. Run::threads and Run::progress are used; threads never change the result.
 ///
-/// Both meshes are in one frame: x, y and z are compared as Mesh::vertex() has them. Metadata are not read, nor are
-/// bounds: where every height of the surfaces is known to E₁ and E₂, each of cut, fill and net is known to (E₁ + E₂) ·
-/// common_area. Meshes without area in common have volumes of 0.
+/// Both meshes must be in one frame: x, y and z are compared as Mesh::vertex() returns them. Metadata are ignored, and
+/// so are bounds: if the heights of the surfaces are known to ±E₁ and ±E₂, each of cut, fill and net is known to
+/// ±(E₁ + E₂) · common_area. Meshes without common area have volumes of 0.
 ///
-/// Fails with kInput as measure(), and for a mesh that has more than one height above a place: a closed solid, a
-/// triangle that stands upright or faces down (which is named), triangles that overlap seen from above. Triangles
-/// without area in space are ignored. Cost: O(n log n + pairs of triangles that overlap). Memory: some 100 bytes a triangle.
+/// Fails with kInput as measure(), and for a mesh with more than one height above a place: a closed solid, a triangle
+/// that stands upright or faces down (the message names it), triangles that overlap seen from above. Triangles without
+/// area in space are ignored. Cost: O(n log n + overlapping pairs of triangles). Memory: some 100 bytes a triangle.
 Result<Volumes> measure_volume(const Mesh& from, const Mesh& to, const Run& run = {});
-/// The same from a surface to a level, which has no end: cut is the ground above the level, fill what is missing below
-/// it. Fails with kUsage for a level that is not finite. Cost: O(n).
+/// The same from a surface to an endless level: cut is the ground above the level, fill the volume missing below it.
+/// Fails with kUsage for a level that is not finite. Cost: O(n).
 Result<Volumes> measure_volume(const Mesh& from, double level, const Run& run = {});
 
 }  // namespace scarp
