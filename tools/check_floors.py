@@ -22,7 +22,7 @@ ANY = None  # the public functions of all rooms on lower floors
 SESSION = [f"session/{room}" for room in ("text", "table", "options", "inputs", "plan", "reports", "tasks")]
 ROOMS = {
     "door": (0, [], [], "`include/scarp`: the public headers, each a manual"),
-    "base": (0, [], [], "lattice points, exact integers, arrays, threads, memory budget, progress"),
+    "base": (0, [], [], "lattice points, exact integers, arrays, a tree of boxes, threads, memory budget, progress"),
     "grid": (1, ["base"], [], "rasters: outline, frames, runs, rows; `sources/`: samples that are not one array"),
     "geom": (1, ["base"], [], "predicates, planes, the scan of a triangle and its kernels, arrangements of lines"),
     "globe": (2, ["base", "grid"], [], "places on a globe or a plane: the ellipsoid, grids of tiles, geoids"),
@@ -72,6 +72,8 @@ SHOWN = [
     "grid/generate.h",
     "io/commands.h",
     "io/gzip.h",
+    "io/raster/crs_description.h",
+    "io/raster/height_unit.h",
     "jobs/live_tiles.h",
     "measure/judge.h",
     "pieces/conflicts.h",

@@ -11,7 +11,7 @@ import textwrap
 root = pathlib.Path(__file__).resolve().parent.parent
 package = root / "bindings" / "python" / "src" / "scarp"
 # Public names by module.
-PUBLIC = [("__init__", ["simplify", "simplify_points", "measure"]), ("mesh", ["read_mesh", "Mesh", "Report"]),
+PUBLIC = [("__init__", ["simplify", "simplify_points", "measure", "volume"]), ("mesh", ["read_mesh", "Mesh", "Report", "Volumes"]),
           ("refiner", ["Refiner"]), ("tiles", ["tile", "Tiles"]), ("_call", ["Progress"]),
           ("errors", ["ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled",
                       "InternalError", "ScarpWarning"]),

@@ -47,7 +47,12 @@ std::string describe_all() {
                           AT(scarp_report, max_error),     AT(scarp_report, rmse),
                           AT(scarp_report, mean_error),    AT(scarp_report, mean_abs_error),
                           AT(scarp_report, p50),           AT(scarp_report, p95),
-                          AT(scarp_report, p99),           AT(scarp_report, seconds)});
+                          AT(scarp_report, p99),           AT(scarp_report, seconds)}) +
+         describe_struct(
+             "scarp_volumes", sizeof(scarp_volumes),
+             {AT(scarp_volumes, struct_size), AT(scarp_volumes, reserved), AT(scarp_volumes, cut),
+              AT(scarp_volumes, fill), AT(scarp_volumes, net), AT(scarp_volumes, uncertainty),
+              AT(scarp_volumes, common_area), AT(scarp_volumes, from_outside), AT(scarp_volumes, to_outside)});
 }
 
 #undef AT

@@ -180,6 +180,28 @@ scarp_status scarp_measure_file(const char* path, const scarp_mesh* mesh, const 
 scarp_status scarp_measure_points(const scarp_points* points, const scarp_mesh* mesh, const scarp_options* options,
                                   scarp_report* out);
 
+/* The volumes between two surfaces, as `scarp measure --volume`: above the area that both cover, in the units of x, y
+ * and z of the first. */
+typedef struct scarp_volumes {
+  uint32_t struct_size;
+  int32_t reserved;
+  double cut;          /* volume with the second surface below the first */
+  double fill;         /* volume with the second surface above the first */
+  double net;          /* cut - fill */
+  double uncertainty;  /* bound of the three, by the max errors of the meshes; NaN if a mesh has none */
+  double common_area;  /* area that both cover */
+  double from_outside; /* area of the first that the second does not cover */
+  double to_outside;   /* area of the second that the first does not cover; 0 for a level */
+} scarp_volumes;
+
+/* From one mesh to another, in the frames that their metadata name, or to a level. Of the options threads and progress
+ * count. SCARP_INPUT for meshes without area in common, and for a solid, a triangle that stands upright or
+ * faces down, triangles that overlap. */
+scarp_status scarp_measure_volume(const scarp_mesh* from, const scarp_mesh* to, const scarp_options* options,
+                                  scarp_volumes* out);
+scarp_status scarp_measure_volume_to_level(const scarp_mesh* from, double level, const scarp_options* options,
+                                           scarp_volumes* out);
+
 /* Meshes. Vertex v lies at origin + positions[3v .. 3v + 2], x east, y north, z up. At most 2^32 - 2 vertices and
  * triangles. */
 scarp_status scarp_mesh_from_arrays(const double* positions, uint64_t vertices, const uint32_t* triangles,

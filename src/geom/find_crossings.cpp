@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/box_tree.h"
 #include "base/function_ref.h"
 #include "base/int128.h"
 #include "base/radix_sort.h"
-#include "geom/box_tree.h"
 #include "geom/segments.h"
 
 namespace scarp {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "geom/box_tree.h"
+#include "base/box_tree.h"
 #include "geom/segments.h"
 
 namespace scarp {

@@ -402,6 +402,44 @@ static void try_newest(void) {
   scarp_mesh_free(mesh);
   EXPECT(scarp_name_option("max_error", "max_error") == SCARP_OK);
 }
+
+/* Volumes between meshes, and of a mesh above a level. */
+static void try_volumes(void) {
+  scarp_field field = make_field();
+  scarp_options options = make_options(3);
+  scarp_mesh *coarse = NULL, *fine = NULL, *solid = NULL, *bare = NULL;
+  EXPECT(scarp_simplify(&field, &options, &coarse) == SCARP_OK);
+  options = make_options(0.5);
+  EXPECT(scarp_simplify(&field, &options, &fine) == SCARP_OK);
+  scarp_volumes forth, back;
+  forth.struct_size = back.struct_size = sizeof forth;
+  EXPECT(scarp_measure_volume(coarse, fine, NULL, &forth) == SCARP_OK);
+  EXPECT(scarp_measure_volume(fine, coarse, NULL, &back) == SCARP_OK);
+  EXPECT(forth.cut == back.fill && forth.fill == back.cut && forth.net == -back.net && forth.cut > 0);
+  const double area = (kCols - 1) * (kRows - 1);
+  EXPECT(fabs(forth.common_area - area) < 1e-9 && forth.from_outside == 0 && forth.to_outside == 0);
+  EXPECT(forth.uncertainty > 2 * area && forth.uncertainty <= 3.5 * area);
+  EXPECT(forth.cut + forth.fill < forth.uncertainty);
+  EXPECT(scarp_measure_volume_to_level(fine, -100, NULL, &back) == SCARP_OK);
+  EXPECT(back.fill == 0 && back.cut > 50 * area && back.cut < 150 * area && back.net == back.cut);
+  EXPECT(scarp_measure_volume_to_level(fine, NAN, NULL, &back) == SCARP_USAGE);
+  EXPECT(scarp_measure_volume(fine, NULL, NULL, &back) == SCARP_USAGE);
+  EXPECT(scarp_mesh_add_base(fine, -50, &solid) == SCARP_OK);
+  EXPECT(scarp_measure_volume(fine, solid, NULL, &back) == SCARP_INPUT);
+  EXPECT_SAYS("the second mesh is a closed solid");
+  const double square[12] = {0, 0, 7, 9, 0, 7, 9, 9, 7, 0, 9, 7};
+  const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
+  EXPECT(scarp_mesh_from_arrays(square, 4, corners, 2, &bare) == SCARP_OK);
+  EXPECT(scarp_measure_volume_to_level(bare, 4, NULL, &back) == SCARP_OK);
+  EXPECT(fabs(back.cut - 243) < 1e-9 && isnan(back.uncertainty));
+  back.struct_size = 16; /* a caller who knows cut alone */
+  EXPECT(scarp_measure_volume_to_level(bare, 5, NULL, &back) == SCARP_OK);
+  EXPECT(fabs(back.cut - 162) < 1e-9 && isnan(back.uncertainty));
+  scarp_mesh_free(bare);
+  scarp_mesh_free(solid);
+  scarp_mesh_free(fine);
+  scarp_mesh_free(coarse);
+}
 #endif
 
 static void try_refiner(void) {
@@ -554,6 +592,7 @@ int main(int argc, char** argv) {
   try_lies();
 #ifdef IS_NEWEST
   try_newest();
+  try_volumes();
 #endif
   try_refiner();
   try_points();

@@ -31,6 +31,27 @@ class Library(unittest.TestCase):
         self.assertGreater(refiner.run(max_error=5), 0)
         self.assertLessEqual(refiner.max_error, 5)
 
+    def test_volumes_are_those_of_two_meshes_or_of_a_level(self):
+        z = plain_hills(50, 70)
+        coarse, fine = scarp.simplify(z, 5), scarp.simplify(z, 0.5)
+        forth, back = scarp.volume(coarse, fine, threads=1), scarp.volume(fine, coarse)
+        self.assertEqual((forth.cut, forth.fill, forth.net), (back.fill, back.cut, -back.net))
+        self.assertAlmostEqual(forth.common_area, 49 * 69, places=9)
+        self.assertAlmostEqual(forth.uncertainty, (coarse.max_error + fine.max_error) * forth.common_area)
+        self.assertEqual(scarp.volume(fine, fine)[:3], (0, 0, 0))
+        above, below = scarp.volume(fine, -2000), scarp.volume(-2000, fine)
+        self.assertEqual((above.cut, above.fill, above.before_outside), (below.fill, 0, 0))
+        self.assertGreater(above.cut, 0)
+        self.assertLess(above.uncertainty, 0.5 * 49 * 69 + 1e-9)
+        for kind, words, before, after in ((scarp.InputError, "the second mesh is a closed solid", fine, fine.add_base(-3000)),
+                                           (scarp.UsageError, "both surfaces are levels", 1, 2),
+                                           (scarp.UsageError, "a Mesh, the path of one, or a level", fine, [1]),
+                                           (scarp.UsageError, "level", fine, float("inf")),
+                                           (scarp.InputError, "no such file", "missing.glb", 3)):
+            with self.assertRaises(kind) as caught:
+                scarp.volume(before, after)
+            self.assertIn(words, str(caught.exception))
+
     def test_a_view_keeps_the_mesh_alive(self):
         views = []
         for _ in range(50):

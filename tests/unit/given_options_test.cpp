@@ -161,6 +161,7 @@ bool names(const std::string& sentence, Commands command, OptionId id) {
 /// Each rule refuses its options with both names in the message, and passes without.
 TEST(OptionRules, EachRefusesWhatItNames) {
   for (const OptionRule& rule : option_rules()) {
+    if (rule.kind == OptionRule::Kind::kAllows) continue;
     for (const Commands command : {kSimplify, kMeasure, kTile}) {
       if ((rule.commands & command) == 0 || find_option(command, rule.one.id) == nullptr) continue;
       for (const OptionTerm& other : rule.others) {
@@ -179,6 +180,31 @@ TEST(OptionRules, EachRefusesWhatItNames) {
       }
     }
   }
+}
+
+/// A rule that allows some options refuses all others of the command, but for those of how the run behaves.
+TEST(OptionRules, EachAllowsWhatItNames) {
+  int rules = 0, refused = 0;
+  for (const OptionRule& rule : option_rules()) {
+    if (rule.kind != OptionRule::Kind::kAllows) continue;
+    ++rules;
+    for (const OptionRow* row : rows_of(kMeasure)) {
+      if (row->is_argument() || row->id == rule.one.id) continue;
+      GivenOptions given(kMeasure);
+      give({row->id}, given);
+      EXPECT_TRUE(check_rule(rule, given)) << row->name;
+      give(rule.one, given);
+      const Result<void> result = check_rule(rule, given);
+      const bool is_named = std::any_of(rule.others.begin(), rule.others.end(),
+                                        [&](const OptionTerm& term) { return term.id == row->id; });
+      EXPECT_EQ(result.has_value(), is_named || row->group == OptionGroup::kRun) << row->name;
+      if (result) continue;
+      ++refused;
+      EXPECT_TRUE(names(result.error().message, kMeasure, row->id)) << result.error().message;
+    }
+  }
+  EXPECT_EQ(rules, 1);
+  EXPECT_GT(refused, 20);
 }
 
 }  // namespace

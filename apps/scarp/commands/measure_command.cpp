@@ -3,8 +3,10 @@
 #include "commands/commands.h"
 #include "session/options/points_options.h"
 #include "session/reports/measure_report.h"
+#include "session/reports/volume_report.h"
 #include "session/table/option_table.h"
 #include "session/tasks/measure_work.h"
+#include "session/tasks/volume_work.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
 #include "session/text/paths.h"
@@ -15,9 +17,20 @@
 namespace scarp::cli {
 namespace {
 using enum OptionId;
+
+Result<void> run_measure_volume(const GivenOptions& given, const std::string& command_line) {
+  ComparedSurfaces compared;
+  ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
+  SCARP_RETURN_IF_ERROR(compare_surfaces(given, {display.callback()}, compared));
+  display.finish();
+  if (given.has(kJson)) return print_to_stdout(to_text(make_report(compared, command_line)));
+  return given.has(kQuiet) ? Result<void>() : print_to_stdout(make_table(compared));
 }
 
+}  // namespace
+
 Result<void> run_measure(const GivenOptions& given, const std::string& command_line) {
+  if (given.has(kVolume)) return run_measure_volume(given, command_line);
   const Clock::time_point start = Clock::now();
   SCARP_RETURN_IF_ERROR(check_kind_of_input(given));
   if (are_points_meant(given)) return run_measure_points(given, command_line);

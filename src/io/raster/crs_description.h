@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct CrsDescription {
@@ -18,3 +20,5 @@ struct CrsDescription {
 std::optional<CrsDescription> describe_crs(const std::string& crs);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

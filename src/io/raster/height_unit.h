@@ -6,6 +6,8 @@
 
 #include "scarp/io.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct HeightUnit {
@@ -30,3 +32,5 @@ void warn_of_units(const Frame& frame, RasterInfo& info);
 double metres_in_file(const RasterInfo& info);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -15,35 +15,6 @@ namespace {
 
 using enum OptionId;
 
-/// The six numbers; nothing if they are missing or malformed.
-std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh) {
-  const auto entry = mesh.metadata.find("to_source");
-  if (entry == mesh.metadata.end()) return std::nullopt;
-  const auto json = nlohmann::json::parse(entry->second, nullptr, false);
-  if (!json.is_array() || json.size() != 6) return std::nullopt;
-  std::array<double, 6> numbers{};
-  for (std::size_t k = 0; k < 6; ++k) {
-    if (!json[k].is_number()) return std::nullopt;
-    numbers[k] = json[k].get<double>();
-  }
-  const double determinant = numbers[1] * numbers[5] - numbers[2] * numbers[4];
-  if (!std::isfinite(determinant) || determinant == 0) return std::nullopt;
-  return numbers;
-}
-
-/// The frame whose x and y `to_source` maps to the source's coordinates, as `samples` maps columns and rows.
-std::array<double, 6> frame_before(const std::array<double, 6>& to_source, const std::array<double, 6>& samples) {
-  const auto& t = to_source;
-  const double determinant = t[1] * t[5] - t[2] * t[4];
-  std::array<double, 6> affine{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = samples[k] - (k == 0 ? t[0] : 0), y = samples[k + 3] - (k == 0 ? t[3] : 0);
-    affine[k] = (t[5] * x - t[2] * y) / determinant;
-    affine[k + 3] = (t[1] * y - t[4] * x) / determinant;
-  }
-  return affine;
-}
-
 /// In cells: frames closer than this are the same frame, rounded differently.
 constexpr double kSamePlace = 1e-3;
 
@@ -63,6 +34,32 @@ double distance_in_cells(const std::array<double, 6>& a, const std::array<double
 }
 
 }  // namespace
+
+std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh) {
+  const auto entry = mesh.metadata.find("to_source");
+  if (entry == mesh.metadata.end()) return std::nullopt;
+  const auto json = nlohmann::json::parse(entry->second, nullptr, false);
+  if (!json.is_array() || json.size() != 6) return std::nullopt;
+  std::array<double, 6> numbers{};
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!json[k].is_number()) return std::nullopt;
+    numbers[k] = json[k].get<double>();
+  }
+  const double determinant = numbers[1] * numbers[5] - numbers[2] * numbers[4];
+  if (!std::isfinite(determinant) || determinant == 0) return std::nullopt;
+  return numbers;
+}
+
+std::array<double, 6> way_between(const std::array<double, 6>& from, const std::array<double, 6>& to) {
+  const double determinant = to[1] * to[5] - to[2] * to[4];
+  std::array<double, 6> way{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = from[k] - (k == 0 ? to[0] : 0), y = from[k + 3] - (k == 0 ? to[3] : 0);
+    way[k] = (to[5] * x - to[2] * y) / determinant;
+    way[k + 3] = (to[1] * y - to[4] * x) / determinant;
+  }
+  return way;
+}
 
 void Extent::add(double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return;
@@ -154,7 +151,7 @@ bool fit_frame(const Mesh& mesh, OwnedHeightField& field) {
 std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field) {
   const auto to_source = read_to_source(mesh);
   if (!to_source || !field.info.has_georeference || !field.frame.is_affine()) return {};
-  const std::array<double, 6> affine = frame_before(*to_source, map_affine(field.info, field.rows));
+  const std::array<double, 6> affine = way_between(map_affine(field.info, field.rows), *to_source);
   if (distance_in_cells(field.frame.affine, affine, field.cols, field.rows) > kSamePlace) {
     field.frame.affine = affine;
     if (const auto words = mesh.metadata.find("frame"); words != mesh.metadata.end())

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct Extent {
 Extent extent_of(const Mesh& mesh);
 Extent extent_of(const HeightField& field);
 Extent extent_of(const PointSet& points);
+
+/// The six numbers of the mesh's metadata `to_source`; nothing if they are missing or malformed.
+std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh);
+/// Two maps of that form lead to the same coordinates, `from` and `to`: the map from the one's places to the other's.
+std::array<double, 6> way_between(const std::array<double, 6>& from, const std::array<double, 6>& to);
 
 /// The raster's options; those not given are completed by the mesh's metadata.
 GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh);

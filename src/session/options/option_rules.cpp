@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "session/options/given_options.h"
 
@@ -14,8 +15,10 @@ namespace {
 using enum OptionId;
 constexpr auto kNeeds = OptionRule::Kind::kNeeds;
 constexpr auto kExcludes = OptionRule::Kind::kExcludes;
+constexpr auto kAllows = OptionRule::Kind::kAllows;
 
 constexpr OptionRule kRules[] = {
+    {{kVolume}, kAllows, {{{kUp}, {kJson}}}, "volumes lie between surfaces, without samples"},
     {{kDecode}, kExcludes, {{{kBand}}}, "decoding uses bands 1, 2 and 3"},
     {{kResolution}, kExcludes, {{{kDecode}}}, "means of packed colours are no heights"},
     {{kFillDistance}, kNeeds, {{{kNodataPolicy, "fill"}}}},
@@ -117,17 +120,24 @@ std::span<const OptionRule> option_rules() { return kRules; }
 Result<void> check_rule(const OptionRule& rule, const GivenOptions& given) {
   if (!holds(rule.one, given)) return {};
   const std::string why = rule.why[0] != 0 ? std::string(": ") + rule.why : "";
+  const auto refuse = [&](const std::string& other) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} cannot be combined with {}{}", describe(rule.one, given), other, why));
+  };
+  for (const OptionRow* row : rule.kind == kAllows ? given.given() : std::vector<const OptionRow*>()) {
+    const auto is_row = [&](const OptionTerm& term) { return term.id == row->id; };
+    const bool is_allowed = is_row(rule.one) || std::any_of(rule.others.begin(), rule.others.end(), is_row);
+    if (!is_allowed && row->group != OptionGroup::kRun) return refuse(row->title());
+  }
   std::string needed;
   for (const OptionTerm& other : rule.others) {
     if (other.id == kNone) continue;
     const bool is_given = holds(other, given);
-    if (rule.kind == kExcludes && is_given)
-      return fail(ErrorKind::kUsage, fmt::format("{} cannot be combined with {}{}", describe(rule.one, given),
-                                                 describe(other, given), why));
+    if (rule.kind == kExcludes && is_given) return refuse(describe(other, given));
     if (rule.kind == kNeeds && is_given) return {};
     needed += (needed.empty() ? "" : " or ") + name_of(other);
   }
-  if (rule.kind == kExcludes) return {};
+  if (rule.kind != kNeeds) return {};
   return fail(ErrorKind::kUsage, fmt::format("{} needs {}{}", describe(rule.one, given), needed, why));
 }
 

@@ -14,9 +14,10 @@ class GivenOptions;
 
 struct OptionRule {
   OptionTerm one;
-  enum class Kind { kNeeds, kExcludes } kind;
-  std::array<OptionTerm, 4> others;  ///< kNeeds: one of them. kExcludes: each of them
-  const char* why = "";              ///< end of the message
+  enum class Kind { kNeeds, kExcludes, kAllows } kind;
+  /// kNeeds: one of them. kExcludes: each of them. kAllows: all else is excluded, but for the group "Run".
+  std::array<OptionTerm, 4> others;
+  const char* why = "";  ///< end of the message
   Commands commands = kEveryCommand;
 };
 

@@ -25,7 +25,8 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp classic dem.tif hills.glb -t 5k --edges data            data-dependent triangulation\n"
      "  scarp classic dem.tif hills.glb -t 5k --importance curvature --one-pass\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kMeasure, "measure", "Judge a mesh file against its raster, sample by sample", "RASTER MESH [OPTIONS]",
+    {kMeasure, "measure", "Judge a mesh file against its raster, sample by sample; or measure volumes between meshes",
+     "RASTER MESH [OPTIONS]",
      "Repeat --mask, --script, --cutline, --texture and --image as given to simplify.\n"
      "Errors are vertical, mesh minus sample, in the units of the heights.\n"
      "Examples:\n"
@@ -35,6 +36,8 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp measure dem.tif hills.glb --tolerance t.tif    exit code 3 if a sample breaks its tolerance\n"
      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
+     "  scarp measure before.glb after.glb --volume          cut and fill, from before to after\n"
+     "  scarp measure pit.glb level=512.5 --volume           what lies above that level, and below\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kView, "view", "Write a page that shows a mesh and its errors in a browser", "MESH [RASTER] [OPTIONS]",
      "One HTML file that opens from disk and needs no network: hillshade, wireframe, error map, profile.\n"

@@ -54,7 +54,8 @@ const OptionRow kFileRows[] = {
      .is_repeatable = true,
      .is_required = true,
      .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
-             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points.",
+             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points. "
+             "With --volume, a mesh or level=H.",
      .brief = "Raster of heights, or points, that the mesh was made from"},
     {.id = kRaster,
      .name = "FILE",
@@ -73,7 +74,7 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .choices = mesh_endings(),
      .is_required = true,
-     .help = keep(fmt::format("Mesh to judge: {}, recognised by content.", list_readable_meshes())),
+     .help = keep(fmt::format("Mesh to judge: {}, recognised by content; or level=H.", list_readable_meshes())),
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .3mf ..."},
     {.id = kMesh,
      .name = "MESH",

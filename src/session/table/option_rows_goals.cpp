@@ -69,6 +69,14 @@ constexpr OptionRow kGoalRows[] = {
              "P% are as for --max-error of simplify. Errors are in height units, weighted by --mask, combined with "
              "--texture and --image.",
      .brief = "Exit code 3 if an error is above this, or the mesh is not sound"},
+    {.id = kVolume,
+     .name = "--volume",
+     .commands = kMeasure,
+     .group = OptionGroup::kVerdict,
+     .type = kFlag,
+     .help = "Measure the volumes between two surfaces, the ground before and the ground after: two meshes, or a mesh "
+             "and level=H. Cut is the volume where the second lies below the first, fill where it lies above.",
+     .brief = "Cut and fill from the first mesh to the second, or to level=H"},
 
     {.id = kEffort,
      .name = "--effort",

@@ -26,6 +26,7 @@ enum class OptionId {
   kMaxPoints,
   kObjective,
   kFailAbove,
+  kVolume,
   kBand,
   kExtent,
   kResolution,

@@ -26,7 +26,7 @@ from . import _abi, _call, _inputs, _raster, _values
 from ._call import Progress
 from .errors import (Cancelled, InputError, InternalError, OutputError, PromiseError, ScarpError, ScarpWarning,
                      UsageError)
-from .mesh import Mesh, Report, read_mesh, report_of
+from .mesh import Mesh, Report, Volumes, read_mesh, report_of
 from .refiner import Refiner
 from .tiles import Tiles, tile
 
@@ -37,8 +37,8 @@ __version__: str = _abi.lib.scarp_version().decode()
 #: True if the library reads GDAL's formats and knows CRSs. Else rasterio or GDAL's own Python reads paths.
 has_gdal: bool = bool(_abi.lib.scarp_has_gdal())
 
-__all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Report", "Refiner", "Tiles", "tile", "Progress",
-           "ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled", "InternalError",
+__all__ = ["simplify", "simplify_points", "measure", "volume", "read_mesh", "Mesh", "Report", "Volumes", "Refiner", "Tiles", "tile",
+           "Progress", "ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled", "InternalError",
            "ScarpWarning", "has_gdal", "__version__"]
 
 
@@ -262,3 +262,43 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
         _call.run(settings, progress, judge if read.path is None else lib.scarp_measure_file, what, mesh._handle,
                   settings.pointer, C.byref(struct))
     return report_of(struct, None if is_points else read.place())
+
+
+def _surface(given: Any) -> Mesh:
+    if isinstance(given, Mesh):
+        return given
+    if isinstance(given, (str, os.PathLike)):
+        return read_mesh(given)
+    raise UsageError("a Mesh, the path of one, or a level, not %s" % type(given).__name__)
+
+
+def volume(before: Any, after: Any, *, threads: int = 0, progress: ProgressArgument = None) -> Volumes:
+    """The volumes of cut and fill from the ground before to the ground after, exact for the triangles of both.
+
+    `before` and `after`: a Mesh, the path of one, or one of them a number, a level. Meshes are compared in the frames
+    that their metadata name. Volumes are in the units of x, y and z. Raises InputError for meshes without area in
+    common, solids, and triangles that stand upright, face down or overlap. Returns Volumes.
+
+    >>> y, x = np.mgrid[0:50, 0:80]
+    >>> hill = scarp.simplify(10.0 * np.exp(-((x - 40) ** 2 + (y - 25) ** 2) / 200), 0.01)
+    >>> scarp.volume(hill, 5).cut > 0         # above the level 5
+    """
+    levels = [isinstance(each, (int, float)) or hasattr(each, "__float__") for each in (before, after)]
+    if all(levels):
+        raise UsageError("both surfaces are levels: give a mesh in place of one")
+    struct = _abi.new_volumes()
+    with _call.Settings({}) as settings:
+        settings.use_threads(threads)
+        if any(levels):
+            mesh, level = (_surface(after), before) if levels[0] else (_surface(before), after)
+            _call.run(settings, progress, _abi.lib.scarp_measure_volume_to_level, mesh._handle,
+                      _values.number_of("the level", level), settings.pointer, C.byref(struct))
+        else:
+            meshes = _surface(before), _surface(after)
+            _call.run(settings, progress, _abi.lib.scarp_measure_volume, meshes[0]._handle, meshes[1]._handle,
+                      settings.pointer, C.byref(struct))
+    of = struct
+    uncertainty = None if of.uncertainty != of.uncertainty else of.uncertainty
+    if levels[0]:
+        return Volumes(of.fill, of.cut, -of.net, uncertainty, of.common_area, of.to_outside, of.from_outside)
+    return Volumes(of.cut, of.fill, of.net, uncertainty, of.common_area, of.from_outside, of.to_outside)

@@ -66,8 +66,14 @@ class Report(C.Structure):
                                                    "p99", "seconds")])
 
 
+class Volumes(C.Structure):
+    _fields_ = ([("struct_size", C.c_uint32), ("reserved", C.c_int32)]
+                + [(name, C.c_double) for name in ("cut", "fill", "net", "uncertainty", "common_area", "from_outside",
+                                                   "to_outside")])
+
+
 STRUCTS = {"scarp_progress": Progress, "scarp_field": Field, "scarp_points": Points, "scarp_options": Options,
-           "scarp_report": Report}
+           "scarp_report": Report, "scarp_volumes": Volumes}
 
 _P, _S, _I, _D, _U, _T = C.c_void_p, C.c_char_p, C.c_int32, C.c_double, C.c_uint64, C.c_uint32
 _FUNCTIONS = {
@@ -87,6 +93,8 @@ _FUNCTIONS = {
     "scarp_measure": (_I, [_P, _P, _P, _P]),
     "scarp_measure_file": (_I, [_S, _P, _P, _P]),
     "scarp_measure_points": (_I, [_P, _P, _P, _P]),
+    "scarp_measure_volume": (_I, [_P, _P, _P, _P]),
+    "scarp_measure_volume_to_level": (_I, [_P, _D, _P, _P]),
     "scarp_mesh_from_arrays": (_I, [_P, _U, _P, _U, _P]),
     "scarp_mesh_read": (_I, [_S, _P]),
     "scarp_mesh_vertex_count": (_U, [_P]),
@@ -180,6 +188,12 @@ def new_report() -> Report:
     report = Report()
     report.struct_size = C.sizeof(report)
     return report
+
+
+def new_volumes() -> Volumes:
+    volumes = Volumes()
+    volumes.struct_size = C.sizeof(volumes)
+    return volumes
 
 
 def take_bytes(handle: int | None) -> bytes:

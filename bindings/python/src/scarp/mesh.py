@@ -41,6 +41,18 @@ class Report(NamedTuple):
     seconds: float
 
 
+class Volumes(NamedTuple):
+    """The volumes between two surfaces above the area that both cover, in the units of x, y and z of the first."""
+
+    cut: float  #: volume with the surface after below the one before
+    fill: float  #: volume with the surface after above the one before
+    net: float  #: cut - fill
+    uncertainty: Optional[float]  #: bound of the three, by the max errors of the meshes; None: a mesh has none
+    common_area: float  #: area that both cover
+    before_outside: float  #: area of the surface before that the one after does not cover
+    after_outside: float  #: area of the surface after that the one before does not cover
+
+
 def report_of(struct: Any, place: Any = None) -> Report:
     """`place` maps a sample of the library to one of the source."""
     made = struct.effort in _EFFORTS

@@ -1,4 +1,4 @@
-#include "geom/box_tree.h"
+#include "base/box_tree.h"
 
 #include <algorithm>
 #include <utility>

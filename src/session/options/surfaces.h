@@ -1,0 +1,24 @@
+// The two surfaces of `scarp measure --volume`: meshes, or one of them a level.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "scarp/result.h"
+#include "session/options/given_options.h"
+
+namespace scarp::cli {
+
+struct GivenSurface {
+  std::string path;                            ///< file of a mesh
+  std::optional<double> level = std::nullopt;  ///< height of "level=512.5"
+
+  /// The name in sentences: "before.glb", "level 512.5".
+  std::string name() const;
+};
+
+/// The surface before and the one after. kUsage for other than two, for two levels, and a level that is no number.
+Result<std::array<GivenSurface, 2>> parse_surfaces(const GivenOptions& given);
+
+}  // namespace scarp::cli

@@ -1,0 +1,29 @@
+// The results of `scarp measure --volume`, and their report.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "scarp/measure.h"
+#include "session/inputs/surface.h"
+#include "session/text/json.h"
+
+namespace scarp::cli {
+
+struct ComparedSurfaces {
+  std::array<Surface, 2> surfaces;  ///< the one before, and the one after; in one frame
+  SurfaceUnits units;
+  Volumes volumes;
+  double seconds_read = 0, seconds_measure = 0;
+
+  /// Each volume is known to that: the sum of the max errors times the common area. Nothing if one is not known.
+  std::optional<double> uncertainty() const;
+};
+
+/// The JSON of --json.
+Json make_report(const ComparedSurfaces& compared, const std::string& command_line);
+/// The table on standard output.
+std::string make_table(const ComparedSurfaces& compared);
+
+}  // namespace scarp::cli
