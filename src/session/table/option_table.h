@@ -109,6 +109,8 @@ enum class OptionId {
   kLayer,
   kZField,
   kColumns,
+  kClass,
+  kReturns,
   kBoundary,
   kImportance,
   kOnePass,
