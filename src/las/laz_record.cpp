@@ -169,6 +169,8 @@ Result<std::vector<LazChunk>> read_chunk_table(const Source& source, const LazRe
                                                std::uint64_t points) {
   const std::string& name = source.name;
   if (points == 0) return std::vector<LazChunk>();
+  if (!record.has_chunks && source.size - offset < record.point_bytes())
+    return refuse(name, "ends within its first point: the file is cut off");
   if (!record.has_chunks) return std::vector<LazChunk>{{offset, source.size - offset, points}};
   if (!source.holds(offset, 8)) return refuse(name, "ends before its points begin: the file is cut off");
   const auto table = find_table(source, offset);
