@@ -112,6 +112,7 @@ std::string name_in_program(const std::string& name) {
   if (std::string named = find_named_here(name); !named.empty()) return named;
   std::string text = name.substr(std::min(name.find_first_not_of('-'), name.size()));
   std::replace(text.begin(), text.end(), '_', '-');
+  while (text.ends_with('-')) text.pop_back();  // Python's class_
   return "--" + text;
 }
 

@@ -365,6 +365,22 @@ struct PointLine {
   std::string name;                   ///< for messages: "contours.gpkg feature 12"
 };
 
+/// The points of one of ASPRS's classes: 2 is ground.
+struct PointClass {
+  int number = 0;
+  std::uint64_t points = 0;
+};
+
+/// Facts about a LAS or LAZ file, and why points of it are not among those that were read: each counts once, in the
+/// order of the members.
+struct LasFacts {
+  std::string version;              ///< "1.4"
+  int point_format = 0;             ///< 0 to 10
+  std::uint64_t points = 0;         ///< number in the file
+  std::vector<PointClass> classes;  ///< by number: the points that are not withheld, read or not
+  std::uint64_t withheld = 0, of_other_classes = 0, overlap = 0, of_other_returns = 0;
+};
+
 /// Scattered samples: heights z at (x, y) in one plane coordinate system, x east, y north.
 struct PointSet {
   std::vector<double> x, y, z;   ///< coordinates, of equal size; all finite
@@ -385,6 +401,7 @@ struct PointSet {
   std::string columns;               ///< one line for reports: the use of each column, or the origin of the heights
   std::uint64_t without_height = 0;  ///< number of points omitted by ReadPointsOptions::nodata
   bool is_geographic = false;        ///< for lent points: x and y are degrees, without a CRS known to GDAL
+  std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 
   std::size_t size() const { return x.size(); }
 };

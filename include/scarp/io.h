@@ -372,6 +372,19 @@ std::vector<std::string> list_files(const std::string& path);
 /// separate.
 std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
 
+/// Returns of a laser's pulse. A point without numbers of returns is the only one.
+enum class PointReturns { kAll, kFirst, kLast, kOnly };
+
+/// The points of a LAS file that are read. DEFAULT: all but those that the file marks as withheld.
+struct PointChoice {
+  std::vector<std::uint8_t> classes = {};  ///< numbers of ASPRS: 2 for ground. EMPTY: all
+  PointReturns returns = PointReturns::kAll;
+  bool overlap = true;    ///< points in the overlap of flight lines: marked so, or of class 12 in formats 0 to 5
+  bool withheld = false;  ///< points to be treated as deleted
+
+  bool operator==(const PointChoice&) const = default;
+};
+
 struct ReadPointsOptions {
   std::string layer = {};  ///< layer of a vector file. DEFAULT: the first one with points, else with lines.
   /// Column or attribute with the height. DEFAULT: the third coordinate. If it is missing or 0 everywhere, an attribute
@@ -394,23 +407,26 @@ struct ReadPointsOptions {
   /// kLocal, for points without `crs`: x and y in units other than metres become local metres. x and y in metres do not
   /// change; the caller moves them to local_origin(). For `heights_in` both frames are local.
   DefaultFrame default_frame = DefaultFrame::kMetric;
+  PointChoice choice = {};  ///< kUsage for files of other formats, unless it is the default
+  int threads = 0;          ///< for LAS and LAZ; 0: all cores. Never changes the points. DEFAULT: 0.
 };
 
-/// Reads points from text with columns (CSV, XYZ) by Scarp's own reader, and from all else (GeoPackage, GeoJSON,
-/// Shapefile, …) by GDAL. Columns are separated by commas, semicolons, tabs or blanks; decimal commas are read unless
-/// commas separate. A header line names the columns; else the first three, after a column of consecutive numbers if
-/// any, are x, y, z. Lines that begin with #, % or // are comments. If neither header nor values identify the northing,
-/// the call fails and names `columns`. The vertices of lines, such as contours with the height as an attribute or third
-/// coordinate, are also points, and PointSet::lines holds their order. Curves become chords of at most 4 degrees. Fails
-/// with kInput: missing, empty, a line without three numbers, a value that is not finite, a feature without a height
-/// (names the line or feature), polygons, a layer without points and lines.
+/// Reads points from text with columns (CSV, XYZ) and from LAS and LAZ (versions 1.0 to 1.4, point formats 0 to 10,
+/// COPC as LAZ) by Scarp's own readers, and from all else (GeoPackage, GeoJSON, Shapefile, …) by GDAL. Columns are
+/// separated by commas, semicolons, tabs or blanks; decimal commas are read unless commas separate. A header line names
+/// the columns; else the first three, after a column of consecutive numbers if any, are x, y, z. Lines that begin with
+/// #, % or // are comments. If neither header nor values identify the northing, the call fails and names `columns`. The
+/// vertices of lines, such as contours with the height as an attribute or third coordinate, are also points, and
+/// PointSet::lines holds their order. Curves become chords of at most 4 degrees. Fails with kInput: missing, empty, a
+/// line without three numbers, a value that is not finite, a feature without a height (names the line or feature),
+/// polygons, a layer without points and lines, a damaged or truncated LAS file.
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
 
-/// True if `path` names points rather than a raster, by its ending in upper or lower case: .csv .tsv .xyz .geojson
-/// .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg unless it holds a
-/// raster. Text with columns is a raster if its points are the nodes of one, in any order, possibly with some missing.
-/// No point may then be off the lattice or a duplicate. Two of three points must have neighbours in both directions,
-/// and a twentieth of all nodes must be points.
+/// True if `path` names points rather than a raster, by its ending in upper or lower case: .las .laz .csv .tsv .xyz
+/// .geojson .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg unless it
+/// holds a raster. Text with columns is a raster if its points are the nodes of one, in any order, possibly with some
+/// missing. No point may then be off the lattice or a duplicate. Two of three points must have neighbours in both
+/// directions, and a twentieth of all nodes must be points.
 bool is_point_file(const std::string& path);
 
 /// For signal handlers: the current temporary names of write_file() and write_files(), for unlink(), in kPendingOutputs

@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-enum class Way { kMesh, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload };
+enum class Way { kMesh, kLas, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload };
 
 struct KindRow {
   std::string_view magic;       ///< first bytes; empty: the name decides
@@ -24,7 +24,7 @@ struct KindRow {
 };
 
 constexpr std::array kKinds{
-    KindRow{"LASF", " .las .laz ", "a LAS point cloud", Way::kCloud},
+    KindRow{"LASF", " .las .laz ", "a LAS point cloud", Way::kLas},
     KindRow{"ASTM-E57", " .e57 ", "an E57 point cloud", Way::kCloud},
     KindRow{"# .PCD", " .pcd ", "a PCD point cloud", Way::kCloud},
     KindRow{"ply\n", " .ply ", "a PLY file", Way::kCloudOrMesh},
@@ -117,6 +117,8 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
   switch (row->way) {
     case Way::kMesh:
       return tell(from_its_source(path));
+    case Way::kLas:
+      return tell("simplify, measure and info read it as points (--points), and nothing else does");
     case Way::kCloud:
       return tell(through_pdal(path));
     case Way::kCloudOrMesh:

@@ -61,24 +61,6 @@ std::uint64_t clean_samples(const LentRaster& raster, const ReadOptions& options
   return unfit.infinities;
 }
 
-/// Removes points with this height or a non-finite one.
-Result<void> leave_out_nodata(double nodata, PointSet& points) {
-  if (!points.lines.empty())
-    return fail(ErrorKind::kUsage,
-                points.path + ": nodata cannot be combined with lines: leave their points out first");
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!std::isfinite(points.z[k]) || points.z[k] == nodata) continue;
-    points.x[kept] = points.x[k];
-    points.y[kept] = points.y[k];
-    points.z[kept++] = points.z[k];
-  }
-  points.without_height = points.size() - kept;
-  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(kept);
-  if (kept > 0) return {};
-  return fail(ErrorKind::kInput, points.path + ": no point has a height other than that of --nodata");
-}
-
 }  // namespace
 
 Lent::Lent(std::string name, const LentRaster& raster) { lent_things().emplace_back(std::move(name), &raster); }
@@ -97,6 +79,9 @@ Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name,
       return fail(ErrorKind::kUsage,
                   fmt::format("{} is about files, and {} are in memory: leave it out", option, name));
   }
+  if (options.choice != PointChoice())
+    return fail(ErrorKind::kUsage,
+                fmt::format("--class and --returns are about LAS files, and {} are in memory: leave them out", name));
   if (lent.size() == 0) return fail(ErrorKind::kInput, name + ": there are no points");
   const bool needs_crs = !options.crs.empty() && options.crs != "source" && options.crs != "grid";
   if (needs_crs && lent.crs.empty() && !lent.is_geographic)

@@ -115,6 +115,10 @@ Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet&
   return {};
 }
 
+bool can_describe_crs() { return false; }
+
+std::string describe_geo_keys(const GeoKeys&) { return ""; }
+
 std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }
 
 std::optional<std::array<double, 2>> find_degrees(const std::string&, double, double) { return {}; }

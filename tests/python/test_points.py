@@ -1,5 +1,8 @@
 """Points in memory, and impossible requests for arrays. With and without GDAL."""
+import os
 import pickle
+import struct
+import tempfile
 import unittest
 import warnings
 
@@ -12,6 +15,30 @@ DEGREES = "x and y are degrees"
 def survey(count=300, west=8.0, south=46.0, width=0.1):
     random = np.random.default_rng(3)
     return np.c_[west + random.random(count) * width, south + random.random(count) * width, 500 + random.random(count) * 50]
+
+
+def write_las(path, rows):
+    """LAS 1.2, points of format 0: rows of x, y, z in centimetres, and the class."""
+    head = bytearray(227)
+    struct.pack_into("<4s", head, 0, b"LASF")
+    struct.pack_into("<BB", head, 24, 1, 2)
+    struct.pack_into("<HIIBHI", head, 94, 227, 227, 0, 0, 20, len(rows))
+    struct.pack_into("<6d", head, 131, 0.01, 0.01, 0.01, 0, 0, 0)
+    with open(path, "wb") as file:
+        file.write(bytes(head) + b"".join(struct.pack("<3iHBBbBH", *row[:3], 0, 9, row[3], 0, 0, 0) for row in rows))
+
+
+class Files(unittest.TestCase):
+    def test_classes_of_a_las_file(self):
+        rows = [(col * 100, row * 100, (row * col) % 7, 2) for row in range(9) for col in range(9)] + [(450, 450, 9000, 5)]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "survey.las")
+            write_las(path, rows)
+            mesh = scarp.simplify_points(path, 0.05, class_="ground", returns="last")
+            self.assertEqual(mesh.report.samples, 81)
+            self.assertEqual(scarp.measure(path, mesh).samples, 81)
+            with self.assertRaisesRegex(scarp.InputError, "of other classes"):
+                scarp.simplify_points(path, 0.05, class_="water")
 
 
 @need("numpy")
@@ -59,6 +86,7 @@ class Points(unittest.TestCase):
 
     def test_options_of_files_are_refused_and_nodata_counts(self):
         points = survey()
+        self.refuses(scarp.UsageError, "points are in memory", lambda: scarp.simplify_points(points, 5, class_="ground"))
         for option, value in (("columns", "pnezd"), ("z_field", "z"), ("layer", "a")):
             self.refuses(scarp.UsageError, "^%s is about files, and points are in memory" % option,
                          lambda: scarp.simplify_points(points, 5, **{option: value}))

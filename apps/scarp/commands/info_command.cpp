@@ -8,6 +8,7 @@
 #include "commands/commands.h"
 #include "session/inputs/heightmap.h"
 #include "session/inputs/nodata_warnings.h"
+#include "session/options/points_options.h"
 #include "session/options/raster_options.h"
 #include "session/reports/info_report.h"
 #include "session/table/option_table.h"
@@ -43,17 +44,12 @@ Result<void> refuse(const GivenOptions& given, const char* kind, std::initialize
 Result<void> run_points(const GivenOptions& given, const std::string& command_line) {
   SCARP_RETURN_IF_ERROR(refuse(given, "points", {kCrs, kNodata, kZScale, kZOffset, kZUnit}));
   ProgressDisplay display(ProgressDisplay::choose(given.has(kJsonProgress), given.has(kQuiet)));
-  SCARP_TRY(const auto& as, parse_reading(given));
-  SCARP_TRY(const PointSet& points, read_points(given.input(), {.layer = given[kLayer].value_or(""),
-                                                                .z_field = given[kZField].value_or(""),
-                                                                .crs = as.crs,
-                                                                .progress = display.callback(),
-                                                                .columns = given[kColumns].value_or(""),
-                                                                .nodata = as.nodata,
-                                                                .z_scale = as.z_scale,
-                                                                .z_offset = as.z_offset,
-                                                                .z_unit = as.z_unit,
-                                                                .heights_in = HeightsIn::kFile}));
+  SCARP_TRY(ReadOptions as, parse_reading(given));
+  as.run.progress = display.callback();
+  as.heights_in = HeightsIn::kFile;
+  as.default_frame = DefaultFrame::kMetric;
+  SCARP_TRY(const auto& options, parse_points(given, as));
+  SCARP_TRY(const PointSet& points, read_points(given.input(), options));
   display.finish();
   if (!given.has(kQuiet)) print_warnings(points.warnings);
   return print_to_stdout(given.has(kJson) ? to_text(points_facts_report(points, command_line)) : points_facts(points));
@@ -74,7 +70,7 @@ Result<void> run_info(const GivenOptions& given, const std::string& command_line
   const bool is_one = given.inputs().size() == 1;
   if (given.has(kPoints) || given.has(kColumns) || (is_one && !given.input().empty() && is_point_file(given.input())))
     return run_points(given, command_line);
-  if (const auto option = given.first_of({kLayer, kZField}))
+  if (const auto option = given.first_of({kLayer, kZField, kClass, kReturns}))
     return fail(ErrorKind::kUsage, fmt::format("{} is for points: omit it, or give {}", *option, kPoints));
   if (is_one && find_mesh_file(given.input()))
     return run_mesh(given, lower_extension(given.input()).substr(1), command_line);

@@ -143,6 +143,8 @@ std::shared_ptr<const PointTransform> build_transform(const Crs& from, const Crs
 
 namespace scarp {
 
+bool can_describe_crs() { return true; }
+
 std::optional<CrsDescription> describe_crs(const std::string& crs) {
   gdal::Session quiet;
   const gdal::Crs known = gdal::find_crs(crs);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "io/commands.h"
@@ -20,6 +22,23 @@ double middle_of_axis(const std::vector<double>& values) {
 
 std::array<double, 2> middle_of(const PointSet& points) { return {middle_of_axis(points.x), middle_of_axis(points.y)}; }
 
+Result<void> leave_out_nodata(double nodata, PointSet& points) {
+  if (!points.lines.empty())
+    return fail(ErrorKind::kUsage,
+                points.path + ": nodata cannot be combined with lines: leave their points out first");
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!std::isfinite(points.z[k]) || points.z[k] == nodata) continue;
+    points.x[kept] = points.x[k];
+    points.y[kept] = points.y[k];
+    points.z[kept++] = points.z[k];
+  }
+  points.without_height = points.size() - kept;
+  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(kept);
+  if (kept > 0) return {};
+  return fail(ErrorKind::kInput, points.path + ": no point has a height other than that of --nodata");
+}
+
 bool becomes_local(const ReadPointsOptions& options, double unit_in_metres) {
   return options.crs.empty() && options.default_frame == DefaultFrame::kLocal && unit_in_metres != 0 &&
          unit_in_metres != 1;
@@ -33,6 +52,12 @@ void make_local_metres(const std::array<double, 2>& metres, const std::string& w
   points.crs.clear();
   points.is_local = true;
   points.unit_in_metres = 1;
+}
+
+std::string crs_command(const PointSet& points, const std::string& crs) {
+  const std::string file = file_word(points.path);
+  if (points.las) return fmt::format("pdal translate {} {} --writers.las.a_srs={}", file, new_file(".laz"), crs);
+  return fmt::format("ogr2ogr -a_srs {} {} {}", crs, new_file(".gpkg"), file);
 }
 
 Result<void> settle_point_heights(const ReadPointsOptions& options, const HeightUnit& vertical, PointSet& points) {
@@ -59,9 +84,8 @@ Result<void> settle_point_heights(const ReadPointsOptions& options, const Height
   if (settled.z_scale != options.z_scale && points.unit_in_metres == 0 && points.crs.empty())
     points.warnings.push_back(fmt::format(
         "x and y have no CRS and stay as they are, while heights become metres: give the points their CRS first ({})",
-        is_text_of_columns(points.path)
-            ? geopackage_command(points.path, "EPSG:CODE")
-            : fmt::format("ogr2ogr -a_srs EPSG:CODE {} {}", new_file(".gpkg"), file_word(points.path))));
+        is_text_of_columns(points.path) ? geopackage_command(points.path, "EPSG:CODE")
+                                        : crs_command(points, "EPSG:CODE")));
   return {};
 }
 

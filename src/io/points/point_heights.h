@@ -20,6 +20,12 @@ std::array<double, 2> middle_of(const PointSet& points);
 /// Moves the middle of x and y to the origin and makes metres of both. `whose`: their coordinates, for the description.
 void make_local_metres(const std::array<double, 2>& metres, const std::string& whose, PointSet& points);
 
+/// Removes points of that height, and those whose height is not finite. Fails if none is left.
+Result<void> leave_out_nodata(double nodata, PointSet& points);
+
+/// The command that gives the file of the points a CRS.
+std::string crs_command(const PointSet& points, const std::string& crs);
+
 /// Scales the heights as the options ask, and to metres where the frame or the file to write is in metres.
 /// points.heights.unit is the one in the name of a column or an attribute, crs_unit that of x and y; the rest is filled
 /// in. `vertical`: the unit of the vertical CRS. REQUIRES: x and y are in their frame.

@@ -29,6 +29,9 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
 /// The command of GDAL that makes a GeoPackage of such a text, with the columns that decode_columns() finds.
 std::string geopackage_command(const std::string& path, const std::string& crs = "");
 
+/// A LAS or LAZ file; see read_points().
+Result<PointSet> read_las_points(const std::string& path, const ReadPointsOptions& options);
+
 /// read_points() for everything that has no reader of our own; may throw std::bad_alloc. In a build without GDAL it
 /// fails with kInput and the reason.
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options);

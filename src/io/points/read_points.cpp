@@ -82,8 +82,8 @@ bool begins_as_grid(const std::string& path) {
 }
 
 bool is_point_file(const std::string& path) {
-  constexpr std::array<std::string_view, 7> kPoints{".geojson", ".geojsonl", ".shp",    ".fgb",
-                                                    ".gml",     ".kml",      ".parquet"};
+  constexpr std::array<std::string_view, 9> kPoints{".las", ".laz", ".geojson", ".geojsonl", ".shp",
+                                                    ".fgb", ".gml", ".kml",     ".parquet"};
   const std::string extension = extension_of(path);
   constexpr std::array<std::string_view, 3> kText{".csv", ".tsv", ".xyz"}, kEither{".txt", ".dat", ".gpkg"};
   if (is_one_of(extension, kText)) return !is_text_grid(path);
@@ -93,7 +93,19 @@ bool is_point_file(const std::string& path) {
 
 namespace {
 
+/// By its first bytes, or by its name if there are none.
+bool is_las(const std::string& path) {
+  const std::vector<std::uint8_t> head = read_head(path);
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  const std::string extension = extension_of(path);
+  return text.starts_with("LASF") || ((extension == ".las" || extension == ".laz") && fs::exists(path));
+}
+
 Result<PointSet> read_by_content(const std::string& path, const ReadPointsOptions& options) {
+  if (is_las(path)) return read_las_points(path, options);
+  if (options.choice != PointChoice())
+    return fail(ErrorKind::kUsage,
+                path + ": classes and returns of points are those of LAS and LAZ files, and this is none: omit them");
   if (!is_text_of_columns(path)) return read_gdal_points(path, options);
   SCARP_TRY(const auto& bytes, read_file(path));
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4096));

@@ -1,7 +1,9 @@
 // The coordinate reference system of a file, without GDAL's headers.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #pragma GCC visibility push(default)
@@ -16,8 +18,19 @@ struct CrsDescription {
   double unit_in_metres = 1;   ///< unit of x and y, unless geographic
 };
 
+/// False in a build without GDAL.
+bool can_describe_crs();
+
 /// The description of a CRS named as in RasterInfo::crs; nothing if it is unknown, and in a build without GDAL.
 std::optional<CrsDescription> describe_crs(const std::string& crs);
+
+/// The records of a GeoTIFF that hold its CRS, as they are there.
+struct GeoKeys {
+  std::span<const std::uint8_t> directory, doubles, texts;
+};
+
+/// WKT of a CRS that keys describe by its parameters; empty if GDAL knows none, and in a build without GDAL.
+std::string describe_geo_keys(const GeoKeys& keys);
 
 }  // namespace scarp
 

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
 
+#include "session/text/point_classes.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -17,11 +22,89 @@ constexpr Choice<DuplicatePolicy> kPolicies[] = {{"first", DuplicatePolicy::kFir
                                                  {"lowest", DuplicatePolicy::kLowest},
                                                  {"mean", DuplicatePolicy::kMean}};
 
+constexpr Choice<PointReturns> kReturnChoices[] = {{"all", PointReturns::kAll},
+                                                   {"first", PointReturns::kFirst},
+                                                   {"last", PointReturns::kLast},
+                                                   {"only", PointReturns::kOnly}};
+
 bool is_of_points(const GivenOptions& given, const std::string& path) {
   return given.has(kPoints) || given.has(kColumns) || is_point_file(path);
 }
 
+/// The classes of --class, in the making.
+struct ClassList {
+  std::bitset<256> wanted, unwanted;
+  PointChoice choice;
+
+  /// False for a word that names no class.
+  bool add(std::string_view word) {
+    if (word == "all") return true;
+    if (word == "withheld") return choice.withheld = true;
+    const bool is_unwanted = word.starts_with("no-");
+    if (is_unwanted) word.remove_prefix(3);
+    if (word == "overlap" && is_unwanted) {  // more than a class in formats that mark it
+      choice.overlap = false;
+      return true;
+    }
+    const std::vector<std::uint8_t> numbers = find_classes(word);
+    for (const std::uint8_t number : numbers) (is_unwanted ? unwanted : wanted).set(number);
+    return !numbers.empty();
+  }
+
+  PointChoice finish() {
+    if (wanted.none() && unwanted.none()) return choice;
+    if (wanted.none()) wanted.set();
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      if (wanted[k] && !unwanted[k]) choice.classes.push_back(static_cast<std::uint8_t>(k));
+    }
+    return choice;
+  }
+};
+
+Result<PointChoice> parse_choice(const GivenOptions& given) {
+  ClassList list;
+  std::string_view rest = given[kClass] ? std::string_view(*given[kClass]) : "all";
+  while (!rest.empty() || rest.data() != nullptr) {
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    if (const std::string_view word = rest.substr(0, end); !list.add(word))
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} {} has {}, which is no class: choose a number from 0 to 255, {} or withheld; no- in "
+                              "front of one omits it",
+                              kClass, shell_word(*given[kClass]),
+                              word.empty() ? "an empty word" : shell_word(std::string(word)), list_class_names()));
+    rest = end == rest.size() ? std::string_view() : rest.substr(end + 1);
+  }
+  PointChoice choice = list.finish();
+  const bool is_empty = choice.classes.empty() && list.unwanted.any();
+  if (is_empty)
+    return fail(ErrorKind::kUsage, fmt::format("{} {} leaves no class", kClass, shell_word(*given[kClass])));
+  SCARP_TRY(const auto returns, given.choice(kReturns, kReturnChoices));
+  choice.returns = returns.value_or(PointReturns::kAll);
+  return choice;
+}
+
 }  // namespace
+
+Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOptions& as) {
+  for (const OptionId id : {kLayer, kZField, kColumns, kClass}) {
+    if (given[id] == "") return fail(ErrorKind::kUsage, fmt::format("{} is empty: omit it", id));
+  }
+  SCARP_TRY(const auto& choice, parse_choice(given));
+  SCARP_TRY(const int threads, given.threads());
+  return ReadPointsOptions{.layer = given[kLayer].value_or(""),
+                           .z_field = given[kZField].value_or(""),
+                           .crs = as.crs,
+                           .progress = as.run.progress,
+                           .columns = given[kColumns].value_or(""),
+                           .nodata = as.nodata,
+                           .z_scale = as.z_scale,
+                           .z_offset = as.z_offset,
+                           .z_unit = as.z_unit,
+                           .heights_in = as.heights_in,
+                           .default_frame = as.default_frame,
+                           .choice = choice,
+                           .threads = threads};
+}
 
 bool are_points_meant(const GivenOptions& given) { return is_of_points(given, given.input()); }
 

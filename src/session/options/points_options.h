@@ -18,6 +18,10 @@ bool are_points_meant(const GivenOptions& given);
 /// the input, points or raster: silence would be a lie.
 Result<void> check_kind_of_input(const GivenOptions& given);
 
+/// read_points() as the options ask: --layer, --z-field, --columns, --class, --returns, and the reading of a raster,
+/// `as`. Fails with kUsage for what cannot be parsed.
+Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOptions& as);
+
 /// --duplicates. Fails with kUsage.
 Result<DuplicatePolicy> parse_policy(const GivenOptions& given);
 const char* policy_name(DuplicatePolicy policy);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "session/reports/points_report.h"
 #include "session/reports/report.h"
 #include "session/text/json_text.h"
+#include "session/text/point_classes.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -169,11 +172,43 @@ Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions
   return report;
 }
 
+namespace {
+
+/// Points in a square of one unit of x and y, on average over their extent; 0 where that has no area.
+double density(const PointSet& points, const Box& box) {
+  const double area = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
+  return area > 0 ? static_cast<double>(points.size()) / area : 0;
+}
+
+std::string las_lines(const PointSet& points, const Box& box) {
+  std::string classes;
+  bool has_ground = false;
+  for (const PointClass& of : points.las->classes) {
+    constexpr int kGround = 2;
+    has_ground = has_ground || of.number == kGround;
+    const std::string_view name = class_name(of.number);
+    classes += fmt::format("{}{}{}: {}", classes.empty() ? "" : ", ", of.number,
+                           name.empty() ? "" : fmt::format(" {}", name), format_count(of.points));
+  }
+  std::string text = fact_line("classes", classes);
+  const bool is_metric = points.unit_in_metres == 1;
+  if (const double dense = density(points, box); dense > 0)
+    text += fact_line("density", fmt::format("{} points per {}", format_number(dense),
+                                             is_metric ? "square metre" : "square unit of x and y"));
+  const std::string output = std::filesystem::path(base_name(points.path)).replace_extension(".glb").string();
+  return text + fact_line("next", fmt::format("scarp simplify {} {} -e 1%{}", shell_word(points.path),
+                                              shell_word(output), has_ground ? " --class ground" : ""));
+}
+
+}  // namespace
+
 std::string points_facts(const PointSet& points) {
   const Box box = box_of(points);
   std::string text = points.path + "\n";
-  text += fact_line("format", points.format);
-  text += fact_line("points", format_count(points.size()) + without_height(points));
+  text += fact_line("format", points.format + (points.las ? fmt::format(" {}, point format {}", points.las->version,
+                                                                        points.las->point_format)
+                                                          : ""));
+  text += fact_line("points", format_count(points.size()) + left_out(points));
   if (!points.columns.empty()) text += fact_line("read as", points.columns);
   if (!points.lines.empty()) text += fact_line("lines", format_count(points.lines.size()));
   text += range_line("x", box, 0) + range_line("y", box, 1);
@@ -182,7 +217,8 @@ std::string points_facts(const PointSet& points) {
       fact_line("heights", fmt::format("{} to {}, relief {}{}", format_number(box.low[2]), format_number(box.high[2]),
                                        format_number(box.high[2] - box.low[2]), unit.empty() ? "" : " " + unit));
   text += fact_line("CRS", crs_words(points.crs));
-  return text + fact_line("mesh frame", points.description);
+  text += fact_line("mesh frame", points.description);
+  return points.las ? text + las_lines(points, box) : text;
 }
 
 Json points_facts_report(const PointSet& points, const std::string& command_line) {
@@ -192,6 +228,10 @@ Json points_facts_report(const PointSet& points, const std::string& command_line
                           {"frame", points.description}, {"bounds", describe_box(box_of(points))},
                           {"columns", points.columns},   {"without_height", points.without_height},
                           {"unit", points.heights.unit}};
+  if (points.las) {
+    report["points"]["las"] = describe_las(*points.las);
+    report["points"]["density"] = density(points, box_of(points));
+  }
   report["warnings"] = points.warnings;
   return report;
 }

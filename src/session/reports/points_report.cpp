@@ -23,10 +23,12 @@ std::string describe_place(const PointSet& points, const Measurement& measured) 
 
 Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
   const HeightRange heights = height_range(points);
-  return Json{{"path", points.path},          {"format", points.format},   {"points", points.size()},
-              {"lines", points.lines.size()}, {"duplicates", duplicates},  {"duplicate_policy", policy_name(policy)},
-              {"min", heights.min},           {"max", heights.max},        {"crs", points.crs},
-              {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height}};
+  Json json{{"path", points.path},          {"format", points.format},   {"points", points.size()},
+            {"lines", points.lines.size()}, {"duplicates", duplicates},  {"duplicate_policy", policy_name(policy)},
+            {"min", heights.min},           {"max", heights.max},        {"crs", points.crs},
+            {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height}};
+  if (points.las) json["las"] = describe_las(*points.las);
+  return json;
 }
 
 Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
@@ -42,10 +44,28 @@ void add_point_measurement(Json& report, const PointSet& points, const Measureme
 
 }  // namespace
 
-std::string without_height(const PointSet& points) {
-  return points.without_height == 0
-             ? ""
-             : fmt::format(" ({} without a height left out)", format_count(points.without_height));
+std::string left_out(const PointSet& points) {
+  std::string text;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", format_count(count), what);
+  };
+  add(points.without_height, "without a height");
+  if (points.las) {
+    add(points.las->withheld, "withheld");
+    add(points.las->of_other_classes, "of other classes");
+    add(points.las->overlap, "in overlaps");
+    add(points.las->of_other_returns, "of other returns");
+  }
+  return text.empty() ? "" : fmt::format(" ({} left out)", text);
+}
+
+Json describe_las(const LasFacts& las) {
+  Json classes = Json::object();
+  for (const PointClass& of : las.classes) classes[fmt::format("{}", of.number)] = of.points;
+  return Json{{"version", las.version},   {"point_format", las.point_format},
+              {"points", las.points},     {"classes", classes},
+              {"withheld", las.withheld}, {"of_other_classes", las.of_other_classes},
+              {"overlap", las.overlap},   {"of_other_returns", las.of_other_returns}};
 }
 
 HeightRange height_range(const PointSet& points) {
@@ -115,8 +135,8 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   const HeightRange heights = height_range(outcome.points);
   std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
   text += summary_line(
-      "points", fmt::format("{}{}, heights {} to {}", format_count(outcome.points.size()),
-                            without_height(outcome.points), format_number(heights.min), format_number(heights.max)));
+      "points", fmt::format("{}{}, heights {} to {}", format_count(outcome.points.size()), left_out(outcome.points),
+                            format_number(heights.min), format_number(heights.max)));
   if (!outcome.points.columns.empty()) text += summary_line("read as", outcome.points.columns);
   if (!outcome.points.lines.empty())
     text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");

@@ -14,8 +14,9 @@
 
 namespace scarp::cli {
 
-/// " (12 without a height left out)", or nothing.
-std::string without_height(const PointSet& points);
+/// " (12 without a height, 340 of other classes left out)", or nothing.
+std::string left_out(const PointSet& points);
+Json describe_las(const LasFacts& las);
 HeightRange height_range(const PointSet& points);
 
 /// Like find_broken_promise(), with a point's place.

@@ -110,6 +110,8 @@ enum class OptionId {
   kLayer,
   kZField,
   kColumns,
+  kClass,
+  kReturns,
   kBoundary,
   kImportance,
   kOnePass,

@@ -56,6 +56,8 @@ constexpr Foreign kForeign[] = {
     {"zfield z-column", OptionId::kZField, ""},
     {"concave concave-hull alpha alpha-shape chi-shape hull", OptionId::kBoundary,
      "give it as --boundary concave:LENGTH"},
+    {"classes classification class-filter keep-class", OptionId::kClass, ""},
+    {"return returns last-only first-only", OptionId::kClass, "give it as --class returns=last"},
     {"column fields format order pnezd", OptionId::kColumns, ""},
     {"clip cutlines crop-to-cutline csql cl", OptionId::kCutline, ""},
     {"lakes", OptionId::kWater, ""},

@@ -22,22 +22,18 @@ namespace {
 
 using enum OptionId;
 
+/// Options that a mesh file keeps for its judge.
+constexpr std::pair<OptionId, const char*> kRemembered[] = {{kDuplicates, "duplicates"},
+                                                            {kBoundary, "boundary"},
+                                                            {kColumns, "columns"},
+                                                            {kClass, "class"},
+                                                            {kReturns, "returns"}};
+
 /// `as`: how a raster would be read.
 Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const ProgressCallback& progress) {
-  for (const OptionId id : {kLayer, kZField, kColumns}) {
-    if (given[id] == "") return fail(ErrorKind::kUsage, fmt::format("{} is empty: omit it", id));
-  }
-  return read_points(given.input(), {.layer = given[kLayer].value_or(""),
-                                     .z_field = given[kZField].value_or(""),
-                                     .crs = as.crs,
-                                     .progress = progress,
-                                     .columns = given[kColumns].value_or(""),
-                                     .nodata = as.nodata,
-                                     .z_scale = as.z_scale,
-                                     .z_offset = as.z_offset,
-                                     .z_unit = as.z_unit,
-                                     .heights_in = as.heights_in,
-                                     .default_frame = as.default_frame});
+  SCARP_TRY(auto&& options, parse_points(given, as));
+  options.progress = progress;
+  return read_points(given.input(), options);
 }
 
 /// The value of --crs; empty: local for degrees, else the points' own.
@@ -100,8 +96,9 @@ void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
     mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
   }
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
-  if (plan.given.has(kColumns)) mesh.metadata["columns"] = *plan.given[kColumns];
-  if (plan.given.has(kBoundary)) mesh.metadata["boundary"] = *plan.given[kBoundary];
+  for (const auto& [option, key] : kRemembered) {
+    if (plan.given.has(option)) mesh.metadata[key] = *plan.given[option];
+  }
   if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
   const RasterInfo& heights = outcome.points.heights;
   if (heights.z_scale != 1) mesh.metadata["z_scale"] = Json(heights.z_scale).dump();
@@ -254,8 +251,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   SCARP_TRY(judged.mesh, read_mesh(*given[kMesh]));
   // The settings of the mesh hold for its judge, unless options set others.
   GivenOptions asked = given;
-  for (const auto& [option, key] :
-       {std::pair{kDuplicates, "duplicates"}, {kBoundary, "boundary"}, {kColumns, "columns"}}) {
+  for (const auto& [option, key] : kRemembered) {
     const auto entry = judged.mesh.metadata.find(key);
     if (!given.has(option) && entry != judged.mesh.metadata.end()) asked.set(option, Given(entry->second));
   }

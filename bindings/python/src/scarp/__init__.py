@@ -155,7 +155,8 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
     the rule for several points at one position: "first" (DEFAULT), "last", "highest", "lowest", "mean". `nodata`:
     points with that height, and those without a finite height, are omitted. `crs` and `frame`: as in simplify();
     degrees become metres from the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, with
-    edges at most 50 long where the points allow it.
+    edges at most 50 long where the points allow it. Of a LAS or LAZ file, `class_="ground,water"` and `returns="last"`
+    choose points.
     """
     out = C.c_void_p()
     lib = _abi.lib

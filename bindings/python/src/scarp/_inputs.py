@@ -58,8 +58,8 @@ def _is_path(source: object) -> bool:
 
 
 def _has_file_reader(path: str) -> bool:
-    """True if the library itself reads the file: PGM, STM and text of points always, others with GDAL."""
-    own = (".pgm", ".stm", ".csv", ".tsv", ".xyz", ".txt")
+    """True if the library itself reads the file: PGM, STM, LAS and text of points always, others with GDAL."""
+    own = (".pgm", ".stm", ".las", ".laz", ".csv", ".tsv", ".xyz", ".txt")
     return bool(_abi.lib.scarp_has_gdal()) or path.lower().endswith(own)
 
 

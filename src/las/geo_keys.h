@@ -1,0 +1,33 @@
+// The coordinate reference system of a LAS file: WKT, or the keys of GeoTIFF (OGC 19-008r4).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace scarp::las {
+
+/// Codes of EPSG; 0: none, or one that the user has defined.
+struct CrsFacts {
+  std::string wkt;
+  int projected = 0, geographic = 0, vertical = 0;
+  int vertical_unit = 0;  ///< 9001: metre, 9002: foot, 9003: US survey foot
+  bool is_geographic = false;
+  std::string citation;  ///< its name in words
+  bool is_user_defined = false;
+  std::vector<std::uint8_t> directory, doubles, texts;  ///< the records of GeoTIFF's keys
+
+  /// "EPSG:26910+5703", "EPSG:4326", WKT; empty: the file has no CRS that is known by a code or WKT.
+  std::string definition() const;
+  /// By the keys, else by the words of the WKT: x and y are degrees.
+  bool is_degrees() const;
+};
+
+/// Reads the keys in the directory.
+void read_geo_keys(CrsFacts& crs);
+
+/// Up to the first zero, without blanks at its ends.
+std::string text_of(std::span<const std::uint8_t> bytes);
+
+}  // namespace scarp::las
