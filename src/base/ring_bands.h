@@ -1,4 +1,4 @@
-// Which side of rings a place is on, and which of their edges are near: in double, for places off any lattice.
+// Rings of polygons by bands of y: the side of a place, and the edges near it. In double, for places off any lattice.
 #pragma once
 
 #include <algorithm>

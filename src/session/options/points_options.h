@@ -27,8 +27,8 @@ Result<DuplicatePolicy> parse_policy(const GivenOptions& given);
 const char* policy_name(DuplicatePolicy policy);
 /// --boundary.
 struct BoundaryChoice {
-  std::optional<double> length;  ///< of concave:LENGTH
-  std::string file;              ///< of polygons; neither: the convex hull
+  std::optional<double> length;  ///< LENGTH of concave:LENGTH
+  std::string file;              ///< file of polygons; neither: the convex hull
 };
 Result<BoundaryChoice> parse_boundary(const GivenOptions& given);
 
