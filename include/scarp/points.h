@@ -49,16 +49,16 @@ Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points);
 struct BoundaryCut {
   std::uint64_t points_outside = 0;  ///< number of points given up
   std::uint64_t corners = 0;         ///< points added: corners of the boundary, and where lines cross it
-  std::uint64_t corners_beyond =
-      0;                ///< corners beyond the points' convex hull: their heights are those of its nearest place
-  double farthest = 0;  ///< distance of the farthest of them, in units of x and y
+  std::uint64_t corners_beyond = 0;  ///< corners beyond the points' convex hull, with the height of its nearest place
+  double farthest = 0;               ///< distance of the farthest of them, in units of x and y
 };
 
 /// Ends the surface at polygons, given as rings: drops the points outside, cuts lines there, and sets
 /// PointSet::boundary. The heights of its corners are those of the Delaunay triangulation of the points given. To be
-/// called once, after add_lines(). Fails with kInput without a ring and for points that have no surface. Cost: expected
-/// O(n log n).
-Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, PointSet& points);
+/// called once, after add_lines(). Between corners more are added where the surface differs from the straight edge by
+/// more than `tolerance`, such as half the max error. Fails with kInput without a ring and for points that have no
+/// surface. Cost: expected O(n log n).
+Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points);
 
 /// The goals, and how to reach them. At least one of the goals; the first that is reached ends the run.
 struct PointOptions {

@@ -36,6 +36,16 @@ PointSurface::Height PointSurface::at(double x, double y) const {
   return {Plane::through_double(tin.corners(t), z).height_at(near), 0};
 }
 
+double PointSurface::spacing() const {
+  double doubled = 0;
+  const Triangulation& tin = domain_.tin;
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    const auto [a, b, c] = tin.corners(t);
+    if (!tin.is_outside(t)) doubled += static_cast<double>(orient(a, b, c));
+  }
+  return snapped_.lattice.step * std::sqrt(doubled / 2 / static_cast<double>(snapped_.size()));
+}
+
 PointSurface::Height PointSurface::beyond(double x, double y) const {
   const PointLattice& lattice = snapped_.lattice;
   const auto& outline = domain_.outlines.front();

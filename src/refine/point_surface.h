@@ -20,6 +20,8 @@ class PointSurface {
                           ///< nearest place on it
   };
   Height at(double x, double y) const;
+  /// The mean distance between neighbouring points, in units of x and y.
+  double spacing() const;
 
  private:
   PointSurface(SnappedPoints snapped, ScatteredDomain domain)

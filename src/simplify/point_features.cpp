@@ -44,11 +44,12 @@ struct Meeting {
 /// The boundary's own points: its corners, and the places where lines meet it, ring by ring.
 class BoundaryMaker {
  public:
-  BoundaryMaker(std::span<const Line> rings, PointSet& points)
-      : rings_(rings), edges_(places_of(rings)), points_(points) {}
+  BoundaryMaker(std::span<const Line> rings, double tolerance, PointSet& points)
+      : rings_(rings), edges_(places_of(rings)), points_(points), tolerance_(tolerance) {}
 
   Result<BoundaryCut> run() {
     SCARP_TRY(const auto& surface, PointSurface::make(points_));
+    spacing_ = surface.spacing() / 2;
     cut_lines();
     BoundaryCut cut;
     cut.points_outside = drop_outside();
@@ -156,16 +157,58 @@ class BoundaryMaker {
         if (height.distance > 0) ++cut.corners_beyond;
         cut.farthest = std::max(cut.farthest, height.distance);
         corners.push_back(add_point(points_, x, y, height.z));
-        for (; meeting != meetings_.end() && meeting->edge == edge; ++meeting) corners.push_back(meeting->point);
+        for (; meeting != meetings_.end() && meeting->edge == edge; ++meeting) {
+          follow(surface, {points_.x[meeting->point], points_.y[meeting->point], points_.z[meeting->point]}, corners);
+          corners.push_back(meeting->point);
+        }
+        const double next_x = ring.points[k + 1][0], next_y = ring.points[k + 1][1];
+        follow(surface, {next_x, next_y, surface.at(next_x, next_y).z}, corners);
       }
       cut.corners += corners.size();
       points_.boundary.push_back(std::move(corners));
     }
   }
 
+  /// Adds corners on the way from the last one, as many as the surface along it needs.
+  void follow(const PointSurface& surface, const std::array<double, 3>& to, std::vector<std::uint32_t>& corners) {
+    constexpr double kMostPlaces = 4096;
+    const std::uint32_t last = corners.back();
+    const std::array<double, 3> from{points_.x[last], points_.y[last], points_.z[last]};
+    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+    const auto count = static_cast<std::size_t>(std::clamp(length / spacing_, 1.0, kMostPlaces));
+    std::vector<double> heights(count + 1, from[2]);
+    heights[count] = to[2];
+    const auto place = [&](std::size_t i) {
+      const double share = static_cast<double>(i) / static_cast<double>(count);
+      return Place{from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
+    };
+    for (std::size_t i = 1; i < count; ++i) heights[i] = surface.at(place(i)[0], place(i)[1]).z;
+    std::vector<std::size_t> ends{count};
+    for (std::size_t begin = 0; !ends.empty();) {
+      const std::size_t end = ends.back();
+      double largest = tolerance_;
+      std::size_t split = end;
+      for (std::size_t i = begin + 1; i < end; ++i) {
+        const double share = static_cast<double>(i - begin) / static_cast<double>(end - begin);
+        const double off = std::abs(heights[begin] + share * (heights[end] - heights[begin]) - heights[i]);
+        if (off <= largest) continue;
+        largest = off;
+        split = i;
+      }
+      if (split != end) {
+        ends.push_back(split);
+        continue;
+      }
+      if (end != count) corners.push_back(add_point(points_, place(end)[0], place(end)[1], heights[end]));
+      begin = end;
+      ends.pop_back();
+    }
+  }
+
   std::span<const Line> rings_;
   RingBands edges_;
   PointSet& points_;
+  double tolerance_, spacing_ = 1;
   std::vector<Meeting> meetings_;
   std::vector<bool> own_;  // by point: it is a meeting
 };
@@ -200,9 +243,9 @@ Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points) {
   return beyond;
 }
 
-Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, PointSet& points) {
+Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points) {
   if (rings.empty()) return fail(ErrorKind::kInput, "the boundary has no polygon");
-  return BoundaryMaker(rings, points).run();
+  return BoundaryMaker(rings, tolerance, points).run();
 }
 
 }  // namespace scarp

@@ -81,7 +81,7 @@ RC_GTEST_PROP(point_features, keep_the_promise_within_a_boundary_with_holes_and_
   std::vector<Line> rings{star(random, *rc::gen::inRange(4, 20), 180, 450, LineRole::kOuter)};
   const bool has_hole = *rc::gen::arbitrary<bool>();
   if (has_hole) rings.push_back(star(random, *rc::gen::inRange(3, 9), 30, 100, LineRole::kHole));
-  const auto cut = cut_to_boundary(rings, points);
+  const auto cut = cut_to_boundary(rings, *rc::gen::element(0.0, 1.0, 100.0), points);
   if (!cut) RC_FAIL(cut.error().message);
   const double goal = *rc::gen::element(0.0, 0.5, 2.0, 10.0);
   const Effort effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
@@ -105,7 +105,7 @@ RC_GTEST_PROP(point_features, keep_the_promise_in_float32, ()) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   PointSet points = survey(random, *rc::gen::inRange(60, 300));
   *add_lines(std::vector{dike(random, *rc::gen::arbitrary<bool>())}, points);
-  if (!cut_to_boundary(std::vector{star(random, 12, 180, 450, LineRole::kOuter)}, points)) RC_FAIL("not cut");
+  if (!cut_to_boundary(std::vector{star(random, 12, 180, 450, LineRole::kOuter)}, 1, points)) RC_FAIL("not cut");
   const double goal = *rc::gen::element(0.5, 2.0, 10.0);
   const Effort effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
   const auto made = simplify_points(points, {.max_error = goal, .quality = {.effort = effort}});
@@ -131,7 +131,7 @@ TEST(point_features, soft_lines_follow_the_points_and_corners_beyond_them_are_co
   Line ring;
   ring.role = LineRole::kOuter;
   ring.points = {{-20, 0, 0}, {50, 0, 0}, {50, 100, 0}, {-20, 100, 0}, {-20, 0, 0}};
-  const auto cut = *cut_to_boundary(std::vector{ring}, points);
+  const auto cut = *cut_to_boundary(std::vector{ring}, 1, points);
   EXPECT_EQ(cut.points_outside, 3u);
   EXPECT_EQ(cut.corners_beyond, 2u);
   EXPECT_DOUBLE_EQ(cut.farthest, 20);
@@ -146,7 +146,7 @@ TEST(point_features, refuse_rings_that_cross) {
   Line ring;
   ring.role = LineRole::kOuter;
   ring.points = {{100, 100, 0}, {900, 900, 0}, {900, 100, 0}, {100, 900, 0}, {100, 100, 0}};
-  ASSERT_TRUE(cut_to_boundary(std::vector{ring}, points));
+  ASSERT_TRUE(cut_to_boundary(std::vector{ring}, 1, points));
   const auto made = simplify_points(points, {.max_error = 1.0});
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::kInput);

@@ -64,8 +64,8 @@ fast_because strategy 'because of --edges' -e 10 --edges data
 fast_because strategy 'because of --batch' -e 10 --batch const
 python3 -c 'print("\n".join(f"{x},{y},{x * x % 17}" for x in range(20) for y in range(20)))' > points.csv
 succeeds "$scarp" simplify points.csv points.glb --points -e 2 --report points.json
-grep -qF 'fast (scattered points are only refined)' "$logs/out" || fail "the summary of points does not tell the effort"
-[ "$(json points.json strategy effort) $(json points.json strategy why_fast)" = '"fast" "points"' ] || fail "the report of points"
+grep -qF 'effort        normal' "$logs/out" || fail "the summary of points does not tell the effort"
+[ "$(json points.json strategy effort)" = '"normal"' ] || fail "the report of points"
 
 # With memory for refinement but not for removal: the same mesh on any number of threads.
 succeeds "$scarp" generate fractal 1000 700 rough.tif -q

@@ -165,6 +165,7 @@ TEST(Las, a_survey_lies_on_its_own_lattice) {
   EXPECT_EQ(points->format, "LAS");
   PointOptions options;
   options.max_error = 1;
+  options.quality.effort = Effort::kFast;
   const auto made = simplify_points(*points, options);
   ASSERT_TRUE(made.has_value()) << made.error().message;
   EXPECT_EQ(made->lattice_step, 0.02);

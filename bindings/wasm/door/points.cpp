@@ -7,7 +7,7 @@ namespace scarp::wasm {
 /// `coordinates`: 3 doubles a point, x, y, z.
 struct Points {
   double coordinates, count;
-  double max_error, max_triangles, max_vertices, duplicates, doubles, has_progress;
+  double max_error, max_triangles, max_vertices, duplicates, effort, doubles, has_progress;
 };
 
 }  // namespace scarp::wasm
@@ -32,6 +32,7 @@ SCARP_EXPORT(scarp_simplify_points) WholeMesh* scarp_simplify_points(const Point
     options.max_triangles = budget(given_points->max_triangles);
     options.max_vertices = budget(given_points->max_vertices);
     options.duplicates = static_cast<scarp::DuplicatePolicy>(given_points->duplicates);
+    options.quality.effort = static_cast<scarp::Effort>(given_points->effort);
     options.float32_positions = given_points->doubles == 0;
     options.run.threads = 1;
     if (given_points->has_progress != 0) options.run.progress = ask_javascript();
@@ -39,7 +40,7 @@ SCARP_EXPORT(scarp_simplify_points) WholeMesh* scarp_simplify_points(const Point
     auto whole = std::make_unique<WholeMesh>();
     whole->report = describe(made.simplified.measurement);
     whole->report.stop = static_cast<double>(made.simplified.stop);
-    whole->report.effort = 0;
+    whole->report.effort = static_cast<double>(made.simplified.effort) - static_cast<double>(scarp::Effort::kFast);
     whole->mesh = std::move(made.simplified.mesh);
     return whole;
   });

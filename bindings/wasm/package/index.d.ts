@@ -207,6 +207,7 @@ export function measure(
 export interface PointOptions extends Goals {
   /** Rule for several points at one position. */
   duplicates?: 'first' | 'last' | 'highest' | 'lowest' | 'mean';
+  effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
   doubles?: boolean;
   onProgress?: (progress: Progress) => boolean | void;
 }

@@ -111,7 +111,7 @@ const SIMPLIFY = [
   ...PLACE,
   ...RUN,
 ];
-const POINTS = [...GOALS, 'duplicates', 'doubles', ...RUN];
+const POINTS = [...GOALS, 'duplicates', 'effort', 'doubles', ...RUN];
 export const ENTRIES = {
   simplify: [...SIMPLIFY, 'transfer'],
   simplifySync: SIMPLIFY,

@@ -100,7 +100,7 @@ export function checkPoints(points) {
 export function simplifyPointsSync(points, options = {}, flag = undefined) {
   const taken = takeOptions(options, 'simplifyPointsSync');
   checkSignal(taken.signal);
-  const { duplicates = 'first', doubles, onProgress } = taken;
+  const { duplicates = 'first', effort = 'auto', doubles, onProgress } = taken;
   const given = checkPoints(points);
   const progress = watch(onProgress, flag);
   return withBlocks(blocks => {
@@ -110,6 +110,7 @@ export function simplifyPointsSync(points, options = {}, flag = undefined) {
       given.length / 3,
       listGoals(taken),
       choose('duplicates', duplicates),
+      choose('effort', effort),
       Number(Boolean(doubles)),
       Number(Boolean(progress)),
     );

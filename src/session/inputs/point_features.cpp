@@ -47,8 +47,8 @@ Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& p
   return {};
 }
 
-Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, const ProgressCallback& progress,
-                                                   PointSet& points) {
+Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, double tolerance,
+                                                   const ProgressCallback& progress, PointSet& points) {
   SCARP_TRY(const auto& boundary, parse_boundary(given));
   if (boundary.file.empty()) return std::nullopt;
   ReadLinesOptions options;
@@ -57,7 +57,7 @@ Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, co
   SCARP_TRY(const auto& rings, read({boundary.file}, kBoundary, options, points));
   SCARP_RETURN_IF_ERROR(check_polygons(rings, name_of(kBoundary), name_of(kBreaklines)));
   const std::uint64_t given_points = points.size();
-  SCARP_TRY(const auto& cut, scarp::cut_to_boundary(rings, points));
+  SCARP_TRY(const auto& cut, scarp::cut_to_boundary(rings, tolerance, points));
   if (cut.points_outside >= given_points)
     return fail(ErrorKind::kInput,
                 fmt::format("no point lies within {} {}: are both in one CRS?", kBoundary, shell_word(boundary.file)));

@@ -13,8 +13,8 @@ namespace scarp::cli {
 /// points that needs a height causes a warning.
 Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
 
-/// Ends the points at the polygons of --boundary, if that names a file.
-Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, const ProgressCallback& progress,
-                                                   PointSet& points);
+/// Ends the points at the polygons of --boundary, if that names a file. `tolerance`: of the surface along them.
+Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, double tolerance,
+                                                   const ProgressCallback& progress, PointSet& points);
 
 }  // namespace scarp::cli

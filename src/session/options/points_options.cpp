@@ -144,11 +144,10 @@ Result<BoundaryChoice> parse_boundary(const GivenOptions& given) {
   } else if (text->find('.') != std::string::npos) {
     return BoundaryChoice{std::nullopt, *text};
   }
-  return fail(
-      ErrorKind::kUsage,
-      fmt::format("{} {} is neither hull nor concave:LENGTH, such as concave:50, nor a file of polygons: LENGTH "
-                  "is a number above 0 in the unit of x and y",
-                  kBoundary, shell_word(*text)));
+  return fail(ErrorKind::kUsage, fmt::format("{} {} is neither hull nor concave:LENGTH, such as concave:50 (LENGTH is "
+                                             "above 0, in the unit of x and y), nor "
+                                             "a file of polygons, such as site.geojson",
+                                             kBoundary, shell_word(*text)));
 }
 
 }  // namespace scarp::cli

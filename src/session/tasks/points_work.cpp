@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "scarp/points.h"
@@ -133,6 +134,14 @@ Error with_path(Error error, const std::string& path) {
   return error;
 }
 
+/// Half the max error that is asked for, or, where a budget decides, a share of the relief.
+double tolerance_along_boundary(const SimplifyPlan& plan, const PointSet& points) {
+  constexpr double kShareOfRelief = 1.0 / 400;
+  const HeightRange heights = height_range(points);
+  const double relief = heights.max - heights.min;
+  return plan.error_goal ? plan.error_goal->absolute(relief) / 2 : kShareOfRelief * relief;
+}
+
 /// Warns where the convex hull bridges bays or has slivers.
 void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
   if (fit.boundary_length == 0) return;
@@ -171,7 +180,11 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
   SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
   SCARP_RETURN_IF_ERROR(add_breaklines(given, runner.progress, points));
-  SCARP_TRY(outcome.cut, cut_to_boundary(given, runner.progress, points));
+  if (plan.error_goal) {
+    SCARP_RETURN_IF_ERROR(refuse_print(kMaxError, *plan.error_goal));
+    SCARP_RETURN_IF_ERROR(settle_goal(kMaxError, points.heights, *plan.error_goal, points.warnings));
+  }
+  SCARP_TRY(outcome.cut, cut_to_boundary(given, tolerance_along_boundary(plan, points), runner.progress, points));
   outcome.points = std::move(points);
   if (!outcome.points.lines.empty() && (given[kMaxTriangles] || given[kMaxPoints]))
     return fail(ErrorKind::kUsage,
@@ -190,10 +203,6 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   outcome.warnings = plan.warnings;
   outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);
-  if (plan.error_goal) {
-    SCARP_RETURN_IF_ERROR(refuse_print(kMaxError, *plan.error_goal));
-    SCARP_RETURN_IF_ERROR(settle_goal(kMaxError, outcome.points.heights, *plan.error_goal, outcome.warnings));
-  }
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
   outcome.seconds_read = seconds_since(start);
 
@@ -263,7 +272,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   if (!points && !given[kCrs] && !as.crs.empty())
     return tl::unexpected(explain_frame(std::move(points.error()), as.crs, *given[kMesh], path));
   SCARP_RETURN_IF_ERROR(points);
-  SCARP_RETURN_IF_ERROR(cut_to_boundary(asked, runner.progress, *points));
+  SCARP_RETURN_IF_ERROR(cut_to_boundary(asked, std::numeric_limits<double>::infinity(), runner.progress, *points));
   judged.points = std::move(*points);
   if (!given[kCrs]) put_back(judged.points, judged.mesh);
   if (goal) {

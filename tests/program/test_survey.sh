@@ -1,0 +1,73 @@
+#!/bin/bash
+# A survey: efforts and budgets on points, breaklines, a boundary of polygons, and the surface as a raster.
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+need awk python3
+
+awk 'BEGIN { srand(7); print "x,y,z"
+  for (i = 0; i < 4000; i++) { x = rand() * 1000; y = rand() * 800
+    printf "%.2f,%.2f,%.3f\n", 500000 + x, 4649000 + y, 300 + 40 * sin(x / 90) * cos(y / 70) + rand() / 4 } }' >survey.csv
+count() { python3 -c 'import json,sys; print(json.load(open(sys.argv[1]))["triangles"])' "$1"; }
+error() { python3 -c 'import json,sys; print(json.load(open(sys.argv[1]))["max_error"])' "$1"; }
+
+# Higher efforts need fewer triangles for the same error, and reach a smaller error with the same triangles.
+for effort in fast normal high; do
+  succeeds "$scarp" simplify survey.csv "$effort.glb" -e 1 --effort "$effort" --report "$effort.json" -q
+  succeeds "$scarp" measure survey.csv "$effort.glb" --fail-above 1 -q
+  succeeds "$scarp" simplify survey.csv "b$effort.glb" -t 800 --effort "$effort" --report "b$effort.json" -q
+  holds "$(count "b$effort.json") <= 800" || fail "the budget with $effort"
+done
+holds "$(count normal.json) < 0.8 * $(count fast.json)" || fail "normal: $(count normal.json) of $(count fast.json)"
+holds "$(count high.json) < 0.75 * $(count normal.json)" || fail "high: $(count high.json) of $(count normal.json)"
+holds "$(error bnormal.json) < $(error bfast.json)" || fail "the error of a budget with normal"
+holds "$(error bhigh.json) < $(error bnormal.json)" || fail "the error of a budget with high"
+succeeds "$scarp" simplify survey.csv samples.glb -e 1 --effort high --vertices samples --report samples.json -q
+holds "$(count samples.json) < $(count normal.json)" || fail "high on samples"
+for threads in 1 3; do
+  succeeds "$scarp" simplify survey.csv "t$threads.ply" -e 0.5 --effort high -j "$threads" -q
+done
+cmp <(sed 's/-j [13]//; s/t[13].ply//' t1.ply) <(sed 's/-j [13]//; s/t[13].ply//' t3.ply) || fail "threads change the mesh"
+
+# A boundary with a hole, and lines with and without heights.
+python3 - <<'PY'
+import json
+def write(path, geometry):
+    json.dump({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": g} for g in geometry]},
+              open(path, "w"))
+at = lambda x, y, *z: [500000 + x, 4649000 + y, *z]
+write("site.geojson", [{"type": "Polygon", "coordinates": [
+    [at(100, 100), at(900, 150), at(850, 700), at(120, 650), at(100, 100)],
+    [at(400, 300), at(400, 400), at(500, 400), at(500, 300), at(400, 300)]]}])
+write("dike.geojson", [{"type": "LineString", "coordinates": [at(50, 200, 350), at(600, 210, 352), at(950, 260, 351)]}])
+write("path.geojson", [{"type": "LineString", "coordinates": [at(150, 600), at(500, 560), at(800, 640)]}])
+write("far.geojson", [{"type": "Polygon", "coordinates": [[[0, 0], [10, 0], [10, 10], [0, 0]]]}])
+write("wide.geojson", [{"type": "Polygon", "coordinates": [[at(-60, 100), at(900, 150), at(850, 700), at(-60, 100)]]}])
+PY
+# GeoJSON has no other CRS than degrees; the points of a text have none.
+options=(--breaklines dike.geojson --breaklines path.geojson --boundary site.geojson)
+for effort in fast normal high; do
+  succeeds "$scarp" simplify survey.csv cut.glb -e 1 --effort "$effort" "${options[@]}" --report cut.json --overwrite
+  grep -q 'boundary      site.geojson: [0-9]* corners, [0-9,]* points outside' "$logs/out" || fail "the summary of the boundary"
+  succeeds "$scarp" measure survey.csv cut.glb --fail-above 1 -q
+done
+python3 - <<'PY' || fail "the report of a boundary"
+import json
+r = json.load(open("cut.json"))
+assert r["input"]["boundary"] == "site.geojson" and r["input"]["lines"] == 2, r["input"]
+cut = r["input"]["boundary_cut"]
+assert 10 <= cut["corners"] < 200 and cut["corners_beyond"] == 0 and 1500 < cut["points_outside"] < 3000, cut
+assert r["max_error"] <= 1 and r["uncovered"] == 0 and r["topology"]["sound"] and r["topology"]["border_loops"] == 2, r
+PY
+succeeds "$scarp" simplify survey.csv wide.glb -e 1 --boundary wide.geojson
+grep -q '1 corner of --boundary lie up to 60' "$logs/err" || fail "no warning of a corner beyond the points"
+refuses 2 "needs polygons" "$scarp" simplify survey.csv x.glb -e 1 --boundary dike.geojson
+refuses 2 "no point lies within --boundary far.geojson" "$scarp" simplify survey.csv x.glb -e 1 --boundary far.geojson
+refuses 1 "cannot be combined with lines" "$scarp" simplify survey.csv x.glb -t 500 --breaklines dike.geojson
+
+# The surface as a raster.
+succeeds "$scarp" simplify survey.csv dem.tif -e 1 --cell-size 10 -q
+succeeds "$scarp" info dem.tif --no-suggest
+grep -Eq '10[01] columns x 8[01] rows' "$logs/out" || fail "the size of the raster: $(cat "$logs/out")"
+refuses 1 "give the size of its cells with --cell-size" "$scarp" simplify survey.csv x.tif -e 1
+refuses 1 "--cell-size is for rasters, and survey.csv holds points" "$scarp" simplify survey.csv x.glb -e 1 --cell-size 5
+refuses 1 "choose larger" "$scarp" simplify survey.csv x.tif -e 1 --cell-size 1e-9
+echo "surveys become terrain models"
