@@ -60,8 +60,8 @@ struct WaterOptions {
 /// water has a rim. Lakes are processed in the order of `lines`; a sample in two lakes belongs to the later one. Levels
 /// are computed from the field as given. Lines, and polygons without a valid sample on their shore, are omitted.
 ///
-/// A field with a source gets a new source, with the samples that the field would have in memory; lakes are the same
-/// either way. The source holds Lake::bytes, in proportion to the shores, however large the lakes are.
+/// The source of a field is replaced by one with the flattened samples. The source holds Lake::bytes, in proportion to
+/// the shores, however large the lakes are.
 ///
 /// With the shores as breaklines and vertices on samples, a mesh is level within each lake. REQUIRES: the affine map
 /// can be inverted. Fails with kUsage for options out of range, with kCancelled, and as the field's source does; for a

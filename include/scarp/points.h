@@ -73,8 +73,8 @@ struct PointOptions {
   /// true.
   bool best_of_budget = true;
   DuplicatePolicy duplicates = DuplicatePolicy::kFirst;  ///< DEFAULT: the first point of each place.
-  /// Above 0, in units of x and y: the mesh ends at a concave hull, whose edges are up to this long where the points
-  /// hang together without longer ones. DEFAULT: at the convex hull.
+  /// Above 0, in units of x and y: the mesh ends at a concave hull. Its edges are at most this long, except where a
+  /// longer one is needed to connect the points. DEFAULT: at the convex hull.
   std::optional<double> boundary_length = std::nullopt;
   /// The work that follows refinement: effort, vertices and min_shape, as for a raster; the rest does not apply. Free
   /// vertices lie on a lattice of 2^22 steps or more over the extent. A max error of 0, or one that the rounding of

@@ -50,8 +50,8 @@ class TileSetWriter {
  public:
   /// An unfinished set is removed.
   virtual ~TileSetWriter() = default;
-  /// Adds a tile; readers get the same bytes. Tiles may be added in any order. REQUIRES: each id once, of the grid.
-  /// Fails with kOutput.
+  /// Adds a tile; readers get the same bytes. Tiles may be added in any order. REQUIRES: each id belongs to the grid
+  /// and is added once. Fails with kOutput.
   virtual Result<void> put_tile(TileId id, std::span<const std::uint8_t> bytes) = 0;
   /// Adds another file. Fails with kOutput. REQUIRES: each name once; a relative path of plain parts, no tile's name,
   /// and one of "layer.json", "tileset.json" and "subtrees/….subtree" if Scarp is to recognise the set as its own.

@@ -29,7 +29,7 @@ struct ClientTile {
   std::vector<double> u, v;
   std::vector<double> heights;  ///< metres above the world
   std::vector<Place> places;
-  std::vector<std::array<float, 3>> normals;  ///< the file's normal of each vertex, as numbers; empty if absent
+  std::vector<std::array<float, 3>> normals;  ///< normals of the vertices as stored, not decoded; empty if absent
   std::vector<float> uvs;                     ///< per vertex its position in `image`; empty if absent
   GlbImage image;                             ///< empty if absent
   std::vector<std::uint32_t> triangles;

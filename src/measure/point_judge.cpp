@@ -37,6 +37,11 @@ Result<void> check_options(const MeasureOptions& options) {
   return {};
 }
 
+/// More buckets than triangles where points are many: each point is compared with every triangle of its bucket.
+std::size_t buckets_for(std::size_t triangles, std::size_t points) {
+  return std::max(triangles, std::min(8 * triangles, points));
+}
+
 struct Verdict {
   double error = kNone;  ///< NaN: uncovered
   std::uint32_t triangle = 0;
@@ -46,7 +51,11 @@ class Judge {
  public:
   Judge(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh, std::span<const std::uint32_t> judged,
         const Box& box, double tolerance)
-      : points_(points), snapped_(snapped), mesh_(mesh), tolerance_(tolerance), grid_(box, judged.size()) {
+      : points_(points),
+        snapped_(snapped),
+        mesh_(mesh),
+        tolerance_(tolerance),
+        grid_(box, buckets_for(judged.size(), points.size())) {
     grid_.fill([&](const auto& visit) {
       for (const std::uint32_t t : judged) {
         Facet facet;

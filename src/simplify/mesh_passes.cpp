@@ -338,8 +338,8 @@ class MeshPasses {
     return {};
   }
 
-  /// Judges the mesh as it will be written. If float32 positions or the frame's curvature cost the bound, or fold the
-  /// mesh in space, the samples that break it are inserted and refinement continues.
+  /// Judges the mesh as it will be written. If float32 positions or the frame's curvature break the bound or fold the
+  /// mesh in space, the samples at fault are inserted and refinement continues.
   Result<void> prove_and_mend(Simplified& result) {
     for (;;) {
       const auto start = Clock::now();

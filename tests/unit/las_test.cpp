@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -212,7 +213,7 @@ void expect_sentences_of_prefixes(const Bytes& bytes) {
 }
 
 TEST(Las, files_that_are_cut_off_are_refused_in_a_sentence) {
-  for (const std::uint8_t format : {0, 3, 6, 8}) {
+  for (const std::uint8_t format : std::array<std::uint8_t, 4>{0, 3, 6, 8}) {
     SCOPED_TRACE(static_cast<int>(format));
     const LasFile file = make_file(format, 60, 2);
     expect_sentences_of_prefixes(file.las());
@@ -223,7 +224,7 @@ TEST(Las, files_that_are_cut_off_are_refused_in_a_sentence) {
 
 TEST(Las, damaged_bytes_never_crash) {
   std::mt19937 random(7);
-  for (const std::uint8_t format : {0, 1, 3, 5, 6, 8, 10}) {
+  for (const std::uint8_t format : std::array<std::uint8_t, 7>{0, 1, 3, 5, 6, 8, 10}) {
     const LasFile file = make_file(format, 120, 3);
     for (const Bytes& whole : {file.las(), make_laz(file, {50}, true)}) {
       for (int k = 0; k < 400; ++k) {

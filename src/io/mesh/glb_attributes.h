@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// One array by vertex.
+/// A per-vertex attribute.
 struct GlbAttribute {
   std::string name;
   int component = 0;      ///< glTF's component type

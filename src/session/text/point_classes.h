@@ -1,4 +1,4 @@
-// The classes of ASPRS that points of LAS files have, by name.
+// Names of the ASPRS point classes of LAS files.
 #pragma once
 
 #include <cstdint>
