@@ -122,7 +122,9 @@ class PointReader {
     } else {
       chunks_ = cut_records(header_);
     }
-    reserve();
+    std::uint64_t bytes = 0;
+    for (const LazChunk& chunk : chunks_) bytes += chunk.bytes;
+    reserve(header_.points, bytes, points_);
     workers_.resize(static_cast<std::size_t>(thread_count(run_.threads)));
     parts_.resize(chunks_.size());
     parallel_in_order(
@@ -139,18 +141,16 @@ class PointReader {
     std::string fault;
   };
 
-  /// Only as much as the bytes of the file can fill: points in fewer than a byte each are rare.
-  void reserve() {
-    std::uint64_t bytes = 0;
-    for (const LazChunk& chunk : chunks_) bytes += chunk.bytes;
-    const std::uint64_t count = std::min(header_.points, bytes);
-    for (auto* values : {&points_.x, &points_.y, &points_.z}) values->reserve(count);
+  /// Only as many as bytes: points in fewer than a byte each are rare, and the number of points may be a lie.
+  static void reserve(std::uint64_t count, std::uint64_t bytes, Points& points) {
+    for (auto* values : {&points.x, &points.y, &points.z}) values->reserve(std::min(count, bytes));
   }
 
   void decode(std::size_t i, Worker& worker) {
     if (!worker.decoder) worker.decoder = make_decoder(header_);
     const LazChunk& chunk = chunks_[i];
     Part part;
+    reserve(chunk.points, chunk.bytes, part.points);
     worker.bytes.resize(chunk.bytes);
     if (!source_.read(chunk.offset, worker.bytes)) {
       part.fault = fmt::format("{} bytes from byte {} on cannot be read", chunk.bytes, chunk.offset);

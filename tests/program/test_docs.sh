@@ -121,6 +121,8 @@ while read -r command option choices; do
   case "$command $option" in
     "simplify --duplicates") try "$scarp" simplify points.csv out.obj -e 1 "$option" nonsense ;;
     "measure --duplicates" | "measure --returns") continue ;; # asked after the mesh is read
+    "simplify --returns") try "$scarp" simplify points.csv out.obj -e 1 --class returns=nonsense ;;
+    "info --returns") try "$scarp" info points.csv --class returns=nonsense ;;
     "simplify --norm") try "$scarp" simplify "$dem" out.obj -e 1 --image "$option" nonsense ;;
     "simplify --drape-format") try "$scarp" simplify "$dem" out.glb -e 1 --drape "$dem,format=nonsense" ;;
     "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines,conflict=nonsense ;;
@@ -136,8 +138,6 @@ while read -r command option choices; do
     "tile-plan --hash") try "$scarp" tile-plan "$dem" out.json "$option" nonsense ;;
     tile*) try "$scarp" tile "$dem" out "$option" nonsense ;;
     serve*) try "$scarp" serve "$dem" "$option" nonsense ;;
-    "simplify --returns") try "$scarp" simplify points.csv out.obj -e 1 --class returns=nonsense ;;
-    "info --returns") try "$scarp" info points.csv --class returns=nonsense ;;
     info*) try "$scarp" info "$dem" "$option" nonsense ;;
     generate*) try "$scarp" generate cliff 9 9 out.tif "$option" nonsense ;;
   esac

@@ -52,17 +52,20 @@ eval "$(sed -n 's/^  next  *scarp/succeeds "$scarp"/p' "$logs/out")"
 refuses 2 "empty.las: holds no points" "$scarp" info empty.las
 refuses 2 "empty.las: holds no points" "$scarp" simplify empty.las x.glb -e 1
 
+body() { LC_ALL=C sed '1,/^end_header/d' "$1"; } # without the command in the header
+
 # A class by name is that by number; the mesh remembers it for its judge.
 succeeds "$scarp" simplify survey.las ground.ply -e 0.2 --class ground,no-overlap --report r.json
 grep -q '2000 (1 withheld, 4[0-9]* of other classes, 1 in overlaps left out)' "$logs/out" || fail "the summary does not count what is omitted"
 holds "$(json r.json input las points) == 2000 + 1 + 1 + 400 + $(json r.json input las classes 18)"
-holds "$(json r.json input lattice_step) == 2"
+# The lattice of the file, or that divided by a power of two.
+holds "$(json r.json input lattice_step) == 2 / 2 ^ int(log(2 / $(json r.json input lattice_step)) / log(2) + 0.5)"
 succeeds "$scarp" measure survey.las ground.ply --fail-above 0.2 -q
 refuses 3 "exceeds 0.2" "$scarp" measure survey.las ground.ply --fail-above 0.2 --class all -q
 succeeds "$scarp" simplify survey.las number.ply -e 0.2 --class 2,no-overlap --overwrite -q -j 3
-cmp <(tail -c 10000 ground.ply) <(tail -c 10000 number.ply) || fail "a class by name is not that by number"
+cmp <(body ground.ply) <(body number.ply) || fail "a class by name is not that by number"
 succeeds "$scarp" simplify survey.las rest.ply -e 0.2 --class no-vegetation,no-noise,no-overlap -q
-cmp <(tail -c 10000 ground.ply) <(tail -c 10000 rest.ply) || fail "classes that are omitted leave others"
+cmp <(body ground.ply) <(body rest.ply) || fail "classes that are omitted leave others"
 succeeds "$scarp" simplify survey.las last.ply -e 0.2 --class returns=last --report r.json --overwrite -q
 [ "$(json r.json input las of_other_returns)" = 400 ] || fail "first returns are used"
 succeeds "$scarp" measure survey.las last.ply --fail-above 0.2 --json

@@ -169,7 +169,8 @@ TEST(Las, a_survey_lies_on_its_own_lattice) {
   options.quality.effort = Effort::kFast;
   const auto made = simplify_points(*points, options);
   ASSERT_TRUE(made.has_value()) << made.error().message;
-  EXPECT_EQ(made->lattice_step, 0.02);
+  int exponent = 0;  // the lattice of the file, or that divided by a power of two
+  EXPECT_EQ(std::frexp(0.02 / made->lattice_step, &exponent), 0.5) << made->lattice_step;
 }
 
 TEST(Las, a_selection_counts_each_point_once) {
@@ -400,7 +401,9 @@ TEST(LasShared, pairs_have_the_same_points) {
   if (files.empty()) GTEST_SKIP() << "the shared files are not here";
   int pairs = 0;
   for (const std::string& las : files) {
-    const std::string laz = las.substr(0, las.size() - 1) + "z";
+    const bool is_simple = las.ends_with("pdal_simple.las");  // its pair is of the first version of the compressor
+    const std::string laz =
+        las.substr(0, las.size() - 4) + (is_simple ? "-laszip-compressor-version-1.2r0.laz" : ".laz");
     if (!las.ends_with(".las") || !std::filesystem::exists(laz)) continue;
     SCOPED_TRACE(las);
     const auto raw = decode(bytes_of(las), everything()), compressed = decode(bytes_of(laz), everything());
@@ -411,7 +414,7 @@ TEST(LasShared, pairs_have_the_same_points) {
     EXPECT_EQ(raw->tally.classes, compressed->tally.classes);
     ++pairs;
   }
-  EXPECT_GE(pairs, 9);
+  EXPECT_GE(pairs, 10);
 }
 
 TEST(LasShared, points_fill_the_box_of_the_header) {
