@@ -14,7 +14,6 @@ namespace scarp {
 
 namespace {
 
-constexpr double kPositionShare = 0x1p-9;  ///< share of the bound for the rounding of positions
 constexpr double kUsualShape = 0.1;
 constexpr std::int32_t kMostSide = kMaxFitSteps / kLatticeSteps / 2;
 
@@ -90,25 +89,15 @@ void rebuild(const SnappedPoints& points, std::span<const double> heights, Fitte
 
 }  // namespace
 
-PointAims::PointAims(double max_error, std::span<const double> heights) {
-  double largest = 0;
-  for (const double z : heights) largest = std::max(largest, std::abs(z));
-  // A point and the surface are each rounded by half a unit in the last place.
-  const double rounding = largest * 0x1p-24 * (1 + 0x1p-10);
-  fit = max_error * (1 - kPositionShare) - rounding;
-  refinement = largest < double{kMaxScanHeight} ? fit - 2 * rounding : 0;
-}
-
 Result<PointFit> fit_points(const SnappedPoints& points, const PointSet& given, std::span<const double> heights,
-                            const PointAims& aims, std::span<const std::uint32_t> fixed, const PointRecipe& recipe,
-                            ScatteredDomain& domain) {
+                            std::span<const std::uint32_t> fixed, const PointRecipe& recipe, ScatteredDomain& domain) {
   const PointOptions& options = recipe.options;
   const Quality& quality = options.quality;
   const AllSamples all(points, given);
   const PointSamples& samples = all.samples();
   FitOptions fit_options;
   fit_options.points = &samples;
-  fit_options.threshold = aims.fit;
+  fit_options.threshold = recipe.aims.fit;
   fit_options.threads = options.run.threads;
   fit_options.depth = recipe.traits.depth;
   fit_options.vertices_are_free = recipe.frees_vertices;

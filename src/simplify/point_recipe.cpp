@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "fit/triangle_error.h"
 #include "pieces/checks.h"
 
 namespace scarp {
@@ -38,7 +42,18 @@ Result<void> check_lines(const PointSet& points, const PointOptions& options) {
                           options.max_triangles ? "max_triangles" : "max_vertices"));
 }
 
+constexpr double kPositionShare = 0x1p-9;  ///< share of the bound for the rounding of positions
+
 }  // namespace
+
+PointAims::PointAims(double max_error, std::span<const double> heights) {
+  double largest = 0;
+  for (const double z : heights) largest = std::max(largest, std::abs(z));
+  // A point and the surface are each rounded by half a unit in the last place.
+  const double rounding = largest * 0x1p-24 * (1 + 0x1p-10);
+  fit = max_error * (1 - kPositionShare) - rounding;
+  refinement = largest < double{kMaxScanHeight} ? fit - 2 * rounding : 0;
+}
 
 Result<void> check_point_options(const PointSet& points, const PointOptions& options) {
   SCARP_RETURN_IF_ERROR(check_goals(options));
@@ -51,7 +66,8 @@ PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, bool
              : asked.quality.effort == Effort::kAuto ? Effort::kNormal
                                                      : asked.quality.effort),
       traits(traits_of(effort)),
-      removes(traits.fits && !(asked.max_error && *asked.max_error == 0)),
+      aims(asked.max_error.value_or(0), points.z),
+      removes(traits.fits && (!asked.max_error || aims.is_open())),
       searches(removes && (asked.max_triangles || asked.max_vertices)),
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
       steps(asked.float32_positions && (removes || !points.lines.empty()) ? PointSteps::kFloat32

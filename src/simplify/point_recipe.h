@@ -1,6 +1,8 @@
 // The recipe of a run on scattered points: decisions that follow from its options, made once.
 #pragma once
 
+#include <span>
+
 #include "grid/snapped_points.h"
 #include "pieces/effort.h"
 #include "scarp/points.h"
@@ -11,6 +13,15 @@ namespace scarp {
 /// Fails with kUsage: no goal, a number out of its range, options that exclude each other.
 Result<void> check_point_options(const PointSet& points, const PointOptions& options);
 
+/// The bounds on the way to a max error. Fitting reads heights as float32, whose rounding comes off the bound, as does
+/// a share for that of positions. Where nothing is left, there is no fitting.
+struct PointAims {
+  double refinement = 0, fit = 0;
+
+  PointAims(double max_error, std::span<const double> heights);
+  bool is_open() const { return refinement > 0; }
+};
+
 /// REQUIRES: checked options.
 struct PointRecipe {
   PointRecipe(const PointSet& points, const PointOptions& asked, bool refines_only = false);
@@ -18,6 +29,7 @@ struct PointRecipe {
   PointOptions options;
   Effort effort;        ///< never kAuto
   EffortTraits traits;  ///< the work of that effort
+  PointAims aims;       ///< without a max error those of 0
   bool removes;         ///< vertices are removed after refinement
   bool searches;        ///< a budget is met by runs for several errors
   bool frees_vertices;  ///< vertices may move off the points

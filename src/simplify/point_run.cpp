@@ -34,13 +34,12 @@ class PointRun {
         lines_(task.lines),
         budget_(options_.max_triangles, options_.max_vertices),
         bound_(options_.max_error.value_or(0)),
-        aims_(bound_, heights_),
         width_(task.width),
-        fits_(recipe.removes && bound_ > 0 && aims_.is_open()),
+        fits_(recipe.removes && recipe.aims.is_open()),
         is_on_lattice_(task.steps == PointSteps::kFloat32),
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
-        refinement_(std::in_place, snapped_, heights_, domain_, fits_ ? aims_.refinement : bound_),
+        refinement_(std::in_place, snapped_, heights_, domain_, fits_ ? recipe.aims.refinement : bound_),
         reporter_(options_.run.progress) {
     for (double z : snapped_.z) largest_height_ = std::max(largest_height_, std::abs(z));
   }
@@ -70,8 +69,7 @@ class PointRun {
     result.effort = Effort::kFast;
     if (!fits_ || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
-    std::sort(mended_.begin(), mended_.end());
-    SCARP_TRY(const auto& fitted, fit_points(snapped_, points_, heights_, aims_, mended_, recipe_, domain_));
+    SCARP_TRY(const auto& fitted, fit_points(snapped_, points_, heights_, fixed_points(), recipe_, domain_));
     result.effort = recipe_.effort;
     if (!lines_.empty()) {
       refinement_.emplace(snapped_, heights_, domain_, bound_);
@@ -81,6 +79,16 @@ class PointRun {
     if (std::any_of(domain_.heights.begin(), domain_.heights.end(), [](double z) { return !std::isnan(z); }))
       result.vertices = Vertices::kFree;
     return {};
+  }
+
+  /// Points that broke the bound after fitting, and vertices of lines, some of whose chords may not be edges; sorted.
+  std::vector<std::uint32_t> fixed_points() const {
+    std::vector<std::uint32_t> fixed = mended_;
+    for (const std::uint32_t point : domain_.point_of) {
+      if (point != kNone && !lines_.empty() && lines_.on_lines()[point]) fixed.push_back(point);
+    }
+    std::sort(fixed.begin(), fixed.end());
+    return fixed;
   }
 
   void forget_refinement() {
@@ -128,7 +136,7 @@ class PointRun {
       if (splits.empty()) {
         loose_ = lines_.hold(domain_);
         forget_refinement();
-        refinement_.emplace(snapped_, heights_, domain_, fits_ ? aims_.refinement : bound_);
+        refinement_.emplace(snapped_, heights_, domain_, fits_ ? recipe_.aims.refinement : bound_);
         if (refinement_->done()) break;
       }
       for (const std::uint32_t point : splits) insert(point);
@@ -334,7 +342,6 @@ class PointRun {
   const PointLines& lines_;
   Budget budget_;
   double bound_;
-  PointAims aims_;
   double width_;
   bool fits_;           ///< vertices are removed
   bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds
