@@ -363,6 +363,7 @@ void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 struct PointLine {
   std::vector<std::uint32_t> points;  ///< indices; at least two, successive ones differ; a ring ends with its first
   std::string name;                   ///< for messages: "contours.gpkg feature 12"
+  bool keeps_vertices = false;        ///< all of its points become vertices, as those of breaklines; else as needed
 };
 
 /// The points of one of ASPRS's classes: 2 is ground.

@@ -46,7 +46,8 @@ struct MeasureOptions {
   const SampleSource* tolerance_source = nullptr;
   /// The cutline of the mesh. Samples in a polygon, farther than 1/64 sample from its rings, must be covered. Samples
   /// nearer to the rings, on either side, are judged if covered. All others are not judged. Edges along the rings are
-  /// no gaps. The rings are used as given, not as rounded in the mesh. Borrowed. DEFAULT: null, the whole domain.
+  /// no gaps. The rings are used as given, not as rounded in the mesh. For scattered points only
+  /// gaps are found by it: omit points outside by drop_outside(). Borrowed. DEFAULT: null, the whole domain.
   const Cutline* cutline = nullptr;
   /// For scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. If its
   /// border is one loop, no open edge is a gap. DEFAULT: false.

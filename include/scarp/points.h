@@ -60,6 +60,10 @@ struct BoundaryCut {
 /// surface. Cost: expected O(n log n).
 Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points);
 
+/// Drops the points outside the polygons, given as rings, and all lines; returns how many points. For the judge of a
+/// mesh with such a boundary: see MeasureOptions::cutline.
+std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points);
+
 /// The goals, and how to reach them. At least one of the goals; the first that is reached ends the run.
 struct PointOptions {
   /// |mesh − z| <= max_error at every point, finite and at least 0. DEFAULT: none.

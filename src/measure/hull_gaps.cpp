@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/ring_bands.h"
-
 namespace scarp::judge {
 namespace {
 
@@ -72,16 +70,12 @@ std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapp
                      [&](const Spot& beside) { return depth(lower, 1, beside) > 0 && depth(upper, -1, beside) > 0; });
 }
 
-std::uint64_t count_boundary_gaps(const PointSet& points, const Mesh& mesh, std::span<const OpenEdge> open,
+std::uint64_t count_boundary_gaps(const std::vector<PlaceRing>& rings, const Mesh& mesh, std::span<const OpenEdge> open,
                                   double tolerance) {
-  std::vector<PlaceRing> rings;
-  for (const auto& ring : points.boundary) {
-    rings.emplace_back();
-    for (const std::uint32_t i : ring)
-      rings.back().push_back({points.x[i] - mesh.origin[0], points.y[i] - mesh.origin[1]});
-  }
   const RingBands bands(rings);
-  return count_edges(mesh, open, tolerance, [&](const Spot& beside) { return bands.holds(beside.x, beside.y); });
+  return count_edges(mesh, open, tolerance, [&](const Spot& beside) {
+    return bands.holds(beside.x + mesh.origin[0], beside.y + mesh.origin[1]);
+  });
 }
 
 }  // namespace scarp::judge

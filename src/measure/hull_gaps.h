@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "base/ring_bands.h"
 #include "grid/snapped_points.h"
 #include "measure/topology.h"
 
@@ -14,8 +16,8 @@ namespace scarp::judge {
 std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance);
 
-/// The same for points with a boundary of their own, by its polygons.
-std::uint64_t count_boundary_gaps(const PointSet& points, const Mesh& mesh, std::span<const OpenEdge> open,
+/// The same within polygons, given as rings.
+std::uint64_t count_boundary_gaps(const std::vector<PlaceRing>& rings, const Mesh& mesh, std::span<const OpenEdge> open,
                                   double tolerance);
 
 }  // namespace scarp::judge

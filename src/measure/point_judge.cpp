@@ -128,6 +128,22 @@ class Judge {
   BucketGrid grid_;
 };
 
+/// The polygons at which the surface ends: those of the points, else of the options.
+std::vector<PlaceRing> rings_of(const PointSet& points, const MeasureOptions& options) {
+  std::vector<PlaceRing> rings;
+  for (const auto& ring : points.boundary) {
+    rings.emplace_back();
+    for (const std::uint32_t i : ring) rings.back().push_back({points.x[i], points.y[i]});
+  }
+  if (!rings.empty() || options.cutline == nullptr) return rings;
+  for (const Line& ring : options.cutline->rings) {
+    rings.emplace_back();
+    for (std::size_t k = 0; k + 1 < ring.points.size(); ++k)
+      rings.back().push_back({ring.points[k][0], ring.points[k][1]});
+  }
+  return rings;
+}
+
 /// The worst point of each triangle, and uncovered points, in input order.
 class Offenders {
  public:
@@ -220,7 +236,8 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
   const double tolerance = options.coverage_tolerance * std::sqrt(area / static_cast<double>(snapped.size()));
   const Judge judge(points, snapped, mesh, judged, box, tolerance);
 
-  std::vector<double> errors(points.size(), kNone);
+  // In the order of the lattice, so that sums do not depend on the order of the points.
+  std::vector<double> errors(judge.size(), kNone);
   std::vector<std::uint32_t> triangles(options.collect_above ? judge.size() : 0);
   constexpr std::size_t kChunk = 1 << 14;
   const std::size_t chunks = (judge.size() + kChunk - 1) / kChunk;
@@ -231,7 +248,7 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
       const std::size_t begin = (first + i) * kChunk, end = std::min(judge.size(), begin + kChunk);
       for (std::size_t point = begin; point < end; ++point) {
         const Verdict verdict = judge.judge(point);
-        errors[judge.source_of(point)] = verdict.error;
+        errors[point] = verdict.error;
         if (options.collect_above) triangles[point] = verdict.triangle;
       }
     });
@@ -239,7 +256,7 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
   Offenders offenders;
   for (std::size_t point = 0; point < judge.size(); ++point) {
     const std::uint32_t source = judge.source_of(point);
-    const double error = errors[source];
+    const double error = errors[point];
     result.uncovered += std::isnan(error);
     if (!options.collect_above) continue;
     if (std::isnan(error)) {
@@ -250,8 +267,12 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
   }
   result.offenders = offenders.finish();
   summarize(errors, result);
+  std::int32_t& worst = result.max_error_at[0];
+  if (worst >= 0) worst = static_cast<std::int32_t>(judge.source_of(static_cast<std::size_t>(worst)));
   if (options.on_row) {
-    const std::vector<float> row(errors.begin(), errors.end());
+    std::vector<float> row(points.size(), std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t point = 0; point < errors.size(); ++point)
+      row[judge.source_of(point)] = static_cast<float>(errors[point]);
     options.on_row(0, row);
   }
 
@@ -264,8 +285,8 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     count_faults(mesh, options.run.threads, result);
     measure_angles(mesh, judged, options.run.threads, result);
     result.t_junctions = count_t_junctions(mesh, connections);
-    if (!points.boundary.empty()) {
-      result.gaps = count_boundary_gaps(points, mesh, edges.open, tolerance);
+    if (const auto rings = rings_of(points, options); !rings.empty()) {
+      result.gaps = count_boundary_gaps(rings, mesh, edges.open, tolerance);
     } else if (!options.inlets || edges.loops > 1) {
       result.gaps = count_hull_gaps(points, snapped, mesh, edges.open, tolerance);
     }

@@ -49,8 +49,9 @@ std::size_t part_count(std::size_t count) { return (count + kShapesTogether - 1)
 
 /// Calls task(part, first, end) for the parts of 0 … count − 1.
 void in_parts(std::size_t count, int threads, FunctionRef<void(std::size_t, std::size_t, std::size_t)> task) {
-  parallel_for(part_count(count), threads,
-               [&](std::size_t part) { task(part, part * kShapesTogether, std::min(count, (part + 1) * kShapesTogether)); });
+  parallel_for(part_count(count), threads, [&](std::size_t part) {
+    task(part, part * kShapesTogether, std::min(count, (part + 1) * kShapesTogether));
+  });
 }
 
 /// No area in space, up to the rounding of the cross product.

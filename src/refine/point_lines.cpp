@@ -188,6 +188,10 @@ std::uint32_t PointLines::farthest(const Chord& chord) const {
 std::vector<std::uint32_t> PointLines::ends() const {
   std::vector<std::uint32_t> ends;
   for (std::uint32_t line = 0; line < lines_.size(); ++line) {
+    if (points_->lines[given_[line]].keeps_vertices) {
+      ends.insert(ends.end(), lines_[line].begin(), lines_[line].end());
+      continue;
+    }
     const auto last = static_cast<std::uint32_t>(lines_[line].size() - 1);
     ends.push_back(lines_[line].front());
     ends.push_back(lines_[line].back());

@@ -24,12 +24,13 @@ PointSurface::Height PointSurface::at(double x, double y) const {
   const Point near{static_cast<std::int32_t>(std::lround(col)), static_cast<std::int32_t>(std::lround(row))};
   const auto found = tin.locate(near, hint_);
   Triangle t = found.edge / 3;
-  if (tin.is_outside(t) && found.kind == Triangulation::Location::Kind::kOnEdge) t = tin.twin(found.edge) / 3;
   hint_ = t;
   if (found.kind == Triangulation::Location::Kind::kOnVertex) {
     const std::uint32_t point = domain_.point_of[tin.origin(found.edge)];
     return point == kNone ? beyond(x, y) : Height{snapped_.z[point], 0};
   }
+  const HalfEdge twin = tin.twin(found.edge);
+  if (tin.is_outside(t) && found.kind == Triangulation::Location::Kind::kOnEdge && twin != kNone) t = twin / 3;
   if (tin.is_outside(t)) return beyond(x, y);
   std::array<double, 3> z{};
   for (unsigned k = 0; k < 3; ++k) z[k] = snapped_.z[domain_.point_of[tin.origin(3 * t + k)]];

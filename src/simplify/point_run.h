@@ -21,6 +21,10 @@ struct PointTask {
   std::span<const double> heights;  ///< heights of points as vertices: z, or that rounded to float32
   const PointLines& lines;
   PointSteps steps;
+  /// The subject of a refusal of a budget that the outline alone exceeds.
+  const char* least() const {
+    return points.boundary.empty() ? "the hull of the points alone needs" : "the boundary alone needs";
+  }
   double width;  ///< width of the hull: ScatteredDomain::width
 };
 

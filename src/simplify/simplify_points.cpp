@@ -110,7 +110,7 @@ Result<Simplified> search(const PointTask& task, const PointRecipe& recipe, cons
     const auto [least, most] = std::minmax_element(task.snapped.z.begin(), task.snapped.z.end());
     return 2 * (*most - *least);
   };
-  search.least = "the hull of the points alone needs";
+  search.least = task.least();
   return search_budget(options, search);
 }
 

@@ -140,6 +140,61 @@ TEST(point_features, soft_lines_follow_the_points_and_corners_beyond_them_are_co
   EXPECT_EQ(made.simplified.measurement.uncovered, 0u);
 }
 
+TEST(point_features, lines_keep_their_vertices_and_their_heights_along_the_boundary) {
+  PointSet points;
+  for (int i = 0; i <= 100; i += 5) {
+    for (int j = 0; j <= 100; j += 5) {
+      points.x.push_back(i + 1.5);
+      points.y.push_back(j + 1.5);
+      points.z.push_back(97.5 + 0.001 * i);
+    }
+  }
+  Line kerb;
+  for (int i = 0; i <= 6; ++i) kerb.points.push_back({20.0 + 10 * i, 20, 105 + 0.1 * i});
+  for (int i = 1; i <= 3; ++i) kerb.points.push_back({80, 20.0 + 10 * i, 105.6});
+  EXPECT_EQ(*add_lines(std::vector{kerb}, points), 0u);
+  Line ring;
+  ring.role = LineRole::kOuter;
+  ring.points = {{20, 20, 0}, {80, 20, 0}, {80, 80, 0}, {20, 80, 0}, {20, 20, 0}};
+  ASSERT_TRUE(cut_to_boundary(std::vector{ring}, 0.25, points));
+  const auto made = *simplify_points(points, {.max_error = 0.5, .float32_positions = false});
+  const Mesh& mesh = made.simplified.mesh;
+  const auto has = [&](double x, double y, double z) {
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+      const auto [a, b, c] = mesh.vertex(v);
+      if (std::hypot(a - x, b - y) < 1e-6 && std::abs(c - z) < 1e-9) return true;
+    }
+    return false;
+  };
+  for (const auto& [x, y, z] : kerb.points) EXPECT_TRUE(has(x, y, z)) << x << " " << y;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto [x, y, z] = mesh.vertex(v);
+    const bool is_between = std::abs(y - 20) < 1e-6 && x > 20 && x < 80;
+    EXPECT_TRUE(!is_between || z > 104.9) << x;  // no corner between them has the height of the ground
+  }
+  EXPECT_EQ(made.simplified.measurement.uncovered, 0u);
+}
+
+TEST(point_features, surface_is_found_beyond_points_that_line_up) {
+  for (int size = 2; size < 6; ++size) {
+    PointSet points;
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) {
+        if (i + j >= size) continue;
+        points.x.push_back(i);
+        points.y.push_back(j);
+        points.z.push_back(i + 2 * j);
+      }
+    }
+    Line line;
+    for (int x = -2; x <= size + 1; ++x) {
+      for (int y = -2; y <= size + 1; ++y) line.points.push_back({0.5 * x + 0.01 * y, 1.0 * y, kNoHeight});
+    }
+    ASSERT_TRUE(add_lines(std::vector{line}, points));
+    for (const double z : points.z) EXPECT_TRUE(z >= 0 && z <= 2 * size);
+  }
+}
+
 TEST(point_features, refuse_rings_that_cross) {
   std::mt19937 random(3);
   PointSet points = survey(random, 50);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "scarp/lines.h"
 #include "scarp/points.h"
 #include "scarp/run.h"
 #include "session/options/points_options.h"
@@ -16,5 +18,8 @@ Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& p
 /// Ends the points at the polygons of --boundary, if that names a file. `tolerance`: of the surface along them.
 Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, double tolerance,
                                                    const ProgressCallback& progress, PointSet& points);
+
+/// The polygons of --boundary, united; empty if it names no file.
+Result<std::vector<Line>> read_boundary(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
 
 }  // namespace scarp::cli

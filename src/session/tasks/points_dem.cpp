@@ -28,7 +28,7 @@ Result<Cells> cells_over(const std::vector<double>& values, double size) {
   if (!(last - first < kMostCells))
     return fail(ErrorKind::kUsage, fmt::format("{} {:g} gives a raster of {:.3g} columns or rows: choose larger cells",
                                                kCellSize, size, last - first));
-  return Cells{first * size, static_cast<int>(std::max(last - first, 1.0))};
+  return Cells{first * size, static_cast<int>(std::max(last - first, 2.0))};
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "scarp/points.h"
@@ -272,7 +271,9 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   if (!points && !given[kCrs] && !as.crs.empty())
     return tl::unexpected(explain_frame(std::move(points.error()), as.crs, *given[kMesh], path));
   SCARP_RETURN_IF_ERROR(points);
-  SCARP_RETURN_IF_ERROR(cut_to_boundary(asked, std::numeric_limits<double>::infinity(), runner.progress, *points));
+  Cutline ends;
+  SCARP_TRY(ends.rings, read_boundary(asked, runner.progress, *points));
+  if (!ends.rings.empty()) drop_outside(ends.rings, *points);
   judged.points = std::move(*points);
   if (!given[kCrs]) put_back(judged.points, judged.mesh);
   if (goal) {
@@ -287,6 +288,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   options.run.threads = threads;
   options.run.progress = runner.progress;
   options.inlets = boundary.length.has_value();
+  if (!ends.rings.empty()) options.cutline = &ends;
   SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);

@@ -47,6 +47,7 @@ std::string_view class_name(int number) {
 }
 
 std::vector<std::uint8_t> find_classes(std::string_view word) {
+  if (word.empty()) return {};
   std::uint8_t number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (!word.empty() && end == word.data() + word.size() && error == std::errc()) return {number};
