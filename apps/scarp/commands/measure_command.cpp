@@ -24,7 +24,9 @@ Result<void> run_measure_volume(const GivenOptions& given, const std::string& co
   SCARP_RETURN_IF_ERROR(compare_surfaces(given, {display.callback()}, compared));
   display.finish();
   if (given.has(kJson)) return print_to_stdout(to_text(make_report(compared, command_line)));
-  return given.has(kQuiet) ? Result<void>() : print_to_stdout(make_table(compared));
+  if (given.has(kQuiet)) return {};
+  print_warnings(compared.warnings);
+  return print_to_stdout(make_table(compared));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ using enum OptionId;
 using Affine = std::array<double, 6>;
 
 constexpr Affine kSame{0, 1, 0, 0, 0, 1};
+constexpr const char* kNoCrs = "the coordinates of a source without a CRS";
 
 std::string metadata_of(const Mesh& mesh, const char* key) {
   const auto entry = mesh.metadata.find(key);
@@ -35,9 +36,10 @@ struct PlaceOfMesh {
 PlaceOfMesh place_of(const Mesh& mesh) {
   if (const auto way = read_to_source(mesh)) {
     const std::string crs = metadata_of(mesh, "origin_crs");
-    return {crs.empty() ? "the coordinates of a raster without a CRS" : crs, *way};
+    return {crs.empty() ? kNoCrs : crs, *way};
   }
   const std::string crs = metadata_of(mesh, "crs");
+  if (crs.empty() && metadata_of(mesh, "crs_option") == "source") return {kNoCrs};
   return {crs.empty() ? metadata_of(mesh, "frame") : crs};
 }
 
@@ -135,6 +137,8 @@ Result<Surface> read_surface(const GivenSurface& given, bool is_y_up) {
   surface.max_error = max_error_of(surface.mesh);
   return surface;
 }
+
+bool has_place(const Surface& surface) { return surface.given.level || !place_of(surface.mesh).in.empty(); }
 
 Result<SurfaceUnits> settle_frames(std::array<Surface, 2>& surfaces) {
   auto& [from, to] = surfaces;

@@ -29,6 +29,9 @@ struct SurfaceUnits {
 /// kInput as read_mesh(), and for a raster, a mesh in space, and one in degrees.
 Result<Surface> read_surface(const GivenSurface& given, bool is_y_up);
 
+/// False for a mesh whose file does not hold where it lies.
+bool has_place(const Surface& surface);
+
 /// Moves the second mesh into the frame of the first, by the places that their files hold. A file that holds
 /// none is in the frame of the other. kInput for frames, or units of heights, between which there is no way.
 Result<SurfaceUnits> settle_frames(std::array<Surface, 2>& surfaces);

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scarp/measure.h"
 #include "session/inputs/surface.h"
@@ -16,6 +17,7 @@ struct ComparedSurfaces {
   SurfaceUnits units;
   Volumes volumes;
   double seconds_read = 0, seconds_measure = 0;
+  std::vector<std::string> warnings;
 
   /// Each volume is known to that: the sum of the max errors times the common area. Nothing if one is not known.
   std::optional<double> uncertainty() const;

@@ -50,6 +50,11 @@ Result<void> compare_surfaces(const GivenOptions& given, const Runner& runner, C
   }
   SCARP_TRY(compared.units, settle_frames(compared.surfaces));
   compared.seconds_read = seconds_since(start);
+  if (const auto& [one, other] = compared.surfaces; !has_place(one) && !has_place(other))
+    compared.warnings.push_back(
+        fmt::format("neither {} nor {} holds its place: both are taken to be in one frame, and "
+                    "meshes around middles of their own are not; .glb and .ply hold it",
+                    one.given.name(), other.given.name()));
 
   const Clock::time_point measure_start = Clock::now();
   Result<Volumes> volumes = measure_between(compared.surfaces, run);
