@@ -52,10 +52,11 @@ struct PatchCutter::Parts {
 };
 
 PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice,
-                         const PatchGrid& grid, const FreeSides& free_sides, int threads, const PointSamples* points)
+                         const PatchGrid& grid, const FreeSides& free_sides, int threads,
+                         const ScatteredSamples* points)
     : raster_(raster), tin_(tin), lattice_(lattice), grid_(grid), free_sides_(free_sides), threads_(threads) {
   constexpr std::int64_t kSteps = kLatticeSteps;
-  last_ = points != nullptr ? LatticePoint{points->last.x, points->last.y}
+  last_ = points != nullptr ? LatticePoint{points->last().x, points->last().y}
                             : LatticePoint{(raster.cols - 1) * kSteps, (raster.rows - 1) * kSteps};
   const auto squares = [&](std::int32_t samples) {
     return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);

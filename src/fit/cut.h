@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fit/patch.h"
-#include "fit/point_samples.h"
+#include "fit/scattered_samples.h"
 #include "grid/raster.h"
 #include "grid/vertex_lattice.h"
 #include "tin/triangulation.h"
@@ -30,7 +30,7 @@ class PatchCutter {
  public:
   /// Raster, triangulation and lattice stay alive. `points`: as in FitOptions.
   PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice, const PatchGrid& grid,
-              const FreeSides& free_sides, int threads, const PointSamples* points = nullptr);
+              const FreeSides& free_sides, int threads, const ScatteredSamples* points = nullptr);
 
   std::size_t count() const { return begins_.size() - 1; }
 

@@ -62,7 +62,7 @@ struct FitOptions {
   std::span<const float> bounds = {};
   /// Scattered samples in place of the raster's, which then has none: a sample of its is a cell of kLatticeSteps. Then
   /// vertices have heights of their own, and lie on the lattice. They stay alive. DEFAULT: null, the raster's.
-  const PointSamples* points = nullptr;
+  const ScatteredSamples* points = nullptr;
   /// Errors are norms over several fields. Then vertices stay on samples, and heights alone are not bounded. Stays
   /// alive. DEFAULT: null, of heights alone.
   const FitNorm* norm = nullptr;

@@ -80,11 +80,13 @@ struct PointError::Task {
   }
 };
 
-PointError::PointError(const PointWindow& window, double threshold, double rounding)
-    : window_(window),
-      threshold_(threshold),
-      per_threshold_(threshold > 0x1p-60 && threshold < 0x1p60 ? 1 / threshold : 0),
-      steepest_(rounding > 0 ? kRoundingShare * threshold / rounding : std::numeric_limits<double>::infinity()) {}
+void PointError::read(const PointSamples& samples, const Patch::Window& window, double threshold) {
+  window_.read(samples, window);
+  threshold_ = threshold;
+  per_threshold_ = threshold > 0x1p-60 && threshold < 0x1p60 ? 1 / threshold : 0;
+  const double rounding = samples.rounding();
+  steepest_ = rounding > 0 ? kRoundingShare * threshold / rounding : std::numeric_limits<double>::infinity();
+}
 
 /// Calls visit(run) for the runs of buckets under a triangle, from north to south, until it answers false; true if it
 /// never did.

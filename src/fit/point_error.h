@@ -14,28 +14,26 @@
 
 namespace scarp {
 
-class PointError {
+/// A sample is {its index in the window, 0}.
+class PointError final : public ScatteredErrors {
  public:
-  using Corners = std::array<FitCorner, 3>;
   using Verdict = TriangleError::Verdict;
 
-  /// The window stays alive. REQUIRES: threshold >= 0, finite.
-  PointError(const PointWindow& window, double threshold, double rounding);
+  /// REQUIRES: threshold >= 0, finite.
+  void read(const PointSamples& samples, const Patch::Window& window, double threshold);
 
-  /// The functions of TriangleError with these names, for points; `limit`: slack × threshold. A sample is {its index in
-  /// the window, 0}. Triangles so steep that the samples' rounding counts break the bound, too, but have an energy.
-  Verdict assess(const Corners& corners, float energy_limit, double limit, ErrorRule::Power power) const;
-  TriangleError::Pull pull(const Corners& corners, ErrorRule::Power power) const;
-  void add_moments(const Corners& corners, ErrorRule::Power power, TriangleError::Moments& moments) const;
-  void narrow(const Corners& corners, TriangleError::Room& room) const;
+  /// Triangles so steep that the samples' rounding counts break the bound, too, but have an energy.
+  Verdict assess(const Corners& corners, float energy_limit, double limit, ErrorRule::Power power) const override;
+  TriangleError::Pull pull(const Corners& corners, ErrorRule::Power power) const override;
+  void add_moments(const Corners& corners, ErrorRule::Power power, TriangleError::Moments& moments) const override;
+  void narrow(const Corners& corners, TriangleError::Room& room) const override;
 
-  double threshold() const { return threshold_; }
-  FitCorner at(Point sample) const { return window_.at(static_cast<std::size_t>(sample.x)); }
-  Point nearest(const FitCorner& place) const { return {static_cast<std::int32_t>(window_.nearest(place)), 0}; }
-
-  /// The slopes of the plane of least squares through the samples around a place, heights a kLatticeSteps; 0 where
-  /// there are too few.
-  std::array<double, 2> slope_at(const FitCorner& place) const;
+  double threshold() const override { return threshold_; }
+  FitCorner at(Point sample) const override { return window_.at(static_cast<std::size_t>(sample.x)); }
+  Point nearest(const FitCorner& place) const override {
+    return {static_cast<std::int32_t>(window_.nearest(place)), 0};
+  }
+  std::array<double, 2> slope_at(const FitCorner& place) const override;
 
  private:
   struct Task;
@@ -45,10 +43,10 @@ class PointError {
   Sums ask(const Corners& corners, Sums sums) const;
   bool keeps_exactly(const Task& task, std::size_t sample) const;
 
-  const PointWindow& window_;
-  double threshold_;
-  double per_threshold_;  // 0 where energies end
-  double steepest_;       // largest slope of new triangles, heights a step
+  PointWindow window_;
+  double threshold_ = 0;
+  double per_threshold_ = 0;  // 0 where energies end
+  double steepest_ = 0;       // largest slope of new triangles, heights a step
 };
 
 }  // namespace scarp

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/curve.h"
+#include "fit/point_error.h"
 #include "grid/vertex_lattice.h"
 
 namespace scarp {
@@ -63,7 +64,23 @@ class BoxQuery {
   const Visit& visit_;
 };
 
+float extreme(std::span<const double> z, bool is_highest) {
+  if (z.empty()) return 0;
+  return static_cast<float>(is_highest ? *std::max_element(z.begin(), z.end()) : *std::min_element(z.begin(), z.end()));
+}
+
 }  // namespace
+
+PointSamples::PointSamples(std::span<const Point> at, std::span<const double> z, Point last, double rounding)
+    : ScatteredSamples(last, extreme(z, false), extreme(z, true)), at_(at), z_(z), rounding_(rounding) {}
+
+const ScatteredErrors& PointSamples::over(const Patch::Window& window, double threshold,
+                                          std::unique_ptr<ScatteredErrors>& kept) const {
+  if (!kept) kept = std::make_unique<PointError>();
+  auto& errors = static_cast<PointError&>(*kept);
+  errors.read(*this, window, threshold);
+  return errors;
+}
 
 void PointWindow::read(const PointSamples& samples, const Patch::Window& window) {
   constexpr std::int64_t kSteps = kLatticeSteps;
@@ -73,12 +90,12 @@ void PointWindow::read(const PointSamples& samples, const Patch::Window& window)
   const std::int64_t west = window.first.x * kSteps, north = window.first.y * kSteps;
   const std::int64_t width = std::max(window.cols - 1, 0) * kSteps, height = std::max(window.rows - 1, 0) * kSteps;
   const auto add = [&](std::size_t i) {
-    unsorted_x_.push_back(static_cast<float>(samples.at[i].x - west));
-    unsorted_y_.push_back(static_cast<float>(samples.at[i].y - north));
-    unsorted_z_.push_back(static_cast<float>(samples.z[i]));
+    unsorted_x_.push_back(static_cast<float>(samples.at()[i].x - west));
+    unsorted_y_.push_back(static_cast<float>(samples.at()[i].y - north));
+    unsorted_z_.push_back(static_cast<float>(samples.z()[i]));
   };
   if (window.rows > 0)
-    BoxQuery(samples.at, {west, north, west + width, north + height}, add).run(0, 0, 30, 0, samples.at.size());
+    BoxQuery(samples.at(), {west, north, west + width, north + height}, add).run(0, 0, 30, 0, samples.at().size());
   sort_into_buckets(width, height);
 }
 

@@ -1,27 +1,41 @@
-// Scattered samples in place of a raster's: where fitting reads them.
+// Points as scattered samples: where fitting reads them.
 //
-// Samples lie on the lattice of fitting itself, not on every 256th of its steps. They are held in Morton order, so the
-// samples in a window are few runs of it. A patch copies these into rows of buckets, each a run of samples from west to
-// east; a triangle reads, from each row that it meets, the run of buckets under it.
+// They are held in Morton order, so the samples in a window are few runs of it. A patch copies these into rows of
+// buckets, each a run of samples from west to east; a triangle reads, from each row that it meets, the run of buckets
+// under it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/point.h"
 #include "fit/patch.h"
+#include "fit/scattered_samples.h"
 #include "fit/triangle_error.h"
 
 namespace scarp {
 
-/// Spans of equal size, in Morton order of `at`, in lattice steps. They stay alive.
-struct PointSamples {
-  std::span<const Point> at;
-  std::span<const double> z;  ///< finite, at most kMaxScanHeight in magnitude; read as float32
-  Point last;                 ///< the last column and row of the lattice
-  double rounding = 0;        ///< how far samples may lie from their lattice points, in steps
+class PointSamples final : public ScatteredSamples {
+ public:
+  /// Spans of equal size, in Morton order of `at`, in lattice steps; they stay alive. `z`: finite, at most
+  /// kMaxScanHeight in magnitude, read as float32. `rounding`: how far samples may lie from their lattice points, in
+  /// steps.
+  PointSamples(std::span<const Point> at, std::span<const double> z, Point last, double rounding);
+
+  const ScatteredErrors& over(const Patch::Window& window, double threshold,
+                              std::unique_ptr<ScatteredErrors>& kept) const override;
+
+  std::span<const Point> at() const { return at_; }
+  std::span<const double> z() const { return z_; }
+  double rounding() const { return rounding_; }
+
+ private:
+  std::span<const Point> at_;
+  std::span<const double> z_;
+  double rounding_;
 };
 
 /// The samples under a patch. Keeps its memory between patches.

@@ -34,9 +34,8 @@ Freedom freedom_of(const Raster& raster, const FitOptions& options) {
 void set_range(const Raster& raster, const FitOptions& options, MoveRules& rules) {
   const ReadWindow& read = options.read;
   if (options.points != nullptr) {
-    const auto [least, most] = std::minmax_element(options.points->z.begin(), options.points->z.end());
-    rules.lowest = static_cast<float>(*least);
-    rules.highest = static_cast<float>(*most);
+    rules.lowest = options.points->lowest();
+    rules.highest = options.points->highest();
     return;
   }
   rules.lowest = std::numeric_limits<float>::max();

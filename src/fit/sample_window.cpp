@@ -69,9 +69,8 @@ TriangleError SampleWindow::errors(const ReadWindow& read, const ReadWindow& rea
   return TriangleError(samples, Point{0, 0}, SampleBounds{bounds_.data(), range.unit()});
 }
 
-TriangleError SampleWindow::errors(const PointSamples& points, const Patch& patch, double threshold) {
-  points_.read(points, patch.window());
-  return TriangleError(point_error_.emplace(points_, threshold, points.rounding));
+TriangleError SampleWindow::errors(const ScatteredSamples& points, const Patch& patch, double threshold) {
+  return TriangleError(points.over(patch.window(), threshold, scattered_));
 }
 
 TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm,

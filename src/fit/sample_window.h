@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,8 +12,7 @@
 #include "fit/fit_norm.h"
 #include "fit/norm_error.h"
 #include "fit/patch.h"
-#include "fit/point_error.h"
-#include "fit/point_samples.h"
+#include "fit/scattered_samples.h"
 #include "fit/triangle_error.h"
 #include "grid/raster.h"
 
@@ -33,14 +33,13 @@ class SampleWindow {
   /// The errors of heights alone, whose samples are read, and their bounds if they have some of their own.
   TriangleError errors(const ReadWindow& read, const ReadWindow& read_bounds, const Patch& patch, double threshold);
   /// The errors at scattered samples.
-  TriangleError errors(const PointSamples& points, const Patch& patch, double threshold);
+  TriangleError errors(const ScatteredSamples& points, const Patch& patch, double threshold);
 
  private:
   std::vector<float> samples_, bounds_;
   std::vector<std::vector<float>> fields_;
   std::optional<NormError> norm_;
-  PointWindow points_;
-  std::optional<PointError> point_error_;
+  std::unique_ptr<ScatteredErrors> scattered_;
 };
 
 }  // namespace scarp

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fit/norm_error.h"
-#include "fit/point_error.h"
+#include "fit/scattered_samples.h"
 #include "fit/triangle_kernels.h"
 #include "fit/triangle_scan.h"
 #include "fit/triangle_sums.h"
@@ -39,7 +39,7 @@ TriangleError::TriangleError(const NormError& norm, const ErrorRule& rule)
   norm_ = &norm;
 }
 
-TriangleError::TriangleError(const PointError& points, const ErrorRule& rule)
+TriangleError::TriangleError(const ScatteredErrors& points, const ErrorRule& rule)
     : TriangleError(Raster{}, {}, points.threshold(), rule) {
   points_ = &points;
 }

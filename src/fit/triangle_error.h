@@ -55,7 +55,7 @@ struct SampleRows;
 struct TriangleKernels;
 struct TriangleTask;
 class NormError;
-class PointError;
+class ScatteredErrors;
 
 /// Bounds of samples, row-major like them: at least 0, +infinity for none, no NaN.
 struct SampleBounds {
@@ -72,7 +72,7 @@ class TriangleError {
   /// Norms over several fields, which stay alive. Then corners are samples.
   explicit TriangleError(const NormError& norm, const ErrorRule& rule = {});
   /// Errors at scattered samples, which stay alive. A sample is what they call one.
-  explicit TriangleError(const PointError& points, const ErrorRule& rule = {});
+  explicit TriangleError(const ScatteredErrors& points, const ErrorRule& rule = {});
   /// The same samples by another rule.
   TriangleError with(const ErrorRule& rule) const;
 
@@ -201,7 +201,7 @@ class TriangleError {
   const float* end_;                  // end of the samples
   const TriangleKernels* kernels_;    // kernels of one threshold
   const NormError* norm_ = nullptr;
-  const PointError* points_ = nullptr;
+  const ScatteredErrors* points_ = nullptr;
 };
 
 }  // namespace scarp

@@ -1,6 +1,6 @@
 // The pull of a triangle's samples on one of its corners.
 #include "fit/norm_error.h"
-#include "fit/point_error.h"
+#include "fit/scattered_samples.h"
 #include "fit/triangle_kernels.h"
 #include "fit/triangle_scan.h"
 #include "fit/triangle_sums.h"

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/reporter.h"
 #include "fit/fit.h"
+#include "fit/point_samples.h"
 
 namespace scarp {
 
@@ -24,7 +25,7 @@ class AllSamples {
     const Point last{points.lattice.cols - 1, points.lattice.rows - 1};
     const double rounding = points.is_exact ? 0 : std::numbers::sqrt2 / 2;
     if (points.echoes.empty()) {
-      samples_ = {points.at, points.z, last, rounding};
+      samples_.emplace(points.at, points.z, last, rounding);
       return;
     }
     std::vector<std::uint32_t> echoes = points.echoes;
@@ -39,15 +40,15 @@ class AllSamples {
         z_.push_back(given.z[*echo]);
       }
     }
-    samples_ = {at_, z_, last, rounding};
+    samples_.emplace(at_, z_, last, rounding);
   }
 
-  const PointSamples& samples() const { return samples_; }
+  const PointSamples& samples() const { return *samples_; }
 
  private:
   std::vector<Point> at_;
   std::vector<double> z_;
-  PointSamples samples_;
+  std::optional<PointSamples> samples_;
 };
 
 VertexLattice make_lattice(const ScatteredDomain& domain, std::span<const double> heights,
@@ -112,7 +113,7 @@ Result<PointFit> fit_points(const SnappedPoints& points, const PointSet& given, 
       return !reporter.due() || reporter.report("fit", share, vertices, 0);
     };
   }
-  const Raster cells{nullptr, samples.last.x / kLatticeSteps + 2, samples.last.y / kLatticeSteps + 2};
+  const Raster cells{nullptr, samples.last().x / kLatticeSteps + 2, samples.last().y / kLatticeSteps + 2};
   VertexLattice lattice = make_lattice(domain, heights, fixed);
   SCARP_TRY(auto&& fitted, fit(cells, std::move(domain.tin), std::move(lattice), fit_options));
   const PointFit result{fitted.counts.removed, fitted.is_cut_short};

@@ -144,10 +144,10 @@ refuses 1 "--vertices" "$scarp" simplify "$dem" never.glb -e 20 --effort high --
 refuses 1 "regular" "$scarp" simplify "$dem" never.glb -e 20 --effort high --vertices free --crs EPSG:32616
 refuses 1 "--effort min-shape 0.6 is above 0.5" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.6
 refuses 1 "--effort fast cannot be combined with --effort min-shape" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --min-shape 0.1
-refuses 1 "--effort fast cannot be combined with --time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --time-limit 3
-refuses 1 "--time-limit cannot be combined with --max-triangles beside --effort max" \
+refuses 1 "--effort fast cannot be combined with --effort time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --time-limit 3
+refuses 1 "--effort time-limit cannot be combined with --max-triangles beside --effort max" \
   "$scarp" simplify "$dem" never.glb -t 2000 --effort max --time-limit 3
-refuses 1 "--time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort high --time-limit soon
+refuses 1 "--effort time-limit soon is not a finite number" "$scarp" simplify "$dem" never.glb -e 20 --effort high --time-limit soon
 # If fast is the default effort, settings that require more still get it.
 for reason in "--mask weights.tif" "--script /dev/null" "--order greedy" "--memory 1G"; do
   # shellcheck disable=SC2086

@@ -14,14 +14,17 @@ succeeds "$scarp" simplify survey.csv hills.glb -e 0.5 --report hills.json
 grep -q '3,002\|3002' "$logs/out" || fail "the summary does not count the points"
 grep -q 'duplicates    1, the first' "$logs/out" || fail "the summary does not count duplicates"
 python3 - <<'PY' || fail "the report"
-import json
+import json, math
 r = json.load(open("hills.json"))
 assert r["input"]["points"] == 3002 and r["input"]["duplicates"] == 1, r["input"]
-assert 0 < r["input"]["lattice_step"] < 0.01, r["input"]
+assert math.frexp(r["input"]["lattice_step"])[0] == 0.5, r["input"]  # room for free vertices in float32
 assert r["max_error"] <= 0.5 and r["uncovered"] == 0 and r["samples"] == 3001
 assert r["topology"]["sound"] and r["stopped_by"] == "max_error"
 assert 500000 <= r["max_error_at"][0] <= 501000
 PY
+succeeds "$scarp" simplify survey.csv decimals.glb -e 0.5 --effort fast --report decimals.json -q
+python3 -c 'import json; assert abs(json.load(open("decimals.json"))["input"]["lattice_step"] - 0.01) < 1e-12' ||
+  fail "the lattice of fast effort is not that of the decimals"
 succeeds "$scarp" measure survey.csv hills.glb --fail-above 0.5 --json
 python3 -c 'import json,sys; r=json.load(sys.stdin); assert r["passed"] and r["samples"] == 3001' <"$logs/out" || fail "measure --json"
 refuses 3 "exceeds 0.001" "$scarp" measure survey.csv hills.glb --fail-above 0.001 -q

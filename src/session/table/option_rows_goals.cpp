@@ -118,6 +118,8 @@ constexpr OptionRow kGoalRows[] = {
              "0.41 of the triangles of fast."},
     {.id = kTimeLimit,
      .name = "--time-limit",
+     .part_of = kEffort,
+     .key = "time-limit",
      .commands = kSimplify,
      .group = OptionGroup::kEffort,
      .type = kNumber,
