@@ -68,7 +68,7 @@ std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points);
 struct PointOptions {
   /// |mesh − z| <= max_error at every point, finite and at least 0. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
-  /// Upper bounds, as in SimplifyOptions with fast effort. DEFAULT: none.
+  /// Upper bounds, as in SimplifyOptions. DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
   /// Round positions to float32, as GLB and STL hold them; else they are double. DEFAULT: true.
@@ -87,30 +87,36 @@ struct PointOptions {
   Run run = {};  ///< threads, progress, and a limit of the time
 };
 
-/// Greedy insertion on scattered samples (section 2 of the 1995 paper names it, without doing it). The domain is the
-/// convex hull, or with `boundary_length` the chi-shape of Duckham et al. (2008): it begins with the Delaunay
-/// triangulation of all points, and removes triangles whose edge on the boundary is longer, the longest edge first. A
-/// triangle stays if without it the domain would fall apart or lose a point, or its boundary would not be a simple
-/// polygon. All corners of that polygon are vertices. Each triangle keeps the list of the points in it. Coordinates are
-/// snapped to an integer lattice of up to 2^30 steps: the coarsest on which the given decimals lie exactly if there is
-/// one, else the finest power of two. Different points are never merged: where the lattice cannot keep two apart, they
-/// are refused. Among points of equal error the one in the northernmost, then westernmost place is inserted. Points on
-/// a grid give the vertices that simplify() gives for the raster, but for ties.
+/// Greedy insertion on scattered samples (section 2 of the 1995 paper names it, without doing it), then the removal and
+/// repair of the effort, as on a raster. With a budget and an effort above fast, an error is searched for. The domain
+/// is the set's own boundary, else the convex hull, or with `boundary_length` the chi-shape of Duckham et al. (2008):
+/// it begins with the Delaunay triangulation of all points, and removes triangles whose edge on the boundary is longer,
+/// the longest edge first. A triangle stays if without it the domain would fall apart or lose a point, or its boundary
+/// would not be a simple polygon. All corners of that polygon are vertices. Each triangle keeps the list of the points
+/// in it. Coordinates are snapped to an integer lattice of up to 2^30 steps: the coarsest on which the given decimals
+/// lie exactly if there is one, else the finest power of two. With an effort above fast the decimals' steps are divided
+/// by a power of two, or are a power of two, at least 2^22 over the extent; so are those with float32_positions and
+/// lines. Different points are never merged: where the lattice cannot keep two apart, they are refused. Among points of
+/// equal error the one in the northernmost, then westernmost place is inserted. Points on a grid give, with fast
+/// effort, the vertices that simplify() gives for the raster, but for ties.
 ///
-/// A line becomes a chain of edges through some of its points, among them its ends, of a ring at least three. Chains do
+/// A line becomes a chain of edges through some of its points, among them its ends, of a ring at least three; with
+/// PointLine::keeps_vertices through all of them. Chains do
 /// not cross, so no triangle crosses one. Each point of the line between two points of its chain is within max_error of
 /// the mesh. Triangles between points of equal height on lines, as in the bend of a contour, are given up by flips of
 /// edges where the other points allow it; the rest is counted (`flat`). Points of lines that the lattice cannot keep
 /// apart share a vertex, and count all the same.
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
-/// given, for the positions as they are in the mesh. Vertices are points.
+/// given, for the positions as they are in the mesh. Vertices are points, except free ones (high and max effort)
+/// and corners of a boundary.
 /// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs, a boundary_length that is
-/// not above 0, a budget or a boundary_length with lines), with kInput (lines that meet with unlike heights, which are
-/// named, fewer than 3 places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two
-/// points nearer to each other than about 2^-30 of the extent, which are named, as is the far point that makes the
-/// extent so large), with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m)
-/// for n points, with boundary_length O(n log n); about 50 bytes a point in addition to the points themselves.
+/// not above 0, a budget or a boundary_length with lines, goals for shapes, the dominant order), with kInput (lines
+/// that meet with unlike heights, which are named, fewer than 3 places, all on one line, a value that is not finite or
+/// beyond 1e100, an extent below 1e-100, two points nearer to each other than about 2^-30 of the extent, which are
+/// named, as is the far point that makes the extent so large), with kPromise where float32 positions cannot keep the
+/// bound, kCancelled. Cost: expected O(n log m) for n points, with boundary_length O(n log n); some 60 to 90 bytes a
+/// point in addition to the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 }  // namespace scarp
