@@ -24,7 +24,7 @@ std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
   const double cols = raster.cols, rows = raster.rows;
   const double area = cols * rows * kPatchTriangles / static_cast<double>(tin.triangle_count());
   const double side = std::max(std::sqrt(area), area / std::min(cols, rows));
-  return std::clamp(static_cast<std::int32_t>(side), 2, std::max(raster.cols, raster.rows));
+  return static_cast<std::int32_t>(std::clamp(side, 2.0, std::max(2.0, std::max(cols, rows))));
 }
 
 /// True if errors have energies somewhere.

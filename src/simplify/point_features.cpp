@@ -191,11 +191,15 @@ class BoundaryMaker {
             follow(surface, {points_.x[meeting->point], points_.y[meeting->point], points_.z[meeting->point]}, corners);
           corners.push_back(meeting->point);
         }
+        std::optional<std::uint32_t> next;
+        if (k + 2 == ring.points.size()) {
+          next = corners.front();
+        } else if (meeting != meetings_.end() && meeting->edge == edge + 1 && meeting->along_edge == 0) {
+          next = meeting->point;
+        }
+        if (next && is_edge_of_line(corners.back(), *next)) continue;
         const double next_x = ring.points[k + 1][0], next_y = ring.points[k + 1][1];
-        const bool has_next = k + 2 < ring.points.size() && meeting != meetings_.end() && meeting->edge == edge + 1 &&
-                              meeting->along_edge == 0;
-        if (has_next && is_edge_of_line(corners.back(), meeting->point)) continue;
-        const double next_z = has_next ? points_.z[meeting->point] : surface.at(next_x, next_y).z;
+        const double next_z = next ? points_.z[*next] : surface.at(next_x, next_y).z;
         follow(surface, {next_x, next_y, next_z}, corners);
       }
       cut.corners += corners.size();
