@@ -28,6 +28,13 @@ namespace scarp {
 /// REQUIRES: some points, finite.
 std::array<double, 2> local_origin(const PointSet& points);
 
+/// Sorts the points along a curve through the plane, so that neighbours in the plane are neighbours in memory. For
+/// millions of points in random order, simplify_points() then needs about half of the time. Points at one place keep
+/// their order; indices in lines and the boundary are adapted. Meshes and errors do not depend on it, but the numbers
+/// of points in messages do. A set with a coordinate that is not finite stays as
+/// it is. REQUIRES: fewer than 2^32 points. Cost: O(n), with 32 bytes a point while it runs.
+void sort_points(PointSet& points);
+
 struct SimplifiedPoints {
   Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
   std::uint64_t points = 0;      ///< number given

@@ -61,8 +61,7 @@ std::string describe_far_points(const PointSet& points) {
   }
   constexpr std::size_t kFew = 3;
   if (count == 0 || count > std::max(kFew, points.size() / 100) || all.size() < 10 * near.size()) return "";
-  const std::string name =
-      fmt::format("point {} (counted from 0) at ({}, {})", first, points.x[first], points.y[first]);
+  const std::string name = fmt::format("the point at ({}, {})", points.x[first], points.y[first]);
   if (count == 1)
     return fmt::format("{} lies far from all others, which span {}: remove it if it is an error", name, near.size());
   return fmt::format("{} and {} more lie far from all others, which span {}: remove them if they are errors", name,

@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// "point 7 (counted from 0) at (0, 0) lies far from all others, which span 20: remove it if it is an error", for an
+/// "the point at (0, 0) lies far from all others, which span 20: remove it if it is an error", for an
 /// error about points too far apart. Empty unless a few points, at most three or 1 %, make the extent ten times that of
 /// the others. REQUIRES: finite coordinates. Cost: O(n).
 std::string describe_far_points(const PointSet& points);

@@ -7,9 +7,12 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/curve.h"
+#include "base/sort_by_key.h"
 #include "grid/far_points.h"
 
 namespace scarp {
@@ -117,30 +120,35 @@ struct Keyed {
   std::uint32_t point;
 };
 
-/// The point that stands for the equal keys [first, last), which are in input order, and its height.
-std::pair<std::uint32_t, double> choose(const PointSet& points, DuplicatePolicy policy, const Keyed* first,
-                                        const Keyed* last) {
+/// A point that stands for its place, and the height there.
+struct Chosen {
+  std::uint32_t point;
+  double height;
+};
+
+/// The choice among points in input order, which are not empty.
+Chosen choose(const PointSet& points, DuplicatePolicy policy, std::span<const Keyed> among) {
   const auto height = [&](const Keyed& k) { return points.z[k.point]; };
   const auto lower = [&](const Keyed& a, const Keyed& b) { return height(a) < height(b); };
-  const Keyed* chosen = first;
+  const Keyed& first = among.front();
+  const Keyed* chosen = &first;
   switch (policy) {
     case DuplicatePolicy::kFirst:
       break;
     case DuplicatePolicy::kLast:
-      chosen = last - 1;
+      chosen = &among.back();
       break;
     case DuplicatePolicy::kHighest:
-      chosen = std::max_element(first, last, lower);
+      chosen = &*std::max_element(among.begin(), among.end(), lower);
       break;
     case DuplicatePolicy::kLowest:
-      chosen = std::min_element(first, last, lower);
+      chosen = &*std::min_element(among.begin(), among.end(), lower);
       break;
     case DuplicatePolicy::kMean: {
       // Differences from the first: their sum does not overflow where the heights' would, and equal heights stay.
       double sum = 0;
-      for (const Keyed* k = first; k != last; ++k)
-        sum += (height(*k) - height(*first)) / static_cast<double>(last - first);
-      return {first->point, height(*first) + sum};
+      for (const Keyed& k : among) sum += (height(k) - height(first)) / static_cast<double>(among.size());
+      return {first.point, height(first) + sum};
     }
   }
   return {chosen->point, height(*chosen)};
@@ -150,22 +158,46 @@ bool are_at_one_place(const PointSet& points, std::uint32_t a, std::uint32_t b) 
   return points.x[a] == points.x[b] && points.y[a] == points.y[b];
 }
 
+/// The choice at each place among points of one lattice point, in `chosen`, and which of them the lattice point gets.
+/// `are_apart`: they are not all at one place.
+std::size_t choose_places(const PointSet& points, DuplicatePolicy policy, std::span<Keyed> among, bool are_apart,
+                          std::vector<Chosen>& chosen) {
+  const Chosen best = choose(points, policy, among);
+  chosen.assign(1, best);
+  if (!are_apart) return 0;
+  chosen.clear();
+  std::sort(among.begin(), among.end(), [&](const Keyed& a, const Keyed& b) {
+    const auto place = [&](const Keyed& k) { return std::tuple(points.x[k.point], points.y[k.point], k.point); };
+    return place(a) < place(b);
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0, end = 0; i < among.size(); i = end) {
+    while (end < among.size() && are_at_one_place(points, among[end].point, among[i].point)) ++end;
+    if (are_at_one_place(points, best.point, among[i].point)) kept = chosen.size();
+    chosen.push_back(choose(points, policy, among.subspan(i, end - i)));
+  }
+  return kept;
+}
+
 /// True for points at one place of the finest lattice.
 bool are_inseparable(const PointSet& points, std::uint32_t a, std::uint32_t b, double extent) {
   return std::max(std::abs(points.x[a] - points.x[b]), std::abs(points.y[a] - points.y[b])) < extent * 0x1p-30;
 }
 
-/// The first of [first, last) that lies elsewhere than *first does in the coordinates as given; `last` if none does.
-const Keyed* find_stranger(const PointSet& points, const Keyed* first, const Keyed* last) {
-  return std::find_if(first, last, [&](const Keyed& k) { return !are_at_one_place(points, k.point, first->point); });
+/// The first that lies elsewhere than the first of all in the coordinates as given; null if none does.
+const Keyed* find_stranger(const PointSet& points, std::span<const Keyed> among) {
+  for (const Keyed& k : among) {
+    if (!are_at_one_place(points, k.point, among.front().point)) return &k;
+  }
+  return nullptr;
 }
 
 tl::unexpected<Error> refuse_to_merge(const PointSet& points, std::uint32_t a, std::uint32_t b, double extent) {
   const std::string far = describe_far_points(points);
   return fail(ErrorKind::kInput,
-              fmt::format("points {} and {} (counted from 0), at ({}, {}) and ({}, {}), cannot be told apart on a "
+              fmt::format("the points at ({}, {}) and ({}, {}) cannot be told apart on a "
                           "lattice of 2^30 steps over the extent of {}; {}",
-                          a, b, points.x[a], points.y[a], points.x[b], points.y[b], extent,
+                          points.x[a], points.y[a], points.x[b], points.y[b], extent,
                           far.empty() ? "split the points into smaller areas, or remove one of the two"
                                       : far + ", else split the points into smaller areas"));
 }
@@ -235,8 +267,12 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   for (std::uint32_t i = 0; i < points.size(); ++i)
     keys.push_back(
         {curve_place(static_cast<std::uint64_t>(snapped.at[i].x), static_cast<std::uint64_t>(snapped.at[i].y)), i});
-  std::sort(keys.begin(), keys.end(),
-            [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; });
+  snapped.at = {};
+  sort_by_key(keys, [](const Keyed& k) { return k.key; });
+  std::vector<Chosen> places;
+  result.at.reserve(keys.size());
+  result.source.reserve(keys.size());
+  result.z.reserve(keys.size());
   result.lattice = snapped.lattice;
   result.lattice.west = x.least;
   result.lattice.north = y.most;
@@ -245,17 +281,23 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   if (has_echoes) result.place.resize(points.size());
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;
-    const Keyed *first = &keys[i], *last = first + (end - i);
-    if (const Keyed* stranger = find_stranger(points, first, last);
-        stranger != last && !has_lines &&
-        (!has_echoes || are_inseparable(points, first->point, stranger->point, extent)))
-      return refuse_to_merge(points, first->point, stranger->point, extent);
-    const auto [point, height] = choose(points, policy, first, last);
-    for (const Keyed* k = first; k != last && has_echoes; ++k) {
-      result.place[k->point] = static_cast<std::uint32_t>(result.size());
-      if (!are_at_one_place(points, k->point, point)) result.echoes.push_back(k->point);
+    const std::span<Keyed> here(keys.data() + i, end - i);
+    const Keyed* const stranger = find_stranger(points, here);
+    if (stranger != nullptr && !has_lines &&
+        (!has_echoes || are_inseparable(points, here.front().point, stranger->point, extent)))
+      return refuse_to_merge(points, here.front().point, stranger->point, extent);
+    const std::size_t kept = choose_places(points, policy, here, stranger != nullptr, places);
+    for (const Keyed& k : here) {
+      if (has_echoes) result.place[k.point] = static_cast<std::uint32_t>(result.size());
     }
-    result.at.push_back(snapped.at[point]);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto& [point, height] = places[k];
+      if (k != kept) result.echoes.push_back({static_cast<std::uint32_t>(result.size()), point, height});
+    }
+    const auto& [point, height] = places[kept];
+    const std::uint64_t key = here.front().key;
+    result.at.push_back(
+        {static_cast<std::int32_t>(gather_bits(key)), static_cast<std::int32_t>(gather_bits(key >> 1))});
     result.source.push_back(point);
     result.z.push_back(height);
   }

@@ -24,6 +24,14 @@ enum class PointSteps {
   kFit,      ///< with room between points for vertices of fitting
 };
 
+/// A point that shares the lattice point of another, without being at its place: it has no lattice point of its own,
+/// but an error.
+struct Echo {
+  std::uint32_t point = 0;   ///< whose lattice point it is
+  std::uint32_t source = 0;  ///< the point of the set
+  double z = 0;              ///< its height, or the mean
+};
+
 /// The points, each at a lattice point of its own. Arrays of equal size, in Morton order of the lattice points: what is
 /// near in the plane is near in memory.
 struct SnappedPoints {
@@ -32,11 +40,9 @@ struct SnappedPoints {
   std::vector<Point> at;
   std::vector<std::uint32_t> source;  ///< the point of the set that stands for the lattice point
   std::vector<double> z;              ///< its height, or the mean
-  std::uint64_t duplicates = 0;       ///< points that no lattice point stands for
-  /// Points that share the lattice point of another, without being at its place: they have no lattice point of their
-  /// own, but errors. EMPTY: kFinest without lines, which refuses them.
-  std::vector<std::uint32_t> echoes;
-  std::vector<std::uint32_t> place;  ///< by point of the set: whose lattice point it shares; EMPTY: as `echoes`
+  std::uint64_t duplicates = 0;       ///< points given up for another at their place
+  std::vector<Echo> echoes;           ///< in the order of their lattice points. EMPTY: kFinest without lines
+  std::vector<std::uint32_t> place;   ///< by point of the set: whose lattice point it shares; EMPTY: as `echoes`
 
   std::size_t size() const { return at.size(); }
 };

@@ -1,6 +1,7 @@
 #include "measure/hull_gaps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -14,6 +15,35 @@ struct Spot {
 
 double turn(const Spot& a, const Spot& b, const Spot& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// All spots but those that surely are no corners of the hull: they lie well inside the octagon of the outermost ones.
+template <class SpotOf>
+std::vector<Spot> find_outer(std::size_t count, const SpotOf& spot) {
+  constexpr std::array<std::array<double, 2>, 8> kWays{
+      {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+  std::array<Spot, 8> outermost;
+  outermost.fill(spot(0));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Spot p = spot(i);
+    for (std::size_t k = 0; k < kWays.size(); ++k) {
+      const auto [x, y] = kWays[k];
+      if (x * p.x + y * p.y > x * outermost[k].x + y * outermost[k].y) outermost[k] = p;
+    }
+  }
+  const double hair = 1e-9 * (outermost[0].x - outermost[4].x) * (outermost[2].y - outermost[6].y);
+  const auto is_outer = [&](const Spot& p) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      const Spot &a = outermost[k], &b = outermost[(k + 1) % 8];
+      if ((a.x != b.x || a.y != b.y) && !(turn(a, b, p) > hair)) return true;
+    }
+    return false;
+  };
+  std::vector<Spot> outer;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const Spot p = spot(i); is_outer(p)) outer.push_back(p);
+  }
+  return outer;
 }
 
 /// The lower or the upper chain of the hull, from west to east; `sign` 1 or −1.
@@ -58,11 +88,11 @@ std::uint64_t count_edges(const Mesh& mesh, std::span<const OpenEdge> open, doub
 
 std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance) {
-  if (open.empty()) return 0;
-  std::vector<Spot> spots;
-  spots.reserve(snapped.size());
-  for (const std::uint32_t i : snapped.source)
-    spots.push_back({points.x[i] - mesh.origin[0], points.y[i] - mesh.origin[1]});
+  if (open.empty() || snapped.size() == 0) return 0;
+  std::vector<Spot> spots = find_outer(snapped.size(), [&](std::size_t i) {
+    const std::uint32_t source = snapped.source[i];
+    return Spot{points.x[source] - mesh.origin[0], points.y[source] - mesh.origin[1]};
+  });
   std::sort(spots.begin(), spots.end(),
             [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   const auto lower = chain_of(spots, 1), upper = chain_of(spots, -1);

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "base/branchless.h"
 #include "base/caught.h"
 #include "base/parallel.h"
 #include "base/sort.h"
@@ -67,25 +68,80 @@ class Judge {
   /// Lattice points first, then the points that share them.
   std::size_t size() const { return snapped_.size() + snapped_.echoes.size(); }
   std::uint32_t source_of(std::size_t point) const {
-    return point < snapped_.size() ? snapped_.source[point] : snapped_.echoes[point - snapped_.size()];
+    return point < snapped_.size() ? snapped_.source[point] : snapped_.echoes[point - snapped_.size()].source;
   }
 
-  Verdict judge(std::size_t point) const {
-    const std::size_t source = source_of(point);
-    const double x = points_.x[source] - mesh_.origin[0], y = points_.y[source] - mesh_.origin[1];
-    const double z = point < snapped_.size() ? snapped_.z[point] : points_.z[source];
-    Verdict verdict;
-    Facet facet;
-    for (const std::uint32_t t : grid_.bucket(grid_.col_of(x), grid_.row_of(y))) {
-      get(t, facet);
-      if (!facet.plan.contains(x, y)) continue;
-      std::array<double, 3> weights;
-      for (int k = 0; k < 3; ++k) weights[k] = std::max(0.0, facet.plan.weight(k, x, y));
-      take(verdict, settle_error(weights, facet.z, z), t);
-    }
-    if (std::isnan(verdict.error)) judge_beside(x, y, z, verdict);
-    return verdict;
+  double height_of(std::size_t point) const {
+    return point < snapped_.size() ? snapped_.z[point] : snapped_.echoes[point - snapped_.size()].z;
   }
+
+  /// Judges points one after the other, which should be near each other in the plane.
+  class Run {
+   public:
+    explicit Run(const Judge& judge, double bound) : judge_(judge), bound_(bound) {}
+
+    Verdict judge(std::size_t point) {
+      const std::size_t source = judge_.source_of(point);
+      const double x = judge_.points_.x[source] - judge_.mesh_.origin[0];
+      const double y = judge_.points_.y[source] - judge_.mesh_.origin[1];
+      const double z = judge_.height_of(point);
+      enter(judge_.grid_.col_of(x), judge_.grid_.row_of(y));
+      Verdict verdict;
+      for (const Entry& entry : entries_) {
+        std::array<double, 3> weights;
+        for (int k = 0; k < 3; ++k) weights[k] = entry.facet.plan.weight(k, x, y);
+        if (!(lesser(weights[0], weights[1], weights[2]) >= entry.least)) continue;
+        for (double& weight : weights) weight = std::max(0.0, weight);
+        take(verdict, error_at(entry.facet, weights, z), entry.triangle);
+      }
+      if (std::isnan(verdict.error)) judge_.judge_beside(x, y, z, verdict);
+      return verdict;
+    }
+
+   private:
+    struct Entry {
+      Facet facet;
+      double least = 0;  ///< weights from here on count as zero or positive
+      std::uint32_t triangle = 0;
+    };
+
+    void enter(int col, int row) {
+      if (col == col_ && row == row_) return;
+      col_ = col;
+      row_ = row;
+      entries_.clear();
+      for (const std::uint32_t t : judge_.grid_.bucket(col, row)) {
+        Entry& entry = entries_.emplace_back();
+        judge_.get(t, entry.facet);
+        entry.least = -entry.facet.plan.slack();
+        entry.triangle = t;
+      }
+    }
+
+    /// Exact for errors of 0, around the bound, and for those that may be the run's largest.
+    double error_at(const Facet& facet, const std::array<double, 3>& weights, double z) {
+      constexpr double kRounding = 0x1p-48;
+      double sum = 0, size = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double part = weights[k] * (facet.z[k] - z);
+        sum += part;
+        size += std::abs(part);
+      }
+      const double area = weights[0] + weights[1] + weights[2];
+      const double error = sum / area, magnitude = std::abs(error), rounding = kRounding * size / area;
+      const bool is_plain =
+          magnitude > rounding && magnitude + rounding < largest_ && !(std::abs(magnitude - bound_) <= rounding);
+      if (is_plain || size == 0) return error;
+      const double exact = settle_error(weights, facet.z, z);
+      largest_ = std::max(largest_, std::abs(exact));
+      return exact;
+    }
+
+    const Judge& judge_;
+    double bound_, largest_ = 0;
+    int col_ = -1, row_ = -1;
+    std::vector<Entry> entries_;
+  };
 
  private:
   /// False if the triangle has no area seen from above.
@@ -230,10 +286,14 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
   const std::vector<std::uint32_t>& judged = result.closed ? upward : all;
 
   Box box;
-  for (const std::uint32_t source : snapped.source)
+  const auto include = [&](std::uint32_t source) {
     box.include(points.x[source] - mesh.origin[0], points.y[source] - mesh.origin[1]);
+  };
+  for (const std::uint32_t source : snapped.source) include(source);
+  for (const Echo& echo : snapped.echoes) include(echo.source);
   const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
-  const double tolerance = options.coverage_tolerance * std::sqrt(area / static_cast<double>(snapped.size()));
+  const auto places = static_cast<double>(snapped.size() + snapped.echoes.size());
+  const double tolerance = options.coverage_tolerance * std::sqrt(area / places);
   const Judge judge(points, snapped, mesh, judged, box, tolerance);
 
   // In the order of the lattice, so that sums do not depend on the order of the points.
@@ -246,8 +306,9 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return cancelled();
     parallel_for(std::min(window, chunks - first), options.run.threads, [&](std::size_t i) {
       const std::size_t begin = (first + i) * kChunk, end = std::min(judge.size(), begin + kChunk);
+      Judge::Run run(judge, options.collect_above.value_or(HUGE_VAL));
       for (std::size_t point = begin; point < end; ++point) {
-        const Verdict verdict = judge.judge(point);
+        const Verdict verdict = run.judge(point);
         errors[point] = verdict.error;
         if (options.collect_above) triangles[point] = verdict.triangle;
       }

@@ -125,8 +125,11 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points,
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vertex from = ring[i], to = ring[(i + 1) % ring.size()];
       if (from == to || domain.tin.constrain(from, to)) continue;
-      const std::uint32_t source = points.source[domain.point_of[from]];
-      return fail(ErrorKind::kInput, fmt::format("edges of the boundary cross near point {} (counted from 0)", source));
+      const PointLattice& lattice = points.lattice;
+      const Point p = points.at[domain.point_of[from]];
+      return fail(ErrorKind::kInput,
+                  fmt::format("edges of the boundary cross near ({:.9g}, {:.9g})", lattice.west + lattice.step * p.x,
+                              lattice.north - lattice.step * p.y));
     }
   }
   mark_beyond(points, domain);

@@ -21,23 +21,20 @@ constexpr std::int32_t kMostSide = kMaxFitSteps / kLatticeSteps / 2;
 /// The points, with those that share the lattice point of another.
 class AllSamples {
  public:
-  AllSamples(const SnappedPoints& points, const PointSet& given) {
+  explicit AllSamples(const SnappedPoints& points) {
     const Point last{points.lattice.cols - 1, points.lattice.rows - 1};
     const double rounding = points.is_exact ? 0 : std::numbers::sqrt2 / 2;
     if (points.echoes.empty()) {
       samples_.emplace(points.at, points.z, last, rounding);
       return;
     }
-    std::vector<std::uint32_t> echoes = points.echoes;
-    std::stable_sort(echoes.begin(), echoes.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return points.place[a] < points.place[b]; });
-    auto echo = echoes.begin();
+    auto echo = points.echoes.begin();
     for (std::uint32_t point = 0; point < points.size(); ++point) {
       at_.push_back(points.at[point]);
       z_.push_back(points.z[point]);
-      for (; echo != echoes.end() && points.place[*echo] == point; ++echo) {
+      for (; echo != points.echoes.end() && echo->point == point; ++echo) {
         at_.push_back(points.at[point]);
-        z_.push_back(given.z[*echo]);
+        z_.push_back(echo->z);
       }
     }
     samples_.emplace(at_, z_, last, rounding);
@@ -90,11 +87,11 @@ void rebuild(const SnappedPoints& points, std::span<const double> heights, Fitte
 
 }  // namespace
 
-Result<PointFit> fit_points(const SnappedPoints& points, const PointSet& given, std::span<const double> heights,
+Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double> heights,
                             std::span<const std::uint32_t> fixed, const PointRecipe& recipe, ScatteredDomain& domain) {
   const PointOptions& options = recipe.options;
   const Quality& quality = options.quality;
-  const AllSamples all(points, given);
+  const AllSamples all(points);
   const PointSamples& samples = all.samples();
   FitOptions fit_options;
   fit_options.points = &samples;

@@ -7,7 +7,6 @@
 
 #include "grid/snapped_points.h"
 #include "refine/scattered.h"
-#include "scarp/points.h"
 #include "scarp/result.h"
 #include "simplify/point_recipe.h"
 
@@ -21,7 +20,7 @@ struct PointFit {
 /// Removes vertices, moves others where the effort does that, and brings the domain up to date. `fixed`: points whose
 /// vertices stay, sorted. `heights`: of points as vertices. Fails with kCancelled. REQUIRES: every point keeps
 /// recipe.aims.refinement; the lattice has kMaxFitSteps at most in what triangles reach over, or nothing is done there.
-Result<PointFit> fit_points(const SnappedPoints& points, const PointSet& given, std::span<const double> heights,
+Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double> heights,
                             std::span<const std::uint32_t> fixed, const PointRecipe& recipe, ScatteredDomain& domain);
 
 }  // namespace scarp

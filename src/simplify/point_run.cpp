@@ -70,7 +70,7 @@ class PointRun {
     result.effort = Effort::kFast;
     if (!fits_ || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
-    SCARP_TRY(const auto& fitted, fit_points(snapped_, points_, heights_, fixed_points(), recipe_, domain_));
+    SCARP_TRY(const auto& fitted, fit_points(snapped_, heights_, fixed_points(), recipe_, domain_));
     result.effort = recipe_.effort;
     if (!lines_.empty()) {
       refinement_.emplace(snapped_, heights_, domain_, bound_);

@@ -39,9 +39,9 @@ Result<std::vector<double>> round_heights(const PointSet& points, const SnappedP
   for (std::size_t i = 0; i < snapped.size(); ++i) {
     if (std::abs(snapped.z[i]) > std::numeric_limits<float>::max())
       return fail(ErrorKind::kPromise,
-                  fmt::format("the height {} of point {} does not fit float32: write OBJ or PLY, whose positions are "
+                  fmt::format("the height {} at ({}, {}) does not fit float32: write OBJ or PLY, whose positions are "
                               "double",
-                              snapped.z[i], snapped.source[i]));
+                              snapped.z[i], points.x[snapped.source[i]], points.y[snapped.source[i]]));
     heights.push_back(double{static_cast<float>(snapped.z[i])});
   }
   return heights;

@@ -239,14 +239,42 @@ TEST(point_sets, give_up_duplicates_by_the_policy) {
   }
 }
 
+TEST(point_sets, give_up_duplicates_that_share_the_lattice_point_of_another) {
+  const PointSet points =
+      set_of({{0, 0, 0}, {1e9, 0, 1}, {0, 1e9, 2}, {4, 4, 900}, {4, 4, 100}, {8, 4.25, -900}, {4, 4, 200}});
+  const auto made = simplify_points(points, {.max_error = 2000, .duplicates = DuplicatePolicy::kLowest});
+  ASSERT_TRUE(made) << made.error().message;
+  const SimplifiedPoints& result = *made;
+  EXPECT_EQ(result.duplicates, 2u);
+  EXPECT_EQ(result.simplified.measurement.samples, 5u);
+  const auto judged = *measure_points(points, result.simplified.mesh, DuplicatePolicy::kLowest);
+  EXPECT_EQ(judged.samples, 5u);
+  EXPECT_EQ(judged.max_error, result.simplified.measurement.max_error);
+}
+
+TEST(point_sets, sorted_along_the_curve_keep_their_lines_and_duplicates) {
+  PointSet points = set_of({{9, 0, 1}, {0, 9, 2}, {0, 0, 3}, {9, 9, 4}, {0, 9, 5}, {1, 9, 6}});
+  points.lines.emplace_back().points = {0, 3, 1};
+  points.boundary = {{2, 0, 3}};
+  sort_points(points);
+  const auto at = [&](std::uint32_t i) { return std::tuple(points.x[i], points.y[i], points.z[i]); };
+  EXPECT_EQ(at(0), std::tuple(0.0, 0.0, 3.0));
+  const std::vector<std::uint32_t>& line = points.lines[0].points;
+  EXPECT_EQ(at(line[0]), std::tuple(9.0, 0.0, 1.0));
+  EXPECT_EQ(at(line[1]), std::tuple(9.0, 9.0, 4.0));
+  EXPECT_EQ(at(line[2]), std::tuple(0.0, 9.0, 2.0));
+  EXPECT_EQ(at(line[2] + 1), std::tuple(0.0, 9.0, 5.0));
+  EXPECT_EQ(at(points.boundary[0][0]), std::tuple(0.0, 0.0, 3.0));
+}
+
 TEST(point_sets, too_near_for_their_extent_are_named_and_not_merged) {
   const PointSet wide =
       set_of({{0, 0, 0}, {1e9, 0, 1}, {0, 1e9, 2}, {0.001, 0.001, 900}, {0.002, 0.001, -900}, {0, 0, 5}});
   const auto check = [](const Error& error) {
     EXPECT_EQ(error.kind, ErrorKind::kInput);
-    EXPECT_TRUE(contains(error.message, "points 0 and 3 (counted from 0), at (0, 0) and (0.001, 0.001)"));
+    EXPECT_TRUE(contains(error.message, "the points at (0, 0) and (0.001, 0.001)"));
     EXPECT_TRUE(contains(error.message,
-                         "the extent of 1000000000; point 1 (counted from 0) at (1000000000, 0) and 1 "
+                         "the extent of 1000000000; the point at (1000000000, 0) and 1 "
                          "more lie far from all others, which span 0.002"))
         << error.message;
   };
@@ -283,10 +311,10 @@ TEST(point_sets, name_the_few_points_that_lie_far_from_all_others) {
   EXPECT_EQ(describe_far_points(points), "") << "not so far";
   add(0, 0);
   EXPECT_EQ(describe_far_points(points),
-            "point 401 (counted from 0) at (0, 0) lies far from all others, which span 100: remove it if it is an "
+            "the point at (0, 0) lies far from all others, which span 100: remove it if it is an "
             "error");
   add(5e5, -9999999999);
-  EXPECT_TRUE(contains(describe_far_points(points), "point 401 (counted from 0) at (0, 0) and 1 more lie far"));
+  EXPECT_TRUE(contains(describe_far_points(points), "the point at (0, 0) and 1 more lie far"));
   for (int i = 0; i < 5; ++i) add(0, i);
   EXPECT_EQ(describe_far_points(points), "") << "too many for errors";
   EXPECT_EQ(describe_far_points({}), "");

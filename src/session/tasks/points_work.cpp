@@ -33,7 +33,9 @@ constexpr std::pair<OptionId, const char*> kRemembered[] = {{kDuplicates, "dupli
 Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const ProgressCallback& progress) {
   SCARP_TRY(auto&& options, parse_points(given, as));
   options.progress = progress;
-  return read_points(given.input(), options);
+  SCARP_TRY(PointSet points, read_points(given.input(), options));
+  sort_points(points);
+  return points;
 }
 
 /// The value of --crs; empty: local for degrees, else the points' own.

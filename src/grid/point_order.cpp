@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/curve.h"
+#include "base/sort_by_key.h"
+#include "scarp/points.h"
+
+namespace scarp {
+
+namespace {
+
+/// Maps one coordinate to 22 bits.
+class Steps {
+ public:
+  explicit Steps(const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    least_ = *least;
+    const double size = *most - *least;
+    scale_ = size > 0 && std::isfinite(size) ? kMost / size : 0;
+  }
+  std::uint64_t operator()(double value) const {
+    return static_cast<std::uint64_t>(std::clamp((value - least_) * scale_, 0.0, kMost));
+  }
+
+ private:
+  static constexpr double kMost = (1 << 22) - 1;
+  double least_ = 0, scale_ = 0;
+};
+
+struct Keyed {
+  std::uint64_t key;
+  std::uint32_t point;
+};
+
+void permute(const std::vector<Keyed>& order, std::vector<double>& values) {
+  std::vector<double> sorted;
+  sorted.reserve(values.size());
+  for (const Keyed& k : order) sorted.push_back(values[k.point]);
+  values.swap(sorted);
+}
+
+}  // namespace
+
+void sort_points(PointSet& points) {
+  const auto are_finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  };
+  if (points.size() == 0 || !are_finite(points.x) || !are_finite(points.y)) return;
+  std::vector<Keyed> order;
+  order.reserve(points.size());
+  const Steps x(points.x), y(points.y);
+  for (std::uint32_t i = 0; i < points.size(); ++i) order.push_back({curve_place(x(points.x[i]), y(points.y[i])), i});
+  sort_by_key(order, [](const Keyed& k) { return k.key; });
+  for (std::vector<double>* values : {&points.x, &points.y, &points.z}) permute(order, *values);
+  if (points.lines.empty() && points.boundary.empty()) return;
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i].point] = i;
+  for (PointLine& line : points.lines) {
+    for (std::uint32_t& point : line.points) point = place[point];
+  }
+  for (auto& ring : points.boundary) {
+    for (std::uint32_t& corner : ring) corner = place[corner];
+  }
+}
+
+}  // namespace scarp
