@@ -29,15 +29,15 @@ class Steps {
   double least_ = 0, scale_ = 0;
 };
 
-struct Keyed {
+struct Placed {
   std::uint64_t key;
   std::uint32_t point;
 };
 
-void permute(const std::vector<Keyed>& order, std::vector<double>& values) {
+void permute(const std::vector<Placed>& order, std::vector<double>& values) {
   std::vector<double> sorted;
   sorted.reserve(values.size());
-  for (const Keyed& k : order) sorted.push_back(values[k.point]);
+  for (const Placed& k : order) sorted.push_back(values[k.point]);
   values.swap(sorted);
 }
 
@@ -48,11 +48,11 @@ void sort_points(PointSet& points) {
     return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
   };
   if (points.size() == 0 || !are_finite(points.x) || !are_finite(points.y)) return;
-  std::vector<Keyed> order;
+  std::vector<Placed> order;
   order.reserve(points.size());
   const Steps x(points.x), y(points.y);
   for (std::uint32_t i = 0; i < points.size(); ++i) order.push_back({curve_place(x(points.x[i]), y(points.y[i])), i});
-  sort_by_key(order, [](const Keyed& k) { return k.key; });
+  sort_by_key(order, [](const Placed& k) { return k.key; });
   for (std::vector<double>* values : {&points.x, &points.y, &points.z}) permute(order, *values);
   if (points.lines.empty() && points.boundary.empty()) return;
   std::vector<std::uint32_t> place(order.size());

@@ -53,7 +53,7 @@ double middle(std::span<const double> values) {
   const double centre = *least + (*most - *least) / 2;
   const double unit = *least == *most ? 0 : std::ldexp(1.0, std::ilogb(*most - *least) - 4);
   if (unit == 0) return centre;
-  return std::nearbyint(centre / unit) * unit;
+  return std::nearbyint(centre / unit) * unit + 0.0;  // no -0
 }
 
 /// Refuses points that rounding puts onto one line: the few points off it turn triangles over.

@@ -154,13 +154,15 @@ if command -v ogr2ogr >/dev/null; then
     grep -q "third coordinate is ${pair#*:} everywhere, so the heights are those of the attribute altitude" "$logs/err" || fail "$name: $(cat "$logs/err")"
     grep -q 'heights  *400 to 459' "$logs/out" || fail "$name: the heights are not those of the attribute"
   done
-  # The command that makes a layer from degrees works with comments above the header.
+  # A file next to the text declares its CRS.
   { printf '# a log\n\n'; awk 'BEGIN { print "id,lat,lon,alt"; srand(1); for (k = 0; k < 99; ++k) printf "%d,%.7f,%.7f,%.1f\n", k, 48 + rand() / 99, 11 + rand() / 99, 400 + 90 * rand() }'; } >log.csv
   succeeds "$scarp" info log.csv
-  command=$(sed -n 's/.*make a GeoPackage with a CRS of the file (\(.*\)) for a local frame.*/\1/p' "$logs/err")
+  command=$(sed -n 's/.*declare their CRS in a file next to it (\(.*\)) for a local frame.*/\1/p' "$logs/err")
   bash -ec "$command" || fail "the command fails: $command"
-  made=$(ls -t NEW*.gpkg | head -1)
-  succeeds "$scarp" simplify "$made" log.glb -e 5
-  grep -q 'points  *99,' "$logs/out" || fail "$command: not all points"
+  succeeds "$scarp" simplify log.csv log.glb -e 5
+  grep -q 'frame  *local metres east and north' "$logs/out" || fail "$command: $(cat "$logs/out")"
+  printf 'not a CRS\n' >log.prj
+  refuses 2 "log.prj: declares no CRS that is known here: write WKT into it, or a code such as EPSG:32633" \
+    "$scarp" simplify log.csv no.glb -e 5
 fi
 echo "columns, grids and heights of points are understood or asked about"

@@ -70,4 +70,43 @@ grep -Eq '10[01] columns x 8[01] rows' "$logs/out" || fail "the size of the rast
 refuses 1 "give the size of its cells with --cell-size" "$scarp" simplify survey.csv x.tif -e 1
 refuses 1 "--cell-size is for rasters, and survey.csv holds points" "$scarp" simplify survey.csv x.glb -e 1 --cell-size 5
 refuses 1 "choose larger" "$scarp" simplify survey.csv x.tif -e 1 --cell-size 1e-9
+
+# Files besides the mesh: picture, page, contours, the error of each point, and levels of detail.
+succeeds "$scarp" simplify survey.csv all.glb -e 1 --preview all.png --html all.html --contours-out all.geojson,interval=10 \
+  --error-raster all.csv --lods 3:2 --report all.json --boundary site.geojson
+for level in 0 1 2; do succeeds "$scarp" measure survey.csv all_lod$level.glb --fail-above $((1 << level)) -q; done
+succeeds "$scarp" measure survey.csv all_lod2.glb --error-raster judged.csv --json
+cp "$logs/out" judged.json
+python3 - <<'PY' || fail "files of points"
+import csv, json
+assert open("all.png", "rb").read(4) == b"\x89PNG" and b"all_lod2.glb" in open("all.html", "rb").read()
+heights = {f["properties"]["elev"] for f in json.load(open("all.geojson"))["features"]}
+assert len(heights) >= 7 and all(z % 10 == 0 for z in heights), heights
+report = json.load(open("all.json"))
+levels = report["levels"]
+assert [level["asked"] for level in levels] == [1, 2, 4] and levels[0]["triangles"] > levels[1]["triangles"] > levels[2]["triangles"], levels
+for table, largest, points in (("all.csv", report["max_error"], report["samples"]),
+                               ("judged.csv", json.load(open("judged.json"))["max_error"], None)):
+    rows = list(csv.DictReader(open(table)))
+    errors = [abs(float(row["error"])) for row in rows if row["error"]]
+    assert points is None or len(errors) == points, (len(errors), points)
+    assert abs(max(errors) - largest) < 1e-6 * largest, (table, max(errors), largest)
+given = {tuple(map(float, line.split(","))) for line in open("survey.csv").read().split()[1:]}
+assert sum(tuple(float(row[k]) for k in "xyz") in given for row in csv.DictReader(open("judged.csv"))) > 1000
+PY
+refuses 1 "--error-raster x.tif: survey.csv holds points, whose errors are a table: name it .csv" \
+  "$scarp" simplify survey.csv x.glb -e 1 --error-raster x.tif
+refuses 4 "judged.csv exists already" "$scarp" measure survey.csv all_lod2.glb --error-raster judged.csv
+
+# A text declares its CRS in a file next to it; volumes compare files in a local frame with others.
+echo EPSG:32631 >survey.prj
+succeeds "$scarp" simplify survey.csv utm.gpkg -e 1 --report utm.json -q
+[ "$(python3 -c 'import json; print(json.load(open("utm.json"))["frame"]["crs"])')" = EPSG:32631 ] || fail "the declared CRS"
+succeeds "$scarp" simplify survey.csv utm.ply -e 1 --crs source -q
+succeeds "$scarp" simplify survey.csv local.glb -e 1 -q
+succeeds "$scarp" measure utm.ply local.glb --volume
+rm survey.prj
+succeeds "$scarp" simplify survey.csv plain.xml -e 1 -q
+succeeds "$scarp" simplify survey.csv plain.glb -e 1 -q
+succeeds "$scarp" measure plain.xml plain.glb --volume
 echo "surveys become terrain models"

@@ -219,10 +219,10 @@ PYTHON
   land heights.glb 660 720 none.csv --z-unit ft
   # The command that assigns a CRS to a text preserves the unit.
   succeeds "$scarp" info elev.csv
-  refuses 1 "says nothing of its CRS" "$scarp" simplify elev.csv no.glb -e 1 --crs EPSG:26911
-  command=$(sed -n 's/.*make a GeoPackage with a CRS of it (\(.*\))$/\1/p' "$logs/err" | sed 's/EPSG:CODE/EPSG:26910/')
+  refuses 1 "does not declare its CRS" "$scarp" simplify elev.csv no.glb -e 1 --crs EPSG:26911
+  command=$(sed -n 's/.*in a file next to it (\(.*\))$/\1/p' "$logs/err" | sed 's/EPSG:CODE/EPSG:26910/')
   bash -ec "$command" || fail "the command fails: $command"
-  land heights.glb 660 720 NEW.gpkg
+  land heights.glb 660 720 elev.csv
   succeeds "$scarp" simplify plane.gpkg plane.glb -e 0.5 --overwrite
   [ ! -s "$logs/err" ] || fail "heights that the CRS says to be metres are warned of: $(cat "$logs/err")"
   succeeds "$scarp" simplify utm.gpkg utm.glb -e 0.5 --report r.json --overwrite

@@ -2,13 +2,11 @@
 #include <vector>
 
 #include "commands/commands.h"
-#include "session/plan/projection_file.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/points_report.h"
 #include "session/reports/report.h"
 #include "session/reports/simplify_run.h"
-#include "session/tasks/mesh_output.h"
-#include "session/tasks/points_dem.h"
+#include "session/tasks/points_files.h"
 #include "session/tasks/points_work.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
@@ -18,24 +16,8 @@
 #include "terminal/signals.h"
 
 namespace scarp::cli {
-namespace {
 
 using enum OptionId;
-
-Result<ReadyFile> encode(const SimplifyPlan& plan, PointsOutcome& outcome) {
-  SCARP_RETURN_IF_ERROR(complete_mesh(plan, outcome));
-  if (plan.format.kind == OutputKind::kDem) {
-    SCARP_TRY(auto&& raster, encode_points_dem(plan, outcome));
-    return ReadyFile{plan.output, plan.format.name(), std::move(raster)};
-  }
-  turn_as_planned(plan, outcome.simplified.mesh);
-  SCARP_TRY(auto&& bytes, encode_as(plan.format, outcome.simplified.mesh,
-                                    {.compress = plan.compress, .threads = plan.simplify.run.threads},
-                                    {.double_positions = plan.doubles}));
-  return ReadyFile{plan.output, plan.format.name(), std::move(bytes)};
-}
-
-}  // namespace
 
 Result<void> run_simplify_points(const GivenOptions& given, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
@@ -45,9 +27,7 @@ Result<void> run_simplify_points(const GivenOptions& given, const std::string& c
   SCARP_RETURN_IF_ERROR(make_points_mesh(given, {display.callback()}, plan, outcome));
 
   const Clock::time_point write_start = Clock::now();
-  SCARP_TRY(ReadyFile file, encode(plan, outcome));
-  std::vector<ReadyFile> files{std::move(file)};
-  for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
+  SCARP_TRY(const std::vector<ReadyFile>& files, encode_files(plan, {display.callback()}, outcome));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   std::vector<FileBytes> named;
   for (const ReadyFile& each : files) named.push_back({each.path, each.bytes});
@@ -74,6 +54,10 @@ Result<void> run_measure_points(const GivenOptions& given, const std::string& co
   JudgedPoints judged;
   SCARP_RETURN_IF_ERROR(judge_points(given, {display.callback()}, judged));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
+  if (judged.errors) {
+    const FileBytes errors[] = {{judged.errors->path, judged.errors->bytes}};
+    SCARP_RETURN_IF_ERROR(write_files(errors, given.has(kOverwrite)));
+  }
   display.finish();
   judged.seconds_total = seconds_since(start);
 

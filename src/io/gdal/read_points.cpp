@@ -295,8 +295,7 @@ class PointCollector {
 /// grid/local_frame.cpp.
 Result<void> make_local(const Crs& crs, PointSet& points) {
   const auto [x, y] = middle_of(points);
-  const std::string way = fmt::format("ogr2ogr -a_srs EPSG:CODE {} {}", new_file(".gpkg"), file_word(points.path));
-  SCARP_RETURN_IF_ERROR(verify_degrees(crs, {x, y}, points.path, way));
+  SCARP_RETURN_IF_ERROR(verify_degrees(crs, {x, y}, points.path, crs_command(points, "EPSG:CODE")));
   MetresPerRadian metres{1, 1};
   if (OSRIsGeographic(crs.get()) != 0) {
     OGRErr error = OGRERR_NONE;

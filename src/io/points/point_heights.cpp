@@ -57,6 +57,7 @@ void make_local_metres(const std::array<double, 2>& metres, const std::string& w
 std::string crs_command(const PointSet& points, const std::string& crs) {
   const std::string file = file_word(points.path);
   if (points.las) return fmt::format("pdal translate {} {} --writers.las.a_srs={}", file, new_file(".laz"), crs);
+  if (is_text_of_columns(points.path)) return declare_crs_command(points.path, crs);
   return fmt::format("ogr2ogr -a_srs {} {} {}", crs, new_file(".gpkg"), file);
 }
 
@@ -84,8 +85,7 @@ Result<void> settle_point_heights(const ReadPointsOptions& options, const Height
   if (settled.z_scale != options.z_scale && points.unit_in_metres == 0 && points.crs.empty())
     points.warnings.push_back(fmt::format(
         "x and y have no CRS and stay as they are, while heights become metres: give the points their CRS first ({})",
-        is_text_of_columns(points.path) ? geopackage_command(points.path, "EPSG:CODE")
-                                        : crs_command(points, "EPSG:CODE")));
+        crs_command(points, "EPSG:CODE")));
   return {};
 }
 

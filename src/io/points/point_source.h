@@ -22,12 +22,17 @@ bool holds_plain_text(const std::string& path);
 /// An ESRI or a Surfer ASCII grid.
 bool begins_as_grid(const std::string& path);
 
-/// Text of columns; see read_points().
+/// Text of columns; see read_points(). `crs`: that of x and y; empty: unknown.
 Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::string& name,
-                                const ReadPointsOptions& options);
+                                const ReadPointsOptions& options, const std::string& crs = "");
+
+/// The file that declares the CRS of such a text: WKT, or a code such as EPSG:32633. survey.csv: survey.prj.
+std::string projection_path(const std::string& path);
+/// The command that makes it.
+std::string declare_crs_command(const std::string& path, const std::string& crs);
 
 /// The command of GDAL that makes a GeoPackage of such a text, with the columns that decode_columns() finds.
-std::string geopackage_command(const std::string& path, const std::string& crs = "");
+std::string geopackage_command(const std::string& path);
 
 /// A LAS or LAZ file; see read_points().
 Result<PointSet> read_las_points(const std::string& path, const ReadPointsOptions& options);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/commands.h"
+#include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/column_names.h"
 #include "io/points/point_columns.h"
@@ -136,13 +137,13 @@ std::string find_wide_encoding(std::span<const std::uint8_t> bytes) {
 
 /// GDAL's reader of CSV needs the names of the columns of coordinates: without them it makes a table without points.
 std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::string& name,
-                                const ReadPointsOptions& options, const std::string& crs) {
+                                const ReadPointsOptions& options) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::string_view line;
   TextLines lines(text);
   PointColumns columns;
   if (lines.next(line)) columns = find_columns(text, name, options).value_or(PointColumns());
-  std::string command = crs.empty() ? "ogr2ogr" : "ogr2ogr -a_srs " + crs;
+  std::string command = "ogr2ogr";
   if (!columns.has_header) command += " -oo HEADERS=NO";
   if (columns.separator == ' ') command += " -oo MERGE_SEPARATOR=YES";
   for (std::size_t k = 0; k < 3; ++k) {
@@ -162,12 +163,11 @@ std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::
   return fmt::format("{} {} {}{}", command, new_file(".gpkg"), is_csv ? "" : "CSV:", file_word(name));
 }
 
-tl::unexpected<Error> refuse_frame(std::span<const std::uint8_t> bytes, const std::string& name,
-                                   const ReadPointsOptions& options) {
+tl::unexpected<Error> refuse_frame(const std::string& name, const ReadPointsOptions& options) {
   return fail(ErrorKind::kUsage,
-              fmt::format("{} says nothing of its CRS, so its coordinates cannot be given in '{}': ask for 'source', "
-                          "or make a GeoPackage with a CRS of it ({})",
-                          name, options.crs, describe_conversion(bytes, name, options, "EPSG:CODE")));
+              fmt::format("{} does not declare its CRS, so its coordinates cannot be given in '{}': ask for 'source', "
+                          "or declare it in a file next to it ({})",
+                          name, options.crs, declare_crs_command(name, "EPSG:CODE")));
 }
 
 /// Those that the header names.
@@ -182,10 +182,13 @@ void take_units_of(const PointColumns& columns, PointSet& points) {
 
 }  // namespace
 
-std::string geopackage_command(const std::string& path, const std::string& crs) {
+std::string declare_crs_command(const std::string& path, const std::string& crs) {
+  return fmt::format("echo {} > {}", crs, file_word(projection_path(path)));
+}
+
+std::string geopackage_command(const std::string& path) {
   const auto bytes = read_file(path);
-  return describe_conversion(bytes ? std::span<const std::uint8_t>(*bytes) : std::span<const std::uint8_t>(), path, {},
-                             crs);
+  return describe_conversion(bytes ? std::span<const std::uint8_t>(*bytes) : std::span<const std::uint8_t>(), path, {});
 }
 
 bool looks_like_columns(std::span<const std::uint8_t> head) {
@@ -195,11 +198,11 @@ bool looks_like_columns(std::span<const std::uint8_t> head) {
 }
 
 Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::string& name,
-                                const ReadPointsOptions& options) {
+                                const ReadPointsOptions& options, const std::string& crs) {
   if (!options.layer.empty())
     return fail(ErrorKind::kUsage, name + ": a text of columns has no layers: leave the layer out");
-  if (!options.crs.empty() && options.crs != "source" && options.crs != "local")
-    return refuse_frame(bytes, name, options);
+  if (crs.empty() && !options.crs.empty() && options.crs != "source" && options.crs != "local")
+    return refuse_frame(name, options);
   PointSet points;
   points.path = name;
   points.format = name.ends_with(".xyz") ? "XYZ" : "CSV";
@@ -226,7 +229,7 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
     if (are_all_alike(points.z)) {
       ReadPointsOptions with_other = options;
       with_other.z_field = other;
-      auto again = decode_columns(bytes, name, with_other);
+      auto again = decode_columns(bytes, name, with_other, crs);
       if (again)
         again->warnings.push_back(fmt::format(
             "{}: the heights of the column {} are all {:.9g}, so those of {} count: --z-field names another", name,
@@ -236,12 +239,18 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
     points.warnings.push_back(fmt::format("{}: the heights are those of the column {}: --z-field {} reads the others",
                                           name, chosen, file_word(other)));
   }
+  if (!crs.empty()) {
+    points.crs = crs;
+    SCARP_TRY(const auto& vertical, place_lent_points(options, points));
+    SCARP_RETURN_IF_ERROR(settle_point_heights(options, vertical, points));
+    return points;
+  }
   if (columns.in_degrees || looks_like_degrees(points))
     points.warnings.push_back(fmt::format(
-        "x and y look like degrees, which do not mix with heights: make a GeoPackage with a CRS of the file "
-        "({}) for a local frame in metres",
-        describe_conversion(bytes, name, options, "EPSG:4326")));
-  if (options.crs == "local" && points.unit_in_metres == 0) return refuse_frame(bytes, name, options);
+        "x and y look like degrees, which do not mix with heights: declare their CRS in a file next to it ({}) for a "
+        "local frame in metres",
+        declare_crs_command(name, "EPSG:4326")));
+  if (options.crs == "local" && points.unit_in_metres == 0) return refuse_frame(name, options);
   if (options.crs == "local" || becomes_local(options, points.unit_in_metres))
     make_local_metres({points.unit_in_metres, points.unit_in_metres}, "the points' own coordinates", points);
   SCARP_RETURN_IF_ERROR(settle_point_heights(options, {}, points));

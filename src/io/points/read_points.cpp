@@ -21,6 +21,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
+#include "io/raster/crs_description.h"
 #include "io/spool.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
@@ -81,6 +82,8 @@ bool begins_as_grid(const std::string& path) {
   return word == "ncols" || word == "nrows" || word == "dsaa";
 }
 
+std::string projection_path(const std::string& path) { return fs::path(path).replace_extension(".prj").string(); }
+
 bool is_point_file(const std::string& path) {
   constexpr std::array<std::string_view, 9> kPoints{".las", ".laz", ".geojson", ".geojsonl", ".shp",
                                                     ".fgb", ".gml", ".kml",     ".parquet"};
@@ -101,6 +104,21 @@ bool is_las(const std::string& path) {
   return text.starts_with("LASF") || ((extension == ".las" || extension == ".laz") && fs::exists(path));
 }
 
+/// The CRS of survey.csv that survey.prj declares; empty without such a file.
+Result<std::string> read_declared_crs(const std::string& path) {
+  std::error_code ignored;
+  const std::string file = projection_path(path);
+  if (!fs::is_regular_file(path, ignored) || !fs::is_regular_file(file, ignored)) return std::string();
+  SCARP_TRY(const auto& bytes, read_file(file));
+  std::string text(bytes.begin(), bytes.end());
+  text.erase(0, text.find_first_not_of(" \t\r\n"));
+  text.erase(text.find_last_not_of(" \t\r\n") + 1);
+  if (text.empty() || (can_describe_crs() && !describe_crs(text)))
+    return fail(ErrorKind::kInput,
+                file + ": declares no CRS that is known here: write WKT into it, or a code such as EPSG:32633");
+  return text;
+}
+
 Result<PointSet> read_by_content(const std::string& path, const ReadPointsOptions& options) {
   if (is_las(path)) return read_las_points(path, options);
   if (options.choice != PointChoice())
@@ -111,7 +129,8 @@ Result<PointSet> read_by_content(const std::string& path, const ReadPointsOption
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4096));
   if (const std::string kind = describe_kind(path, head, bytes.size(), false); !kind.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
-  return decode_columns(bytes, path, options);
+  SCARP_TRY(const std::string& crs, read_declared_crs(path));
+  return decode_columns(bytes, path, options, crs);
 }
 
 /// Warns of heights that most likely stand for a missing height. GDAL reads a vertex without a third coordinate as 0,

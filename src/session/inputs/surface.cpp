@@ -39,8 +39,10 @@ PlaceOfMesh place_of(const Mesh& mesh) {
     return {crs.empty() ? kNoCrs : crs, *way};
   }
   const std::string crs = metadata_of(mesh, "crs");
-  if (crs.empty() && metadata_of(mesh, "crs_option") == "source") return {kNoCrs};
-  return {crs.empty() ? metadata_of(mesh, "frame") : crs};
+  const std::string frame = metadata_of(mesh, "frame");
+  if (crs.empty() && (metadata_of(mesh, "crs_option") == "source" || frame.ends_with("own coordinates (no CRS)")))
+    return {kNoCrs};
+  return {crs.empty() ? frame : crs};
 }
 
 /// A CRS by its name.

@@ -115,11 +115,17 @@ Result<void> check_kind_of_input(const GivenOptions& given) {
                   fmt::format("{} holds points: only rasters are joined, so give it alone", shell_word(path)));
   }
   const std::string input = shell_word(base_name(given.input()));
+  const bool are_points = are_points_meant(given);
+  if (const Given& errors = given[kErrorRaster]; errors && errors->ends_with(".csv") != are_points)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {}: {} {}", kErrorRaster, shell_word(*errors), input,
+                            are_points ? "holds points, whose errors are a table: name it .csv"
+                                       : "is read as a raster, whose errors are a raster: name it .tif"));
   for (const OptionRow* row : given.given()) {
-    if (are_points_meant(given) && !row->is_for_points)
+    if (are_points && !row->is_for_points)
       return fail(ErrorKind::kUsage,
                   fmt::format("{} is for rasters, and {} holds points: leave it out", row->title(), input));
-    if (!are_points_meant(given) && row->group == OptionGroup::kPoints)
+    if (!are_points && row->group == OptionGroup::kPoints)
       return fail(ErrorKind::kUsage,
                   fmt::format("{} is for scattered points, and {} is read as a raster: {} reads it as points",
                               row->title(), input, kPoints));

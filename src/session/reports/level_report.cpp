@@ -16,9 +16,9 @@ struct LevelNumbers {
   std::uint64_t vertices, triangles;
 };
 
-std::vector<LevelNumbers> list_levels(const Outcome& outcome) {
-  std::vector<LevelNumbers> list{{outcome.asked, outcome.simplified, outcome.vertices, outcome.triangles}};
-  for (const Level& level : outcome.coarser) {
+std::vector<LevelNumbers> list_levels(const SimplifyRun& run) {
+  std::vector<LevelNumbers> list{{run.asked, run.simplified, run.vertices, run.triangles}};
+  for (const Level& level : run.coarser) {
     const Mesh& mesh = level.simplified.mesh;
     list.push_back({level.asked, level.simplified, mesh.vertex_count(), mesh.triangle_count()});
   }
@@ -27,10 +27,10 @@ std::vector<LevelNumbers> list_levels(const Outcome& outcome) {
 
 }  // namespace
 
-Json describe_levels(const SimplifyPlan& plan, const Outcome& outcome) {
+Json describe_levels(const SimplifyPlan& plan, const SimplifyRun& run) {
   if (!plan.levels) return nullptr;
   Json levels = Json::array();
-  const std::vector<LevelNumbers> list = list_levels(outcome);
+  const std::vector<LevelNumbers> list = list_levels(run);
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Measurement& measured = list[k].simplified.measurement;
     levels.push_back(Json{{"path", plan.levels_in_one ? plan.output : level_path(plan.output, static_cast<int>(k))},
@@ -44,10 +44,10 @@ Json describe_levels(const SimplifyPlan& plan, const Outcome& outcome) {
   return levels;
 }
 
-std::string levels_lines(const Outcome& outcome) {
-  if (outcome.coarser.empty()) return "";
+std::string levels_lines(const SimplifyRun& run) {
+  if (run.coarser.empty()) return "";
   std::string text;
-  const std::vector<LevelNumbers> list = list_levels(outcome);
+  const std::vector<LevelNumbers> list = list_levels(run);
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Measurement& measured = list[k].simplified.measurement;
     text += summary_line(fmt::format("level {}", k).c_str(),

@@ -4,14 +4,14 @@
 #include <string>
 
 #include "session/plan/simplify_plan.h"
-#include "session/reports/simplify_outcome.h"
+#include "session/reports/simplify_run.h"
 #include "session/text/json.h"
 
 namespace scarp::cli {
 
 /// The "levels" of the report, from the finest to the coarsest; null without --lods.
-Json describe_levels(const SimplifyPlan& plan, const Outcome& outcome);
+Json describe_levels(const SimplifyPlan& plan, const SimplifyRun& run);
 /// Lines of the summary; empty without --lods.
-std::string levels_lines(const Outcome& outcome);
+std::string levels_lines(const SimplifyRun& run);
 
 }  // namespace scarp::cli

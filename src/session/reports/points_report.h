@@ -51,6 +51,7 @@ struct JudgedPoints {
   Measurement measured;
   std::optional<double> fail_above;
   std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
+  std::optional<ReadyFile> errors;    ///< with --error-raster
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 
   std::uint64_t duplicates() const { return points.size() - measured.samples - measured.uncovered; }

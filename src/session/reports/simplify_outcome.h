@@ -17,12 +17,6 @@
 
 namespace scarp::cli {
 
-/// A level of detail other than the finest.
-struct Level {
-  std::optional<double> asked;
-  Simplified simplified;
-};
-
 /// All contents of the files, the report and the summary.
 struct Outcome : SimplifyRun {
   OwnedHeightField field;
@@ -35,7 +29,6 @@ struct Outcome : SimplifyRun {
   MeshZones zones;  ///< zones found in the mesh
   Picture drape;    ///< empty without a draped image
   std::uint64_t filled = 0;
-  std::vector<Level> coarser;
   std::optional<LargestError> bounded;  ///< largest error of samples that are not ignored; images: norms
   std::optional<double> bounded_goal;   ///< largest error that the goal bounds, if samples are ignored
   std::optional<double> psnr;           ///< PSNR of the rendering in dB; +infinity if it equals the image

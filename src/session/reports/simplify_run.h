@@ -27,11 +27,18 @@ struct ReadyFile {
 
 ReadyFile ready(const ProjectionFile& file);
 
+/// A level of detail other than the finest.
+struct Level {
+  std::optional<double> asked;
+  Simplified simplified;
+};
+
 struct SimplifyRun {
   std::optional<double> asked;  ///< max error in z units
   Simplified simplified;
   std::uint64_t vertices = 0, triangles = 0;              ///< size of the terrain
   std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with a base
+  std::vector<Level> coarser;                             ///< with --lods
   std::optional<Print> print;                             ///< with --solid
   std::vector<ProjectionFile> projections;                ///< next to OUTPUT or each level
   std::vector<std::string> warnings;

@@ -137,6 +137,7 @@ constexpr OptionRow kGoalRows[] = {
      .type = kText,
      .value = "N[:RATIO]",
      .unit = "levels",
+     .is_for_points = true,
      .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error starts at -e and "
              "is RATIO (default 2) times larger at each next level. All levels have the outline of --lock-border."},
     {.id = kLodsInOne,
@@ -147,6 +148,7 @@ constexpr OptionRow kGoalRows[] = {
      .group = OptionGroup::kLevels,
      .type = kFlag,
      .is_of_mesh = false,
+     .is_for_points = true,
      .help = "Write all levels to one GLB, as nodes with MSFT_lod."},
     {.id = kLockBorder,
      .name = "--lock-border",

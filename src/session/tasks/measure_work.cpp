@@ -57,22 +57,6 @@ Result<void> check_order(const GivenOptions& given) {
                           shell_word(*given[kMesh]), shell_word(given.input())));
 }
 
-Result<void> check_outputs_of_run(const GivenOptions& given) {
-  std::vector<PlannedOutput> outputs;
-  for (const OptionId id : {kMap, kErrorRaster}) {
-    if (!given.has(id)) continue;
-    outputs.push_back({name_of(id), *given[id]});
-    SCARP_RETURN_IF_ERROR(check_ending(*find_option(given.command(), id), outputs.back()));
-  }
-  SCARP_RETURN_IF_ERROR(check_outputs(outputs, given.files_read(), given.has(kOverwrite)));
-  for (const PlannedOutput& output : outputs) {
-    if (given.has(kJson) && is_stdout(output.path))
-      return fail(ErrorKind::kUsage,
-                  fmt::format("{} and {} /dev/stdout both write to standard output", kJson, output.option));
-  }
-  return {};
-}
-
 ErrorMapOptions map_options(const GivenOptions& given, const Judged& judged, int max_side) {
   const std::string unit = judged.plan.image ? "grey levels" : short_unit(judged.field.info.unit);
   return error_map_options(judged.field.info, unit, *given[kMesh], max_side);
@@ -193,6 +177,22 @@ Result<Judgement> judge_errors(const GivenOptions& given, const ProgressCallback
 
 }  // namespace
 
+Result<void> check_measure_outputs(const GivenOptions& given) {
+  std::vector<PlannedOutput> outputs;
+  for (const OptionId id : {kMap, kErrorRaster}) {
+    if (!given.has(id)) continue;
+    outputs.push_back({name_of(id), *given[id]});
+    SCARP_RETURN_IF_ERROR(check_ending(*find_option(given.command(), id), outputs.back()));
+  }
+  SCARP_RETURN_IF_ERROR(check_outputs(outputs, given.files_read(), given.has(kOverwrite)));
+  for (const PlannedOutput& output : outputs) {
+    if (given.has(kJson) && is_stdout(output.path))
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} and {} /dev/stdout both write to standard output", kJson, output.option));
+  }
+  return {};
+}
+
 Result<void> judge_inputs(const GivenOptions& given, const Runner& runner, Judged& judged, StreamedErrors& errors) {
   const Clock::time_point start = Clock::now();
   SCARP_RETURN_IF_ERROR(check_order(given));
@@ -208,7 +208,7 @@ Result<void> judge_inputs(const GivenOptions& given, const Runner& runner, Judge
     SCARP_RETURN_IF_ERROR(refuse_print(kFailAbove, goal));
     judged.goal = std::move(goal);
   }
-  SCARP_RETURN_IF_ERROR(check_outputs_of_run(given));
+  SCARP_RETURN_IF_ERROR(check_measure_outputs(given));
 
   SCARP_RETURN_IF_ERROR(read_inputs(given, runner.progress, judged));
   judged.seconds_read = seconds_since(start);

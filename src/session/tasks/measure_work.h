@@ -19,6 +19,8 @@ struct StreamedErrors {
   std::optional<RasterFile> raster = std::nullopt;
 };
 
+/// Checks the files of --map and --error-raster before the work.
+Result<void> check_measure_outputs(const GivenOptions& given);
 /// Reads raster and mesh, and judges.
 Result<void> judge_inputs(const GivenOptions& given, const Runner& runner, Judged& judged, StreamedErrors& errors);
 /// Writes the files of --map and --error-raster.

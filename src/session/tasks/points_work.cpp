@@ -11,8 +11,10 @@
 #include "session/options/error_goal.h"
 #include "session/options/raster_options.h"
 #include "session/table/option_table.h"
+#include "session/tasks/measure_work.h"
 #include "session/tasks/mesh_output.h"
-#include "session/tasks/points_dem.h"
+#include "session/tasks/points_files.h"
+#include "session/tasks/with_level.h"
 #include "session/text/clock.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
@@ -135,6 +137,16 @@ Error with_path(Error error, const std::string& path) {
   return error;
 }
 
+/// The engine proves its own result; a mesh whose proof does not hold is never written.
+Result<void> check_promise(const PointsOutcome& outcome) {
+  const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
+  const auto broken = find_broken(outcome.points, outcome.simplified.measurement,
+                                  has_bound ? *outcome.asked : outcome.simplified.measurement.max_error);
+  if (!broken) return {};
+  return fail(ErrorKind::kPromise,
+              "the mesh does not keep its promise and was not written; this is a bug in Scarp: " + *broken);
+}
+
 /// Half the max error that is asked for, or, where a budget decides, a share of the relief.
 double tolerance_along_boundary(const SimplifyPlan& plan, const PointSet& points) {
   constexpr double kShareOfRelief = 1.0 / 400;
@@ -232,20 +244,27 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
         fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
                     "cross them",
                     format_plural(outcome.loose, "piece")));
-  // The engine proves its own result; a mesh whose proof does not hold is never written.
-  const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
-  const auto broken = find_broken(outcome.points, outcome.simplified.measurement,
-                                  has_bound ? *outcome.asked : outcome.simplified.measurement.max_error);
-  if (broken)
-    return fail(ErrorKind::kPromise,
-                "the mesh does not keep its promise and was not written; this is a bug in Scarp: " + *broken);
-  return {};
+  for (int k = 1; plan.levels && k < plan.levels->count; ++k) {
+    *options.max_error *= plan.levels->ratio;
+    Result<SimplifiedPoints> level = simplify_points(outcome.points, options);
+    if (!level) return tl::unexpected(with_path(std::move(level.error()), given.input()));
+    outcome.coarser.push_back({options.max_error, std::move(level->simplified)});
+  }
+  Result<void> promise = check_promise(outcome);
+  for (Level& level : outcome.coarser) {
+    if (promise) promise = with_level(outcome, level, [&] { return check_promise(outcome); });
+  }
+  return promise;
+}
+
+void place_mesh(const SimplifyPlan& plan, PointsOutcome& outcome) {
+  if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
+  add_metadata(plan, outcome);
 }
 
 Result<void> complete_mesh(const SimplifyPlan& plan, PointsOutcome& outcome) {
   SCARP_RETURN_IF_ERROR(finish_mesh(plan, outcome));
-  if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
-  add_metadata(plan, outcome);
+  place_mesh(plan, outcome);
   return {};
 }
 
@@ -258,6 +277,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
     SCARP_RETURN_IF_ERROR(refuse_print(kFailAbove, parsed));
     goal = std::move(parsed);
   }
+  SCARP_RETURN_IF_ERROR(check_measure_outputs(given));
   SCARP_TRY(judged.mesh, read_mesh(*given[kMesh]));
   // The settings of the mesh hold for its judge, unless options set others.
   GivenOptions asked = given;
@@ -278,6 +298,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   if (!ends.rings.empty()) drop_outside(ends.rings, *points);
   judged.points = std::move(*points);
   if (!given[kCrs]) put_back(judged.points, judged.mesh);
+  if (given[kErrorRaster]) judged.errors = ReadyFile{*given[kErrorRaster], "csv", {}};
   if (goal) {
     SCARP_RETURN_IF_ERROR(settle_goal(kFailAbove, judged.points.heights, *goal, judged.points.warnings));
     const HeightRange heights = height_range(judged.points);
@@ -291,6 +312,7 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   options.run.progress = runner.progress;
   options.inlets = boundary.length.has_value();
   if (!ends.rings.empty()) options.cutline = &ends;
+  if (judged.errors) collect_errors(judged.points, judged.errors->bytes, options);
   SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);

@@ -11,7 +11,9 @@ namespace scarp::cli {
 /// Plans, reads the points, simplifies, and checks the promise.
 Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, SimplifyPlan& plan,
                               PointsOutcome& outcome);
-/// Closes the mesh into a solid where that was asked for, and writes into it who made it and where it lies.
+/// Moves the mesh into its frame, and records its origin and place.
+void place_mesh(const SimplifyPlan& plan, PointsOutcome& outcome);
+/// Closes the mesh into a solid on request, then places it.
 Result<void> complete_mesh(const SimplifyPlan& plan, PointsOutcome& outcome);
 
 /// Reads the mesh and the points, and judges the one by the other.

@@ -13,10 +13,9 @@
 #include "session/inputs/memory.h"
 #include "session/inputs/zones.h"
 #include "session/reports/pictures.h"
-#include "session/reports/view_page.h"
 #include "session/tasks/mesh_output.h"
+#include "session/tasks/run_files.h"
 #include "session/tasks/simplify_work.h"
-#include "session/tasks/with_level.h"
 #include "session/text/json_text.h"
 
 namespace scarp::cli {
@@ -60,12 +59,6 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   if (outcome.simplified.ignored > 0) error["ignored"] = outcome.simplified.ignored;
   if (outcome.bounded) error["bounded_max_error"] = outcome.bounded->value;
   metadata["error"] = error.dump();
-}
-
-Result<void> add_picture(const std::string& path, const Picture& picture, std::vector<ReadyFile>& files) {
-  SCARP_TRY(std::vector<std::uint8_t> png, encode_png(picture));
-  files.push_back({path, "png", std::move(png)});
-  return {};
 }
 
 /// Draws the approximation in its colours, then compared with the image, or as a hillshade.
@@ -195,87 +188,6 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
   return {};
 }
 
-/// Replaces OUTPUT, the finest level, by all levels: separate files or one.
-Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
-  std::vector<ReadyFile> levels{std::move(files.front())};
-  for (Level& level : outcome.coarser) {
-    const auto encoded = with_level(outcome, level, [&]() -> Result<void> {
-      add_metadata(plan, outcome);
-      turn_as_planned(plan, outcome.simplified.mesh);
-      levels.push_back({plan.output, plan.format.name(), {}});
-      return encode_output(plan, outcome, levels.back());
-    });
-    SCARP_RETURN_IF_ERROR(encoded);
-  }
-  files.erase(files.begin());
-  if (plan.levels_in_one) {
-    std::vector<std::vector<std::uint8_t>> all;
-    for (ReadyFile& level : levels) all.push_back(std::move(level.bytes));
-    SCARP_TRY(auto&& joined, join_glb_levels(all, plan.levels->ratio));
-    levels = {{plan.output, plan.format.name(), std::move(joined)}};
-  } else {
-    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].path = level_path(plan.output, static_cast<int>(k));
-  }
-  files.insert(files.begin(), std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end()));
-  return {};
-}
-
-/// 1, 2 or 5 times a power of ten, at most 20 multiples of which span the relief.
-double round_interval(const Mesh& mesh) {
-  double low = 0, high = 0;
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-    const double z = mesh.vertex(v)[2];
-    low = v == 0 ? z : std::min(low, z);
-    high = v == 0 ? z : std::max(high, z);
-  }
-  const double least = high > low ? (high - low) / 20 : 1;
-  const double power = std::pow(10, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= least) return factor * power;
-  }
-  return 10 * power;
-}
-
-/// A FeatureCollection like GDAL's: it names the CRS unless the mesh is in a frame of its own.
-Result<void> add_contours(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
-  const Mesh& mesh = outcome.simplified.mesh;
-  SCARP_TRY(const auto interval, plan.given.number(kContourInterval));
-  SCARP_TRY(const std::vector<Contour>& contours, find_contours(mesh, interval.value_or(round_interval(mesh))));
-  Json features = Json::array();
-  for (const Contour& contour : contours) {
-    Json line = contour.points;
-    if (contour.is_closed) line.push_back(contour.points.front());
-    features.push_back({{"type", "Feature"},
-                        {"properties", {{"elev", contour.height}}},
-                        {"geometry", {{"type", "LineString"}, {"coordinates", std::move(line)}}}});
-  }
-  Json collection{{"type", "FeatureCollection"}};
-  if (const std::string& crs = outcome.field.frame.crs; crs.starts_with("EPSG:"))
-    collection["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + crs.substr(5)}}}};
-  collection["features"] = std::move(features);
-  const std::string text = collection.dump() + "\n";
-  files.push_back({*plan.given[kContoursOut], "geojson", {text.begin(), text.end()}});
-  return {};
-}
-
-/// Shows the GLB files of this run, or the mesh as one.
-Result<void> add_page(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
-  std::vector<PageMesh> meshes;
-  for (const ReadyFile& file : files) {
-    if (std::string_view(file.kind) == "glb") meshes.push_back({file.path, file.size(), file.bytes});
-  }
-  if (meshes.empty()) {
-    Mesh mesh = outcome.simplified.mesh;
-    if (is_y_up(mesh)) undo_y_up(mesh);
-    SCARP_TRY(auto&& glb, encode_mesh(mesh, MeshFormat::kGlb));
-    meshes.push_back({plan.output, files.front().size(), std::move(glb)});
-  }
-  SCARP_TRY(auto&& page, make_view_page(plan.page_template, meshes.front().path, meshes, &outcome.field));
-  if (page.left_out) outcome.warnings.push_back(*page.left_out);
-  files.push_back({*plan.html, "html", std::move(page.html)});
-  return {};
-}
-
 }  // namespace
 
 Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome) {
@@ -309,7 +221,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (plan.preview) added = add_preview(plan, outcome, files);
   if (added && plan.render) added = add_render(plan, outcome, files);
   if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
-  if (added && plan.given.has(kContoursOut)) added = add_contours(plan, outcome, files);
+  if (added && plan.given.has(kContoursOut)) added = add_contours(plan, outcome, outcome.field.frame.crs, files);
   if (added) added = complete_mesh(plan, outcome);
   SCARP_RETURN_IF_ERROR(added);
   if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
@@ -323,10 +235,15 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
   SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
   if (plan.levels) {
-    SCARP_RETURN_IF_ERROR(encode_levels(plan, outcome, files));
+    const auto encode = [&](ReadyFile& file) -> Result<void> {
+      add_metadata(plan, outcome);
+      turn_as_planned(plan, outcome.simplified.mesh);
+      return encode_output(plan, outcome, file);
+    };
+    SCARP_RETURN_IF_ERROR(encode_levels(plan, encode, outcome, files));
   }
   if (plan.html) {
-    SCARP_RETURN_IF_ERROR(add_page(plan, outcome, files));
+    SCARP_RETURN_IF_ERROR(add_page(plan, &outcome.field, outcome, files));
   }
   for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   return files;

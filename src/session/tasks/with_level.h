@@ -3,13 +3,13 @@
 
 #include <utility>
 
-#include "session/reports/simplify_outcome.h"
+#include "session/reports/simplify_run.h"
 
 namespace scarp::cli {
 
 /// Swaps a level into the outcome while `work` uses it.
 template <class Work>
-auto with_level(Outcome& outcome, Level& level, Work&& work) {
+auto with_level(SimplifyRun& outcome, Level& level, Work&& work) {
   const auto swap = [&] {
     std::swap(outcome.simplified, level.simplified);
     std::swap(outcome.asked, level.asked);

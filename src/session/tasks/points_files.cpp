@@ -1,0 +1,170 @@
+#include "session/tasks/points_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "scarp/io.h"
+#include "scarp/picture.h"
+#include "session/inputs/mesh_place.h"
+#include "session/reports/pictures.h"
+#include "session/tasks/mesh_output.h"
+#include "session/tasks/points_work.h"
+#include "session/tasks/run_files.h"
+#include "session/text/text.h"
+
+namespace scarp::cli {
+namespace {
+
+using enum OptionId;
+
+constexpr double kMostCells = 1 << 30;
+
+/// Cells along an axis that cover its values.
+struct Cells {
+  double first = 0;  ///< edge, a multiple of the size
+  int count = 0;
+};
+
+Result<Cells> cells_over(const std::vector<double>& values, double size) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double first = std::floor(*least / size), last = std::ceil(*most / size);
+  if (!(last - first < kMostCells))
+    return fail(ErrorKind::kUsage, fmt::format("{} {:g} gives a raster of {:.3g} columns or rows: choose larger cells",
+                                               kCellSize, size, last - first));
+  return Cells{first * size, static_cast<int>(std::max(last - first, 2.0))};
+}
+
+/// The mesh's heights at the centres of cells of a size, whose corners are multiples of it; NaN beyond the mesh.
+/// REQUIRES: the mesh is where the points are. Fails with kUsage for more cells than a raster may have.
+Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, int threads) {
+  const PointSet& points = outcome.points;
+  SCARP_TRY(const auto& across, cells_over(points.x, size));
+  SCARP_TRY(const auto& down, cells_over(points.y, size));
+  if (double{1} * across.count * down.count > kMostCells)
+    return fail(ErrorKind::kUsage, fmt::format("{} {:g} gives a raster of {} x {} cells: choose larger ones", kCellSize,
+                                               size, across.count, down.count));
+  const double north = down.first + down.count * size;
+  OwnedHeightField field;
+  field.cols = across.count;
+  field.rows = down.count;
+  field.samples.resize(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
+  field.frame.kind = Frame::Kind::kSource;
+  field.frame.affine = {across.first + size / 2, size, 0, north - size / 2, 0, -size};
+  field.info = points.heights;
+  field.info.crs = points.crs;
+  field.info.geotransform = {across.first, size, 0, north, 0, -size};
+  field.info.has_georeference = true;
+  SCARP_TRY(field.samples, resample(field, outcome.simplified.mesh, threads));
+  return field;
+}
+
+Result<void> add_preview(const SimplifyPlan& plan, const PointsOutcome& outcome, std::vector<ReadyFile>& files) {
+  constexpr double kPixels = 1400;
+  const PointSet& points = outcome.points;
+  const Extent extent = extent_of(points);
+  const double size = std::max(extent.high[0] - extent.low[0], extent.high[1] - extent.low[1]) / (kPixels - 2);
+  SCARP_TRY(const auto& field, draw_raster(outcome, size, plan.simplify.run.threads));
+  PreviewOptions options{static_cast<int>(kPixels), {}, short_unit(points.heights.unit), {}};
+  options.cell.fill(size * points.unit_in_metres);
+  const auto mark = [&](MarkKind kind, const std::vector<std::uint32_t>& along) {
+    Mark& added = options.marks.emplace_back(Mark{kind, {}});
+    for (const std::uint32_t i : along)
+      added.points.push_back(
+          {(points.x[i] - field.frame.affine[0]) / size, (field.frame.affine[3] - points.y[i]) / size});
+  };
+  for (const PointLine& line : points.lines) mark(MarkKind::kBreakline, line.points);
+  for (std::vector<std::uint32_t> ring : points.boundary) {
+    ring.push_back(ring.front());
+    mark(MarkKind::kCutline, ring);
+  }
+  SCARP_TRY(const Picture& picture, draw_preview(field, outcome.simplified.mesh, options));
+  return add_picture(*plan.preview, picture, files);
+}
+
+Result<void> add_errors(const SimplifyPlan& plan, const Runner& runner, const PointsOutcome& outcome,
+                        std::vector<ReadyFile>& files) {
+  ReadyFile file{*plan.error_raster, "csv", {}};
+  MeasureOptions options;
+  options.topology = false;
+  options.run.threads = plan.simplify.run.threads;
+  options.run.progress = runner.progress;
+  collect_errors(outcome.points, file.bytes, options);
+  SCARP_RETURN_IF_ERROR(measure_points(outcome.points, outcome.simplified.mesh, outcome.policy, options));
+  files.push_back(std::move(file));
+  return {};
+}
+
+Result<void> encode_output(const SimplifyPlan& plan, const PointsOutcome& outcome, ReadyFile& file) {
+  SCARP_TRY(file.bytes, encode_as(plan.format, outcome.simplified.mesh,
+                                  {.compress = plan.compress, .threads = plan.simplify.run.threads},
+                                  {.double_positions = plan.doubles}));
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_cell_size(const SimplifyPlan& plan, const GivenOptions& given) {
+  const bool is_dem = plan.format.kind == OutputKind::kDem;
+  if (is_dem == given.has(kCellSize)) return {};
+  const std::string input = shell_word(base_name(given.input()));
+  return fail(ErrorKind::kUsage,
+              is_dem
+                  ? fmt::format("{} is a raster, and {} holds points, which lie on no grid: give the size of its "
+                                "cells with {}, in the unit of x and y",
+                                *given[kOutput], input, kCellSize)
+                  : fmt::format("{} is for rasters, and {} holds points: omit it, or choose a raster as OUTPUT, such "
+                                "as {}",
+                                kCellSize, input, shell_word(base_name(given.input()) + ".tif")));
+}
+
+void collect_errors(const PointSet& points, std::vector<std::uint8_t>& file, MeasureOptions& options) {
+  options.on_row = [&](int, std::span<const float> errors) {
+    std::string text = "x,y,z,error\n";
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      fmt::format_to(std::back_inserter(text), "{},{},{},", points.x[i], points.y[i], points.z[i]);
+      if (!std::isnan(errors[i])) fmt::format_to(std::back_inserter(text), "{}", errors[i]);
+      text += '\n';
+    }
+    file.assign(text.begin(), text.end());
+  };
+}
+
+Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Runner& runner, PointsOutcome& outcome) {
+  std::vector<ReadyFile> files{{plan.output, plan.format.name(), {}}};
+  Result<void> added;
+  if (plan.preview) added = add_preview(plan, outcome, files);
+  if (added && plan.error_raster) added = add_errors(plan, runner, outcome, files);
+  SCARP_RETURN_IF_ERROR(added);
+  if (plan.format.kind == OutputKind::kDem) {
+    SCARP_TRY(const auto& field, draw_raster(outcome, *plan.read.cell_size, plan.simplify.run.threads));
+    SCARP_TRY(files.front().bytes,
+              encode_raster({field.samples, field.cols, field.rows, &field.info}, plan.format.raster));
+  }
+  SCARP_RETURN_IF_ERROR(complete_mesh(plan, outcome));
+  if (plan.given.has(kContoursOut)) {
+    SCARP_RETURN_IF_ERROR(add_contours(plan, outcome, outcome.centre ? "" : outcome.points.crs, files));
+  }
+  turn_as_planned(plan, outcome.simplified.mesh);
+  if (plan.format.kind != OutputKind::kDem) {
+    SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
+  }
+  if (plan.levels) {
+    const auto encode = [&](ReadyFile& file) -> Result<void> {
+      place_mesh(plan, outcome);
+      turn_as_planned(plan, outcome.simplified.mesh);
+      return encode_output(plan, outcome, file);
+    };
+    SCARP_RETURN_IF_ERROR(encode_levels(plan, encode, outcome, files));
+  }
+  if (plan.html) {
+    SCARP_RETURN_IF_ERROR(add_page(plan, nullptr, outcome, files));
+  }
+  for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
+  return files;
+}
+
+}  // namespace scarp::cli
