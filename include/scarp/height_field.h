@@ -401,6 +401,7 @@ struct PointSet {
   std::vector<std::string> warnings;
   std::string columns;               ///< one line for reports: the use of each column, or the origin of the heights
   std::uint64_t without_height = 0;  ///< number of points omitted by ReadPointsOptions::nodata
+  std::uint64_t spikes = 0;          ///< number of points omitted by drop_spikes()
   bool is_geographic = false;        ///< for lent points: x and y are degrees, without a CRS known to GDAL
   std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 

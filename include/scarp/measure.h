@@ -142,8 +142,7 @@ Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const 
 /// Judges a mesh against points by brute force. Measurement::samples counts points; max_error_at and offenders are
 /// {index of the point, 0}; on_row is called once, with all points. Duplicates are first removed by the given policy.
 /// The unit of coverage_tolerance is the mean distance between points, √(area / points). Gaps are open edges within the
-/// convex hull (see MeasureOptions::inlets). Same failures and cost as measure(); kUsage for MeasureOptions::tolerance;
-/// kInput for points that simplify_points() cannot distinguish.
+/// convex hull (see MeasureOptions::inlets). Same failures and cost as measure(); kUsage for MeasureOptions::tolerance.
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 

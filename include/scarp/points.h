@@ -35,6 +35,13 @@ std::array<double, 2> local_origin(const PointSet& points);
 /// it is. REQUIRES: fewer than 2^32 points. Cost: O(n), with 32 bytes a point while it runs.
 void sort_points(PointSet& points);
 
+/// Drops outliers such as birds and reflections in lidar: points whose height differs by more than `most` from all, or
+/// all but one, of their 8 nearest neighbours (ties: the first). Points of lines stay, as does
+/// a set with a coordinate that is not finite. Adds them to PointSet::spikes, and returns their number. REQUIRES:
+/// most >= 0, no boundary yet. Cost: expected O(n) for
+/// points of even density.
+std::uint64_t drop_spikes(double most, int threads, PointSet& points);
+
 struct SimplifiedPoints {
   Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
   std::uint64_t points = 0;      ///< number given

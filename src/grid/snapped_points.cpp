@@ -102,7 +102,7 @@ void make_room(Snapped& snapped) {
 
 Snapped snap_to_power_of_two(const PointSet& points, const AxisExtent& x, const AxisExtent& y, PointSteps steps) {
   const double size = std::max(x.size(), y.size());
-  const int bits = steps == PointSteps::kFloat32 ? 23 : steps == PointSteps::kFit ? 24 : 30;
+  const int bits = steps == PointSteps::kFloat32 ? 23 : steps == PointSteps::kFinest ? 30 : 24;
   int exponent = size > 0 ? std::ilogb(size) - bits : 0;
   while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
   const auto whole = [exponent](double length) {
@@ -158,18 +158,18 @@ bool are_at_one_place(const PointSet& points, std::uint32_t a, std::uint32_t b) 
   return points.x[a] == points.x[b] && points.y[a] == points.y[b];
 }
 
-/// The choice at each place among points of one lattice point, in `chosen`, and which of them the lattice point gets.
-/// `are_apart`: they are not all at one place.
-std::size_t choose_places(const PointSet& points, DuplicatePolicy policy, std::span<Keyed> among, bool are_apart,
-                          std::vector<Chosen>& chosen) {
-  const Chosen best = choose(points, policy, among);
-  chosen.assign(1, best);
-  if (!are_apart) return 0;
-  chosen.clear();
+/// Sorts by place, and by input order at each.
+void sort_by_place(const PointSet& points, std::span<Keyed> among) {
   std::sort(among.begin(), among.end(), [&](const Keyed& a, const Keyed& b) {
     const auto place = [&](const Keyed& k) { return std::tuple(points.x[k.point], points.y[k.point], k.point); };
     return place(a) < place(b);
   });
+}
+
+/// The choice at each place among points sorted by place, in `chosen`, and which of them is at the place of `best`.
+std::size_t choose_places(const PointSet& points, DuplicatePolicy policy, std::span<const Keyed> among,
+                          const Chosen& best, std::vector<Chosen>& chosen) {
+  chosen.clear();
   std::size_t kept = 0;
   for (std::size_t i = 0, end = 0; i < among.size(); i = end) {
     while (end < among.size() && are_at_one_place(points, among[end].point, among[i].point)) ++end;
@@ -184,12 +184,9 @@ bool are_inseparable(const PointSet& points, std::uint32_t a, std::uint32_t b, d
   return std::max(std::abs(points.x[a] - points.x[b]), std::abs(points.y[a] - points.y[b])) < extent * 0x1p-30;
 }
 
-/// The first that lies elsewhere than the first of all in the coordinates as given; null if none does.
-const Keyed* find_stranger(const PointSet& points, std::span<const Keyed> among) {
-  for (const Keyed& k : among) {
-    if (!are_at_one_place(points, k.point, among.front().point)) return &k;
-  }
-  return nullptr;
+bool are_all_at_one_place(const PointSet& points, std::span<const Keyed> among) {
+  return std::all_of(among.begin(), among.end(),
+                     [&](const Keyed& k) { return are_at_one_place(points, k.point, among.front().point); });
 }
 
 tl::unexpected<Error> refuse_to_merge(const PointSet& points, std::uint32_t a, std::uint32_t b, double extent) {
@@ -282,11 +279,18 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;
     const std::span<Keyed> here(keys.data() + i, end - i);
-    const Keyed* const stranger = find_stranger(points, here);
-    if (stranger != nullptr && !has_lines &&
-        (!has_echoes || are_inseparable(points, here.front().point, stranger->point, extent)))
-      return refuse_to_merge(points, here.front().point, stranger->point, extent);
-    const std::size_t kept = choose_places(points, policy, here, stranger != nullptr, places);
+    places.assign(1, choose(points, policy, here));
+    std::size_t kept = 0;
+    if (!are_all_at_one_place(points, here)) {
+      sort_by_place(points, here);
+      for (std::size_t k = 1; k < here.size() && !has_lines && steps != PointSteps::kJudge; ++k) {
+        const std::uint32_t a = here[k - 1].point, b = here[k].point;
+        if (!are_at_one_place(points, a, b) && (!has_echoes || are_inseparable(points, a, b, extent)))
+          return refuse_to_merge(points, a, b, extent);
+      }
+      const Chosen best = places.front();
+      kept = choose_places(points, policy, here, best, places);
+    }
     for (const Keyed& k : here) {
       if (has_echoes) result.place[k.point] = static_cast<std::uint32_t>(result.size());
     }

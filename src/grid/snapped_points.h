@@ -22,6 +22,7 @@ enum class PointSteps {
   kFinest,
   kFloat32,  ///< so coarse that float32 holds its points as offsets from the middle; all vertices then lie on it
   kFit,      ///< with room between points for vertices of fitting
+  kJudge,    ///< any: points are only judged, so none are too near each other
 };
 
 /// A point that shares the lattice point of another, without being at its place: it has no lattice point of its own,
@@ -54,7 +55,8 @@ std::uint32_t find_point(const SnappedPoints& points, Point at);
 /// exactly as decimals, if they have few enough of them; else the finest with a power of two as its step, where points
 /// move by up to half a step, at most extent / 2^30 (2^23 with kFloat32, 2^24 with kFit). Duplicates are points with
 /// equal coordinates; points that only the lattice cannot distinguish are refused with kFinest, but become echoes with
-/// other steps, and in a set with lines, whose vertices are often crowded. With kMean the first point stands for the
+/// other steps (unless they are nearer than 2^-30 of the extent, except for a judge), and in a set with lines, whose
+/// vertices are often crowded. With kMean the first point stands for the
 /// lattice point. Fails with kInput: a coordinate or height that is not finite or beyond 1e100, an extent below 1e-100,
 /// points too near for their extent, no points, more than 2^31 − 1.
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,

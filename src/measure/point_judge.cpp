@@ -368,7 +368,7 @@ namespace scarp {
 
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options) try {
-  auto snapped = snap_points(points, duplicates);
+  auto snapped = snap_points(points, duplicates, PointSteps::kJudge);
   if (!snapped) {
     Error error = snapped.error();
     if (!points.path.empty()) error.message = points.path + ": " + error.message;

@@ -39,6 +39,32 @@ Quality any_quality() {
   return {.effort = *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax)};
 }
 
+RC_GTEST_PROP(points, far_from_all_but_one_of_eight_neighbours_are_spikes, ()) {
+  const PointSet points = any_points(150, any_scatter(), *rc::gen::element(Heights::kReal, Heights::kSteps));
+  const double most = *rc::gen::element(0.0, 0.5, 5.0, 40.0);
+  PointSet expected;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double dx = points.x[k] - points.x[i], dy = points.y[k] - points.y[i];
+      if (k != i) others.emplace_back(dx * dx + dy * dy, k);
+    }
+    std::sort(others.begin(), others.end());
+    others.resize(std::min<std::size_t>(others.size(), 8));
+    const auto near = std::count_if(others.begin(), others.end(), [&](const auto& other) {
+      return std::abs(points.z[other.second] - points.z[i]) <= most;
+    });
+    if (others.size() > 1 && near <= 1) continue;
+    expected.x.push_back(points.x[i]);
+    expected.y.push_back(points.y[i]);
+    expected.z.push_back(points.z[i]);
+  }
+  PointSet kept = points;
+  const std::uint64_t dropped = drop_spikes(most, *rc::gen::element(1, 3), kept);
+  RC_ASSERT(dropped == points.size() - kept.size() && kept.spikes == dropped);
+  RC_ASSERT(kept.x == expected.x && kept.y == expected.y && kept.z == expected.z);
+}
+
 RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
   const Scatter scatter = any_scatter();
   const PointSet points = any_points(120, scatter, *rc::gen::element(Heights::kReal, Heights::kSteps));

@@ -71,6 +71,15 @@ refuses 1 "give the size of its cells with --cell-size" "$scarp" simplify survey
 refuses 1 "--cell-size is for rasters, and survey.csv holds points" "$scarp" simplify survey.csv x.glb -e 1 --cell-size 5
 refuses 1 "choose larger" "$scarp" simplify survey.csv x.tif -e 1 --cell-size 1e-9
 
+# Outliers are dropped on request, and the judge remembers.
+{ cat survey.csv; printf '500100.5,4649100.5,900\n500300.5,4649300.5,-200\n'; } >birds.csv
+succeeds "$scarp" simplify birds.csv birds.glb -e 1 --duplicates first,despike=60
+grep -q 'points *4000 (2 as outliers left out)' "$logs/out" || fail "the summary of outliers: $(cat "$logs/out")"
+succeeds "$scarp" measure birds.csv birds.glb --fail-above 1 -q
+refuses 3 "max error" "$scarp" measure birds.csv birds.glb --fail-above 1 -q --despike 1000
+succeeds "$scarp" simplify birds.csv birds.glb -e 1 --despike 60 --report birds.json -q --overwrite
+[ "$(python3 -c 'import json; print(json.load(open("birds.json"))["input"]["spikes"])')" = 2 ] || fail "the report of outliers"
+
 # Files besides the mesh: picture, page, contours, the error of each point, and levels of detail.
 succeeds "$scarp" simplify survey.csv all.glb -e 1 --preview all.png --html all.html --contours-out all.geojson,interval=10 \
   --error-raster all.csv --lods 3:2 --report all.json --boundary site.geojson

@@ -279,7 +279,6 @@ TEST(point_sets, too_near_for_their_extent_are_named_and_not_merged) {
         << error.message;
   };
   check(simplify_points(wide, {.max_error = 0.5}).error());
-  check(measure_points(wide, Mesh{}, DuplicatePolicy::kMean).error());
   const PointSet apart = set_of({{0, 0, 0}, {1e9, 0, 1}, {0, 1e9, 2}, {4, 4, 900}, {8, 4.25, -900}, {0, 0, 5}});
   const auto result = simplify_points(apart, {.max_error = 0.0, .float32_positions = false});
   ASSERT_TRUE(result) << result.error().message;

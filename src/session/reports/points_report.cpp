@@ -27,7 +27,8 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
   Json json{{"path", points.path},          {"format", points.format},   {"points", points.size()},
             {"lines", points.lines.size()}, {"duplicates", duplicates},  {"duplicate_policy", policy_name(policy)},
             {"min", heights.min},           {"max", heights.max},        {"crs", points.crs},
-            {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height}};
+            {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height},
+            {"spikes", points.spikes}};
   if (points.las) json["las"] = describe_las(*points.las);
   return json;
 }
@@ -51,6 +52,7 @@ std::string left_out(const PointSet& points) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", format_count(count), what);
   };
   add(points.without_height, "without a height");
+  add(points.spikes, "as outliers");
   if (points.las) {
     add(points.las->withheld, "withheld");
     add(points.las->of_other_classes, "of other classes");

@@ -107,6 +107,7 @@ enum class OptionId {
   kChannelWeights,
   kPoints,
   kDuplicates,
+  kDespike,
   kLayer,
   kZField,
   kColumns,

@@ -25,11 +25,9 @@ namespace {
 using enum OptionId;
 
 /// Options that a mesh file keeps for its judge.
-constexpr std::pair<OptionId, const char*> kRemembered[] = {{kDuplicates, "duplicates"},
-                                                            {kBoundary, "boundary"},
-                                                            {kColumns, "columns"},
-                                                            {kClass, "class"},
-                                                            {kReturns, "returns"}};
+constexpr std::pair<OptionId, const char*> kRemembered[] = {{kDuplicates, "duplicates"}, {kDespike, "despike"},
+                                                            {kBoundary, "boundary"},     {kColumns, "columns"},
+                                                            {kClass, "class"},           {kReturns, "returns"}};
 
 /// `as`: how a raster would be read.
 Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const ProgressCallback& progress) {
@@ -37,6 +35,9 @@ Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const Pr
   options.progress = progress;
   SCARP_TRY(PointSet points, read_points(given.input(), options));
   sort_points(points);
+  SCARP_TRY(const auto& despike, given.number(kDespike));
+  SCARP_TRY(const int threads, given.threads());
+  if (despike) drop_spikes(*despike, threads, points);
   return points;
 }
 
