@@ -94,9 +94,10 @@ struct PointOptions {
   /// Above 0, in units of x and y: the mesh ends at a concave hull. Its edges are at most this long, except where a
   /// longer one is needed to connect the points. DEFAULT: at the convex hull.
   std::optional<double> boundary_length = std::nullopt;
-  /// The work that follows refinement: effort, vertices and min_shape, as for a raster; the rest does not apply. Free
-  /// vertices lie on a lattice of 2^22 steps or more over the extent. A max error of 0, or one that the rounding of
-  /// heights to float32 uses up, allows fast effort only. DEFAULT: normal effort.
+  /// The work that follows refinement: effort, vertices, min_shape and shape, as for a raster; the rest does not apply.
+  /// Vertices for `shape` get the height of the surface; it needs a max error and no budget. Free vertices lie on a
+  /// lattice of 2^22 steps or more over the extent. A max error of 0, or one that the rounding of heights to float32
+  /// uses up, allows fast effort only. DEFAULT: normal effort.
   Quality quality = {};
   Run run = {};  ///< threads, progress, and a limit of the time
 };
@@ -122,15 +123,15 @@ struct PointOptions {
 /// apart share a vertex, and count all the same.
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
-/// given, for the positions as they are in the mesh. Vertices are points, except free ones (high and max effort)
-/// and corners of a boundary.
+/// given, for the positions as they are in the mesh. Vertices are points, except free ones (high and max effort,
+/// goals for shapes) and corners of a boundary.
 /// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs, a boundary_length that is
-/// not above 0, a budget or a boundary_length with lines, goals for shapes, the dominant order), with kInput (lines
-/// that meet with unlike heights, which are named, fewer than 3 places, all on one line, a value that is not finite or
-/// beyond 1e100, an extent below 1e-100, two points nearer to each other than about 2^-30 of the extent, which are
-/// named, as is the far point that makes the extent so large), with kPromise where float32 positions cannot keep the
-/// bound, kCancelled. Cost: expected O(n log m) for n points, with boundary_length O(n log n); some 60 to 90 bytes a
-/// point in addition to the points themselves.
+/// not above 0, a budget or a boundary_length with lines, a budget with goals for shapes or such goals out of range,
+/// the dominant order), with kInput (lines that meet with unlike heights, which are named, fewer than 3 places, all on
+/// one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to each other than
+/// about 2^-30 of the extent, which are named, as is the far point that makes the extent so large), with kPromise where
+/// float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points, with boundary_length
+/// O(n log n); some 60 to 90 bytes a point in addition to the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 }  // namespace scarp

@@ -38,7 +38,7 @@ class Buckets {
     for (std::uint32_t i = 0; i < points.size(); ++i) members_[next[bucket_of(i)]++] = i;
   }
 
-  /// Whether the point differs by more than `most` from all but kAllowed of its nearest neighbours.
+  /// True if the point differs by more than `most` from all but kAllowed of its nearest neighbours.
   bool is_spike(std::uint32_t point, double most) const {
     struct Neighbour {
       double square;

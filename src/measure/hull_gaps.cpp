@@ -68,7 +68,7 @@ double depth(const std::vector<Spot>& chain, double sign, const Spot& p) {
 template <class IsInside>
 std::uint64_t count_edges(const Mesh& mesh, std::span<const OpenEdge> open, double tolerance,
                           const IsInside& is_inside) {
-  const double step = std::max(4 * tolerance, 4 * position_noise(mesh));
+  const double noise = position_noise(mesh), far = std::max(4 * tolerance, 4 * noise);
   std::uint64_t count = 0;
   for (const OpenEdge& edge : open) {
     const auto at = [&](std::uint32_t v) {
@@ -78,8 +78,12 @@ std::uint64_t count_edges(const Mesh& mesh, std::span<const OpenEdge> open, doub
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (!(length > 0)) continue;
     // Triangles lie to the left of their edges.
-    count +=
-        is_inside(Spot{(a.x + b.x) / 2 + step * (b.y - a.y) / length, (a.y + b.y) / 2 - step * (b.x - a.x) / length});
+    const auto is_inside_at = [&](double step) {
+      return is_inside(
+          Spot{(a.x + b.x) / 2 + step * (b.y - a.y) / length, (a.y + b.y) / 2 - step * (b.x - a.x) / length});
+    };
+    // Beyond a short edge near the corner of a narrow hole, what is far lies across the hole.
+    count += is_inside_at(far) && is_inside_at(std::max(std::min(far, length / 16), 4 * noise));
   }
   return count;
 }

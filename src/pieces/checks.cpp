@@ -59,28 +59,12 @@ Result<void> check_border(const HeightField& field, const SimplifyOptions& optio
 }
 
 Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
-  constexpr double kLargestAngle = 33, kLeastEdge = 0.125;
-  if (!(shape.min_angle >= 0 && shape.min_angle <= kLargestAngle))
-    return usage(fmt::format("the minimum angle must lie in 0 … {} degrees, not {}", kLargestAngle, shape.min_angle));
-  if (shape.grade && !(*shape.grade > 0 && std::isfinite(*shape.grade)))
-    return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
-  if (!shape.any()) return {};
-  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
+  const auto& a = field.frame.affine;
+  SCARP_RETURN_IF_ERROR(check_shape_goals(shape, std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]))));
+  if (shape.any() && std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
     return usage(
         fmt::format("a raster of {} x {} samples is too large for goals of angles and edges: at most {} a side",
                     field.cols, field.rows, kMaxCoordinate / kLatticeSteps));
-  const auto& a = field.frame.affine;
-  const double side = std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
-  if (shape.max_edge && !(*shape.max_edge >= kLeastEdge * side))
-    return usage(fmt::format("the max edge must be at least {} of a sample, that is {}, not {}", kLeastEdge,
-                             kLeastEdge * side, *shape.max_edge));
-  if (shape.min_edge && !(*shape.min_edge > 0 && std::isfinite(*shape.min_edge)))
-    return usage(fmt::format("the min edge must be a finite number above 0, not {}", *shape.min_edge));
-  if (shape.min_edge && shape.max_edge && !(*shape.min_edge <= *shape.max_edge / 2))
-    return usage(
-        fmt::format("the min edge must be at most half of the max edge, that is {}, not {}: longer edges are "
-                    "halved",
-                    *shape.max_edge / 2, *shape.min_edge));
   return {};
 }
 
@@ -129,6 +113,25 @@ Result<void> check_needs(const HeightField& field, const SimplifyOptions& option
 }
 
 }  // namespace
+
+Result<void> check_shape_goals(const ShapeGoals& shape, double spacing) {
+  constexpr double kLargestAngle = 33, kLeastEdge = 0.125;
+  if (!(shape.min_angle >= 0 && shape.min_angle <= kLargestAngle))
+    return usage(fmt::format("the minimum angle must lie in 0 … {} degrees, not {}", kLargestAngle, shape.min_angle));
+  if (shape.grade && !(*shape.grade > 0 && std::isfinite(*shape.grade)))
+    return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
+  if (shape.max_edge && !(*shape.max_edge >= kLeastEdge * spacing))
+    return usage(fmt::format("the max edge must be at least {} of the distance between samples, that is {}, not {}",
+                             kLeastEdge, kLeastEdge * spacing, *shape.max_edge));
+  if (shape.min_edge && !(*shape.min_edge > 0 && std::isfinite(*shape.min_edge)))
+    return usage(fmt::format("the min edge must be a finite number above 0, not {}", *shape.min_edge));
+  if (shape.min_edge && shape.max_edge && !(*shape.min_edge <= *shape.max_edge / 2))
+    return usage(
+        fmt::format("the min edge must be at most half of the max edge, that is {}, not {}: longer edges are "
+                    "halved",
+                    *shape.max_edge / 2, *shape.min_edge));
+  return {};
+}
 
 Result<void> check_max_error(const std::optional<double>& max_error) {
   if (!max_error || (*max_error >= 0 && std::isfinite(*max_error))) return {};

@@ -16,6 +16,9 @@ Result<void> check_values(const HeightField& field, const SimplifyOptions& optio
 /// missing prerequisites.
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options);
 
+/// Fails with kUsage for goals out of range. `spacing`: between samples.
+Result<void> check_shape_goals(const ShapeGoals& shape, double spacing);
+
 /// Fails unless the value is absent or a number of at least 0.
 Result<void> check_max_error(const std::optional<double>& max_error);
 

@@ -94,6 +94,14 @@ Vertex ScatteredDomain::insert(std::uint32_t point, Point at, const Triangulatio
   return v;
 }
 
+Vertex ScatteredDomain::insert_free(Point at, double z, const Triangulation::Location& location) {
+  heights.resize(point_of.size(), std::numeric_limits<double>::quiet_NaN());
+  const Vertex v = tin.insert(at, location);
+  point_of.push_back(kNone);
+  heights.push_back(z);
+  return v;
+}
+
 Result<ScatteredDomain> build_domain(const SnappedPoints& points) {
   if (points.size() < 3)
     return fail(ErrorKind::kInput, points.size() == 1
@@ -290,7 +298,15 @@ void ScatteredRefinement::insert(std::uint32_t point) {
 
 void ScatteredRefinement::insert_at(std::uint32_t point, const Triangulation::Location& location) {
   inside_ += gain(location);
-  const Vertex v = domain_.insert(point, points_.at[point], location);
+  deal_out(domain_.insert(point, points_.at[point], location));
+}
+
+void ScatteredRefinement::insert_free(Point at, double z, const Triangulation::Location& location) {
+  inside_ += gain(location);
+  deal_out(domain_.insert_free(at, z, location));
+}
+
+void ScatteredRefinement::deal_out(Vertex v) {
   const std::size_t count = domain_.tin.triangle_count();
   queue_.grow(count);
   first_.resize(count, kNone);

@@ -45,6 +45,7 @@ struct ScatteredDomain {
     return is_free(v) ? heights[v] : of_points[point_of[v]];
   }
   Vertex insert(std::uint32_t point, Point at, const Triangulation::Location& location);
+  Vertex insert_free(Point at, double z, const Triangulation::Location& location);
 };
 
 /// The triangulation of the convex hull's corners. Fails with kInput if there are fewer than three points or all lie on
@@ -76,6 +77,12 @@ class ScatteredRefinement {
   std::uint32_t gain_at(std::uint32_t point) const;
   /// REQUIRES: gain_at(point) > 0.
   void insert(std::uint32_t point);
+  /// The same at a known location.
+  void insert_at(std::uint32_t point, const Triangulation::Location& location);
+  /// Inserts a free vertex. REQUIRES: no point is there.
+  void insert_free(Point at, double z, const Triangulation::Location& location);
+  /// Triangles around the vertex that was inserted last: all that this changed.
+  const std::vector<Triangle>& changed() const { return star_; }
 
   /// Flips edges so that fewer triangles are flat: all corners among the marked points, at one height. Every point
   /// stays within the threshold, constraints stay. Returns how many are left. REQUIRES: done(). The next insertion may
@@ -116,7 +123,7 @@ class ScatteredRefinement {
   bool exceeds(const Wedge& wedge, std::uint32_t point) const;
   Wedge wedge_of(Triangle t, Vertex apex) const;
   Wedge wedge_of(Triangle t, const std::array<Vertex, 3>& corners) const;
-  void insert_at(std::uint32_t point, const Triangulation::Location& location);
+  void deal_out(Vertex v);
   std::uint32_t gain(const Triangulation::Location& location) const;
 
   const SnappedPoints& points_;

@@ -47,10 +47,11 @@ Result<void> check_need(double triangles, const MemoryBudget& memory, std::uint6
                                                count()));
   const double needed = triangles / 2 * static_cast<double>(memory.per_vertex) + static_cast<double>(work);
   if (!memory.is_limited() || needed <= static_cast<double>(memory.rest())) return {};
-  return fail(ErrorKind::kMemory,
-              fmt::format("the memory limit is too little: edges so short need at least {} triangles, which take more than "
-                          "{:.0f}M; allow that much and more, or ask for a larger max edge, or for a larger grade",
-                          count(), std::ceil((needed + static_cast<double>(memory.taken)) / 1e6)));
+  return fail(
+      ErrorKind::kMemory,
+      fmt::format("the memory limit is too little: edges so short need at least {} triangles, which take more than "
+                  "{:.0f}M; allow that much and more, or ask for a larger max edge, or for a larger grade",
+                  count(), std::ceil((needed + static_cast<double>(memory.taken)) / 1e6)));
 }
 
 }  // namespace scarp

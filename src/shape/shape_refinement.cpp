@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "grid/bands.h"
-#include "lines/breaklines.h"
-#include "metric/lattice_metric.h"
-#include "refine/refinement.h"
 #include "shape/plan_metric.h"
 #include "shape/plan_shapes.h"
+#include "shape/point_bench.h"
+#include "shape/raster_bench.h"
 #include "shape/shape_faults.h"
 #include "shape/shape_need.h"
 #include "shape/size_field.h"
@@ -36,32 +35,20 @@ constexpr double kSnapShare = 1.0 / 12;  ///< upper bound of lattice step / dist
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
 
-Band::Read aims_of(const SourceBounds& bounds) {
-  return [&bounds](Point first, std::int32_t cols, std::int32_t rows, float* out) {
-    return bounds.read_aims(first, cols, rows, out, cols);
-  };
-}
-
 class ShapeRefiner {
  public:
-  ShapeRefiner(const Raster& raster, Triangulation& tin, const VertexLattice& lattice, const ShapeTask& task)
-      : bands_{raster.rows, std::max(task.rows_at_once / 2, 1)},
-        rows_(raster.samples == nullptr ? std::optional<Band>(std::in_place, *task.field, 2 * bands_.side)
-                                        : std::nullopt),
-        bound_rows_(task.source_bounds != nullptr ? std::optional<Band>(std::in_place, raster.cols, raster.rows,
-                                                                        aims_of(*task.source_bounds), 2 * bands_.side)
-                                                  : std::nullopt),
-        samples_(rows_ ? SampleView(*rows_) : SampleView(raster)),
+  /// `last`: the corner of the lattice's rectangle. `spacing`: between samples.
+  ShapeRefiner(ShapeBench& bench, Triangulation& tin, const ShapeTask& task, const PlanMetric& metric,
+               const Bands& bands, Point last, double spacing)
+      : bench_(bench),
+        bands_(bands),
         tin_(tin),
         task_(task),
-        metric_(task.affine, kLatticeSteps),
-        delaunay_(metric_),
-        heights_(samples_),
-        error_metric_(bound_rows_ ? LatticeMetric(samples_, heights_, *bound_rows_)
-                                  : LatticeMetric(samples_, heights_, task.threshold, task.bounds)),
-        fixed_(lattice.fixed),
+        metric_(metric),
         shapes_(tin, metric_, squares_of(task.goals.min_angle + kShapeSlack).cosine),
-        least_(kClosest * metric_.shorter_side()) {
+        last_(last),
+        spacing_(spacing),
+        least_(kClosest * spacing) {
     if (const auto& longest = task.goals.max_edge) {
       longest2_ = *longest * *longest * (1 - kShapeSlack);
       least_ = std::min(least_, *longest / 4);
@@ -69,22 +56,12 @@ class ShapeRefiner {
     least_for_size_ = std::max(least_, task.goals.min_edge.value_or(0));
     const SquaredAngle half = squares_of((task.goals.min_angle + kShapeSlack) / 2);
     off_centre_ = 0.475 * std::sqrt(half.cosine / half.sine);
-    if (lattice.are_samples()) tin_.scale(kLatticeSteps);
-    for (Vertex v = 0; v < lattice.heights.size(); ++v) {
-      const Point p = tin_.point(v);
-      const float z = lattice.heights[v];
-      if (rows_ || !LatticeHeights::is_sample(p) || (!std::isnan(z) && z != heights_.at(p))) heights_.set(p, z);
-    }
-    restore_delaunay(tin_, delaunay_);
-    const auto start = rows_ ? Refinement::Start::kClean : Refinement::Start::kScan;
-    refinement_.emplace(error_metric_, tin_, Algorithm::kHeap, EdgeRule{}, start);
-    refinement_->follow(&delaunay_);
   }
 
   Result<ShapeWork> run() {
     note_all();
     if (task_.goals.grade) {
-      sizes_.emplace(tin_, metric_, *task_.goals.grade, kFinestSize * metric_.longer_side());
+      sizes_.emplace(tin_, metric_, *task_.goals.grade, kFinestSize * std::max(metric_.longer_side(), spacing_));
       sizes_->measure_all(out_);
     }
     if (const double least = least_triangles(tin_, metric_, task_.goals, sizes_ ? &*sizes_ : nullptr); task_.foresee) {
@@ -92,23 +69,11 @@ class ShapeRefiner {
     }
     for (std::uint64_t before = work_.insertions + 1; before != work_.insertions;) {
       before = work_.insertions;
-      SCARP_RETURN_IF_ERROR(rows_ ? sweep_bands() : sweep_all());
+      SCARP_RETURN_IF_ERROR(bench_.is_streamed() ? sweep_bands() : sweep_all());
     }
-    work_.samples_scanned = refinement_->work().samples_scanned;
-    work_.triangles_scanned = refinement_->work().triangles_scanned;
+    work_.samples_scanned = bench_.samples_scanned();
+    work_.triangles_scanned = bench_.triangles_scanned();
     return work_;
-  }
-
-  VertexLattice lattice() const {
-    VertexLattice lattice{kLatticeSteps, {}, {}};
-    lattice.heights.reserve(tin_.vertex_count());
-    for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
-      const Point p = tin_.point(v);
-      lattice.heights.push_back(heights_.at(p));
-      const bool was_fixed = v < fixed_.size() && fixed_[v] != 0;
-      lattice.fixed.push_back(was_fixed || (!task_.all_may_go && !LatticeHeights::is_sample(p)) ? 1 : 0);
-    }
-    return lattice;
   }
 
  private:
@@ -127,11 +92,10 @@ class ShapeRefiner {
     for (band_ = 0; band_ < bands_.count(); ++band_) {
       const std::vector<Triangle> here = waiting_[band_].take();
       if (here.empty()) continue;
-      bands_.hold(band_, *rows_);
-      if (bound_rows_) bands_.hold(band_, *bound_rows_);
+      bench_.hold(band_);
       for (const Triangle t : here) {
         // A triangle that left the band was changed and scanned.
-        if (is_first && bands_.at(row_of(t)) == band_) refinement_->scan({&t, 1});
+        if (is_first && bands_.at(row_of(t)) == band_) bench_.scan(t);
         enqueue(t);
       }
       if (is_first) share_ = static_cast<double>(band_ + 1) / static_cast<double>(bands_.count());
@@ -142,15 +106,15 @@ class ShapeRefiner {
   }
 
   Result<void> work_off() {
-    for (std::uint64_t step = 0; !refinement_->done() || !bad_.empty(); ++step) {
-      if (refinement_->is_full())
+    for (std::uint64_t step = 0; !bench_.done() || !bad_.empty(); ++step) {
+      if (bench_.is_full())
         return fail(ErrorKind::kInput,
                     "the mesh would have more than 1,431 million triangles: ask for larger angles or edges");
       if (step % 64 == 0 && task_.progress) {
-        SCARP_RETURN_IF_ERROR(task_.progress(share_, tin_.vertex_count(), refinement_->worst_error()));
+        SCARP_RETURN_IF_ERROR(task_.progress(share_, tin_.vertex_count(), bench_.worst_error()));
       }
-      if (!refinement_->done()) {
-        refinement_->insert_worst();
+      if (!bench_.done()) {
+        bench_.insert_worst();
         note_insertion();
         continue;
       }
@@ -197,7 +161,7 @@ class ShapeRefiner {
   void enqueue(Triangle t) {
     const auto bad = find_fault(t);
     if (!bad) return;
-    if (!rows_ || bands_.reaches(band_, row_of(t))) {
+    if (!bench_.is_streamed() || bands_.reaches(band_, row_of(t))) {
       bad_.push(*bad);
       if (bad_.size() > 2 * tin_.triangle_count())
         bad_.clean([this](const ShapeFault& fault) { return corners_of(fault.triangle) == fault.corners; });
@@ -243,7 +207,7 @@ class ShapeRefiner {
 
   /// A point on the lattice and in the rectangle; on coarse steps if `radius`, in samples, is large.
   Point lattice_point_near(const Vector& from, const Vector& wanted, double radius) const {
-    const Vector far{(samples_.cols() - 1.0) * kLatticeSteps, (samples_.rows() - 1.0) * kLatticeSteps};
+    const Vector far{double(last_.x), double(last_.y)};
     double share = 1;
     for (std::size_t k = 0; k < 2; ++k) {
       const double limit = wanted[k] < 0 ? 0 : far[k];
@@ -335,27 +299,11 @@ class ShapeRefiner {
     for (const HalfEdge wall : cavity.encroached) {
       if (split_wall(wall, least)) return true;
     }
-    return cavity.nearest2 >= least * least && insert_with_height(p, location);
+    return cavity.nearest2 >= least * least && insert_in_surface(p, location);
   }
 
-  /// The raster's height; in level triangles their height, so that water is flat up to its shore.
-  float height_between(Point p, const Location& location) const {
-    const HalfEdge across = location.kind == Location::Kind::kOnEdge ? tin_.twin(location.edge) : location.edge;
-    for (const HalfEdge h : {location.edge, across}) {
-      const auto [a, b, c] = tin_.corners(h / 3);
-      const float z = heights_.at(a);
-      if (heights_.at(b) == z && heights_.at(c) == z) return z;
-    }
-    return static_cast<float>(height_between_samples(samples_, p));
-  }
-
-  bool insert_with_height(Point p, const Location& location) {
-    if (!LatticeHeights::is_sample(p)) {
-      const float z = height_between(p, location);
-      if (std::isnan(z)) return false;
-      heights_.set(p, z);
-    }
-    refinement_->insert_at(p, location);
+  bool insert_in_surface(Point p, const Location& location) {
+    if (!bench_.insert(p, location)) return false;
     note_insertion();
     return true;
   }
@@ -364,7 +312,7 @@ class ShapeRefiner {
   bool split_free(HalfEdge h) {
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
     const auto p = beside({(double(a.x) + b.x) / 2, (double(a.y) + b.y) / 2}, h);
-    return p && insert_with_height(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
+    return p && insert_in_surface(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
   }
 
   /// The lattice point nearest to one on an edge with two sides, such that all four triangles are positive.
@@ -406,13 +354,8 @@ class ShapeRefiner {
       p = beside_line(line, h, share, least == kAnyLength ? 0.25 : 0);
     }
     if (!p) return false;
-    if (!LatticeHeights::is_sample(*p) || !samples_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
-      const double za = heights_.at(a), zb = heights_.at(b);
-      heights_.set(*p, static_cast<float>(za + (zb - za) * std::sqrt(metric_.square(a, *p) / square(h))));
-    }
     if (bends) lines_[static_cast<Vertex>(tin_.vertex_count())] = line;
-    const HalfEdge g = tin_.twin(h);
-    refinement_->insert_at(*p, {Location::Kind::kOnEdge, std::min(h, g)});
+    bench_.insert_on_edge(*p, h, std::sqrt(metric_.square(a, *p) / square(h)));
     note_insertion();
     return true;
   }
@@ -483,40 +426,28 @@ class ShapeRefiner {
     out_.resize(tin_.vertex_count());
     for (HalfEdge h = 0; h < 3 * tin_.triangle_count(); ++h) out_[tin_.origin(h)] = h;
   }
-  /// Remembers a height so that its band is not read again.
-  void remember_height(Vertex v) {
-    const Point p = tin_.point(v);
-    if (LatticeHeights::is_sample(p)) heights_.set(p, heights_.at(p));
-  }
   void note_insertion() {
     ++work_.insertions;
     out_.resize(tin_.vertex_count());
-    if (rows_) remember_height(static_cast<Vertex>(tin_.vertex_count() - 1));
-    for (const Triangle t : refinement_->changed()) {
+    for (const Triangle t : bench_.changed()) {
       for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) out_[tin_.origin(h)] = h;
     }
     if (sizes_) {
       fallen_.clear();
-      sizes_->update(refinement_->changed(), out_, fallen_);
+      sizes_->update(bench_.changed(), out_, fallen_);
       for (const Vertex v : fallen_) visit_around(tin_, out_[v], [&](HalfEdge h) { enqueue(h / 3); });
     }
-    for (const Triangle t : refinement_->changed()) enqueue(t);
+    for (const Triangle t : bench_.changed()) enqueue(t);
   }
 
-  Bands bands_;
-  std::optional<Band> rows_;  ///< used if the samples are not entirely in memory
-  std::optional<Band> bound_rows_;
-  SampleView samples_;
+  ShapeBench& bench_;
+  const Bands& bands_;
   Triangulation& tin_;
   const ShapeTask& task_;
-  PlanMetric metric_;
-  PlanDelaunay delaunay_;
-  LatticeHeights heights_;
-  LatticeMetric error_metric_;
-  std::vector<std::uint8_t> fixed_;  ///< the vertices fixed as given
+  const PlanMetric& metric_;
   PlanShapes shapes_;
-  double least_, least_for_size_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
-  std::optional<Refinement> refinement_;
+  Point last_;
+  double spacing_, least_, least_for_size_ = 0, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
   std::optional<SizeField> sizes_;
   ShapeFaults bad_;
   std::size_t band_ = 0;                                       ///< current band
@@ -555,10 +486,31 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
 
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task) {
-  ShapeRefiner refiner(raster, tin, lattice, task);
-  auto work = refiner.run();
-  if (work) lattice = refiner.lattice();
+  const PlanMetric metric(task.affine, kLatticeSteps);
+  const Bands bands{raster.rows, std::max(task.rows_at_once / 2, 1)};
+  PlanDelaunay delaunay(metric);
+  RasterBench bench(raster, tin, lattice, task, bands, delaunay);
+  const Point last{(raster.cols - 1) * kLatticeSteps, (raster.rows - 1) * kLatticeSteps};
+  auto work = ShapeRefiner(bench, tin, task, metric, bands, last, metric.shorter_side()).run();
+  if (work) lattice = bench.lattice(task.all_may_go);
   return work;
+}
+
+Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
+                                const ShapeTask& task) {
+  const PlanMetric metric(task.affine, kLatticeSteps);
+  const Bands bands{1, 1};
+  PlanDelaunay delaunay(metric);
+  restore_delaunay(domain.tin, delaunay);
+  PointBench bench(points, heights, domain, task.threshold);
+  const Point last{points.lattice.cols - 1, points.lattice.rows - 1};
+  const double spacing = points.lattice.step * std::sqrt(double(last.x) * last.y / static_cast<double>(points.size()));
+  return ShapeRefiner(bench, domain.tin, task, metric, bands, last, spacing).run();
+}
+
+std::array<double, 6> shape_affine(const PointLattice& lattice) {
+  const double cell = kLatticeSteps * lattice.step;
+  return {lattice.west, cell, 0, lattice.north, 0, -cell};
 }
 
 }  // namespace scarp

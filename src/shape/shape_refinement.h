@@ -27,8 +27,10 @@
 
 #include "fit/rules.h"
 #include "grid/raster.h"
+#include "grid/snapped_points.h"
 #include "grid/vertex_lattice.h"
 #include "metric/source_bounds.h"
+#include "refine/scattered.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/options.h"
@@ -66,6 +68,13 @@ struct ShapeWork {
 /// kLatticeSteps samples; an exact outline. Cost: expected O(log n) an insertion, without scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
+
+/// The same on scattered points: `domain` keeps its outline, with vertices between points as free ones. `task`: goals,
+/// affine, threshold, progress and foresee count. REQUIRES: points with PointSteps::kFloat32 or kFit.
+Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
+                                const ShapeTask& task);
+/// The affine map of a frame whose samples are kLatticeSteps of the points' lattice apart.
+std::array<double, 6> shape_affine(const PointLattice& lattice);
 
 /// Most bytes a vertex that refine_shapes() uses, the mesh included.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;

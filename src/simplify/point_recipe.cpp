@@ -19,8 +19,10 @@ Result<void> check_goals(const PointOptions& options) {
     return fail(ErrorKind::kUsage,
                 fmt::format("boundary_length must be above 0, and {} is not", *options.boundary_length));
   const Quality& quality = options.quality;
-  if (quality.shape.any())
-    return fail(ErrorKind::kUsage, "angles and lengths of edges are for rasters, not for points");
+  if (quality.shape.any() && (!options.max_error || options.max_triangles || options.max_vertices))
+    return fail(
+        ErrorKind::kUsage,
+        "goals for angles and edges need as many triangles as they take: ask for a max error, without a budget");
   if (quality.order == Order::kDominant)
     return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
   if (quality.vertices == Vertices::kFree && !traits_of(quality.effort).moves_vertices)
@@ -70,8 +72,10 @@ PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, bool
       removes(traits.fits && (!asked.max_error || aims.is_open())),
       searches(removes && (asked.max_triangles || asked.max_vertices)),
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
-      steps(asked.float32_positions && (removes || !points.lines.empty()) ? PointSteps::kFloat32
-            : removes                                                     ? PointSteps::kFit
-                                                                          : PointSteps::kFinest) {}
+      removes_last(removes && asked.quality.shape.any() && !asked.quality.shape.grade),
+      steps(asked.float32_positions && (removes || asked.quality.shape.any() || !points.lines.empty())
+                ? PointSteps::kFloat32
+            : removes || asked.quality.shape.any() ? PointSteps::kFit
+                                                   : PointSteps::kFinest) {}
 
 }  // namespace scarp

@@ -33,6 +33,7 @@ struct PointRecipe {
   bool removes;         ///< vertices are removed after refinement
   bool searches;        ///< a budget is met by runs for several errors
   bool frees_vertices;  ///< vertices may move off the points
+  bool removes_last;    ///< after vertices for angles and edges, whose goals removal preserves
   PointSteps steps;     ///< lattice of the points
 };
 

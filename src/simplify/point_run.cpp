@@ -16,6 +16,8 @@
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
 #include "pieces/budget.h"
+#include "shape/shape_need.h"
+#include "shape/shape_refinement.h"
 #include "simplify/point_fit.h"
 
 namespace scarp {
@@ -37,7 +39,8 @@ class PointRun {
         least_(task.least()),
         width_(task.width),
         fits_(recipe.removes && recipe.aims.is_open()),
-        is_on_lattice_(task.steps == PointSteps::kFloat32),
+        // Vertices for shapes may lie a step from an edge that rounding moves by half a step.
+        is_on_lattice_(task.steps == PointSteps::kFloat32 || (goals().any() && !snapped_.is_exact)),
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
         refinement_(std::in_place, snapped_, heights_, domain_, fits_ ? recipe.aims.refinement : bound_),
@@ -51,7 +54,13 @@ class PointRun {
     SCARP_RETURN_IF_ERROR(refine(result.stop));
     SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
     take_best_prefix();
+    if (recipe_.removes_last) {
+      SCARP_RETURN_IF_ERROR(shape(recipe_.aims.refinement, result));
+    }
     SCARP_RETURN_IF_ERROR(fit(result));
+    if (!recipe_.removes_last) {
+      SCARP_RETURN_IF_ERROR(shape(bound_, result));
+    }
     freeze_into(result);
     result.seconds_refine = seconds_since(start);
     SCARP_RETURN_IF_ERROR(prove(result));
@@ -72,14 +81,46 @@ class PointRun {
     forget_refinement();
     SCARP_TRY(const auto& fitted, fit_points(snapped_, heights_, fixed_points(), recipe_, domain_));
     result.effort = recipe_.effort;
-    if (!lines_.empty()) {
+    if (!lines_.empty() && !goals().any()) {
       refinement_.emplace(snapped_, heights_, domain_, bound_);
       if (refinement_->done()) flat_ = refinement_->flip_flats(lines_.on_lines());
     }
     result.is_cut_short = fitted.is_cut_short;
-    if (std::any_of(domain_.heights.begin(), domain_.heights.end(), [](double z) { return !std::isnan(z); }))
-      result.vertices = Vertices::kFree;
+    note_vertices(result);
     return {};
+  }
+
+  const ShapeGoals& goals() const { return options_.quality.shape; }
+
+  void note_vertices(Simplified& result) const {
+    const bool has_free =
+        std::any_of(domain_.heights.begin(), domain_.heights.end(), [](double z) { return !std::isnan(z); });
+    result.vertices = has_free ? Vertices::kFree : Vertices::kSamples;
+  }
+
+  /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
+  Result<void> shape(double threshold, Simplified& result) {
+    if (!goals().any() || result.stop != StopReason::kMaxError) return {};
+    forget_refinement();
+    ShapeTask task{goals(), shape_affine(snapped_.lattice), threshold};
+    task.progress = [&](double, std::uint64_t count, double error) -> Result<void> {
+      if (!reporter_.due() || reporter_.report("shape", 0, count, error)) return {};
+      return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
+    };
+    task.foresee = [](double triangles) { return check_need(triangles, {}, 0); };
+    SCARP_TRY(const auto& work, refine_shapes(snapped_, heights_, domain_, task));
+    scanned_ += work.samples_scanned;
+    dealt_ += work.triangles_scanned;
+    insertions_ += work.insertions;
+    note_vertices(result);
+    return {};
+  }
+
+  void report_shape(Simplified& result) const {
+    if (!goals().any()) return;
+    Frame frame;
+    frame.affine = shape_affine(snapped_.lattice);
+    result.shape = report_shapes(result.mesh, goals(), count_losses(domain_.tin, kLatticeSteps, frame, goals()));
   }
 
   /// Points that broke the bound after fitting, and vertices of lines, some of whose chords may not be edges; sorted.
@@ -252,6 +293,10 @@ class PointRun {
     const bool is_in_chain =
         !lines_.empty() &&
         std::any_of(offenders.begin(), offenders.end(), [&](std::uint32_t point) { return lines_.on_lines()[point]; });
+    if (goals().any()) {
+      SCARP_RETURN_IF_ERROR(shape(bound_, result));
+      return true;
+    }
     if (fits_ && !is_in_chain) return true;
     // Chains are made anew, and with them the mesh around.
     SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
@@ -289,7 +334,10 @@ class PointRun {
       const Measurement& m = result.measurement;
       const bool is_kept =
           result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
-      if (m.is_sound() && is_kept) return {};
+      if (m.is_sound() && is_kept) {
+        report_shape(result);
+        return {};
+      }
       const auto again = Clock::now();
       SCARP_TRY(const auto& mended, m.is_sound() ? mend(result) : false);
       if (!mended && !trim_border(result.mesh))

@@ -16,6 +16,7 @@
 #include "refine/concave_outline.h"
 #include "refine/hull_fit.h"
 #include "scarp/points.h"
+#include "pieces/checks.h"
 #include "simplify/budget_search.h"
 #include "simplify/point_recipe.h"
 #include "simplify/point_run.h"
@@ -125,6 +126,9 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   SCARP_TRY(auto&& domain, build_domain(snapped));
   SCARP_RETURN_IF_ERROR(check_width(points, snapped, domain));
   const double width = domain.width;
+  const PointLattice& lattice = snapped.lattice;
+  const double area = lattice.step * lattice.cols * lattice.step * lattice.rows;
+  SCARP_RETURN_IF_ERROR(check_shape_goals(options.quality.shape, std::sqrt(area / static_cast<double>(snapped.size()))));
   if (!points.boundary.empty()) {
     SCARP_TRY(domain, build_domain(snapped, snap_boundary(points, snapped)));
   } else if (options.boundary_length) {

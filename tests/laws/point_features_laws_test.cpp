@@ -102,6 +102,51 @@ RC_GTEST_PROP(point_features, keep_the_promise_within_a_boundary_with_holes_and_
   RC_ASSERT(std::abs(area_of(mesh) - expected) < 1e-4 * expected);
 }
 
+RC_GTEST_PROP(point_features, have_the_shapes_that_were_asked_for, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  PointSet points = survey(random, *rc::gen::inRange(60, 300));
+  if (*rc::gen::arbitrary<bool>()) *add_lines(std::vector{dike(random, *rc::gen::arbitrary<bool>())}, points);
+  if (*rc::gen::arbitrary<bool>()) {
+    const std::vector rings{star(random, *rc::gen::inRange(4, 20), 180, 450, LineRole::kOuter),
+                            star(random, *rc::gen::inRange(3, 9), 30, 100, LineRole::kHole)};
+    if (!cut_to_boundary(rings, 1, points)) RC_FAIL("not cut");
+  }
+  PointOptions options{.max_error = *rc::gen::element(0.5, 2.0, 10.0),
+                       .float32_positions = *rc::gen::arbitrary<bool>(),
+                       .quality = {.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh)}};
+  ShapeGoals& goals = options.quality.shape;
+  goals.min_angle = *rc::gen::element(0.0, 15.0, 28.0);
+  if (*rc::gen::arbitrary<bool>()) goals.max_edge = *rc::gen::element(40.0, 150.0);
+  if (*rc::gen::inRange(0, 3) == 0) goals.grade = *rc::gen::element(0.2, 1.0);
+  if (goals.max_edge && *rc::gen::inRange(0, 3) == 0) goals.min_edge = *goals.max_edge / 4;
+  RC_PRE(goals.any());
+  const auto made = simplify_points(points, options);
+  if (!made) RC_FAIL(made.error().message);
+  const Mesh& mesh = made->simplified.mesh;
+  const auto judged = *measure_points(points, mesh, DuplicatePolicy::kFirst);
+  RC_ASSERT(judged.is_sound());
+  RC_ASSERT(judged.uncovered == 0u);
+  RC_ASSERT(judged.max_error <= *options.max_error + 1e-9);
+  const ShapeReport& shape = made->simplified.shape.value();
+  RC_ASSERT(std::abs(shape.min_angle - judged.min_angle) < 1e-6);
+  std::uint64_t small = 0;
+  double longest = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    std::array<std::array<double, 3>, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) at[k] = mesh.vertex(mesh.triangles[3 * t + k]);
+    double least = 180;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto &a = at[k], &b = at[(k + 1) % 3], &c = at[(k + 2) % 3];
+      const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - a[0], vy = c[1] - a[1];
+      longest = std::max(longest, std::hypot(ux, uy));
+      least = std::min(least, std::atan2(std::abs(ux * vy - uy * vx), ux * vx + uy * vy) * 180 / std::numbers::pi);
+    }
+    small += least < goals.min_angle;
+  }
+  if (goals.max_edge) RC_ASSERT(longest <= *goals.max_edge * (1 + 1e-9));
+  RC_ASSERT(small == shape.below);
+}
+
 RC_GTEST_PROP(point_features, keep_the_promise_in_float32, ()) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   PointSet points = survey(random, *rc::gen::inRange(60, 300));

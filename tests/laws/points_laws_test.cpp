@@ -126,6 +126,25 @@ RC_GTEST_PROP(points, keep_the_promise_in_float32_or_say_that_they_cannot, ()) {
     RC_ASSERT(double{static_cast<float>(position)} == position);
 }
 
+RC_GTEST_PROP(points, end_with_any_shapes_and_keep_the_promise, ()) {
+  const PointSet points = any_points(80, any_scatter(), *rc::gen::element(Heights::kReal, Heights::kSteps));
+  RC_PRE(has_area(points));
+  PointOptions options{.max_error = *rc::gen::element(0.0, 0.5, 3.0),
+                       .float32_positions = *rc::gen::arbitrary<bool>(),
+                       .quality = any_quality()};
+  options.quality.shape.min_angle = *rc::gen::element(5.0, 20.0, 33.0);
+  if (*rc::gen::arbitrary<bool>()) options.quality.shape.grade = 0.5;
+  const auto result = simplify_points(points, options);
+  if (!result) {
+    RC_ASSERT(result.error().kind == ErrorKind::kPromise);
+    return;
+  }
+  const auto judged = *measure_points(points, result->simplified.mesh, DuplicatePolicy::kFirst);
+  RC_ASSERT(judged.max_error <= *options.max_error + 1e-12 * (*options.max_error + 50));
+  RC_ASSERT(judged.is_sound());
+  RC_ASSERT(judged.uncovered == 0u);
+}
+
 /// Algorithm I: examine everything before each insertion.
 std::vector<std::uint32_t> insert_by_brute_force(const SnappedPoints& snapped, double threshold) {
   ScatteredDomain domain = *build_domain(snapped);

@@ -71,6 +71,19 @@ refuses 1 "give the size of its cells with --cell-size" "$scarp" simplify survey
 refuses 1 "--cell-size is for rasters, and survey.csv holds points" "$scarp" simplify survey.csv x.glb -e 1 --cell-size 5
 refuses 1 "choose larger" "$scarp" simplify survey.csv x.tif -e 1 --cell-size 1e-9
 
+# Shapes of triangles, also along a boundary and lines.
+for effort in fast normal high; do
+  succeeds "$scarp" simplify survey.csv shape.glb -e 1 --min-angle 25 --max-edge 90 --effort "$effort" "${options[@]}" \
+    --report shape.json --overwrite -q
+  succeeds "$scarp" measure survey.csv shape.glb --fail-above 1 -q
+  python3 - <<'PY' || fail "shapes with $effort: $(python3 -c 'import json; print(json.load(open("shape.json"))["shape"])')"
+import json
+shape = json.load(open("shape.json"))["shape"]
+assert shape["longest_edge"] <= 90 and shape["below"] < 20, shape
+PY
+done
+refuses 1 "without a budget" "$scarp" simplify survey.csv x.glb -t 500 --min-angle 20
+
 # Outliers are dropped on request, and the judge remembers.
 { cat survey.csv; printf '500100.5,4649100.5,900\n500300.5,4649300.5,-200\n'; } >birds.csv
 succeeds "$scarp" simplify birds.csv birds.glb -e 1 --duplicates first,despike=60

@@ -9,6 +9,7 @@
 #include "session/options/strategy_options.h"
 #include "session/reports/level_report.h"
 #include "session/reports/report.h"
+#include "session/reports/shape_report.h"
 #include "session/reports/verdict.h"
 #include "session/text/json_text.h"
 #include "session/text/text.h"
@@ -127,6 +128,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   }
   add_point_measurement(report, outcome.points, outcome.simplified.measurement);
   add_solid(report, plan, outcome);
+  report["shape"] = describe_shape(plan.simplify.quality.shape, outcome.simplified);
   report["levels"] = describe_levels(plan, outcome);
   report["seconds"] = describe_seconds(outcome);
   report["outputs"] = describe_outputs(files);
@@ -163,6 +165,7 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
                   format_share(static_cast<double>(outcome.flat), static_cast<double>(outcome.triangles)));
   text += summary_line("triangles", format_count(outcome.triangles) + (outcome.points.lines.empty() ? "" : flats));
   text += solid_line(plan, outcome);
+  text += shape_line(plan.simplify.quality.shape, outcome.simplified);
   text += levels_lines(outcome);
   text += summary_line("effort", effort_name(outcome.simplified.effort));
   text += summary_line("frame", outcome.frame());

@@ -238,6 +238,7 @@ const OptionRow kLineRows[] = {
      .most = 33,
      .limit_why = "beyond that refinement hardly ever comes to an end; up to 20 degrees are proven to be possible, 30 "
                   "mostly are",
+     .is_for_points = true,
      .help = "Smallest angle of a triangle, seen from above, in degrees. The error bound, lines and outline have "
              "priority: smaller angles that they force are counted, with a warning."},
     {.id = kMaxEdge,
@@ -248,6 +249,7 @@ const OptionRow kLineRows[] = {
      .value = "LENGTH",
      .unit = "units of x and y",
      .above = 0,
+     .is_for_points = true,
      .help = "Longest edge, from above, in the mesh's units of x and y. Always kept."},
     {.id = kMinEdge,
      .name = "--min-edge",
@@ -258,6 +260,7 @@ const OptionRow kLineRows[] = {
      .unit = "units of x and y",
      .above = 0,
      .range = "above 0, at most half of --max-edge",
+     .is_for_points = true,
      .help = "Shortest edge, seen from above, in the mesh's units of x and y. All other goals have priority: shorter "
              "edges that they need are counted, with a warning."},
     {.id = kGrade,
@@ -267,6 +270,7 @@ const OptionRow kLineRows[] = {
      .type = kNumber,
      .value = "G",
      .above = 0,
+     .is_for_points = true,
      .help = "Growth of edge lengths: no edge whose far end is d from one of length s is longer than 2 (s + G d). 0.2 "
              "is moderate. Always kept."},
 

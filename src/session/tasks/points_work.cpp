@@ -10,6 +10,7 @@
 #include "session/inputs/point_features.h"
 #include "session/options/error_goal.h"
 #include "session/options/raster_options.h"
+#include "session/reports/shape_report.h"
 #include "session/table/option_table.h"
 #include "session/tasks/measure_work.h"
 #include "session/tasks/mesh_output.h"
@@ -245,6 +246,7 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
         fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
                     "cross them",
                     format_plural(outcome.loose, "piece")));
+  warn_of_shapes(plan.simplify.quality.shape, outcome.simplified, outcome.warnings);
   for (int k = 1; plan.levels && k < plan.levels->count; ++k) {
     *options.max_error *= plan.levels->ratio;
     Result<SimplifiedPoints> level = simplify_points(outcome.points, options);

@@ -1,0 +1,54 @@
+// A raster as the surface whose shapes are refined.
+#pragma once
+
+#include <optional>
+
+#include "grid/bands.h"
+#include "grid/vertex_lattice.h"
+#include "metric/lattice_metric.h"
+#include "refine/refinement.h"
+#include "shape/plan_metric.h"
+#include "shape/shape_bench.h"
+#include "shape/shape_refinement.h"
+
+namespace scarp {
+
+class RasterBench final : public ShapeBench {
+ public:
+  /// Scales `tin` to kLatticeSteps, and restores its Delaunay edges. All arguments stay alive, and `tin` is changed by
+  /// no other code.
+  RasterBench(const Raster& raster, Triangulation& tin, const VertexLattice& lattice, const ShapeTask& task,
+              const Bands& bands, PlanDelaunay& delaunay);
+
+  bool done() const override { return refinement_->done(); }
+  bool is_full() const override { return refinement_->is_full(); }
+  double worst_error() const override { return refinement_->worst_error(); }
+  void insert_worst() override;
+  bool insert(Point p, const Triangulation::Location& location) override;
+  void insert_on_edge(Point p, HalfEdge h, double share) override;
+  const std::vector<Triangle>& changed() const override { return refinement_->changed(); }
+  std::uint64_t samples_scanned() const override { return refinement_->work().samples_scanned; }
+  std::uint64_t triangles_scanned() const override { return refinement_->work().triangles_scanned; }
+  bool is_streamed() const override { return rows_.has_value(); }
+  void hold(std::size_t band) override;
+  void scan(Triangle t) override { refinement_->scan({&t, 1}); }
+
+  /// Of the vertices. Fixed are those that were, and all between samples unless `all_may_go`.
+  VertexLattice lattice(bool all_may_go) const;
+
+ private:
+  float height_between(Point p, const Triangulation::Location& location) const;
+  void remember_height();
+
+  const Bands& bands_;
+  std::optional<Band> rows_;  ///< used if the samples are not entirely in memory
+  std::optional<Band> bound_rows_;
+  SampleView samples_;
+  Triangulation& tin_;
+  LatticeHeights heights_;
+  LatticeMetric error_metric_;
+  std::vector<std::uint8_t> fixed_;  ///< the vertices fixed as given
+  std::optional<Refinement> refinement_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,39 @@
+// The surface whose shapes are refined: it knows samples, heights and the error, and refine_shapes() the plan.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/point.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+class ShapeBench {
+ public:
+  virtual ~ShapeBench() = default;
+
+  /// No sample breaks its bound.
+  virtual bool done() const = 0;
+  virtual bool is_full() const = 0;
+  virtual double worst_error() const = 0;
+  /// REQUIRES: !done().
+  virtual void insert_worst() = 0;
+  /// Inserts a vertex in a triangle or on a free edge. False where the surface has no height.
+  virtual bool insert(Point p, const Triangulation::Location& location) = 0;
+  /// Inserts a vertex on an edge or next to it, with the height at this share of the way along the edge.
+  virtual void insert_on_edge(Point p, HalfEdge h, double share) = 0;
+  /// Triangles around the vertex that was inserted last: all that this changed.
+  virtual const std::vector<Triangle>& changed() const = 0;
+  virtual std::uint64_t samples_scanned() const = 0;
+  virtual std::uint64_t triangles_scanned() const = 0;
+
+  /// Streamed samples: whether they are read in bands; reading those around a band; finding the samples of a triangle
+  /// there that break their bound.
+  virtual bool is_streamed() const { return false; }
+  virtual void hold(std::size_t /*band*/) {}
+  virtual void scan(Triangle /*t*/) {}
+};
+
+}  // namespace scarp
