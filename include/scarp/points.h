@@ -28,6 +28,10 @@ namespace scarp {
 /// REQUIRES: some points, finite.
 std::array<double, 2> local_origin(const PointSet& points);
 
+/// Appends the points and lines of another set, with its counts and warnings. Fails with kInput if the sets differ in
+/// CRS or unit, or have local frames; with kUsage for a boundary.
+Result<void> append_points(const PointSet& more, PointSet& points);
+
 /// Sorts the points along a curve through the plane, so that neighbours in the plane are neighbours in memory. For
 /// millions of points in random order, simplify_points() then needs about half of the time. Points at one place keep
 /// their order; indices in lines and the boundary are adapted. Meshes and errors do not depend on it, but the numbers

@@ -12,7 +12,7 @@ namespace scarp {
 /// New vertices between points get the height of the surface there, as float32: the bound then needs few others.
 class PointBench final : public ShapeBench {
  public:
-  /// As ScatteredRefinement.
+  /// The arguments are those of ScatteredRefinement.
   PointBench(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain, double threshold)
       : points_(points), heights_(heights), domain_(domain), refinement_(points, heights, domain, threshold) {}
 

@@ -97,7 +97,7 @@ float RasterBench::height_between(Point p, const Triangulation::Location& locati
   return static_cast<float>(height_between_samples(samples_, p));
 }
 
-/// Of the last vertex, so that its band is not read again.
+/// Keeps the height of the last vertex, so that its band is not read again.
 void RasterBench::remember_height() {
   if (!rows_) return;
   const Point p = tin_.point(static_cast<Vertex>(tin_.vertex_count() - 1));

@@ -33,7 +33,7 @@ class RasterBench final : public ShapeBench {
   void hold(std::size_t band) override;
   void scan(Triangle t) override { refinement_->scan({&t, 1}); }
 
-  /// Of the vertices. Fixed are those that were, and all between samples unless `all_may_go`.
+  /// The lattice of the vertices. Fixed are those that were, and all between samples unless `all_may_go`.
   VertexLattice lattice(bool all_may_go) const;
 
  private:

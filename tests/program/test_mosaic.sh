@@ -66,7 +66,7 @@ refuses 2 "no.tif: no such file" "$scarp" simplify tiles/a.tif no.tif p.stl -e 2
 mkdir empty
 refuses 2 "empty: the folder holds no raster" "$scarp" simplify empty p.stl -e 20
 printf '0,0,1\n1,0,2\n0,1,3\n' > points.csv
-refuses 1 "points.csv holds points: only rasters are joined" "$scarp" simplify tiles/a.tif points.csv p.stl -e 20
+refuses 1 "points.csv holds points, and a.tif is read as a raster" "$scarp" simplify tiles/a.tif points.csv p.stl -e 20
 refuses 1 "OUTPUT is required" "$scarp" simplify tiles/a.tif
 refuses 1 "tiles/c.tif is" "$scarp" simplify tiles tiles/c.tif -e 20 --overwrite
 refuses 1 "tiles/c.tif is an input file" "$scarp" simplify tiles/a.tif tiles/b.tif tiles/c.tif tiles/c.tif -e 20 --overwrite

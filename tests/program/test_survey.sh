@@ -71,6 +71,17 @@ refuses 1 "give the size of its cells with --cell-size" "$scarp" simplify survey
 refuses 1 "--cell-size is for rasters, and survey.csv holds points" "$scarp" simplify survey.csv x.glb -e 1 --cell-size 5
 refuses 1 "choose larger" "$scarp" simplify survey.csv x.tif -e 1 --cell-size 1e-9
 
+# Several files are one set of points.
+head -n 1501 survey.csv >west.csv
+{ head -n 1 survey.csv; tail -n +1502 survey.csv; } >east.csv
+succeeds "$scarp" simplify west.csv east.csv both.ply -e 1 -q
+succeeds "$scarp" simplify survey.csv whole.ply -e 1 -q
+cmp <(sed '1,/end_header/d' both.ply) <(sed '1,/end_header/d' whole.ply) || fail "two files give another mesh than one"
+succeeds "$scarp" measure west.csv east.csv both.ply --fail-above 1 -q
+echo EPSG:32631 >east.prj
+refuses 2 "east.csv has another CRS than west.csv: EPSG:32631 and none" "$scarp" simplify west.csv east.csv x.glb -e 1
+refuses 1 "rasters are joined, and so are points, but not both" "$scarp" simplify west.csv "$dem" x.glb -e 1
+
 # Shapes of triangles, also along a boundary and lines.
 for effort in fast normal high; do
   succeeds "$scarp" simplify survey.csv shape.glb -e 1 --min-angle 25 --max-edge 90 --effort "$effort" "${options[@]}" \

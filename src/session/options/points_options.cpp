@@ -109,13 +109,14 @@ Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOpti
 bool are_points_meant(const GivenOptions& given) { return is_of_points(given, given.input()); }
 
 Result<void> check_kind_of_input(const GivenOptions& given) {
-  for (const std::string& path : given.inputs()) {
-    if (given.inputs().size() > 1 && is_of_points(given, path))
-      return fail(ErrorKind::kUsage,
-                  fmt::format("{} holds points: only rasters are joined, so give it alone", shell_word(path)));
-  }
   const std::string input = shell_word(base_name(given.input()));
   const bool are_points = are_points_meant(given);
+  for (const std::string& path : given.inputs()) {
+    if (is_of_points(given, path) == are_points) continue;
+    const auto name = [](bool is_of_points) { return is_of_points ? "holds points" : "is read as a raster"; };
+    return fail(ErrorKind::kUsage, fmt::format("{} {}, and {} {}: rasters are joined, and so are points, but not both",
+                                               shell_word(path), name(!are_points), input, name(are_points)));
+  }
   if (const Given& errors = given[kErrorRaster]; errors && errors->ends_with(".csv") != are_points)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} {}: {} {}", kErrorRaster, shell_word(*errors), input,

@@ -139,7 +139,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
 std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files) {
   const Measurement& measured = outcome.simplified.measurement;
   const HeightRange heights = height_range(outcome.points);
-  std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
+  std::string text = fmt::format("{} -> {}\n", base_name(outcome.points.path), plan.output);
   text += summary_line(
       "points", fmt::format("{}{}, heights {} to {}", format_count(outcome.points.size()), left_out(outcome.points),
                             format_number(heights.min), format_number(heights.max)));

@@ -25,7 +25,7 @@ const OptionRow kFileRows[] = {
      .is_repeatable = true,
      .is_required = true,
      .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
-             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points.",
+             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points; several become one set.",
      .brief = "Raster of heights, several for a mosaic, or scattered points"},
     {.id = kPlan,
      .name = "PLAN",

@@ -35,6 +35,12 @@ Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const Pr
   SCARP_TRY(auto&& options, parse_points(given, as));
   options.progress = progress;
   SCARP_TRY(PointSet points, read_points(given.input(), options));
+  const std::size_t files = given.inputs().size();
+  for (std::size_t k = 1; k < files; ++k) {
+    SCARP_TRY(const PointSet& more, read_points(given.inputs()[k], options));
+    SCARP_RETURN_IF_ERROR(append_points(more, points));
+  }
+  if (files > 1) points.path += fmt::format(" and {} more", files - 1);
   sort_points(points);
   SCARP_TRY(const auto& despike, given.number(kDespike));
   SCARP_TRY(const int threads, given.threads());
