@@ -402,6 +402,7 @@ struct PointSet {
   std::string columns;               ///< one line for reports: the use of each column, or the origin of the heights
   std::uint64_t without_height = 0;  ///< number of points omitted by ReadPointsOptions::nodata
   std::uint64_t spikes = 0;          ///< number of points omitted by drop_spikes()
+  std::uint64_t outside = 0;         ///< number of points omitted by ReadPointsOptions::extent
   bool is_geographic = false;        ///< for lent points: x and y are degrees, without a CRS known to GDAL
   std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 

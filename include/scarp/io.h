@@ -407,12 +407,15 @@ struct ReadPointsOptions {
   /// kLocal, for points without `crs`: x and y in units other than metres become local metres. x and y in metres do not
   /// change; the caller moves them to local_origin(). For `heights_in` both frames are local.
   DefaultFrame default_frame = DefaultFrame::kMetric;
+  /// xmin, ymin, xmax, ymax in the file's own coordinates: only the points in this rectangle, its sides included. Of a
+  /// COPC file only the parts that it needs are read. kUsage with lines. DEFAULT: all points.
+  std::optional<std::array<double, 4>> extent = std::nullopt;
   PointChoice choice = {};  ///< kUsage for files of other formats, unless it is the default
   int threads = 0;          ///< for LAS and LAZ; 0: all cores. Never changes the points. DEFAULT: 0.
 };
 
 /// Reads points from text with columns (CSV, XYZ) and from LAS and LAZ (versions 1.0 to 1.4, point formats 0 to 10,
-/// COPC as LAZ) by Scarp's own readers, and from all else (GeoPackage, GeoJSON, Shapefile, …) by GDAL. Columns are
+/// COPC) by Scarp's own readers, and from all else (GeoPackage, GeoJSON, Shapefile, …) by GDAL. Columns are
 /// separated by commas, semicolons, tabs or blanks; decimal commas are read unless commas separate. A header line names
 /// the columns; else the first three, after a column of consecutive numbers if any, are x, y, z. Lines that begin with
 /// #, % or // are comments. If neither header nor values identify the northing, the call fails and names `columns`. The

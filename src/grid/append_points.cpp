@@ -59,6 +59,7 @@ Result<void> append_points(const PointSet& more, PointSet& points) {
   }
   points.without_height += more.without_height;
   points.spikes += more.spikes;
+  points.outside += more.outside;
   if (points.las && more.las) add_facts(*more.las, *points.las);
   for (const std::string& warning : more.warnings) {
     if (std::find(points.warnings.begin(), points.warnings.end(), warning) == points.warnings.end())

@@ -94,6 +94,7 @@ Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name,
   if (options.nodata) {
     SCARP_RETURN_IF_ERROR(leave_out_nodata(*options.nodata, points));
   }
+  SCARP_RETURN_IF_ERROR(crop(options, points));
   SCARP_TRY(const auto& vertical, place_lent_points(options, points));
   SCARP_RETURN_IF_ERROR(settle_point_heights(options, vertical, points));
   return points;

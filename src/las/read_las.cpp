@@ -31,17 +31,23 @@ class Chooser {
 
   void add(std::span<const LasPoint> points, Points& into) const {
     for (const LasPoint& point : points) {
-      std::uint64_t& count = reason(point, into.tally);
+      const double x = axes_[0](point.x), y = axes_[1](point.y);
+      std::uint64_t& count = is_outside(x, y) ? into.tally.outside : reason(point, into.tally);
       ++count;
       if (&count != &into.tally.used) continue;
-      into.x.push_back(axes_[0](point.x));
-      into.y.push_back(axes_[1](point.y));
+      into.x.push_back(x);
+      into.y.push_back(y);
       into.z.push_back(axes_[2](point.z));
     }
   }
 
  private:
-  /// The count to which the point belongs.
+  bool is_outside(double x, double y) const {
+    if (!selection_.extent) return false;
+    const auto& [west, south, east, north] = *selection_.extent;
+    return !(x >= west && x <= east && y >= south && y <= north);
+  }
+  /// The count to which a point inside belongs.
   std::uint64_t& reason(const LasPoint& point, Tally& tally) const {
     if (point.is_withheld && !selection_.has_withheld) return tally.withheld;
     ++tally.classes[point.number];
@@ -114,7 +120,12 @@ struct Worker {
 class PointReader {
  public:
   PointReader(const Source& source, const Header& header, const Selection& selection, const Run& run)
-      : source_(source), header_(header), chooser_(header, selection), run_(run), reporter_(run.progress) {}
+      : source_(source),
+        header_(header),
+        selection_(selection),
+        chooser_(header, selection),
+        run_(run),
+        reporter_(run.progress) {}
 
   Result<Points> read() {
     if (header_.laz) {
@@ -122,6 +133,7 @@ class PointReader {
     } else {
       chunks_ = cut_records(header_);
     }
+    if (selection_.extent) leave_out_chunks(find_chunks_outside(source_, header_, *selection_.extent));
     std::uint64_t bytes = 0;
     for (const LazChunk& chunk : chunks_) bytes += chunk.bytes;
     reserve(header_.points, bytes, points_);
@@ -140,6 +152,14 @@ class PointReader {
     Points points;
     std::string fault;
   };
+
+  void leave_out_chunks(const std::unordered_set<std::uint64_t>& offsets) {
+    std::erase_if(chunks_, [&](const LazChunk& chunk) {
+      if (!offsets.contains(chunk.offset)) return false;
+      points_.tally.outside += chunk.points;
+      return true;
+    });
+  }
 
   /// Only as many as bytes: points in fewer than a byte each are rare, and the number of points may be a lie.
   static void reserve(std::uint64_t count, std::uint64_t bytes, Points& points) {
@@ -186,6 +206,7 @@ class PointReader {
 
   const Source& source_;
   const Header& header_;
+  const Selection& selection_;
   Chooser chooser_;
   const Run& run_;
   Reporter reporter_;
@@ -201,6 +222,7 @@ class PointReader {
 
 void Tally::add(const Tally& other) {
   for (std::size_t k = 0; k < classes.size(); ++k) classes[k] += other.classes[k];
+  outside += other.outside;
   withheld += other.withheld;
   other_classes += other.other_classes;
   overlap += other.overlap;

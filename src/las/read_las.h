@@ -4,9 +4,11 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "las/bytes.h"
+#include "las/copc.h"
 #include "las/header.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
@@ -19,12 +21,13 @@ struct Selection {
   std::bitset<256> classes = std::bitset<256>().set();
   Returns returns = Returns::kAll;
   bool has_overlap = true, has_withheld = false;
+  std::optional<Extent> extent = std::nullopt;
 };
 
 /// Every point of the file counts once: as used, or by the first reason that omits it, in this order.
 struct Tally {
-  std::array<std::uint64_t, 256> classes{};  ///< all points but those withheld, used or not
-  std::uint64_t withheld = 0, other_classes = 0, overlap = 0, other_returns = 0, used = 0;
+  std::array<std::uint64_t, 256> classes{};  ///< all points but those outside or withheld, used or not
+  std::uint64_t outside = 0, withheld = 0, other_classes = 0, overlap = 0, other_returns = 0, used = 0;
 
   void add(const Tally& other);
 };

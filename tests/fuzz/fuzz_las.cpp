@@ -36,6 +36,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Selection selection;
   selection.returns = static_cast<Returns>(size % 4);
   selection.has_withheld = size % 3 == 0;
+  if (size % 2 == 0) {
+    const auto &a = header->least, &b = header->most;
+    selection.extent = {a[0], a[1], a[0] + (b[0] - a[0]) / 3, a[1] + (b[1] - a[1]) / 2};
+  }
   scarp::Run run;
   run.threads = 1;
   const auto points = read_points(source, *header, selection, run);
@@ -46,7 +50,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Tally& tally = points->tally;
   require(tally.used == points->x.size() && points->y.size() == points->x.size() &&
           points->z.size() == points->x.size());
-  require(tally.used + tally.withheld + tally.other_classes + tally.overlap + tally.other_returns == header->points);
+  require(tally.used + tally.outside + tally.withheld + tally.other_classes + tally.overlap + tally.other_returns ==
+          header->points);
   require(std::all_of(points->x.begin(), points->x.end(), [](double x) { return std::isfinite(x); }));
   run.threads = 2;
   const auto again = read_points(source, *header, selection, run);

@@ -82,6 +82,12 @@ echo EPSG:32631 >east.prj
 refuses 2 "east.csv has another CRS than west.csv: EPSG:32631 and none" "$scarp" simplify west.csv east.csv x.glb -e 1
 refuses 1 "rasters are joined, and so are points, but not both" "$scarp" simplify west.csv "$dem" x.glb -e 1
 
+# A rectangle of the points, which the judge remembers.
+succeeds "$scarp" simplify survey.csv part.glb -e 1 --te 500100 4649100 500600 4649500
+grep -q ' outside the rectangle left out' "$logs/out" || fail "the summary of a rectangle: $(cat "$logs/out")"
+succeeds "$scarp" measure survey.csv part.glb --fail-above 1 -q
+refuses 2 "none of its 4000 points lies in the rectangle of --te" "$scarp" simplify survey.csv x.glb -e 1 --te 0 0 1 1
+
 # Shapes of triangles, also along a boundary and lines.
 for effort in fast normal high; do
   succeeds "$scarp" simplify survey.csv shape.glb -e 1 --min-angle 25 --max-edge 90 --effort "$effort" "${options[@]}" \

@@ -459,6 +459,39 @@ TEST(LasShared, copc_has_the_points_of_its_laz) {
     return all;
   };
   EXPECT_EQ(sorted(*laz), sorted(*copc));
+
+  // Its octree excludes chunks, and no point of a rectangle.
+  const Bytes bytes = bytes_of(folder + "pdal_lone-star.copc.laz");
+  std::uint64_t read_bytes = 0;
+  const auto read = [&](std::uint64_t offset, std::span<std::uint8_t> into) {
+    read_bytes += into.size();
+    std::copy_n(bytes.data() + offset, into.size(), into.begin());
+    return true;
+  };
+  const las::Source source{"copc.laz", bytes.size(), read};
+  const auto header = las::read_header(source);
+  ASSERT_TRUE(header);
+  for (const double side : {1.0, 7.5, 30.0}) {
+    for (const double at : {0.0, 3.3, 14.7}) {
+      las::Selection selection;
+      selection.extent = {header->least[0] + at, header->least[1] + at, header->least[0] + at + side,
+                          header->least[1] + at + side};
+      const auto is_inside = [&](double x, double y) {
+        const auto& [west, south, east, north] = *selection.extent;
+        return x >= west && x <= east && y >= south && y <= north;
+      };
+      std::size_t expected = 0;
+      for (std::size_t k = 0; k < copc->x.size(); ++k) expected += is_inside(copc->x[k], copc->y[k]);
+      read_bytes = 0;
+      const auto part = las::read_points(source, *header, selection, {.threads = 1});
+      ASSERT_TRUE(part);
+      EXPECT_EQ(part->x.size(), expected);
+      EXPECT_EQ(part->tally.used + part->tally.outside + part->tally.withheld, copc->x.size() + copc->tally.withheld);
+      if (side == 1.0) {
+        EXPECT_LT(read_bytes, bytes.size() / 3);
+      }
+    }
+  }
 }
 
 }  // namespace

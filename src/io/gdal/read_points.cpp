@@ -401,6 +401,7 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
                                   ? fmt::format("1 line of {} is a single point, and counts as one", path)
                                   : fmt::format("{} lines of {} are a single point each, and count as points",
                                                 collector.without_extent(), path));
+  SCARP_RETURN_IF_ERROR(crop(options, points));
   const Crs crs = layer_crs(layer);
   SCARP_RETURN_IF_ERROR(place(crs, options, points));
   const SpaceCrs in_space = space_crs_of(declared_layer_crs(layer));

@@ -173,13 +173,16 @@ Result<PointSet> read_selected(const las::Source& source, const las::Header& hea
   points.path = source.name;
   points.format = header.laz ? "LAZ" : "LAS";
   if (header.points == 0) return fail(ErrorKind::kInput, source.name + ": holds no points");
-  const las::Selection selection = selection_of(options.choice);
+  las::Selection selection = selection_of(options.choice);
+  selection.extent = options.extent;
   SCARP_TRY(auto&& read,
             las::read_points(source, header, selection, {.threads = options.threads, .progress = options.progress}));
   points.x = std::move(read.x);
   points.y = std::move(read.y);
   points.z = std::move(read.z);
   points.las = facts_of(header, read.tally);
+  points.outside = read.tally.outside;
+  if (points.size() == 0 && points.outside == header.points) return refuse_empty_extent(points);
   if (points.size() == 0)
     return fail(ErrorKind::kInput, fmt::format("{}: none of its {} points is left: {}", source.name, header.points,
                                                describe_rest(*points.las)));

@@ -39,6 +39,31 @@ Result<void> leave_out_nodata(double nodata, PointSet& points) {
   return fail(ErrorKind::kInput, points.path + ": no point has a height other than that of --nodata");
 }
 
+tl::unexpected<Error> refuse_empty_extent(const PointSet& points) {
+  return fail(ErrorKind::kInput, fmt::format("{}: none of its {} points lies in the rectangle of --te, which is in the "
+                                             "coordinates of the file",
+                                             points.path, points.outside));
+}
+
+Result<void> crop(const ReadPointsOptions& options, PointSet& points) {
+  if (!options.extent) return {};
+  if (!points.lines.empty())
+    return fail(ErrorKind::kUsage,
+                points.path + ": --te cannot be combined with lines: cut them to a boundary instead");
+  const auto& [west, south, east, north] = *options.extent;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!(points.x[k] >= west && points.x[k] <= east && points.y[k] >= south && points.y[k] <= north)) continue;
+    points.x[kept] = points.x[k];
+    points.y[kept] = points.y[k];
+    points.z[kept++] = points.z[k];
+  }
+  points.outside = points.size() - kept;
+  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(kept);
+  if (kept == 0) return refuse_empty_extent(points);
+  return {};
+}
+
 bool becomes_local(const ReadPointsOptions& options, double unit_in_metres) {
   return options.crs.empty() && options.default_frame == DefaultFrame::kLocal && unit_in_metres != 0 &&
          unit_in_metres != 1;

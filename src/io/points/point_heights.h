@@ -22,6 +22,9 @@ void make_local_metres(const std::array<double, 2>& metres, const std::string& w
 
 /// Removes points of that height, and those whose height is not finite. Fails if none is left.
 Result<void> leave_out_nodata(double nodata, PointSet& points);
+/// Omits and counts the points outside ReadPointsOptions::extent. REQUIRES: x and y as in the file.
+Result<void> crop(const ReadPointsOptions& options, PointSet& points);
+tl::unexpected<Error> refuse_empty_extent(const PointSet& points);
 
 /// The command that gives the file of the points a CRS.
 std::string crs_command(const PointSet& points, const std::string& crs);

@@ -220,6 +220,7 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
   if (points.size() == 0 && points.without_height == 0)
     return fail(ErrorKind::kInput, name + ": the file holds a header line and no points");
   if (points.size() == 0) return fail(ErrorKind::kInput, name + ": no point has a height other than that of --nodata");
+  SCARP_RETURN_IF_ERROR(crop(options, points));
   points.warnings = std::move(columns.warnings);
   points.columns = columns.words;
   take_units_of(columns, points);

@@ -102,6 +102,7 @@ Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOpti
                            .z_unit = as.z_unit,
                            .heights_in = as.heights_in,
                            .default_frame = as.default_frame,
+                           .extent = as.view.extent,
                            .choice = choice,
                            .threads = threads};
 }

@@ -29,7 +29,7 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
             {"lines", points.lines.size()}, {"duplicates", duplicates},  {"duplicate_policy", policy_name(policy)},
             {"min", heights.min},           {"max", heights.max},        {"crs", points.crs},
             {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height},
-            {"spikes", points.spikes}};
+            {"spikes", points.spikes},      {"outside", points.outside}};
   if (points.las) json["las"] = describe_las(*points.las);
   return json;
 }
@@ -54,6 +54,7 @@ std::string left_out(const PointSet& points) {
   };
   add(points.without_height, "without a height");
   add(points.spikes, "as outliers");
+  add(points.outside, "outside the rectangle");
   if (points.las) {
     add(points.las->withheld, "withheld");
     add(points.las->of_other_classes, "of other classes");

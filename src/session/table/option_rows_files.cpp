@@ -184,7 +184,9 @@ const OptionRow kFileRows[] = {
      .type = kNumber,
      .value = "XMIN YMIN XMAX YMAX",
      .unit = "units of the raster's CRS",
-     .help = "Read only the cells that overlap this rectangle, in the coordinates of the raster's CRS."},
+     .is_for_points = true,
+     .help = "Read only the cells that overlap this rectangle, in the coordinates of the raster's CRS. Of points those "
+             "inside."},
     {.id = kResolution,
      .name = "--resolution",
      .commands = kSimplify | kMeasure | kView | kInfo | kTile | kTilePlan | kTileCheck | kServe,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -80,6 +81,10 @@ Result<ReadOptions> remember_reading(const GivenOptions& given, const Mesh& mesh
   if (!given.has(kCrs) && asked[kCrs] == "local" && way_to_source(mesh)) asked.set(kCrs, "source");
   if (!given.has(kNodata)) asked.set(kNodata, find("nodata"));
   SCARP_TRY(auto&& options, parse_reading(asked));
+  const Json extent = Json::parse(find("te").value_or("null"), nullptr, false);
+  if (!options.view.extent && extent.is_array() && extent.size() == 4 &&
+      std::all_of(extent.begin(), extent.end(), [](const Json& side) { return side.is_number(); }))
+    options.view.extent = extent.get<std::array<double, 4>>();
   options.heights_in = find("unit") == Given("m") ? HeightsIn::kMetres : heights_in(path);
   options.default_frame = default_frame(path) == DefaultFrame::kLocal ? DefaultFrame::kLocal : DefaultFrame::kMetric;
   return options;
@@ -111,6 +116,7 @@ void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
   for (const auto& [option, key] : kRemembered) {
     if (plan.given.has(option)) mesh.metadata[key] = *plan.given[option];
   }
+  if (plan.read.view.extent) mesh.metadata["te"] = Json(*plan.read.view.extent).dump();
   if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
   const RasterInfo& heights = outcome.points.heights;
   if (heights.z_scale != 1) mesh.metadata["z_scale"] = Json(heights.z_scale).dump();
