@@ -47,6 +47,19 @@ class Points(unittest.TestCase):
         with self.assertRaisesRegex(kind, words):
             call()
 
+    def test_shapes_outliers_and_rectangles(self):
+        random = np.random.default_rng(1)
+        points = np.c_[random.random(2000) * 1000, random.random(2000) * 800, np.zeros(2000)]
+        points[:, 2] = 300 + 40 * np.sin(points[:, 0] / 90) * np.cos(points[:, 1] / 70)
+        points[5, 2] = 900
+        mesh = scarp.simplify_points(points, 1, max_edge=60, despike=60)
+        self.assertEqual(mesh.report.samples, 1999)
+        corners = mesh.vertices[mesh.triangles][:, :, :2]
+        self.assertLessEqual(np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), 2, 0)).max(), 60)
+        self.assertLess(scarp.measure(points, mesh).max_error, 1)
+        with self.assertWarnsRegex(scarp.ScarpWarning, "min_angle 33: smaller angles are left"):
+            scarp.simplify_points(points, 1, min_angle=33)
+
     def test_degrees_become_metres_as_in_the_program(self):
         points = survey()
         mesh = scarp.simplify_points(points, 5, crs=4326)
