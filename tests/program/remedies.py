@@ -18,7 +18,7 @@ import sys
 from remedies_table import BASE, NOT_RUN, ROWS
 
 scarp, source, examples = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-PROGRAMS = r"gdal_\w+(?:\.py)?|gdalwarp|gdalbuildvrt|ogr2ogr|xmllint|pdal|printf|gunzip|bunzip2|unxz|unzstd|7z|unrar|tar|git lfs"
+PROGRAMS = r"gdal_\w+(?:\.py)?|gdalwarp|gdalbuildvrt|ogr2ogr|xmllint|pdal|printf|echo|gunzip|bunzip2|unxz|unzstd|7z|unrar|tar|git lfs"
 COMMAND = re.compile(rf"\(((?:{PROGRAMS}|scarp) [^()]*)\)|'(scarp [^']*)'|(?:[:,]|as in) (scarp (?:simplify|measure|view|tile) [^(;:,]*)|"
                      rf"\b((?:{PROGRAMS}) -[^()]*?) (?:makes|gives)")
 root = pathlib.Path.cwd()
@@ -58,7 +58,7 @@ def replaced(command):
         return words[-3], words[-1]
     if words[0] == "gdal_grid":
         return shlex.split(command.split("&&")[0])[-1].removeprefix("CSV:"), words[-1]
-    if words[0] in ("printf", "scarp"):  # these change nothing, or the file itself
+    if words[0] in ("printf", "echo", "scarp"):  # these change nothing, or a file of that name
         return None, None
     return words[-2], words[-1]
 

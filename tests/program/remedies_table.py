@@ -208,9 +208,9 @@ O("several rasters", "scarp simplify two.nc o.glb -e 20", "name one of them: .*:
 # Points and lines.
 C("degrees in CSV", "scarp simplify degrees.csv o.glb -e 5")
 C("degrees in CSV with ;", "scarp simplify d.csv o.glb -e 5", "sed 's/,/;/g' degrees.csv > d.csv")
-C("degrees in XYZ", "scarp simplify d.xyz o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv | tr , ' ' > d.xyz")
-C("degrees in TXT with blanks", "scarp simplify d.txt o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv | sed 's/,/   /g' > d.txt")
-C("degrees without header", "scarp simplify d.csv o.glb -e 5 --columns enz", then="scarp simplify NEW.gpkg o.glb -e 5", make="sed 1d degrees.csv > d.csv")
+C("degrees in XYZ", "scarp simplify d.xyz o.glb -e 5 --columns enz", make="sed 1d degrees.csv | tr , ' ' > d.xyz")
+C("degrees in TXT with blanks", "scarp simplify d.txt o.glb -e 5 --columns enz", make="sed 1d degrees.csv | sed 's/,/   /g' > d.txt")
+C("degrees without header", "scarp simplify d.csv o.glb -e 5 --columns enz", make="sed 1d degrees.csv > d.csv")
 C("heights in feet without a CRS", "scarp simplify p.csv o.glb -e 1", "sed 1s/z/elev_ft/ plain.csv > p.csv", {"EPSG:CODE": "EPSG:32632"},
   says="stay as they are, while heights become metres")
 C("CSV and --crs", "scarp simplify plain.csv o.glb -e 1 --crs EPSG:32633", "", {"EPSG:CODE": "EPSG:32632"})
