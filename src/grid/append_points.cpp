@@ -44,7 +44,8 @@ Result<void> append_points(const PointSet& more, PointSet& points) {
                                                "both, such as EPSG:32633, or give them in one file",
                                                points.path, more.path));
   if (more.crs != points.crs)
-    return differ("CRS", more.crs, points.crs, "name one CRS for both, or declare the CRS of each");
+    return differ("CRS", more.crs, points.crs,
+                  more.crs.empty() || points.crs.empty() ? "declare the CRS of both" : "name one CRS for both");
   if (more.heights.unit != points.heights.unit || more.heights.z_scale != points.heights.z_scale)
     return differ("unit of heights", more.heights.unit, points.heights.unit, "name the unit of both");
   if (!more.boundary.empty() || !points.boundary.empty())

@@ -251,11 +251,15 @@ void ScatteredRefinement::deal(Vertex v) {
       const std::uint32_t next = next_[point];
       if (point != inserted) {
         const Point p = points_.at[point];
-        for (; !wedge->holds(p); wedge = wedge + 1 == end ? wedges_.data() : wedge + 1) {
+        std::size_t turns = 0;
+        for (; turns < wedges_.size() && !wedge->holds(p); ++turns)
+          wedge = wedge + 1 == end ? wedges_.data() : wedge + 1;
+        // A free vertex on the boundary may bend it by a step. The judge decides whether a point beyond is near enough.
+        if (turns < wedges_.size()) {
+          next_[point] = first_[wedge->triangle];
+          first_[wedge->triangle] = point;
+          wedge->offer(std::abs(wedge->plane.height_at(p) - points_.z[point]), p, point);
         }
-        next_[point] = first_[wedge->triangle];
-        first_[wedge->triangle] = point;
-        wedge->offer(std::abs(wedge->plane.height_at(p) - points_.z[point]), p, point);
         ++scanned_;
       }
       point = next;

@@ -364,6 +364,11 @@ class PointRun {
   }
   std::string advice(const Measurement& m) const {
     const std::string far = describe_far_points(points_);
+    if (goals().any())
+      return ": some points are nearly on one line, which leaves no room for triangles of that shape; omit the goals "
+             "for "
+             "angles and edges, or remove the points at that line" +
+             (far.empty() ? "" : "; " + far);
     const std::string larger = m.is_sound() && m.uncovered == 0
                                    ? fmt::format("ask for at least {:.2g}", round_up(m.max_error))
                                    : std::string("ask for a larger error");

@@ -349,6 +349,11 @@ Result<void> place(const Crs& crs, const ReadPointsOptions& options, PointSet& p
     return fail(ErrorKind::kUsage, points.path + ": scattered points have no grid: ask for 'source' or 'local'");
   points.crs = crs_name(crs);
   points.description = crs ? fmt::format("coordinates in {}", short_name(crs)) : "the points' own coordinates (no CRS)";
+  if (crs && (OSRIsGeocentric(crs.get()) != 0 || OSRIsVertical(crs.get()) != 0))
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: its CRS, {}, is not one of positions on a map: declare that of x and "
+                            "y, such as EPSG:32633",
+                            points.path, short_name(crs)));
   const bool is_geographic = crs && OSRIsGeographic(crs.get()) != 0;
   if (crs && !is_geographic) {
     char* name = nullptr;  // owned by the CRS

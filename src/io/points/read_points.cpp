@@ -107,7 +107,8 @@ bool is_las(const std::string& path) {
 /// The CRS of survey.csv that survey.prj declares; empty without such a file.
 Result<std::string> read_declared_crs(const std::string& path) {
   std::error_code ignored;
-  const std::string file = projection_path(path);
+  std::string file = projection_path(path);
+  if (!fs::exists(file, ignored)) file = fs::path(path).replace_extension(".PRJ").string();
   if (!fs::is_regular_file(path, ignored) || !fs::is_regular_file(file, ignored)) return std::string();
   SCARP_TRY(const auto& bytes, read_file(file));
   std::string text(bytes.begin(), bytes.end());

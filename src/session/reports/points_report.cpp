@@ -36,13 +36,17 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
 
 Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
 
+/// x and y of a point; null for none, which is negative.
+Json place_of(const PointSet& points, std::int64_t point) {
+  if (point < 0) return nullptr;
+  const auto i = static_cast<std::size_t>(point);
+  return Json::array({points.x[i], points.y[i]});
+}
+
 void add_point_measurement(Json& report, const PointSet& points, const Measurement& measured) {
   add_errors(report, measured, 0);
   add_coverage(report, measured);
-  Json at = nullptr;
-  if (const auto i = static_cast<std::size_t>(measured.max_error_at[0]); measured.max_error_at[0] >= 0)
-    at = Json::array({points.x[i], points.y[i]});
-  report["max_error_at"] = at;
+  report["max_error_at"] = place_of(points, measured.max_error_at[0]);
 }
 
 }  // namespace
@@ -131,6 +135,9 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   add_solid(report, plan, outcome);
   report["shape"] = describe_shape(plan.simplify.quality.shape, outcome.simplified);
   report["levels"] = describe_levels(plan, outcome);
+  for (Json& level : report["levels"]) {
+    level["max_error_at"] = place_of(outcome.points, level["max_error_at"][0].get<std::int64_t>());
+  }
   report["seconds"] = describe_seconds(outcome);
   report["outputs"] = describe_outputs(files);
   report["warnings"] = outcome.warnings;

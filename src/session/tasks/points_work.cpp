@@ -46,6 +46,11 @@ Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const Pr
   SCARP_TRY(const auto& despike, given.number(kDespike));
   SCARP_TRY(const int threads, given.threads());
   if (despike) drop_spikes(*despike, threads, points);
+  if (points.size() == 0)
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{}: {} {} omits all {} points: each differs by more from its neighbours; choose a larger one",
+                    points.path, kDespike, *given[kDespike], points.spikes));
   return points;
 }
 
