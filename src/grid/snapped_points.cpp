@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/curve.h"
+#include "base/sort.h"
 #include "base/sort_by_key.h"
 #include "grid/far_points.h"
 
@@ -160,7 +161,7 @@ bool are_at_one_place(const PointSet& points, std::uint32_t a, std::uint32_t b) 
 
 /// Sorts by place, and by input order at each.
 void sort_by_place(const PointSet& points, std::span<Keyed> among) {
-  std::sort(among.begin(), among.end(), [&](const Keyed& a, const Keyed& b) {
+  sort_rarely(among, [&](const Keyed& a, const Keyed& b) {
     const auto place = [&](const Keyed& k) { return std::tuple(points.x[k.point], points.y[k.point], k.point); };
     return place(a) < place(b);
   });

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/sort.h"
+
 namespace scarp::judge {
 namespace {
 
@@ -97,8 +99,7 @@ std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapp
     const std::uint32_t source = snapped.source[i];
     return Spot{points.x[source] - mesh.origin[0], points.y[source] - mesh.origin[1]};
   });
-  std::sort(spots.begin(), spots.end(),
-            [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  sort_rarely(spots, [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   const auto lower = chain_of(spots, 1), upper = chain_of(spots, -1);
   return count_edges(mesh, open, tolerance,
                      [&](const Spot& beside) { return depth(lower, 1, beside) > 0 && depth(upper, -1, beside) > 0; });

@@ -81,5 +81,5 @@ succeeds "$scarp" simplify dem.tif lines.obj -e 20 --contours-out some.geojson -
 count=$(ogr2ogr -f CSV /vsistdout/ some.geojson -select elev | tail -n +2 | sort -u | wc -l)
 holds "$count > 8 && $count <= 20"
 refuses 1 "--contours-out interval 0 is not above 0" "$scarp" simplify dem.tif x.obj -e 20 --contours-out x.geojson,interval=0
-refuses 1 "--contours-out is for rasters" "$scarp" simplify contours.gpkg x.obj -e 20 --contours-out x.geojson
+succeeds "$scarp" simplify contours.gpkg again.obj -e 20 --contours-out again.geojson,interval=100
 echo "contours are simplified, judged, drawn and refused"
