@@ -33,17 +33,16 @@ std::array<double, 2> local_origin(const PointSet& points);
 Result<void> append_points(const PointSet& more, PointSet& points);
 
 /// Sorts the points along a curve through the plane, so that neighbours in the plane are neighbours in memory. For
-/// millions of points in random order, simplify_points() then needs about two thirds of the time. Points at one place keep
-/// their order; indices in lines and the boundary are adapted. Meshes and errors do not depend on it, but the numbers
-/// of points in messages do. A set with a coordinate that is not finite stays as
-/// it is. REQUIRES: fewer than 2^32 points. Cost: O(n), with 32 bytes a point while it runs.
+/// millions of points in random order, simplify_points() then needs about two thirds of the time. Points at one place
+/// keep their order; indices in lines and the boundary are adapted. Meshes and errors do not depend on it. A set with a
+/// coordinate that is not finite stays as it is. REQUIRES: fewer than 2^32 points. Cost: O(n), with 32 bytes a point
+/// while it runs.
 void sort_points(PointSet& points);
 
 /// Drops outliers such as birds and reflections in lidar: points whose height differs by more than `most` from all, or
-/// all but one, of their 8 nearest neighbours (ties: the first). Points of lines stay, as does
-/// a set with a coordinate that is not finite. Adds them to PointSet::spikes, and returns their number. REQUIRES:
-/// most >= 0, no boundary yet. Cost: expected O(n) for
-/// points of even density.
+/// all but one, of their 8 nearest neighbours (ties: the first). Points of lines stay, as does a set with a coordinate
+/// that is not finite. Adds the outliers to PointSet::spikes, and returns their number. REQUIRES: most >= 0, no
+/// boundary yet. Cost: expected O(n) for points of even density.
 std::uint64_t drop_spikes(double most, int threads, PointSet& points);
 
 struct SimplifiedPoints {
@@ -135,7 +134,7 @@ struct PointOptions {
 /// one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to each other than
 /// about 2^-30 of the extent, which are named, as is the far point that makes the extent so large), with kPromise where
 /// float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points, with boundary_length
-/// O(n log n); some 60 to 90 bytes a point in addition to the points themselves.
+/// O(n log n); some 50 to 60 bytes a point in addition to the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 }  // namespace scarp

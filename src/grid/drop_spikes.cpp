@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "grid/keep_points.h"
 #include "scarp/points.h"
 
 namespace scarp {
@@ -95,10 +96,7 @@ class Buckets {
 }  // namespace
 
 std::uint64_t drop_spikes(double most, int threads, PointSet& points) {
-  const auto are_finite = [](const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-  };
-  if (points.size() == 0 || !are_finite(points.x) || !are_finite(points.y)) return 0;
+  if (points.size() == 0 || !has_finite_places(points)) return 0;
   std::vector<std::uint8_t> stays(points.size(), 1);
   for (const PointLine& line : points.lines) {
     for (const std::uint32_t point : line.points) stays[point] = 2;
@@ -109,20 +107,9 @@ std::uint64_t drop_spikes(double most, int threads, PointSet& points) {
       if (stays[i] == 1 && buckets.is_spike(static_cast<std::uint32_t>(i), most)) stays[i] = 0;
     }
   });
-  std::vector<std::uint32_t> place(points.size());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    place[i] = static_cast<std::uint32_t>(kept);
-    if (stays[i] == 0) continue;
-    points.x[kept] = points.x[i];
-    points.y[kept] = points.y[i];
-    points.z[kept++] = points.z[i];
-  }
-  const std::uint64_t dropped = points.size() - kept;
-  for (std::vector<double>* values : {&points.x, &points.y, &points.z}) values->resize(kept);
-  for (PointLine& line : points.lines) {
-    for (std::uint32_t& point : line.points) point = place[point];
-  }
+  const std::size_t given = points.size();
+  keep_points(points, [&](std::size_t i) { return stays[i] != 0; });
+  const std::uint64_t dropped = given - points.size();
   points.spikes += dropped;
   return dropped;
 }

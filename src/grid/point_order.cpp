@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "base/curve.h"
-#include "base/sort_by_key.h"
+#include "base/radix_sort.h"
+#include "grid/keep_points.h"
 #include "scarp/points.h"
 
 namespace scarp {
@@ -44,15 +45,12 @@ void permute(const std::vector<Placed>& order, std::vector<double>& values) {
 }  // namespace
 
 void sort_points(PointSet& points) {
-  const auto are_finite = [](const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-  };
-  if (points.size() == 0 || !are_finite(points.x) || !are_finite(points.y)) return;
+  if (points.size() == 0 || !has_finite_places(points)) return;
   std::vector<Placed> order;
   order.reserve(points.size());
   const Steps x(points.x), y(points.y);
   for (std::uint32_t i = 0; i < points.size(); ++i) order.push_back({curve_place(x(points.x[i]), y(points.y[i])), i});
-  sort_by_key(order, [](const Placed& k) { return k.key; });
+  radix_sort(order, [](const Placed& k) { return k.key; });
   for (std::vector<double>* values : {&points.x, &points.y, &points.z}) permute(order, *values);
   if (points.lines.empty() && points.boundary.empty()) return;
   std::vector<std::uint32_t> place(order.size());

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/curve.h"
+#include "base/radix_sort.h"
 #include "base/sort.h"
-#include "base/sort_by_key.h"
 #include "grid/far_points.h"
 
 namespace scarp {
@@ -266,7 +266,7 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
     keys.push_back(
         {curve_place(static_cast<std::uint64_t>(snapped.at[i].x), static_cast<std::uint64_t>(snapped.at[i].y)), i});
   snapped.at = {};
-  sort_by_key(keys, [](const Keyed& k) { return k.key; });
+  radix_sort(keys, [](const Keyed& k) { return k.key; });
   std::vector<Chosen> places;
   result.at.reserve(keys.size());
   result.source.reserve(keys.size());

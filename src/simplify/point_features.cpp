@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/ring_bands.h"
+#include "grid/keep_points.h"
 #include "refine/point_surface.h"
 #include "scarp/points.h"
 
@@ -147,24 +148,11 @@ class BoundaryMaker {
 
   /// Drops the points beyond the boundary; returns how many.
   std::uint64_t drop_outside() {
-    std::vector<std::uint32_t> names(points_.size(), 0);
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < points_.size(); ++i) {
-      const double x = points_.x[i], y = points_.y[i], z = points_.z[i];
-      if (!own_[i] && !edges_.holds(x, y)) continue;
-      names[i] = count;
-      points_.x[count] = x;
-      points_.y[count] = y;
-      points_.z[count] = z;
-      ++count;
-    }
-    const std::uint64_t dropped = points_.size() - count;
-    for (auto* values : {&points_.x, &points_.y, &points_.z}) values->resize(count);
-    for (PointLine& line : points_.lines) {
-      for (std::uint32_t& point : line.points) point = names[point];
-    }
+    const std::size_t given = points_.size();
+    const auto names =
+        keep_points(points_, [&](std::size_t i) { return own_[i] || edges_.holds(points_.x[i], points_.y[i]); });
     for (Meeting& meeting : meetings_) meeting.point = names[meeting.point];
-    return dropped;
+    return given - points_.size();
   }
 
   void add_rings(const PointSurface& surface, BoundaryCut& cut) {
@@ -297,18 +285,10 @@ Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points) {
 
 std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points) {
   const RingBands edges(places_of(rings));
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!edges.holds(points.x[i], points.y[i])) continue;
-    points.x[count] = points.x[i];
-    points.y[count] = points.y[i];
-    points.z[count] = points.z[i];
-    ++count;
-  }
-  const std::uint64_t dropped = points.size() - count;
-  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(count);
+  const std::size_t given = points.size();
   points.lines.clear();
-  return dropped;
+  keep_points(points, [&](std::size_t i) { return edges.holds(points.x[i], points.y[i]); });
+  return given - points.size();
 }
 
 Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points) {

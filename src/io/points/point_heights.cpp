@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "grid/keep_points.h"
 #include "io/commands.h"
 #include "io/points/point_source.h"
 
@@ -26,16 +27,10 @@ Result<void> leave_out_nodata(double nodata, PointSet& points) {
   if (!points.lines.empty())
     return fail(ErrorKind::kUsage,
                 points.path + ": nodata cannot be combined with lines: leave their points out first");
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!std::isfinite(points.z[k]) || points.z[k] == nodata) continue;
-    points.x[kept] = points.x[k];
-    points.y[kept] = points.y[k];
-    points.z[kept++] = points.z[k];
-  }
-  points.without_height = points.size() - kept;
-  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(kept);
-  if (kept > 0) return {};
+  const std::size_t given = points.size();
+  keep_points(points, [&](std::size_t i) { return std::isfinite(points.z[i]) && points.z[i] != nodata; });
+  points.without_height = given - points.size();
+  if (points.size() > 0) return {};
   return fail(ErrorKind::kInput, points.path + ": no point has a height other than that of --nodata");
 }
 
@@ -51,16 +46,12 @@ Result<void> crop(const ReadPointsOptions& options, PointSet& points) {
     return fail(ErrorKind::kUsage,
                 points.path + ": --te cannot be combined with lines: cut them to a boundary instead");
   const auto& [west, south, east, north] = *options.extent;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!(points.x[k] >= west && points.x[k] <= east && points.y[k] >= south && points.y[k] <= north)) continue;
-    points.x[kept] = points.x[k];
-    points.y[kept] = points.y[k];
-    points.z[kept++] = points.z[k];
-  }
-  points.outside = points.size() - kept;
-  for (auto* values : {&points.x, &points.y, &points.z}) values->resize(kept);
-  if (kept == 0) return refuse_empty_extent(points);
+  const std::size_t given = points.size();
+  keep_points(points, [&](std::size_t i) {
+    return points.x[i] >= west && points.x[i] <= east && points.y[i] >= south && points.y[i] <= north;
+  });
+  points.outside = given - points.size();
+  if (points.size() == 0) return refuse_empty_extent(points);
   return {};
 }
 

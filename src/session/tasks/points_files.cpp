@@ -152,18 +152,12 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Runn
   if (plan.format.kind != OutputKind::kDem) {
     SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
   }
-  if (plan.levels) {
-    const auto encode = [&](ReadyFile& file) -> Result<void> {
-      place_mesh(plan, outcome);
-      turn_as_planned(plan, outcome.simplified.mesh);
-      return encode_output(plan, outcome, file);
-    };
-    SCARP_RETURN_IF_ERROR(encode_levels(plan, encode, outcome, files));
-  }
-  if (plan.html) {
-    SCARP_RETURN_IF_ERROR(add_page(plan, nullptr, outcome, files));
-  }
-  for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
+  const auto encode = [&](ReadyFile& file) -> Result<void> {
+    place_mesh(plan, outcome);
+    turn_as_planned(plan, outcome.simplified.mesh);
+    return encode_output(plan, outcome, file);
+  };
+  SCARP_RETURN_IF_ERROR(finish_files(plan, encode, nullptr, outcome, files));
   return files;
 }
 

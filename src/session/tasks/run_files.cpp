@@ -33,6 +33,47 @@ double round_interval(const Mesh& mesh) {
   return 10 * power;
 }
 
+/// Shows the GLB files of this run, or the mesh as one.
+Result<void> add_page(const SimplifyPlan& plan, const OwnedHeightField* field, SimplifyRun& run,
+                      std::vector<ReadyFile>& files) {
+  std::vector<PageMesh> meshes;
+  for (const ReadyFile& file : files) {
+    if (std::string_view(file.kind) == "glb") meshes.push_back({file.path, file.size(), file.bytes});
+  }
+  if (meshes.empty()) {
+    Mesh mesh = run.simplified.mesh;
+    if (is_y_up(mesh)) undo_y_up(mesh);
+    SCARP_TRY(auto&& glb, encode_mesh(mesh, MeshFormat::kGlb));
+    meshes.push_back({plan.output, files.front().size(), std::move(glb)});
+  }
+  SCARP_TRY(auto&& page, make_view_page(plan.page_template, meshes.front().path, meshes, field));
+  if (page.left_out) run.warnings.push_back(*page.left_out);
+  files.push_back({*plan.html, "html", std::move(page.html)});
+  return {};
+}
+
+/// Replaces OUTPUT, the finest level, by all levels: separate files or one.
+Result<void> encode_levels(const SimplifyPlan& plan, const std::function<Result<void>(ReadyFile& file)>& encode,
+                           SimplifyRun& run, std::vector<ReadyFile>& files) {
+  std::vector<ReadyFile> levels{std::move(files.front())};
+  for (Level& level : run.coarser) {
+    levels.push_back({plan.output, plan.format.name(), {}});
+    const auto encoded = with_level(run, level, [&] { return encode(levels.back()); });
+    SCARP_RETURN_IF_ERROR(encoded);
+  }
+  files.erase(files.begin());
+  if (plan.levels_in_one) {
+    std::vector<std::vector<std::uint8_t>> all;
+    for (ReadyFile& level : levels) all.push_back(std::move(level.bytes));
+    SCARP_TRY(auto&& joined, join_glb_levels(all, plan.levels->ratio));
+    levels = {{plan.output, plan.format.name(), std::move(joined)}};
+  } else {
+    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].path = level_path(plan.output, static_cast<int>(k));
+  }
+  files.insert(files.begin(), std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end()));
+  return {};
+}
+
 }  // namespace
 
 Result<void> add_picture(const std::string& path, const Picture& picture, std::vector<ReadyFile>& files) {
@@ -63,42 +104,15 @@ Result<void> add_contours(const SimplifyPlan& plan, const SimplifyRun& run, cons
   return {};
 }
 
-Result<void> add_page(const SimplifyPlan& plan, const OwnedHeightField* field, SimplifyRun& run,
-                      std::vector<ReadyFile>& files) {
-  std::vector<PageMesh> meshes;
-  for (const ReadyFile& file : files) {
-    if (std::string_view(file.kind) == "glb") meshes.push_back({file.path, file.size(), file.bytes});
+Result<void> finish_files(const SimplifyPlan& plan, const std::function<Result<void>(ReadyFile& file)>& encode,
+                          const OwnedHeightField* field, SimplifyRun& run, std::vector<ReadyFile>& files) {
+  if (plan.levels) {
+    SCARP_RETURN_IF_ERROR(encode_levels(plan, encode, run, files));
   }
-  if (meshes.empty()) {
-    Mesh mesh = run.simplified.mesh;
-    if (is_y_up(mesh)) undo_y_up(mesh);
-    SCARP_TRY(auto&& glb, encode_mesh(mesh, MeshFormat::kGlb));
-    meshes.push_back({plan.output, files.front().size(), std::move(glb)});
+  if (plan.html) {
+    SCARP_RETURN_IF_ERROR(add_page(plan, field, run, files));
   }
-  SCARP_TRY(auto&& page, make_view_page(plan.page_template, meshes.front().path, meshes, field));
-  if (page.left_out) run.warnings.push_back(*page.left_out);
-  files.push_back({*plan.html, "html", std::move(page.html)});
-  return {};
-}
-
-Result<void> encode_levels(const SimplifyPlan& plan, const std::function<Result<void>(ReadyFile& file)>& encode,
-                           SimplifyRun& run, std::vector<ReadyFile>& files) {
-  std::vector<ReadyFile> levels{std::move(files.front())};
-  for (Level& level : run.coarser) {
-    levels.push_back({plan.output, plan.format.name(), {}});
-    const auto encoded = with_level(run, level, [&] { return encode(levels.back()); });
-    SCARP_RETURN_IF_ERROR(encoded);
-  }
-  files.erase(files.begin());
-  if (plan.levels_in_one) {
-    std::vector<std::vector<std::uint8_t>> all;
-    for (ReadyFile& level : levels) all.push_back(std::move(level.bytes));
-    SCARP_TRY(auto&& joined, join_glb_levels(all, plan.levels->ratio));
-    levels = {{plan.output, plan.format.name(), std::move(joined)}};
-  } else {
-    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].path = level_path(plan.output, static_cast<int>(k));
-  }
-  files.insert(files.begin(), std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end()));
+  for (const ProjectionFile& projection : run.projections) files.push_back(ready(projection));
   return {};
 }
 

@@ -18,12 +18,9 @@ Result<void> add_picture(const std::string& path, const Picture& picture, std::v
 Result<void> add_contours(const SimplifyPlan& plan, const SimplifyRun& run, const std::string& crs,
                           std::vector<ReadyFile>& files);
 
-/// --html: shows the GLB files of this run, or the mesh as one. `field`: judges the meshes; may be null.
-Result<void> add_page(const SimplifyPlan& plan, const OwnedHeightField* field, SimplifyRun& run,
-                      std::vector<ReadyFile>& files);
-
-/// --lods: replaces OUTPUT, the finest level, by all levels: separate files or one. `encode` encodes the run's mesh.
-Result<void> encode_levels(const SimplifyPlan& plan, const std::function<Result<void>(ReadyFile& file)>& encode,
-                           SimplifyRun& run, std::vector<ReadyFile>& files);
+/// The files that follow OUTPUT: all levels of --lods, which replace it, the page of --html, and projections. `encode`
+/// encodes the run's mesh as OUTPUT. `field`: judges the meshes on the page; may be null.
+Result<void> finish_files(const SimplifyPlan& plan, const std::function<Result<void>(ReadyFile& file)>& encode,
+                          const OwnedHeightField* field, SimplifyRun& run, std::vector<ReadyFile>& files);
 
 }  // namespace scarp::cli

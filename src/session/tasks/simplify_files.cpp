@@ -234,18 +234,12 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   // They may need more memory than the mesh and its file.
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
   SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
-  if (plan.levels) {
-    const auto encode = [&](ReadyFile& file) -> Result<void> {
-      add_metadata(plan, outcome);
-      turn_as_planned(plan, outcome.simplified.mesh);
-      return encode_output(plan, outcome, file);
-    };
-    SCARP_RETURN_IF_ERROR(encode_levels(plan, encode, outcome, files));
-  }
-  if (plan.html) {
-    SCARP_RETURN_IF_ERROR(add_page(plan, &outcome.field, outcome, files));
-  }
-  for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
+  const auto encode = [&](ReadyFile& file) -> Result<void> {
+    add_metadata(plan, outcome);
+    turn_as_planned(plan, outcome.simplified.mesh);
+    return encode_output(plan, outcome, file);
+  };
+  SCARP_RETURN_IF_ERROR(finish_files(plan, encode, &outcome.field, outcome, files));
   return files;
 }
 
