@@ -496,21 +496,43 @@ Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, Vertex
   return work;
 }
 
+namespace {
+
+/// A frame whose samples are kLatticeSteps of the points' lattice apart.
+Frame frame_of(const PointLattice& lattice) {
+  const double cell = kLatticeSteps * lattice.step;
+  Frame frame;
+  frame.affine = {lattice.west, cell, 0, lattice.north, 0, -cell};
+  return frame;
+}
+
+}  // namespace
+
 Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
-                                const ShapeTask& task) {
+                                const ShapeGoals& goals, double threshold, Reporter& reporter) {
+  ShapeTask task{goals, frame_of(points.lattice).affine, threshold};
+  task.progress = [&](double, std::uint64_t count, double error) -> Result<void> {
+    if (!reporter.due() || reporter.report("shape", 0, count, error)) return {};
+    return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
+  };
+  task.foresee = [](double triangles) { return check_need(triangles, {}, 0); };
   const PlanMetric metric(task.affine, kLatticeSteps);
   const Bands bands{1, 1};
   PlanDelaunay delaunay(metric);
   restore_delaunay(domain.tin, delaunay);
-  PointBench bench(points, heights, domain, task.threshold);
+  PointBench bench(points, heights, domain, threshold);
   const Point last{points.lattice.cols - 1, points.lattice.rows - 1};
   const double spacing = points.lattice.step * std::sqrt(double(last.x) * last.y / static_cast<double>(points.size()));
   return ShapeRefiner(bench, domain.tin, task, metric, bands, last, spacing).run();
 }
 
-std::array<double, 6> shape_affine(const PointLattice& lattice) {
-  const double cell = kLatticeSteps * lattice.step;
-  return {lattice.west, cell, 0, lattice.north, 0, -cell};
+std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const PointLattice& lattice) {
+  return shape_rule(goals, frame_of(lattice));
+}
+
+ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Triangulation& tin,
+                          const PointLattice& lattice) {
+  return report_shapes(mesh, goals, count_losses(tin, kLatticeSteps, frame_of(lattice), goals));
 }
 
 }  // namespace scarp

@@ -25,6 +25,7 @@
 #include <optional>
 #include <span>
 
+#include "base/reporter.h"
 #include "fit/rules.h"
 #include "grid/raster.h"
 #include "grid/snapped_points.h"
@@ -69,12 +70,10 @@ struct ShapeWork {
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
 
-/// The same on scattered points: `domain` keeps its outline, with vertices between points as free ones. `task`: goals,
-/// affine, threshold, progress and foresee count. REQUIRES: points with PointSteps::kFloat32 or kFit.
+/// The same on scattered points: `domain` keeps its outline, with vertices between points as free ones. Fails with
+/// kInput for too many triangles, and with kCancelled. REQUIRES: points with PointSteps::kFloat32 or kFit.
 Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
-                                const ShapeTask& task);
-/// The affine map of a frame whose samples are kLatticeSteps of the points' lattice apart.
-std::array<double, 6> shape_affine(const PointLattice& lattice);
+                                const ShapeGoals& goals, double threshold, Reporter& reporter);
 
 /// Most bytes a vertex that refine_shapes() uses, the mesh included.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
@@ -82,6 +81,7 @@ inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 /// Preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing where only
 /// insertion can preserve them: with a grade, and if rows and columns of the frame are not perpendicular.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
+std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const PointLattice& lattice);
 
 /// The effect of lines and outline on the other goals.
 struct ShapeLosses {
@@ -94,5 +94,8 @@ ShapeLosses count_losses(const Triangulation& tin, std::int32_t steps, const Fra
 
 /// Shapes of a finished mesh. `losses`: of its triangulation.
 ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const ShapeLosses& losses);
+/// The same for points, on the lattice of `tin`.
+ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Triangulation& tin,
+                          const PointLattice& lattice);
 
 }  // namespace scarp

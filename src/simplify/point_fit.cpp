@@ -102,11 +102,7 @@ Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double>
   fit_options.vertices_are_free = recipe.frees_vertices;
   fit_options.min_shape = quality.min_shape.value_or(fit_options.vertices_are_free ? kUsualShape : 0);
   fit_options.floor_yields = !quality.min_shape && !quality.shape.any();
-  if (quality.shape.any()) {
-    Frame frame;
-    frame.affine = shape_affine(points.lattice);
-    fit_options.shape = shape_rule(quality.shape, frame);
-  }
+  if (quality.shape.any()) fit_options.shape = shape_rule(quality.shape, points.lattice);
   fit_options.most_side = kMostSide;
   fit_options.is_time_up = options.run.is_time_up;
   fit_options.goes_on = recipe.traits.goes_on && options.run.is_time_up;

@@ -20,9 +20,7 @@ Result<void> check_goals(const PointOptions& options) {
                 fmt::format("boundary_length must be above 0, and {} is not", *options.boundary_length));
   const Quality& quality = options.quality;
   if (quality.shape.any() && (!options.max_error || options.max_triangles || options.max_vertices))
-    return fail(
-        ErrorKind::kUsage,
-        "goals for angles and edges need as many triangles as they take: ask for a max error, without a budget");
+    return fail(ErrorKind::kUsage, "goals for angles and edges need a max error, without a budget");
   if (quality.order == Order::kDominant)
     return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
   if (quality.vertices == Vertices::kFree && !traits_of(quality.effort).moves_vertices)

@@ -16,7 +16,6 @@
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
 #include "pieces/budget.h"
-#include "shape/shape_need.h"
 #include "shape/shape_refinement.h"
 #include "simplify/point_fit.h"
 
@@ -102,25 +101,12 @@ class PointRun {
   Result<void> shape(double threshold, Simplified& result) {
     if (!goals().any() || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
-    ShapeTask task{goals(), shape_affine(snapped_.lattice), threshold};
-    task.progress = [&](double, std::uint64_t count, double error) -> Result<void> {
-      if (!reporter_.due() || reporter_.report("shape", 0, count, error)) return {};
-      return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
-    };
-    task.foresee = [](double triangles) { return check_need(triangles, {}, 0); };
-    SCARP_TRY(const auto& work, refine_shapes(snapped_, heights_, domain_, task));
+    SCARP_TRY(const auto& work, refine_shapes(snapped_, heights_, domain_, goals(), threshold, reporter_));
     scanned_ += work.samples_scanned;
     dealt_ += work.triangles_scanned;
     insertions_ += work.insertions;
     note_vertices(result);
     return {};
-  }
-
-  void report_shape(Simplified& result) const {
-    if (!goals().any()) return;
-    Frame frame;
-    frame.affine = shape_affine(snapped_.lattice);
-    result.shape = report_shapes(result.mesh, goals(), count_losses(domain_.tin, kLatticeSteps, frame, goals()));
   }
 
   /// Points that broke the bound after fitting, and vertices of lines, some of whose chords may not be edges; sorted.
@@ -335,7 +321,7 @@ class PointRun {
       const bool is_kept =
           result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
       if (m.is_sound() && is_kept) {
-        report_shape(result);
+        if (goals().any()) result.shape = report_shapes(result.mesh, goals(), domain_.tin, snapped_.lattice);
         return {};
       }
       const auto again = Clock::now();
@@ -365,9 +351,7 @@ class PointRun {
   std::string advice(const Measurement& m) const {
     const std::string far = describe_far_points(points_);
     if (goals().any())
-      return ": some points are nearly on one line, which leaves no room for triangles of that shape; omit the goals "
-             "for "
-             "angles and edges, or remove the points at that line" +
+      return ": points nearly on one line leave no room for such triangles: omit the goals for angles and edges" +
              (far.empty() ? "" : "; " + far);
     const std::string larger = m.is_sound() && m.uncovered == 0
                                    ? fmt::format("ask for at least {:.2g}", round_up(m.max_error))

@@ -1,6 +1,5 @@
 // The doors to lines, cutlines and shapes of triangles, in a build without those rooms (SCARP_WITH_LINES=OFF), for a
 // web page that has no use for them.
-#include <array>
 #include <span>
 
 #include "lines/breaklines.h"
@@ -37,10 +36,12 @@ Result<FieldLines> prepare_lines(const HeightField&, const LineConstraints&, con
 HeightField FieldLines::apply(const HeightField& field) const { return field; }
 
 Result<ShapeWork> refine_shapes(const Raster&, Triangulation&, VertexLattice&, const ShapeTask&) { return refuse(); }
-Result<ShapeWork> refine_shapes(const SnappedPoints&, std::span<const double>, ScatteredDomain&, const ShapeTask&) {
+Result<ShapeWork> refine_shapes(const SnappedPoints&, std::span<const double>, ScatteredDomain&, const ShapeGoals&,
+                                double, Reporter&) {
   return refuse();
 }
-std::array<double, 6> shape_affine(const PointLattice&) { return {}; }
+std::optional<ShapeRule> shape_rule(const ShapeGoals&, const PointLattice&) { return std::nullopt; }
+ShapeReport report_shapes(const Mesh&, const ShapeGoals&, const Triangulation&, const PointLattice&) { return {}; }
 Result<void> check_need(double, const MemoryBudget&, std::uint64_t) { return refuse(); }
 std::optional<ShapeRule> shape_rule(const ShapeGoals&, const Frame&) { return std::nullopt; }
 ShapeLosses count_losses(const Triangulation&, std::int32_t, const Frame&, const ShapeGoals&) { return {}; }
