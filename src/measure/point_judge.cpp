@@ -105,7 +105,7 @@ class Judge {
       std::uint32_t triangle = 0;
     };
 
-    void enter(int col, int row) {
+    [[gnu::noinline]] void enter(int col, int row) {
       if (col == col_ && row == row_) return;
       col_ = col;
       row_ = row;
