@@ -45,10 +45,10 @@ Result<void> crop(const ReadPointsOptions& options, PointSet& points) {
   if (!points.lines.empty())
     return fail(ErrorKind::kUsage,
                 points.path + ": --te cannot be combined with lines: cut them to a boundary instead");
-  const auto& [west, south, east, north] = *options.extent;
+  const std::array<double, 4>& box = *options.extent;
   const std::size_t given = points.size();
   keep_points(points, [&](std::size_t i) {
-    return points.x[i] >= west && points.x[i] <= east && points.y[i] >= south && points.y[i] <= north;
+    return points.x[i] >= box[0] && points.x[i] <= box[2] && points.y[i] >= box[1] && points.y[i] <= box[3];
   });
   points.outside = given - points.size();
   if (points.size() == 0) return refuse_empty_extent(points);
