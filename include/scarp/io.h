@@ -386,7 +386,9 @@ struct PointChoice {
 };
 
 struct ReadPointsOptions {
-  std::string layer = {};  ///< layer of a vector file. DEFAULT: the first one with points, else with lines.
+  /// Layers, separated by commas: of a vector file, a drawing (DXF), or surfaces of LandXML, "CgPoints" being its
+  /// survey points. DEFAULT: the first one with points, else with lines; of a drawing or LandXML the only one.
+  std::string layer = {};
   /// Column or attribute with the height. DEFAULT: the third coordinate. If it is missing or 0 everywhere, an attribute
   /// named z, height, elevation, elev, h, alt, ele, hoehe …, if any.
   std::string z_field = {};
@@ -414,10 +416,11 @@ struct ReadPointsOptions {
   int threads = 0;          ///< for LAS and LAZ; 0: all cores. Never changes the points. DEFAULT: 0.
 };
 
-/// Reads points from text with columns (CSV, XYZ) and from LAS and LAZ (versions 1.0 to 1.4, point formats 0 to 10,
-/// COPC) by Scarp's own readers, and from all else (GeoPackage, GeoJSON, Shapefile, …) by GDAL. Columns are
-/// separated by commas, semicolons, tabs or blanks; decimal commas are read unless commas separate. A header line names
-/// the columns; else the first three, after a column of consecutive numbers if any, are x, y, z. Lines that begin with
+/// Reads points from text with columns (CSV, XYZ), from LAS and LAZ (versions 1.0 to 1.4, point formats 0 to 10,
+/// COPC) and from LandXML (survey points; points, breaklines and contours of a surface, else the vertices of its TIN)
+/// by Scarp's own readers, and from all else (GeoPackage, GeoJSON, Shapefile, DXF, …) by GDAL. Columns are separated by
+/// commas, semicolons, tabs or blanks; decimal commas are read unless commas separate. A header line names the columns;
+/// else the first three, after a column of consecutive numbers if any, are x, y, z. Lines that begin with
 /// #, % or // are comments. If neither header nor values identify the northing, the call fails and names `columns`. The
 /// vertices of lines, such as contours with the height as an attribute or third coordinate, are also points, and
 /// PointSet::lines holds their order. Curves become chords of at most 4 degrees. Fails with kInput: missing, empty, a

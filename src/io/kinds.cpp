@@ -58,7 +58,8 @@ const KindRow* find_kind(std::string_view head, const std::string& extension) {
 /// The title of a supported mesh format, by mark or name; empty for others.
 std::string find_mesh_title(std::string_view head, const std::string& extension) {
   for (const MeshFormatRow& row : mesh_format_rows()) {
-    if (!row.mark.empty() && head.starts_with(row.mark)) return row.traits.title;
+    const bool is_root = row.mark.starts_with('<') && head.starts_with('<') && head.find(row.mark) != head.npos;
+    if (!row.mark.empty() && (is_root || head.starts_with(row.mark))) return row.traits.title;
   }
   const auto named = extension.empty() ? std::nullopt : find_mesh_format(extension);
   const bool is_mesh = named && traits_of(*named).is_read && extension.substr(1) != traits_of(*named).shared;
@@ -111,7 +112,10 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
   const KindRow* row = find_kind(head, by_name ? extension : "");
   if (row == nullptr) {
     const std::string title = find_mesh_title(head, by_name ? extension : "");
-    return title.empty() ? "" : fmt::format("a mesh ({}): {}", title, from_its_source(path));
+    const bool is_landxml = title == traits_of(MeshFormat::kLandXml).title;
+    return title.empty() ? ""
+                         : fmt::format("a mesh ({}): {}{}", title, from_its_source(path),
+                                       is_landxml ? ", or read its vertices as points (--points)" : "");
   }
   const auto tell = [&](const std::string& way) { return fmt::format("{}: {}", row->is, way); };
   switch (row->way) {

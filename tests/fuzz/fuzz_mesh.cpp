@@ -1,10 +1,31 @@
-// Any bytes: a consistent mesh that can be written again, or an error with a message.
+// Any bytes: a consistent mesh that can be written again, or an error with a message; the same as points of LandXML.
 #include <cmath>
 #include <cstdlib>
 
+#include "io/points/point_source.h"
 #include "scarp/io.h"
 
+namespace {
+
+void read_as_points(std::span<const std::uint8_t> bytes) {
+  const auto points = scarp::read_landxml_points(bytes, "fuzz.xml", {}, "");
+  if (!points) {
+    if (points.error().message.empty()) std::abort();
+    return;
+  }
+  if (points->size() == 0 || points->y.size() != points->size() || points->z.size() != points->size()) std::abort();
+  for (const scarp::PointLine& line : points->lines) {
+    if (line.points.size() < 2) std::abort();
+    for (const std::uint32_t point : line.points) {
+      if (point >= points->size()) std::abort();
+    }
+  }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  read_as_points({data, size});
   const auto mesh = scarp::decode_mesh({data, size}, "fuzz.stl");  // the name selects the reader for damaged STL
   if (!mesh) {
     if (mesh.error().message.empty() || mesh.error().kind != scarp::ErrorKind::kInput) std::abort();

@@ -54,18 +54,17 @@ bool may_be_lines(OGRLayerH layer) {
   return type != wkbNone && type != wkbPoint && type != wkbMultiPoint;
 }
 
-Result<OGRLayerH> find_layer(const OpenedLayer& opened) {
-  const int count = GDALDatasetGetLayerCount(opened.dataset.get());
-  const std::string names = layer_names(opened.dataset.get());
-  std::vector<OGRLayerH> fitting;
-  for (int i = 0; i < count; ++i) {
-    OGRLayerH layer = GDALDatasetGetLayer(opened.dataset.get(), i);
-    if (opened.layer.empty() ? may_be_lines(layer) : opened.layer == OGR_L_GetName(layer)) fitting.push_back(layer);
+Result<VectorLayer> find_layer(const OpenedLayer& opened) {
+  const std::vector<VectorLayer> layers = list_layers(opened.dataset.get());
+  const std::string names = layer_names(layers);
+  std::vector<VectorLayer> fitting;
+  for (const VectorLayer& layer : layers) {
+    if (opened.layer.empty() ? may_be_lines(layer.of) : opened.layer == layer.name) fitting.push_back(layer);
   }
   if (!fitting.empty() && (fitting.size() == 1 || !opened.layer.empty())) return fitting.front();
   if (!fitting.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: holds several layers; name one, as in {}:{}: {}", opened.path,
-                                               opened.path, OGR_L_GetName(fitting.front()), names));
+                                               opened.path, fitting.front().name, names));
   const std::string found = names.empty() ? "it has no layers" : "found: " + names;
   if (opened.layer.empty())
     return fail(ErrorKind::kInput, fmt::format("{} has no layer of lines or polygons ({})", opened.path, found));
@@ -277,7 +276,8 @@ void convert_heights(OGRLayerH layer, std::optional<int> height_field, double un
 Result<LineSet> read(const std::string& path, const ReadLinesOptions& options, double unit_in_metres) {
   Session session(is_remote(path));
   SCARP_TRY(const auto& opened, open(session, path));
-  SCARP_TRY(const auto& layer, find_layer(opened));
+  SCARP_TRY(const auto& found, find_layer(opened));
+  OGRLayerH layer = found.open();
   std::optional<int> height_field;
   if (!options.z_field.empty()) {
     SCARP_TRY(height_field, find_field(layer, opened.path, options.z_field));
@@ -285,7 +285,7 @@ Result<LineSet> read(const std::string& path, const ReadLinesOptions& options, d
 
   LineSet set;
   set.path = opened.path;
-  set.layer = OGR_L_GetName(layer);
+  set.layer = found.name;
   set.format = GDALGetDriverShortName(GDALGetDatasetDriver(opened.dataset.get()));
   LineCollector collector(height_field, options.ignore_z, set);
   SCARP_RETURN_IF_ERROR(each_feature(session, layer, set.path, options.progress,

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "grid/local_frame.h"
 #include "io/commands.h"
@@ -15,6 +16,7 @@
 #include "io/gdal/vector.h"
 #include "io/lent.h"
 #include "io/points/column_names.h"
+#include "io/points/line_points.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 
@@ -42,21 +44,36 @@ std::string make_lines(const std::string& path) {
                      new_file(".gpkg"), file_word(path));
 }
 
-Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
-  OGRLayerH first_of_lines = nullptr;
-  for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
-    OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
-    if (wanted.empty() ? may_hold_points(layer) : wanted == OGR_L_GetName(layer)) return layer;
-    if (first_of_lines == nullptr && is_layer_of_lines(layer)) first_of_lines = layer;
+/// The layers of the points: those of `wanted`, a list of names; else the first of points, else of lines.
+Result<std::vector<VectorLayer>> find_layers(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
+  const std::vector<VectorLayer> layers = list_layers(dataset);
+  const auto named = [&](std::string_view name) {
+    return std::find_if(layers.begin(), layers.end(), [&](const VectorLayer& layer) { return layer.name == name; });
+  };
+  std::vector<VectorLayer> found;
+  const bool is_one = named(wanted) != layers.end();  // though its name may have a comma
+  for (std::string_view rest = wanted; !rest.empty();) {
+    const std::string_view name = is_one ? rest : rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+    const auto layer = named(name);
+    if (layer == layers.end())
+      return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, name, layer_names(layers)));
+    found.push_back(*layer);
   }
-  if (wanted.empty() && first_of_lines != nullptr) return first_of_lines;
-  const bool is_polygons = GDALDatasetGetLayerCount(dataset) > 0 && holds_polygons(GDALDatasetGetLayer(dataset, 0));
-  if (wanted.empty() && is_polygons)
-    return fail(ErrorKind::kInput, fmt::format("{}: holds polygons, not points or lines: {}", path, make_lines(path)));
-  if (wanted.empty())
+  if (!found.empty()) return found;
+  const bool is_drawing = !layers.empty() && !layers.front().filter.empty();
+  if (is_drawing && layers.size() > 1)
     return fail(ErrorKind::kInput,
-                fmt::format("{}: holds no layer of points or lines, only {}", path, layer_names(dataset)));
-  return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, layer_names(dataset)));
+                fmt::format("{}: a drawing with the layers {}: name those of the terrain with --layer A,B", path,
+                            layer_names(layers)));
+  for (const auto& fits : {may_hold_points, is_layer_of_lines}) {
+    const auto layer = std::find_if(layers.begin(), layers.end(), [&](const VectorLayer& l) { return fits(l.of); });
+    if (layer != layers.end()) return std::vector{*layer};
+  }
+  if (!layers.empty() && holds_polygons(layers.front().of))
+    return fail(ErrorKind::kInput, fmt::format("{}: holds polygons, not points or lines: {}", path, make_lines(path)));
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: holds no layer of points or lines, only {}", path, layer_names(layers)));
 }
 
 /// The meaning of a layer's third coordinates, from its features if its type does not declare it.
@@ -114,7 +131,7 @@ std::optional<int> find_named_height(OGRLayerH layer) {
 }
 
 /// Finds the heights: an attribute, or the third coordinate. The choice is stored in `points`.
-Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& wanted, PointSet& points) {
+Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& wanted, bool is_only, PointSet& points) {
   const std::string& path = points.path;
   const auto name_of = [&](int index) {
     return std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer), index)));
@@ -137,6 +154,7 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
                 fmt::format("{}: the features of the layer {} have no third coordinate, and no attribute z, height, "
                             "elevation, elev or h: name the one that holds heights with --z-field",
                             path, OGR_L_GetName(layer)));
+  if (!named && !is_only) return std::nullopt;
   if (!named) {
     const std::string fields = list_of_fields(layer, false);
     points.warnings.push_back(fmt::format(
@@ -235,34 +253,15 @@ class PointCollector {
     return add_line(geometry, height);
   }
 
-  /// Adds the vertices of a line, without repetitions; a ring ends with its first point.
   Result<void> add_line(OGRGeometryH geometry, std::optional<double> height) {
-    PointLine line;
-    const auto first = static_cast<std::uint32_t>(points_.size());
+    LinePoints line(points_);
     for (int i = 0; i < OGR_G_GetPointCount(geometry); ++i) {
-      const auto here = static_cast<std::uint32_t>(points_.size());
+      const std::size_t before = points_.size();
       SCARP_RETURN_IF_ERROR(add_point(geometry, i, height));
-      if (points_.size() == here) continue;  // omitted
-      const bool is_repeated = !line.points.empty() && is_same(here, line.points.back()),
-                 is_closed = !is_repeated && here > first && is_same(here, first);
-      if (is_repeated || is_closed) remove_last();
-      if (!is_repeated) line.points.push_back(is_closed ? first : here);
+      if (points_.size() > before) line.add_last();
     }
-    if (line.points.size() < 2) {
-      ++without_extent_;
-      return {};
-    }
-    line.name = fmt::format("{} feature {}", path_, id_);
-    points_.lines.push_back(std::move(line));
+    if (!line.finish(fmt::format("{} feature {}", path_, id_))) ++without_extent_;
     return {};
-  }
-  bool is_same(std::uint32_t a, std::uint32_t b) const {
-    return points_.x[a] == points_.x[b] && points_.y[a] == points_.y[b] && points_.z[a] == points_.z[b];
-  }
-  void remove_last() {
-    points_.x.pop_back();
-    points_.y.pop_back();
-    points_.z.pop_back();
   }
 
   Result<void> add_point(OGRGeometryH geometry, int i, std::optional<double> height) {
@@ -375,27 +374,30 @@ Result<void> place(const Crs& crs, const ReadPointsOptions& options, PointSet& p
   return wanted.empty() || wanted == "local" ? make_local(crs, points) : project(crs, wanted, points);
 }
 
-Result<PointSet> read(const std::string& path, const ReadPointsOptions& options) {
-  if (!options.columns.empty())
-    return fail(ErrorKind::kUsage,
-                path + ": --columns names the columns of a text, and this is none: --z-field names an attribute");
-  Session session(is_remote(path));
-  SCARP_TRY(const auto& dataset,
-            open_vector(session, path, "points", "neither text of columns nor vector data that GDAL can read"));
-  SCARP_TRY(const auto& layer, find_layer(dataset.get(), path, options.layer));
-  PointSet points;
-  points.path = path;
-  SCARP_TRY(const auto& height_field, find_height_field(layer, options.z_field, points));
-
-  points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
+/// Adds the points and lines of a layer.
+Result<void> read_layer(Session& session, const VectorLayer& from, bool is_only, const ReadPointsOptions& options,
+                        PointSet& points) {
+  const std::string& path = points.path;
+  const std::string columns = std::exchange(points.columns, ""), unit = std::exchange(points.heights.unit, "");
+  const std::size_t before = points.size();
+  OGRLayerH layer = from.open();
+  const bool has_field = OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(layer), options.z_field.c_str()) >= 0;
+  SCARP_TRY(const auto& height_field, find_height_field(layer, is_only || has_field ? options.z_field : "", is_only, points));
+  if (before > 0 && unit != points.heights.unit)
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the heights of the layer {} are in '{}', those before in '{}': read "
+                            "one of them",
+                            path, from.name, points.heights.unit, unit));
+  if (!is_only)
+    points.columns = fmt::format("{}{}{}: {}", columns, columns.empty() ? "" : "; ", from.name, points.columns);
   PointCollector collector(path, height_field, options.nodata, points);
+  const std::uint64_t without_height = points.without_height;
   SCARP_RETURN_IF_ERROR(each_feature(session, layer, path, options.progress,
                                      [&](OGRFeatureH feature) { return collector.add(feature); }));
-  if (points.size() == 0 && points.without_height > 0)
+  if (points.size() == before && points.without_height > without_height)
     return fail(ErrorKind::kInput, path + ": no point has a height other than that of --nodata");
-  if (points.size() == 0)
-    return fail(ErrorKind::kInput,
-                fmt::format("{}: the layer {} holds no points or lines", path, OGR_L_GetName(layer)));
+  if (points.size() == before)
+    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no points or lines", path, from.name));
   if (collector.without_geometry() > 0)
     points.warnings.push_back(
         collector.without_geometry() == 1
@@ -406,10 +408,34 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
                                   ? fmt::format("1 line of {} is a single point, and counts as one", path)
                                   : fmt::format("{} lines of {} are a single point each, and count as points",
                                                 collector.without_extent(), path));
+  return {};
+}
+
+Result<PointSet> read(const std::string& path, const ReadPointsOptions& options) {
+  if (!options.columns.empty())
+    return fail(ErrorKind::kUsage,
+                path + ": --columns names the columns of a text, and this is none: --z-field names an attribute");
+  Session session(is_remote(path));
+  SCARP_TRY(const auto& dataset,
+            open_vector(session, path, "points", "neither text of columns nor vector data that GDAL can read"));
+  SCARP_TRY(const auto& layers, find_layers(dataset.get(), path, options.layer));
+  PointSet points;
+  points.path = path;
+  points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
+  for (const VectorLayer& layer : layers) {
+    SCARP_RETURN_IF_ERROR(read_layer(session, layer, layers.size() == 1, options, points));
+  }
   SCARP_RETURN_IF_ERROR(crop(options, points));
-  const Crs crs = layer_crs(layer);
+  const Crs crs = layer_crs(layers.front().of);
+  for (const VectorLayer& layer : layers) {
+    if (const Crs other = layer_crs(layer.of); crs ? !other || !same_crs(crs, other) : bool{other})
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: the layers {} differ in their CRS: read one of them, or transform "
+                              "one (ogr2ogr -t_srs CRS)",
+                              path, layer_names(layers)));
+  }
   SCARP_RETURN_IF_ERROR(place(crs, options, points));
-  const SpaceCrs in_space = space_crs_of(declared_layer_crs(layer));
+  const SpaceCrs in_space = space_crs_of(declared_layer_crs(layers.front().of));
   SCARP_RETURN_IF_ERROR(settle_point_heights(options, in_space.unit, points));
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);
   return points;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "io/commands.h"
@@ -15,10 +16,20 @@
 
 namespace scarp::gdal {
 
+namespace {
+
+bool is_drawing(GDALDatasetH dataset) {
+  return EQUAL(GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), "DXF") &&
+         GDALDatasetGetLayerByName(dataset, "entities") != nullptr;
+}
+
+}  // namespace
+
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected) {
   SCARP_TRY(const auto& name, readable_name(path));
   const std::string vsi = vsi_path(name);
   session.clear();
+  session.set_option("DXF_INLINE_BLOCKS", "FALSE");  // a symbol is the point at which it was inserted
   if (declares_entities(vsi)) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: XML that declares entities is not read, since they may grow without end: write the "
@@ -27,6 +38,7 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
   }
   Dataset dataset(GDALOpenEx(vsi.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                              kOpenOptions, nullptr));
+  if (dataset && is_drawing(dataset.get())) session.set_option("OGR_GEOMETRY_ACCEPT_UNCLOSED_RING", "YES");
   if (dataset) return dataset;
   if (path.empty()) return fail(ErrorKind::kInput, fmt::format("the name of the {} is empty", what));
   if (is_remote(path)) return refuse_remote(path, vsi, session.reason());
@@ -52,10 +64,48 @@ Result<int> find_field(OGRLayerH layer, const std::string& path, const std::stri
                                              name, names.empty() ? "" : ", only " + names));
 }
 
-std::string layer_names(GDALDatasetH dataset) {
+namespace {
+
+/// Entities of the model, not of the paper, that are no texts.
+constexpr const char* kDrawn = "Text IS NULL AND PaperSpace IS NULL";
+
+std::vector<VectorLayer> list_drawn_layers(OGRLayerH entities) {
+  OGR_L_SetAttributeFilter(entities, kDrawn);
+  OGR_L_ResetReading(entities);
+  const int index = OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(entities), "Layer");
+  std::set<std::string> names;
+  while (const Feature feature{OGR_L_GetNextFeature(entities)}) {
+    if (OGR_F_GetGeometryRef(feature.get()) != nullptr) names.insert(OGR_F_GetFieldAsString(feature.get(), index));
+  }
+  std::vector<VectorLayer> layers;
+  for (const std::string& name : names) {
+    std::string quoted;
+    for (const char c : name) quoted += c == '\'' ? std::string(2, c) : std::string(1, c);
+    layers.push_back({entities, name, fmt::format("Layer = '{}' AND {}", quoted, kDrawn)});
+  }
+  return layers;
+}
+
+}  // namespace
+
+OGRLayerH VectorLayer::open() const {
+  if (!filter.empty()) OGR_L_SetAttributeFilter(of, filter.c_str());
+  return of;
+}
+
+std::vector<VectorLayer> list_layers(GDALDatasetH dataset) {
+  if (is_drawing(dataset)) return list_drawn_layers(GDALDatasetGetLayerByName(dataset, "entities"));
+  std::vector<VectorLayer> layers;
+  for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
+    OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
+    layers.push_back({layer, OGR_L_GetName(layer), {}});
+  }
+  return layers;
+}
+
+std::string layer_names(const std::vector<VectorLayer>& layers) {
   std::string names;
-  for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i)
-    names += (i == 0 ? "" : ", ") + std::string(OGR_L_GetName(GDALDatasetGetLayer(dataset, i)));
+  for (const VectorLayer& layer : layers) names += (names.empty() ? "" : ", ") + layer.name;
   return names;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "io/gdal/crs.h"
 #include "io/gdal/open.h"
@@ -31,8 +32,17 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
 /// The index of the attribute `name` of a layer. kInput if it does not exist, with a list of those that do.
 Result<int> find_field(OGRLayerH layer, const std::string& path, const std::string& name);
 
-/// The names of all layers, separated by commas.
-std::string layer_names(GDALDatasetH dataset);
+/// A layer as its user sees it. GDAL keeps all layers of a drawing (DXF) in one, of which open() shows a part.
+struct VectorLayer {
+  OGRLayerH of = nullptr;
+  std::string name, filter;  ///< filter: empty unless of a drawing
+
+  OGRLayerH open() const;
+};
+/// All layers; of a drawing those with other entities than texts, by name. Cost: a drawing is read once.
+std::vector<VectorLayer> list_layers(GDALDatasetH dataset);
+/// Their names, separated by commas.
+std::string layer_names(const std::vector<VectorLayer>& layers);
 
 /// The layer's declared CRS, with a vertical datum; null if none.
 Crs declared_layer_crs(OGRLayerH layer);

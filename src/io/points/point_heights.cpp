@@ -77,6 +77,19 @@ std::string crs_command(const PointSet& points, const std::string& crs) {
   return fmt::format("ogr2ogr -a_srs {} {} {}", crs, new_file(".gpkg"), file);
 }
 
+Result<void> place_without_crs(const ReadPointsOptions& options, PointSet& points) {
+  const bool is_local = options.crs == "local";
+  if ((is_local && points.unit_in_metres == 0) || (!is_local && !options.crs.empty() && options.crs != "source"))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} does not declare its CRS, so its coordinates cannot be given in '{}': ask for "
+                            "'source', or declare it in a file next to it ({})",
+                            points.path, options.crs, declare_crs_command(points.path, "EPSG:CODE")));
+  points.description = "the points' own coordinates (no CRS)";
+  if (is_local || becomes_local(options, points.unit_in_metres))
+    make_local_metres({points.unit_in_metres, points.unit_in_metres}, "the points' own coordinates", points);
+  return {};
+}
+
 Result<void> settle_point_heights(const ReadPointsOptions& options, const HeightUnit& vertical, PointSet& points) {
   RasterInfo& info = points.heights;
   info.path = points.path;

@@ -29,6 +29,10 @@ tl::unexpected<Error> refuse_empty_extent(const PointSet& points);
 /// The command that gives the file of the points a CRS.
 std::string crs_command(const PointSet& points, const std::string& crs);
 
+/// Places x and y that have no CRS: as they are, or in metres around their middle if their unit is known. Refuses
+/// another frame.
+Result<void> place_without_crs(const ReadPointsOptions& options, PointSet& points);
+
 /// Scales the heights as the options ask, and to metres where the frame or the file to write is in metres.
 /// points.heights.unit is the one in the name of a column or an attribute, crs_unit that of x and y; the rest is filled
 /// in. `vertical`: the unit of the vertical CRS. REQUIRES: x and y are in their frame.

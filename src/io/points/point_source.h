@@ -26,7 +26,11 @@ bool begins_as_grid(const std::string& path);
 Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::string& name,
                                 const ReadPointsOptions& options, const std::string& crs = "");
 
-/// The file that declares the CRS of such a text: WKT, or a code such as EPSG:32633. survey.csv: survey.prj.
+/// LandXML; see read_points(). `crs`: that of x and y if the file names none; empty: unknown.
+Result<PointSet> read_landxml_points(std::span<const std::uint8_t> bytes, const std::string& path,
+                                     const ReadPointsOptions& options, const std::string& crs);
+
+/// The file that declares the CRS of such files: WKT, or a code such as EPSG:32633. survey.csv: survey.prj.
 std::string projection_path(const std::string& path);
 /// The command that makes it.
 std::string declare_crs_command(const std::string& path, const std::string& crs);

@@ -163,13 +163,6 @@ std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::
   return fmt::format("{} {} {}{}", command, new_file(".gpkg"), is_csv ? "" : "CSV:", file_word(name));
 }
 
-tl::unexpected<Error> refuse_frame(const std::string& name, const ReadPointsOptions& options) {
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} does not declare its CRS, so its coordinates cannot be given in '{}': ask for 'source', "
-                          "or declare it in a file next to it ({})",
-                          name, options.crs, declare_crs_command(name, "EPSG:CODE")));
-}
-
 /// Those that the header names.
 void take_units_of(const PointColumns& columns, PointSet& points) {
   const auto& [x, y, height] = columns.units;
@@ -201,12 +194,9 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
                                 const ReadPointsOptions& options, const std::string& crs) {
   if (!options.layer.empty())
     return fail(ErrorKind::kUsage, name + ": a text of columns has no layers: leave the layer out");
-  if (crs.empty() && !options.crs.empty() && options.crs != "source" && options.crs != "local")
-    return refuse_frame(name, options);
   PointSet points;
   points.path = name;
   points.format = name.ends_with(".xyz") ? "XYZ" : "CSV";
-  points.description = "the points' own coordinates (no CRS)";
   const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   if (const std::string encoding = find_wide_encoding(bytes); !encoding.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: text in {}, of which nothing is read: make UTF-8 of it ({})", name,
@@ -251,9 +241,7 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
         "x and y look like degrees, which do not mix with heights: declare their CRS in a file next to it ({}) for a "
         "local frame in metres",
         declare_crs_command(name, "EPSG:4326")));
-  if (options.crs == "local" && points.unit_in_metres == 0) return refuse_frame(name, options);
-  if (options.crs == "local" || becomes_local(options, points.unit_in_metres))
-    make_local_metres({points.unit_in_metres, points.unit_in_metres}, "the points' own coordinates", points);
+  SCARP_RETURN_IF_ERROR(place_without_crs(options, points));
   SCARP_RETURN_IF_ERROR(settle_point_heights(options, {}, points));
   return points;
 }

@@ -18,6 +18,7 @@
 #include "grid/height_range.h"
 #include "io/kinds.h"
 #include "io/lent.h"
+#include "io/mesh/formats.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
@@ -82,6 +83,24 @@ bool begins_as_grid(const std::string& path) {
   return word == "ncols" || word == "nrows" || word == "dsaa";
 }
 
+namespace {
+
+/// LandXML or DXF, which hold points, lines or meshes.
+std::optional<MeshFormat> find_drawing(const std::string& path) {
+  const auto format = recognise_mesh(read_head(path), path);
+  return format == MeshFormat::kLandXml || format == MeshFormat::kDxf ? format : std::nullopt;
+}
+
+/// REQUIRES: a drawing.
+bool has_triangles(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return false;
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  return text.find("<Faces") != text.npos || text.find("3DFACE") != text.npos;
+}
+
+}  // namespace
+
 std::string projection_path(const std::string& path) { return fs::path(path).replace_extension(".prj").string(); }
 
 bool is_point_file(const std::string& path) {
@@ -91,7 +110,7 @@ bool is_point_file(const std::string& path) {
   constexpr std::array<std::string_view, 3> kText{".csv", ".tsv", ".xyz"}, kEither{".txt", ".dat", ".gpkg"};
   if (is_one_of(extension, kText)) return !is_text_grid(path);
   if (is_one_of(extension, kEither)) return !begins_as_grid(path) && !opens_as_raster(path);
-  return is_one_of(extension, kPoints);
+  return is_one_of(extension, kPoints) || (find_drawing(path) && !has_triangles(path));
 }
 
 namespace {
@@ -125,12 +144,14 @@ Result<PointSet> read_by_content(const std::string& path, const ReadPointsOption
   if (options.choice != PointChoice())
     return fail(ErrorKind::kUsage,
                 path + ": classes and returns of points are those of LAS and LAZ files, and this is none: omit them");
-  if (!is_text_of_columns(path)) return read_gdal_points(path, options);
+  const auto drawing = find_drawing(path);
+  if (drawing == MeshFormat::kDxf || (!drawing && !is_text_of_columns(path))) return read_gdal_points(path, options);
+  SCARP_TRY(const std::string& crs, read_declared_crs(path));
   SCARP_TRY(const auto& bytes, read_file(path));
+  if (drawing) return read_landxml_points(bytes, path, options, crs);
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4096));
   if (const std::string kind = describe_kind(path, head, bytes.size(), false); !kind.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
-  SCARP_TRY(const std::string& crs, read_declared_crs(path));
   return decode_columns(bytes, path, options, crs);
 }
 

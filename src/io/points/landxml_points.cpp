@@ -1,0 +1,279 @@
+// Points and breaklines of LandXML: survey points, and what a surface was made of; else the vertices of its TIN.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/lent.h"
+#include "io/mesh/mesh_file_text.h"
+#include "io/mesh/xml_reader.h"
+#include "io/points/line_points.h"
+#include "io/points/point_heights.h"
+#include "io/points/point_source.h"
+#include "io/raster/crs_description.h"
+#include "scarp/height_field.h"
+#include "scarp/io.h"
+
+namespace scarp {
+namespace {
+
+constexpr const char* kSurveyPoints = "CgPoints";
+
+/// A surface, or the survey points.
+struct Part {
+  std::string name;
+  PointSet source, vertices;  ///< source data of a surface, and its TIN
+  std::uint64_t boundaries = 0, faces = 0;
+  std::uint64_t flat = 0, short_lines = 0;  ///< points and lines without elevation; lines of a single point
+
+  bool has_source() const { return source.size() > 0; }
+  PointSet& points() { return has_source() ? source : vertices; }
+};
+
+/// The content of a file.
+struct Content {
+  std::vector<Part> parts;  ///< the survey points first
+  std::string linear_unit, crs;
+};
+
+class Reader {
+ public:
+  Reader(std::span<const std::uint8_t> bytes, std::optional<double> nodata) : xml_(bytes), nodata_(nodata) {
+    content_.parts.push_back({kSurveyPoints, {}, {}});
+  }
+
+  Content take() { return std::move(content_); }
+
+  /// Returns why it cannot be read; empty if it can.
+  std::string read() {
+    for (;;) {
+      switch (xml_.next()) {
+        case XmlReader::Event::kStart:
+          begin_element();
+          break;
+        case XmlReader::Event::kText:
+          if (!reading_.empty()) text_ += xml_.text();
+          break;
+        case XmlReader::Event::kEnd:
+          if (std::string why = end_element(); !why.empty()) return fmt::format("line {}: {}", xml_.line(), why);
+          break;
+        case XmlReader::Event::kComment:
+          break;
+        case XmlReader::Event::kDone:
+          return {};
+        case XmlReader::Event::kBroken:
+          return xml_.complaint();
+      }
+    }
+  }
+
+ private:
+  Part& part() { return content_.parts.back(); }
+
+  void begin_element() {
+    const std::string_view name = xml_.name();
+    if (name == "Metric" || name == "Imperial") {
+      content_.linear_unit = xml_.attribute("linearUnit");
+    } else if (name == "CoordinateSystem") {
+      const std::string code = xml_.attribute("epsgCode");
+      content_.crs = code.empty() ? xml_.attribute("ogcWktCode") : "EPSG:" + code;
+    } else if (name == "Surface") {
+      content_.parts.push_back({xml_.attribute("name"), {}, {}});
+      in_surface_ = true;
+    } else if (name == "Breakline" || name == "Contour" || name == "Boundary") {
+      line_ = name;
+      elevation_ = xml_.attribute("elev");
+      if (name == "Boundary" && in_surface_) ++part().boundaries;
+    } else if (name == "F" && in_surface_) {
+      ++part().faces;
+    } else if (is_list(name)) {
+      reading_ = name;
+      text_.clear();
+    }
+  }
+
+  bool is_list(std::string_view name) const {
+    if (name == "CgPoint") return !in_surface_;
+    return in_surface_ && (name == "P" || name == "PntList3D" || name == "PntList2D");
+  }
+
+  std::string end_element() {
+    const std::string_view name = xml_.name();
+    if (name == "Surface") in_surface_ = false;
+    if (name == line_) line_.clear();
+    if (name != reading_) return {};
+    std::string why;
+    if (name == "CgPoint") {
+      why = read_points(content_.parts.front().source, 0);
+    } else if (name == "P") {
+      why = read_points(part().vertices, 3);
+    } else if (line_ != "Boundary") {
+      why = read_list(name == "PntList3D");
+    }
+    reading_.clear();
+    return why;
+  }
+
+  /// The numbers of the text.
+  std::string read_numbers() {
+    numbers_.clear();
+    TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size()});
+    for (std::string_view word = cursor.word_anywhere(); !word.empty(); word = cursor.word_anywhere()) {
+      numbers_.emplace_back();
+      if (!parse_number(word, numbers_.back()) || !std::isfinite(numbers_.back()))
+        return fmt::format("'{}' is no finite number", std::string(word.substr(0, 40)));
+    }
+    return {};
+  }
+
+  /// False for a point that --nodata omits.
+  bool add(PointSet& points, double northing, double easting, double height) {
+    if (nodata_ && height == *nodata_) {
+      ++points.without_height;
+      return false;
+    }
+    points.x.push_back(easting);
+    points.y.push_back(northing);
+    points.z.push_back(height);
+    return true;
+  }
+
+  /// One point. `wanted`: the count of its numbers; 0: a survey point, which may refer to another or lack a height.
+  std::string read_points(PointSet& points, std::size_t wanted) {
+    if (std::string why = read_numbers(); !why.empty()) return why;
+    if (wanted == 0 && numbers_.empty()) return {};
+    if (wanted == 0 && numbers_.size() == 2) {
+      ++content_.parts.front().flat;
+      return {};
+    }
+    if (numbers_.size() != 3) return "a point needs its northing, easting and elevation";
+    add(points, numbers_[0], numbers_[1], numbers_[2]);
+    return {};
+  }
+
+  /// A list of points; in a breakline or a contour their line.
+  std::string read_list(bool has_heights) {
+    if (std::string why = read_numbers(); !why.empty()) return why;
+    const std::size_t size = has_heights ? 3 : 2;
+    if (numbers_.size() % size != 0)
+      return fmt::format("a list of points has {} numbers, which {} does not divide", numbers_.size(), size);
+    double elevation = 0;
+    if (!has_heights && (!parse_number(elevation_, elevation) || !std::isfinite(elevation))) {
+      ++part().flat;
+      return {};
+    }
+    PointSet& points = part().source;
+    LinePoints line(points);
+    for (std::size_t k = 0; k < numbers_.size(); k += size) {
+      if (add(points, numbers_[k], numbers_[k + 1], has_heights ? numbers_[k + 2] : elevation) && !line_.empty())
+        line.add_last();
+    }
+    if (line_.empty()) return {};
+    const std::string name = fmt::format("{} {} of the surface {}", line_, points.lines.size() + 1, part().name);
+    if (!line.finish(name, line_ == "Breakline")) ++part().short_lines;
+    return {};
+  }
+
+  XmlReader xml_;
+  std::optional<double> nodata_;
+  Content content_;
+  std::string text_, reading_;    // content and name of the element of points that is being read
+  std::string line_, elevation_;  // the open breakline, contour or boundary
+  std::vector<double> numbers_;
+  bool in_surface_ = false;
+};
+
+std::string list_names(const std::vector<Part*>& parts) {
+  std::string names;
+  for (const Part* part : parts) names += (names.empty() ? "" : ", ") + part->name;
+  return names;
+}
+
+Result<Part*> choose_part(Content& content, const std::string& path, const std::string& wanted) {
+  std::vector<Part*> filled;
+  for (Part& part : content.parts) {
+    if (part.points().size() > 0) filled.push_back(&part);
+  }
+  if (filled.empty()) return fail(ErrorKind::kInput, path + ": holds no points with northing, easting and elevation");
+  if (wanted.empty() && filled.size() == 1) return filled.front();
+  Part* chosen = nullptr;
+  for (Part* part : filled) {
+    if (part->name != wanted) continue;
+    if (chosen != nullptr)
+      return fail(ErrorKind::kInput, fmt::format("{}: holds two surfaces '{}': rename one", path, wanted));
+    chosen = part;
+  }
+  if (chosen != nullptr) return chosen;
+  if (wanted.empty())
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: holds {}: name one of them with --layer", path, list_names(filled)));
+  return fail(ErrorKind::kInput, fmt::format("{}: holds no '{}', only {}", path, wanted, list_names(filled)));
+}
+
+HeightUnit unit_of(const std::string& linear_unit) {
+  const std::string name = linear_unit == "USSurveyFoot" ? "US survey foot" : linear_unit;
+  return {name, find_metres(name).value_or(0)};
+}
+
+/// Warns of everything that is not among the points.
+void warn(const Part& part, PointSet& points) {
+  const auto add = [&](const std::string& text) { points.warnings.push_back(points.path + ": " + text); };
+  if (part.flat > 0) add(fmt::format("points and lines that have no elevation and were left out: {}", part.flat));
+  if (part.short_lines > 0) add(fmt::format("lines of a single point, which count as points: {}", part.short_lines));
+  if (part.boundaries > 0)
+    add(fmt::format("the surface '{}' has boundaries, which are not read: give them as polygons with --boundary",
+                    part.name));
+  if (part.faces > 0 && !part.has_source())
+    add(fmt::format("of the surface '{}' the vertices are read, not its triangles", part.name));
+}
+
+/// Places x and y, and settles the unit of the heights.
+Result<void> place(const Content& content, const ReadPointsOptions& options, PointSet& points) {
+  const HeightUnit unit = unit_of(content.linear_unit);
+  if (!content.crs.empty() && (!can_describe_crs() || describe_crs(content.crs))) {
+    points.crs = content.crs;
+    SCARP_RETURN_IF_ERROR(place_lent_points(options, points));
+    return settle_point_heights(options, unit, points);
+  }
+  if (!content.crs.empty())
+    points.warnings.push_back(fmt::format("{}: its CRS, {}, is unknown here: x and y count as having none", points.path,
+                                          content.crs.substr(0, 60)));
+  points.unit_in_metres = points.heights.crs_unit_in_metres = unit.metres;
+  points.heights.crs_unit = unit.name;
+  SCARP_RETURN_IF_ERROR(place_without_crs(options, points));
+  return settle_point_heights(options, unit, points);
+}
+
+}  // namespace
+
+Result<PointSet> read_landxml_points(std::span<const std::uint8_t> bytes, const std::string& path,
+                                     const ReadPointsOptions& options, const std::string& crs) {
+  for (const auto& [option, value] :
+       {std::pair{"--z-field", &options.z_field}, std::pair{"--columns", &options.columns}}) {
+    if (!value->empty())
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} is for text and vector layers, and {} is LandXML: leave it out", option, path));
+  }
+  Reader reader(bytes, options.nodata);
+  if (const std::string why = reader.read(); !why.empty()) return fail(ErrorKind::kInput, path + ": " + why);
+  Content content = reader.take();
+  if (content.crs.empty()) content.crs = crs;
+  SCARP_TRY(Part* const part, choose_part(content, path, options.layer));
+  PointSet points = std::move(part->points());
+  points.path = path;
+  points.format = "LandXML";
+  points.columns = part->name == kSurveyPoints ? "survey points" : "surface " + part->name;
+  warn(*part, points);
+  SCARP_RETURN_IF_ERROR(crop(options, points));
+  SCARP_RETURN_IF_ERROR(place(content, options, points));
+  return points;
+}
+
+}  // namespace scarp

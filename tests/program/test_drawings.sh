@@ -1,0 +1,89 @@
+#!/bin/bash
+# Points, breaklines and contours of drawings (DXF), of LandXML and of several layers.
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+need python3 ogr2ogr
+
+python3 - <<'PY'
+import math
+height = lambda x, y: 100 + 3 * math.sin(x / 15) + 2 * math.cos(y / 20)
+grid = [(5 * i + (j % 3) / 3, 5 * j + (i % 2) / 2) for i in range(20) for j in range(20)]
+ridge = [(3 + 10 * k, 41 + (k % 2), height(3 + 10 * k, 41 + (k % 2)) + 1) for k in range(9)]
+out = "0 SECTION 2 HEADER 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 8 0 2 SPOT 70 0 10 0 20 0 30 0 3 SPOT 0 LINE 8 0 10 -1 20 0 30 0 11 1 21 0 31 0 0 ENDBLK 8 0 0 ENDSEC".split()
+out += "0 SECTION 2 ENTITIES".split()
+def add(*pairs): out.extend(str(value) for value in pairs)
+for x, y in grid:
+    add(0, "POINT", 8, "SURVEY", 10, 500000 + x, 20, 5000000 + y, 30, "%.3f" % height(x, y))
+    add(0, "TEXT", 8, "SURVEY", 10, 500000 + x, 20, 5000000 + y, 30, 0, 40, 1, 1, "%.1f" % height(x, y))
+add(0, "INSERT", 8, "SPOTS", 2, "SPOT", 10, 500022, 20, 5000022, 30, 109.5)
+add(0, "LWPOLYLINE", 100, "AcDbEntity", 8, "CONTOURS", 100, "AcDbPolyline", 90, 3, 70, 0, 38, 102.5)
+for x, y in (3, 3), (13, 7), (23, 4): add(10, 500000 + x, 20, 5000000 + y)
+add(0, "POLYLINE", 8, "RIDGE", 66, 1, 70, 8, 10, 0, 20, 0, 30, 0)
+for x, y, z in ridge: add(0, "VERTEX", 8, "RIDGE", 70, 32, 10, 500000 + x, 20, 5000000 + y, 30, "%.3f" % z)
+add(0, "SEQEND", 8, "RIDGE", 0, "CIRCLE", 8, "TREES", 10, 500070, 20, 5000072, 30, 0, 40, 2)
+add(0, "TEXT", 8, "TITLE", 10, 500000, 20, 5000000, 30, 0, 40, 1, 1, "Site plan", 0, "ENDSEC", 0, "EOF")
+open("site.dxf", "w").write("\n".join(out) + "\n")
+open("points.csv", "w").write("x,y,z\n" + "".join("%s,%s,%.3f\n" % (500000 + x, 5000000 + y, height(x, y)) for x, y in grid))
+
+three = lambda points: " ".join("%s %s %.3f" % (5000000 + y, 500000 + x, z) for x, y, z in points)
+xml = lambda units, body: '<?xml version="1.0"?>\n<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2">%s\n%s</LandXML>\n' % (units, body)
+metres = '<Units><Metric linearUnit="meter"/></Units><CoordinateSystem epsgCode="32633"/>'
+feet = '<Units><Imperial linearUnit="USSurveyFoot"/></Units>'
+survey = "<CgPoints>" + "".join('<CgPoint name="%d" code="GND">%s</CgPoint>\n' % (k, three([(x, y, height(x, y))])) for k, (x, y) in enumerate(grid))
+survey += '<CgPoint name="flat">5000000 500000</CgPoint><CgPoint name="again" pntRef="1"/></CgPoints>'
+surface = '<Surfaces><Surface name="EG"><SourceData><DataPoints><PntList3D>%s</PntList3D></DataPoints>' % three([(x, y, height(x, y)) for x, y in grid])
+surface += '<Breaklines><Breakline brkType="standard"><PntList3D>%s</PntList3D></Breakline></Breaklines>' % three(ridge)
+surface += '<Contours><Contour elev="102.5"><PntList2D>5000003 500003 5000007 500013 5000004 500023</PntList2D></Contour></Contours>%s</SourceData></Surface></Surfaces>'
+open("survey.xml", "w").write(xml(metres, survey))
+open("feet.xml", "w").write(xml(feet, survey))
+open("surface.xml", "w").write(xml(metres, surface % ""))
+bounded = '<Boundaries><Boundary bndType="outer"><PntList2D>5000000 500000 5000090 500000 5000090 500090</PntList2D></Boundary></Boundaries>'
+open("both.xml", "w").write(xml(metres, survey + surface % bounded))
+open("torn.xml", "w").write(xml(metres, surface % "")[:2000])
+open("odd.xml", "w").write(xml(metres, surface % "").replace("</PntList3D></Breakline>", " 7</PntList3D></Breakline>"))
+PY
+
+# A drawing: the layers that are the terrain have to be named. Texts are no points, and a symbol is one.
+refuses 2 "site.dxf: a drawing with the layers CONTOURS, RIDGE, SPOTS, SURVEY, TREES: name those of the terrain with --layer A,B" \
+  "$scarp" simplify site.dxf x.obj -e 0.1
+refuses 2 "holds no layer 'TITLE', only CONTOURS, RIDGE, SPOTS, SURVEY, TREES" "$scarp" simplify site.dxf x.obj -e 0.1 --layer SURVEY,TITLE
+succeeds "$scarp" simplify site.dxf points.obj -e 0.1 --layer SURVEY --crs source
+succeeds "$scarp" simplify points.csv same.obj -e 0.1 --crs source
+cmp <(grep '^[vf]' points.obj) <(grep '^[vf]' same.obj) || fail "the points of a drawing are others than those of a text"
+succeeds "$scarp" simplify site.dxf site.obj -e 0.1 --layer SURVEY,RIDGE,CONTOURS,SPOTS --report site.json
+[ ! -s "$logs/err" ] || fail "a drawing warns: $(cat "$logs/err")"
+[ "$(json site.json input points)" = $((400 + 9 + 3 + 1)) ] || fail "points of four layers"
+grep -Eq '^v .* 109.5( |$)' site.obj || fail "the symbol is no vertex"
+succeeds "$scarp" measure site.dxf site.obj --layer SURVEY,RIDGE,CONTOURS,SPOTS --fail-above 0.1 -q
+succeeds "$scarp" simplify site.dxf ridge.obj -e 0.1 --layer SURVEY --breaklines site.dxf:RIDGE
+grep -q 'lines  *1, each a chain of edges' "$logs/out" || fail "a layer of breaklines"
+
+# Contours with attributes and spot heights with third coordinates.
+ogr2ogr -q -f GPKG map.gpkg points.csv -nln spots -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z -a_srs EPSG:32633
+printf 'WKT,ELEV\n"LINESTRING (500003 5000003,500013 5000007,500023 5000004)",102.5\n' >lines.csv
+ogr2ogr -q -f GPKG -append map.gpkg lines.csv -nln contours -oo GEOM_POSSIBLE_NAMES=WKT -oo AUTODETECT_TYPE=YES -oo KEEP_GEOM_COLUMNS=NO -a_srs EPSG:32633
+succeeds "$scarp" simplify map.gpkg map.obj -e 0.1 --layer spots,contours
+grep -q 'points  *403' "$logs/out" || fail "points of two layers"
+grep -q 'read as  *spots: height: third coordinate; contours: height: attribute ELEV' "$logs/out" || fail "heights of two layers"
+ogr2ogr -q -f GPKG -append map.gpkg lines.csv -nln elsewhere -oo GEOM_POSSIBLE_NAMES=WKT -oo AUTODETECT_TYPE=YES -a_srs EPSG:32632
+refuses 2 "the layers spots, elsewhere differ in their CRS" "$scarp" simplify map.gpkg x.obj -e 0.1 --layer spots,elsewhere
+
+# LandXML: survey points, what a surface was made of, else the vertices of a TIN.
+succeeds "$scarp" simplify survey.xml survey.obj -e 0.1 --crs source
+grep -q 'survey.xml: points and lines that have no elevation and were left out: 1' "$logs/err" || fail "a point without elevation"
+cmp <(grep '^[vf]' survey.obj) <(grep '^[vf]' same.obj) || fail "survey points are others than those of a text"
+succeeds "$scarp" info feet.xml --json
+grep -q "\"unit\": \"US survey foot\"" "$logs/out" || fail "feet: $(cat "$logs/out")"
+succeeds "$scarp" simplify surface.xml surface.xml.obj -e 0.1
+grep -q 'points  *412' "$logs/out" && grep -q 'lines  *2, each a chain' "$logs/out" || fail "source data: $(cat "$logs/out")"
+refuses 2 "both.xml: holds CgPoints, EG: name one of them with --layer" "$scarp" simplify both.xml x.obj -e 0.1
+refuses 2 "both.xml: holds no 'FG', only CgPoints, EG" "$scarp" simplify both.xml x.obj -e 0.1 --layer FG
+succeeds "$scarp" simplify both.xml tin.xml -e 0.1 --layer EG
+grep -q "the surface 'EG' has boundaries, which are not read: give them as polygons with --boundary" "$logs/err" || fail "a boundary"
+succeeds "$scarp" measure both.xml tin.xml --layer EG --fail-above 0.1 -q
+refuses 2 "tin.xml: a mesh (LandXML): give the raster or the points that it was made from" "$scarp" simplify tin.xml x.obj -e 0.1
+succeeds "$scarp" simplify tin.xml again.obj -e 0.1 --points
+grep -q "of the surface 'terrain' the vertices are read, not its triangles" "$logs/err" || fail "triangles are omitted without a word"
+refuses 2 "odd.xml: line 3: a list of points has 28 numbers, which 3 does not divide" "$scarp" simplify odd.xml x.obj -e 0.1
+refuses 2 "torn.xml: " "$scarp" simplify torn.xml x.obj -e 0.1
+refuses 1 "--columns is for text and vector layers, and survey.xml is LandXML" "$scarp" simplify survey.xml x.obj -e 0.1 --columns xyz
+echo "drawings, LandXML and several layers give their points and lines"
