@@ -389,11 +389,15 @@ struct PointSet {
   /// Rings of polygons, by the indices of their corners, at which the surface ends; holes are rings, too. All points
   /// lie inside, by the rule of even and odd. From cut_to_boundary(). EMPTY: the surface ends at a hull.
   std::vector<std::vector<std::uint32_t>> boundary;
-  std::string path;           ///< their source, for messages
-  std::string format;         ///< "CSV", "GPKG", …
-  std::string crs;            ///< CRS of x and y: "EPSG:32611", WKT, or empty
-  std::string description;    ///< one line for reports: the meaning and unit of x and y
-  bool is_local = false;      ///< x and y are metres from the middle of the points
+  std::string path;         ///< their source, for messages
+  std::string format;       ///< "CSV", "GPKG", …
+  std::string crs;          ///< CRS of x and y: "EPSG:32611", WKT, or empty
+  std::string description;  ///< one line for reports: the meaning and unit of x and y
+  bool is_local = false;    ///< x and y are metres from the middle of the points
+  std::string source_crs;   ///< CRS of the file, if is_local; else empty
+  /// The affine map from x and y to the coordinates of the file, like RasterInfo::geotransform: the identity unless
+  /// is_local.
+  std::array<double, 6> to_source{0, 1, 0, 0, 0, 1};
   double unit_in_metres = 0;  ///< unit of x and y; 0 for degrees and unknown units
   /// Metadata of z, as of a raster's heights: unit, unit_in_metres, unit_is_assumed, file_unit, z_scale, z_offset; and
   /// crs_unit, crs_unit_in_metres of x and y in the file.
@@ -407,6 +411,10 @@ struct PointSet {
   std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 
   std::size_t size() const { return x.size(); }
+  /// The place of a point in the coordinates of the file, to rounding.
+  std::array<double, 2> place_in_file(std::size_t i) const {
+    return {to_source[0] + to_source[1] * x[i], to_source[3] + to_source[5] * y[i]};
+  }
 };
 
 /// Rule for several points with equal x and equal y, as given.

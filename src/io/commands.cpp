@@ -38,9 +38,8 @@ std::string comment_out_command(const std::string& file, std::uint64_t lines) {
   return fmt::format("sed '1,{}s/^/#/' {} > {}", lines, file_word(file), new_file(".csv"));
 }
 
-std::string uncomment_command(const std::string& file, const std::string& made) {
-  return fmt::format("sed '/^[[:blank:]]*[#%]/d; /^[[:blank:]]*\\/\\//d; /^[[:space:]]*$/d' {} > {}", file_word(file),
-                     file_word(made));
+std::string rasterize_command(const std::string& file) {
+  return fmt::format("scarp simplify {} {} -e ERROR --cell-size SIZE", file_word(file), new_file(".tif"));
 }
 
 std::string utf8_command(const std::string& encoding, const std::string& file) {

@@ -19,8 +19,8 @@ std::string warp_command(const std::string& options, const std::string& file);
 
 /// "sed '1,COUNTs/^/#/' FILE > NEW.csv": the first lines become comments.
 std::string comment_out_command(const std::string& file, std::uint64_t lines);
-/// Removes comments and blank lines from a text, for programs that would read them as data: "sed … FILE > MADE".
-std::string uncomment_command(const std::string& file, const std::string& made);
+/// "scarp simplify FILE NEW.tif -e ERROR --cell-size SIZE", of points.
+std::string rasterize_command(const std::string& file);
 /// "iconv -f ENCODING -t UTF-8 FILE > NEW.csv".
 std::string utf8_command(const std::string& encoding, const std::string& file);
 

@@ -122,7 +122,10 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
     case Way::kMesh:
       return tell(from_its_source(path));
     case Way::kLas:
-      return tell("simplify, measure and info read it as points (--points), and nothing else does");
+      return tell(
+          fmt::format("simplify, measure and info read it as points (--points); for others make a raster of it "
+                      "first ({})",
+                      rasterize_command(path)));
     case Way::kCloud:
       return tell(through_pdal(path));
     case Way::kCloudOrMesh:

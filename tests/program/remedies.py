@@ -56,8 +56,6 @@ def replaced(command):
         return words[-1], words[-1].rsplit(".", 1)[0]
     if words[0] == "xmllint":
         return words[-3], words[-1]
-    if words[0] == "gdal_grid":
-        return shlex.split(command.split("&&")[0])[-1].removeprefix("CSV:"), words[-1]
     if words[0] in ("printf", "echo", "scarp"):  # these change nothing, or a file of that name
         return None, None
     return words[-2], words[-1]

@@ -191,7 +191,6 @@ C("HDF4", "scarp simplify x.hdf o.glb -e 20", "gdal_translate -q -of HDF4Image d
 C("gzip", "scarp simplify dem2.tif.gz o.glb -e 20", "cp dem.tif dem2.tif; gzip dem2.tif")
 C("tar", "scarp simplify a.tgz o.glb -e 20", "cp dem.tif dem2.tif; tar -czf a.tgz dem2.tif; rm dem2.tif", then="scarp simplify dem2.tif o.glb -e 20")
 O("LAS by another name", "scarp simplify scan.bin o.glb -e 2", r"as points \(--points\)", "scarp simplify scan.bin o.glb -e 2 --points", "mv scan.las scan.bin")
-O("LAS for tiles", "scarp tile scan.las g -e 2", "simplify, measure and info read it", "scarp simplify scan.las o.glb -e 2")
 O("a class that no point has", "scarp simplify scan.las o.glb -e 2 --class water", "none of its 60 points is left: .*its classes are 2", "scarp simplify scan.las o.glb -e 2 --class ground")
 O("PLY of points", "scarp simplify cloud.ply o.glb -e 1", "PLY point cloud: .*pdal translate cloud.ply", "true", "printf 'ply\\nformat ascii 1.0\\nelement vertex 1\\nproperty float x\\nend_header\\n1\\n' > cloud.ply")
 O("a web page", "scarp simplify page.tif o.glb -e 1", "a web page in place of the file: fetch the file again", "true", "echo '<!DOCTYPE html><html></html>' > page.tif")
@@ -199,8 +198,9 @@ O("Git LFS", "scarp simplify lfs.tif o.glb -e 1", r"\(git lfs pull\)", "true", "
 C("a mesh", "scarp simplify mesh.glb o.glb -e 20")
 C("a mesh as OBJ, to tiles", "scarp tile mesh.obj g -e 20 --zoom 9")
 C("a mesh as lines", "scarp simplify dem.tif o.glb -e 20 --breaklines mesh.glb")
-C("points for tiles", "scarp tile p.xyz g -e 20 --zoom 9 --vertical ellipsoid", "printf '8.1 46.1 500\\n8.2 46.1 600\\n8.1 46.2 700\\n8.2 46.25 650\\n8.15 46.16 640\\n' > p.xyz", {"COLUMNS ROWS": "24 20", **BOX},
-  then="gdal_translate -q -a_srs EPSG:4326 -a_nodata -9999 NEW.tif n.tif && scarp tile n.tif g -e 20 --zoom 9 --vertical ellipsoid")
+C("points for tiles", "scarp tile p.xyz g -e 20 --zoom 9 --vertical ellipsoid", "printf 'lon lat height\\n8.1 46.1 500\\n8.2 46.1 600\\n8.1 46.2 700\\n8.2 46.25 650\\n8.15 46.16 640\\n' > p.xyz; echo EPSG:4326 > p.prj",
+  {"ERROR": "1", "SIZE": "500", **BOX}, then="scarp tile NEW.tif g -e 20 --zoom 9 --vertical ellipsoid")
+C("a lidar file for tiles", "scarp tile scan.las g -e 20 --grid local --vertical none", fill={"ERROR": "1", "SIZE": "2"}, then="scarp tile NEW.tif g -e 20 --grid local --vertical none")
 C("the mesh before the raster", "scarp measure mesh.obj dem.tif --crs source")
 O("several rasters", "scarp simplify two.nc o.glb -e 20", "name one of them: .*:Band2", "scarp simplify 'NETCDF:\"two.nc\":Band2' o.glb -e 20",
   "gdalbuildvrt -q -separate two.vrt dem.tif dem.tif; gdal_translate -q -of netCDF two.vrt two.nc")

@@ -107,3 +107,38 @@ want = bytes([int(sys.argv[1]), int(sys.argv[2]), 230]) * 8500
 assert len(data) == len(want) and all(abs(a - b) <= 1 for a, b in zip(data, want)), data[:12]
 PYTHON
 done
+
+# Points: each vertex has the colour of the image at its place, in degrees and in metres, of the same points.
+gdal_translate -q -of XYZ "$dem" samples.xyz
+awk 'BEGIN { print "lon lat height" } NR % 97 == 1' samples.xyz > degrees.csv
+echo EPSG:4326 > degrees.prj
+gdalwarp -q -t_srs EPSG:32617 -r near chess.tif metres.tif
+tail -n +2 degrees.csv | gdaltransform -s_srs EPSG:4326 -t_srs EPSG:32617 | awk 'BEGIN { print "x y z" } { print $1, $2, $3 }' > metres.csv
+echo EPSG:32617 > metres.prj
+for points in degrees metres; do
+  succeeds "$scarp" simplify $points.csv $points.glb -e 20 --drape metres.tif,size=2000,format=png
+  pixels $points.glb 0
+  PYTHONPATH=$SCARP_SOURCE/tests/program python3 - $points $size <<'PYTHON' || fail "the image does not lie on $points"
+import glb, sys
+name, width, height = sys.argv[1], *map(int, sys.argv[2:])
+document, binary = glb.load(name + ".glb")
+west, across, _, south, _, up = document["asset"]["extras"]["to_source"]
+attributes = document["meshes"][0]["primitives"][0]["attributes"]
+shift = document["nodes"][0]["translation"]
+image = open("raw", "rb").read()
+numbers = lambda file: [[float(word) for word in line.split()] for line in list(open(file))[1:]]
+digits = 6 if name == "degrees" else 1
+cells = {(round(x, digits), round(y, digits)): (round((lon + 84.41375) / 0.000833333333333 - 0.5), round((36.44625 - lat) / 0.000833333333333 - 0.5))
+         for (x, y, *_), (lon, lat, *_) in zip(numbers(name + ".csv"), numbers("degrees.csv"), strict=True)}
+count = 0
+for (x, _, z), (u, v) in zip(*(glb.floats(document, binary, attributes[key]) for key in ("POSITION", "TEXCOORD_0")), strict=True):
+    cell = cells.get((round(west + across * (x + shift[0]), digits), round(south + up * -(z + shift[2]), digits)))
+    if cell is None or not 2 < cell[0] < 400 or not 2 < cell[1] < 341:
+        continue
+    at = 3 * (min(height - 1, int(v * height)) * width + min(width - 1, int(u * width)))
+    want = (cell[0] * 255 / 402, cell[1] * 255 / 343)
+    assert all(abs(a - b) <= 2 for a, b in zip(image[at + 1:at + 3], want)), (cell, want, *image[at:at + 3])
+    count += 1
+assert count > 100, count
+PYTHON
+done

@@ -54,6 +54,9 @@ succeeds "$scarp" simplify site.dxf site.obj -e 0.1 --layer SURVEY,RIDGE,CONTOUR
 [ "$(json site.json input points)" = $((400 + 9 + 3 + 1)) ] || fail "points of four layers"
 grep -Eq '^v .* 109.5( |$)' site.obj || fail "the symbol is no vertex"
 succeeds "$scarp" measure site.dxf site.obj --layer SURVEY,RIDGE,CONTOURS,SPOTS --fail-above 0.1 -q
+succeeds "$scarp" simplify site.dxf site.glb -e 0.1 --layer SURVEY,SPOTS
+succeeds "$scarp" measure site.dxf site.glb --fail-above 0.1
+grep -q 'points judged  *401' "$logs/out" || fail "a mesh forgets the layers of its points"
 succeeds "$scarp" simplify site.dxf ridge.obj -e 0.1 --layer SURVEY --breaklines site.dxf:RIDGE
 grep -q 'lines  *1, each a chain of edges' "$logs/out" || fail "a layer of breaklines"
 

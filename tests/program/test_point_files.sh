@@ -161,6 +161,13 @@ if command -v ogr2ogr >/dev/null; then
   bash -ec "$command" || fail "the command fails: $command"
   succeeds "$scarp" simplify log.csv log.glb -e 5
   grep -q 'frame  *local metres east and north' "$logs/out" || fail "$command: $(cat "$logs/out")"
+  # Polygons and lines in another CRS go to the local frame of degrees.
+  printf '{"type":"Polygon","coordinates":[[[11.001,48.001],[11.009,48.001],[11.009,48.009],[11.001,48.009],[11.001,48.001]]]}' >site.geojson
+  ogr2ogr -q -f GPKG site.gpkg site.geojson -t_srs EPSG:32632
+  succeeds "$scarp" simplify log.csv site.glb -e 5 --boundary site.gpkg
+  outside=$(awk -F, '$1 + 0 > 0 && !($3 > 11.001 && $3 < 11.009 && $2 > 48.001 && $2 < 48.009)' log.csv | wc -l)
+  grep -q ", $outside points outside left out" "$logs/out" || fail "points in a boundary of another CRS, not $outside outside"
+  succeeds "$scarp" measure log.csv site.glb --fail-above 5 -q
   printf 'not a CRS\n' >log.prj
   refuses 2 "log.prj: declares no CRS that is known here: write WKT into it, or a code such as EPSG:32633" \
     "$scarp" simplify log.csv no.glb -e 5

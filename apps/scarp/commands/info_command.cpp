@@ -49,7 +49,7 @@ Result<void> run_points(const GivenOptions& given, const std::string& command_li
   as.heights_in = HeightsIn::kFile;
   as.default_frame = DefaultFrame::kMetric;
   SCARP_TRY(const auto& options, parse_points(given, as));
-  SCARP_TRY(const PointSet& points, read_points(given.input(), options));
+  SCARP_TRY(const PointSet& points, read_inputs(given, options));
   display.finish();
   if (!given.has(kQuiet)) print_warnings(points.warnings);
   return print_to_stdout(given.has(kJson) ? to_text(points_facts_report(points, command_line)) : points_facts(points));
@@ -68,8 +68,7 @@ Result<void> run_mesh(const GivenOptions& given, const std::string& format, cons
 
 Result<void> run_info(const GivenOptions& given, const std::string& command_line) {
   const bool is_one = given.inputs().size() == 1;
-  if (given.has(kPoints) || given.has(kColumns) || (is_one && !given.input().empty() && is_point_file(given.input())))
-    return run_points(given, command_line);
+  if (!given.input().empty() && are_points_meant(given)) return run_points(given, command_line);
   if (const auto option = given.first_of({kLayer, kZField, kClass, kReturns}))
     return fail(ErrorKind::kUsage, fmt::format("{} is for points: omit it, or give {}", *option, kPoints));
   if (is_one && find_mesh_file(given.input()))

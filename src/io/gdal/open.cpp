@@ -142,8 +142,8 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
     if (EQUAL(GDALGetDriverShortName(driver), "XYZ")) {
       return fail(ErrorKind::kInput,
                   fmt::format("{}: holds points that lie on no grid ({}), and a raster is asked for: make one of them "
-                              "first ({} && gdal_grid -a linear:nodata=-9999 -outsize COLUMNS ROWS {} {})",
-                              path, reason, geopackage_command(path), new_file(".gpkg"), new_file(".tif")));
+                              "first ({})",
+                              path, reason, rasterize_command(path)));
     }
     return fail(ErrorKind::kInput,
                 fmt::format("{}: a damaged or truncated {} raster: {}", path, GDALGetDriverShortName(driver), reason));

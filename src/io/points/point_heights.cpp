@@ -65,7 +65,8 @@ void make_local_metres(const std::array<double, 2>& metres, const std::string& w
   for (double& value : points.x) value = (value - x) * metres[0];
   for (double& value : points.y) value = (value - y) * metres[1];
   points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y, whose);
-  points.crs.clear();
+  points.source_crs = std::exchange(points.crs, "");
+  points.to_source = {x, 1 / metres[0], 0, y, 0, 1 / metres[1]};
   points.is_local = true;
   points.unit_in_metres = 1;
 }

@@ -35,8 +35,6 @@ std::string projection_path(const std::string& path);
 /// The command that makes it.
 std::string declare_crs_command(const std::string& path, const std::string& crs);
 
-/// The command of GDAL that makes a GeoPackage of such a text, with the columns that decode_columns() finds.
-std::string geopackage_command(const std::string& path);
 
 /// A LAS or LAZ file; see read_points().
 Result<PointSet> read_las_points(const std::string& path, const ReadPointsOptions& options);

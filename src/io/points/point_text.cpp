@@ -135,34 +135,6 @@ std::string find_wide_encoding(std::span<const std::uint8_t> bytes) {
   return is_letter(bytes[1], bytes[0]) && is_letter(bytes[3], bytes[2]) ? "UTF-16BE" : "";
 }
 
-/// GDAL's reader of CSV needs the names of the columns of coordinates: without them it makes a table without points.
-std::string describe_conversion(std::span<const std::uint8_t> bytes, const std::string& name,
-                                const ReadPointsOptions& options) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  std::string_view line;
-  TextLines lines(text);
-  PointColumns columns;
-  if (lines.next(line)) columns = find_columns(text, name, options).value_or(PointColumns());
-  std::string command = "ogr2ogr";
-  if (!columns.has_header) command += " -oo HEADERS=NO";
-  if (columns.separator == ' ') command += " -oo MERGE_SEPARATOR=YES";
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t at = columns.at[k];
-    if (k == 2 && !columns.units[k].empty()) continue;  // an attribute keeps the name that shows it
-    const bool is_named = columns.has_header && at < columns.names.size();
-    const std::string column = is_named ? columns.names[at] : fmt::format("field_{}", at + 1);
-    command += " -oo " + file_word(fmt::format("{}_POSSIBLE_NAMES={}", "XYZ"[k], column));
-  }
-  while (lines.next(line)) {
-  }
-  if (lines.has_passed()) {  // GDAL reads comments as names and points
-    const std::string made = new_file(".csv");
-    return fmt::format("{} && {} {} {}", uncomment_command(name, made), command, new_file(".gpkg"), made);
-  }
-  const bool is_csv = lowered(name).ends_with(".csv") || lowered(name).ends_with(".tsv");
-  return fmt::format("{} {} {}{}", command, new_file(".gpkg"), is_csv ? "" : "CSV:", file_word(name));
-}
-
 /// Those that the header names.
 void take_units_of(const PointColumns& columns, PointSet& points) {
   const auto& [x, y, height] = columns.units;
@@ -177,11 +149,6 @@ void take_units_of(const PointColumns& columns, PointSet& points) {
 
 std::string declare_crs_command(const std::string& path, const std::string& crs) {
   return fmt::format("echo {} > {}", crs, file_word(projection_path(path)));
-}
-
-std::string geopackage_command(const std::string& path) {
-  const auto bytes = read_file(path);
-  return describe_conversion(bytes ? std::span<const std::uint8_t>(*bytes) : std::span<const std::uint8_t>(), path, {});
 }
 
 bool looks_like_columns(std::span<const std::uint8_t> head) {

@@ -49,11 +49,9 @@ bool TextLines::next(std::string_view& line) {
     ++number_;
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     const std::string_view content = trim_field(line);
-    has_passed_ = has_passed_ || content.empty();
     if (content.empty()) continue;
     const std::size_t sign = content.front() == '#' || content.front() == '%' ? 1 : content.starts_with("//") ? 2 : 0;
     if (sign == 0) return true;
-    has_passed_ = true;
     comment_ = trim_field(content.substr(sign));
   }
   return false;

@@ -20,13 +20,10 @@ class TextLines {
   std::size_t bytes_left() const { return rest_.size(); }
   /// The comment just before the line that next() gave last, without its sign; empty if there is none.
   std::string_view comment() const { return comment_; }
-  /// True once a comment or an empty line was passed over.
-  bool has_passed() const { return has_passed_; }
 
  private:
   std::string_view rest_, comment_;
   std::uint64_t number_ = 0;
-  bool has_passed_ = false;
 };
 
 /// Removes the first field from the line and returns it; nothing if there is none. ' ' stands for runs of blanks and

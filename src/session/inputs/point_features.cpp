@@ -16,14 +16,17 @@ namespace {
 
 using enum OptionId;
 
-Result<std::vector<Line>> read(const std::vector<std::string>& files, OptionId option, ReadLinesOptions options,
-                               PointSet& points) {
-  if (points.is_local)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} needs points in metres or feet: {} EPSG:CODE converts degrees to a map projection",
-                            option, kCrs));
-  options.crs = points.crs;
+/// Lines in the coordinates of the points.
+Result<std::vector<Line>> read(const std::vector<std::string>& files, ReadLinesOptions options, PointSet& points) {
+  options.crs = points.is_local ? points.source_crs : points.crs;
   SCARP_TRY(auto&& set, read_lines(files, options, points.heights));
+  const auto& [west, across, unused, south, unused_too, up] = points.to_source;
+  for (Line& line : set.lines) {
+    for (auto& point : line.points) {
+      point[0] = (point[0] - west) / across;
+      point[1] = (point[1] - south) / up;
+    }
+  }
   points.warnings.insert(points.warnings.end(), set.warnings.begin(), set.warnings.end());
   return std::move(set.lines);
 }
@@ -86,7 +89,7 @@ Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& p
   options.z_field = given[kBreaklineZ].value_or("");
   options.ignore_z = given.has(kSoftBreaklines);
   options.progress = progress;
-  SCARP_TRY(auto&& lines, read(files, kBreaklines, options, points));
+  SCARP_TRY(auto&& lines, read(files, options, points));
   for (Line& line : lines) {
     for (auto& point : line.points) point[2] = points.heights.z_scale * point[2] + points.heights.z_offset;
   }
@@ -106,7 +109,7 @@ Result<std::vector<Line>> read_boundary(const GivenOptions& given, const Progres
   ReadLinesOptions options;
   options.ignore_z = true;
   options.progress = progress;
-  SCARP_TRY(const auto& rings, read({boundary.file}, kBoundary, options, points));
+  SCARP_TRY(const auto& rings, read({boundary.file}, options, points));
   SCARP_RETURN_IF_ERROR(check_polygons(rings, name_of(kBoundary), name_of(kBreaklines)));
   return inset_polygons(rings, 0);
 }

@@ -20,7 +20,8 @@ namespace {
 std::string describe_place(const PointSet& points, const Measurement& measured) {
   if (measured.max_error_at[0] < 0) return "no point";
   const auto i = static_cast<std::size_t>(measured.max_error_at[0]);
-  return fmt::format("{:.12g}, {:.12g}", points.x[i], points.y[i]);
+  const auto [x, y] = points.place_in_file(i);
+  return fmt::format("{:.12g}, {:.12g}", x, y);
 }
 
 Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
@@ -36,11 +37,10 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
 
 Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
 
-/// x and y of a point; null for none, which is negative.
+/// x and y of a point in its file; null for none, which is negative.
 Json place_of(const PointSet& points, std::int64_t point) {
   if (point < 0) return nullptr;
-  const auto i = static_cast<std::size_t>(point);
-  return Json::array({points.x[i], points.y[i]});
+  return points.place_in_file(static_cast<std::size_t>(point));
 }
 
 void add_point_measurement(Json& report, const PointSet& points, const Measurement& measured) {

@@ -33,6 +33,7 @@ struct PointsOutcome : SimplifyRun {
   std::string suggested_boundary;               ///< empty: none
   std::optional<std::array<double, 2>> centre;  ///< centre of the local frame, where the mesh has one and the points
                                                 ///< have not
+  Picture drape;                                ///< empty without a draped image
 
   /// The frame of the mesh's x and y.
   std::string frame() const;

@@ -25,7 +25,8 @@ const OptionRow kFileRows[] = {
      .is_repeatable = true,
      .is_required = true,
      .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
-             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points; several become one set.",
+             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points; several "
+             "become one set.",
      .brief = "Raster of heights, several for a mosaic, or scattered points"},
     {.id = kPlan,
      .name = "PLAN",
@@ -412,8 +413,8 @@ const OptionRow kFileRows[] = {
      .group = OptionGroup::kOutput,
      .type = kInputFile,
      .value = "IMAGE",
-     .help = "Drape an image over the terrain, inside the GLB: any 8-bit raster, warped from its own CRS. Costs no "
-             "triangles."},
+     .is_for_points = true,
+     .help = "Drape an image over the terrain, inside the GLB: any 8-bit raster, warped from its own CRS."},
     {.id = kDrapeSize,
      .name = "--drape-size",
      .part_of = kDrape,
@@ -427,6 +428,7 @@ const OptionRow kFileRows[] = {
      .least = 1,
      .most = 16384,
      .limit_why = "graphics cards show no more pixels",
+     .is_for_points = true,
      .help = "Pixels on the longer side of the draped image."},
     {.id = kDrapeFormat,
      .name = "--drape-format",
@@ -438,8 +440,8 @@ const OptionRow kFileRows[] = {
      .value = "FORMAT",
      .choices = "jpeg png webp",
      .by_default = "jpeg",
-     .help = "Format of the draped image. jpeg and webp have a quality of 90, png is lossless. Readers of webp must "
-             "know EXT_texture_webp."},
+     .is_for_points = true,
+     .help = "Format of the draped image: jpeg or webp (EXT_texture_webp) of quality 90, or lossless png."},
     {.id = kNormalMap,
      .name = "--normal-map",
      .commands = kSimplify,

@@ -64,6 +64,13 @@ void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh) {
   if (plan.is_y_up) turn_y_up(mesh);
 }
 
+Result<void> add_drape(const SimplifyPlan& plan, const Picture& image, GlbOptions& glb) {
+  if (!plan.images.drape) return {};
+  SCARP_TRY(auto&& bytes, encode_image(image, plan.images.drape_format));
+  glb.base_color = {std::move(bytes), mime_type_of(plan.images.drape_format)};
+  return {};
+}
+
 Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb,
                                             const EncodeOptions& options) {
   if (format.kind == OutputKind::kSvg) return encode_svg(mesh);

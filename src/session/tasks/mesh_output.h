@@ -29,6 +29,9 @@ void add_origin(const std::string& command, const std::string& frame, const std:
 /// Turns the mesh y up if planned.
 void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh);
 
+/// Adds the draped image, if planned.
+Result<void> add_drape(const SimplifyPlan& plan, const Picture& image, GlbOptions& glb);
+
 /// Encodes the file. REQUIRES: not a kDem.
 Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb = {},
                                             const EncodeOptions& options = {});

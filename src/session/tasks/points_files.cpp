@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -38,6 +39,16 @@ Result<Cells> cells_over(const std::vector<double>& values, double size) {
   return Cells{first * size, static_cast<int>(std::max(last - first, 2.0))};
 }
 
+/// Sets the place of a raster with that north-western corner and that size of a cell, in coordinates of the points.
+void place_in_file(const PointSet& points, const std::array<double, 2>& corner, const std::array<double, 2>& cell,
+                   RasterInfo& info) {
+  const auto& [west, east_by_x, unused, south, unused_too, north_by_y] = points.to_source;
+  info.crs = points.is_local ? points.source_crs : points.crs;
+  info.geotransform = {west + east_by_x * corner[0], east_by_x * cell[0], 0, south + north_by_y * corner[1], 0,
+                       -north_by_y * cell[1]};
+  info.has_georeference = true;
+}
+
 /// The mesh's heights at the centres of cells of a size, whose corners are multiples of it; NaN beyond the mesh.
 /// REQUIRES: the mesh is where the points are. Fails with kUsage for more cells than a raster may have.
 Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, int threads) {
@@ -55,9 +66,7 @@ Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, 
   field.frame.kind = Frame::Kind::kSource;
   field.frame.affine = {across.first + size / 2, size, 0, north - size / 2, 0, -size};
   field.info = points.heights;
-  field.info.crs = points.crs;
-  field.info.geotransform = {across.first, size, 0, north, 0, -size};
-  field.info.has_georeference = true;
+  place_in_file(points, {across.first, north}, {size, size}, field.info);
   SCARP_TRY(field.samples, resample(field, outcome.simplified.mesh, threads));
   return field;
 }
@@ -98,10 +107,26 @@ Result<void> add_errors(const SimplifyPlan& plan, const Runner& runner, const Po
   return {};
 }
 
+Result<void> read_draped_image(const SimplifyPlan& plan, const Runner& runner, PointsOutcome& outcome) {
+  if (!plan.images.drape) return {};
+  const PointSet& points = outcome.points;
+  const Extent extent = extent_of(points);
+  RasterInfo info;  // one cell over all points
+  info.path = points.path;
+  place_in_file(points, {extent.low[0], extent.high[1]},
+                {extent.high[0] - extent.low[0], extent.high[1] - extent.low[1]}, info);
+  Run run;
+  run.progress = runner.progress;
+  SCARP_TRY(Drape drape, read_drape(*plan.images.drape, info, 1, 1, plan.images.drape_size, run));
+  outcome.drape = std::move(drape.picture);
+  std::move(drape.warnings.begin(), drape.warnings.end(), std::back_inserter(outcome.warnings));
+  return {};
+}
+
 Result<void> encode_output(const SimplifyPlan& plan, const PointsOutcome& outcome, ReadyFile& file) {
-  SCARP_TRY(file.bytes, encode_as(plan.format, outcome.simplified.mesh,
-                                  {.compress = plan.compress, .threads = plan.simplify.run.threads},
-                                  {.double_positions = plan.doubles}));
+  GlbOptions glb{.compress = plan.compress, .threads = plan.simplify.run.threads};
+  SCARP_RETURN_IF_ERROR(add_drape(plan, outcome.drape, glb));
+  SCARP_TRY(file.bytes, encode_as(plan.format, outcome.simplified.mesh, glb, {.double_positions = plan.doubles}));
   return {};
 }
 
@@ -125,7 +150,8 @@ void collect_errors(const PointSet& points, std::vector<std::uint8_t>& file, Mea
   options.on_row = [&](int, std::span<const float> errors) {
     std::string text = "x,y,z,error\n";
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      fmt::format_to(std::back_inserter(text), "{},{},{},", points.x[i], points.y[i], points.z[i]);
+      const auto [x, y] = points.place_in_file(i);
+      fmt::format_to(std::back_inserter(text), "{},{},{},", x, y, points.z[i]);
       if (!std::isnan(errors[i])) fmt::format_to(std::back_inserter(text), "{}", errors[i]);
       text += '\n';
     }
@@ -135,8 +161,8 @@ void collect_errors(const PointSet& points, std::vector<std::uint8_t>& file, Mea
 
 Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Runner& runner, PointsOutcome& outcome) {
   std::vector<ReadyFile> files{{plan.output, plan.format.name(), {}}};
-  Result<void> added;
-  if (plan.preview) added = add_preview(plan, outcome, files);
+  Result<void> added = read_draped_image(plan, runner, outcome);
+  if (added && plan.preview) added = add_preview(plan, outcome, files);
   if (added && plan.error_raster) added = add_errors(plan, runner, outcome, files);
   SCARP_RETURN_IF_ERROR(added);
   if (plan.format.kind == OutputKind::kDem) {

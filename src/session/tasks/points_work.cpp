@@ -27,21 +27,15 @@ namespace {
 using enum OptionId;
 
 /// Options that a mesh file keeps for its judge.
-constexpr std::pair<OptionId, const char*> kRemembered[] = {{kDuplicates, "duplicates"}, {kDespike, "despike"},
-                                                            {kBoundary, "boundary"},     {kColumns, "columns"},
-                                                            {kClass, "class"},           {kReturns, "returns"}};
+constexpr std::pair<OptionId, const char*> kRemembered[] = {
+    {kLayer, "layer"},       {kZField, "z_field"},  {kDuplicates, "duplicates"}, {kDespike, "despike"},
+    {kBoundary, "boundary"}, {kColumns, "columns"}, {kClass, "class"},           {kReturns, "returns"}};
 
 /// `as`: how a raster would be read.
 Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const ProgressCallback& progress) {
   SCARP_TRY(auto&& options, parse_points(given, as));
   options.progress = progress;
-  SCARP_TRY(PointSet points, read_points(given.input(), options));
-  const std::size_t files = given.inputs().size();
-  for (std::size_t k = 1; k < files; ++k) {
-    SCARP_TRY(const PointSet& more, read_points(given.inputs()[k], options));
-    SCARP_RETURN_IF_ERROR(append_points(more, points));
-  }
-  if (files > 1) points.path += fmt::format(" and {} more", files - 1);
+  SCARP_TRY(PointSet points, read_inputs(given, options));
   sort_points(points);
   SCARP_TRY(const auto& despike, given.number(kDespike));
   SCARP_TRY(const int threads, given.threads());
@@ -58,6 +52,16 @@ Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const Pr
 std::string crs_option(const SimplifyPlan& plan) {
   if (!plan.read.crs.empty()) return plan.read.crs;
   return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
+}
+
+/// Places in an image over the extent, from its top left corner.
+void add_uvs(const Extent& extent, Mesh& mesh) {
+  mesh.uvs.clear();
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto p = mesh.vertex(v);
+    mesh.uvs.push_back(static_cast<float>((p[0] - extent.low[0]) / (extent.high[0] - extent.low[0])));
+    mesh.uvs.push_back(static_cast<float>((extent.high[1] - p[1]) / (extent.high[1] - extent.low[1])));
+  }
 }
 
 void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
@@ -116,6 +120,10 @@ void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
     mesh.metadata["origin"] = Json(*outcome.centre).dump();
     if (!outcome.points.crs.empty()) mesh.metadata["origin_crs"] = outcome.points.crs;
     mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
+  } else if (outcome.points.is_local) {
+    mesh.metadata["origin"] = Json{outcome.points.to_source[0], outcome.points.to_source[3]}.dump();
+    mesh.metadata["to_source"] = Json(outcome.points.to_source).dump();
+    if (!outcome.points.source_crs.empty()) mesh.metadata["origin_crs"] = outcome.points.source_crs;
   }
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
   for (const auto& [option, key] : kRemembered) {
@@ -278,6 +286,7 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
 }
 
 void place_mesh(const SimplifyPlan& plan, PointsOutcome& outcome) {
+  if (plan.simplify.output.uvs) add_uvs(extent_of(outcome.points), outcome.simplified.mesh);
   if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
   add_metadata(plan, outcome);
 }

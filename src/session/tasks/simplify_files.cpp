@@ -193,10 +193,7 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
 Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome) {
   const std::array<double, 6>& affine = outcome.field.frame.affine;
   GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}, .threads = plan.simplify.run.threads};
-  if (plan.images.drape) {
-    SCARP_TRY(auto&& bytes, encode_image(outcome.drape, plan.images.drape_format));
-    glb.base_color = {std::move(bytes), mime_type_of(plan.images.drape_format)};
-  }
+  SCARP_RETURN_IF_ERROR(add_drape(plan, outcome.drape, glb));
   if (plan.images.normal_map) {
     SCARP_TRY(const auto& normals, draw_normal_map(outcome.field, *plan.images.normal_map));
     SCARP_TRY(auto&& bytes, encode_png(normals));
