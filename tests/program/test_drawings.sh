@@ -57,6 +57,13 @@ succeeds "$scarp" measure site.dxf site.obj --layer SURVEY,RIDGE,CONTOURS,SPOTS 
 succeeds "$scarp" simplify site.dxf site.glb -e 0.1 --layer SURVEY,SPOTS
 succeeds "$scarp" measure site.dxf site.glb --fail-above 0.1
 grep -q 'points judged  *401' "$logs/out" || fail "a mesh forgets the layers of its points"
+python3 - <<'PY'
+lines = open("site.dxf").read().split("\n")
+points = [lines[k + 4:k + 9:2] for k in range(len(lines)) if lines[k] == "POINT" and lines[k + 2] == "SURVEY"]
+open("other.csv", "w").write("x,y,z\n" + "".join(",".join(point) + "\n" for point in points))
+PY
+succeeds "$scarp" measure other.csv site.glb --fail-above 0.1  # a file without layers
+grep -q 'points judged  *400' "$logs/out" || fail "points of another file"
 succeeds "$scarp" simplify site.dxf ridge.obj -e 0.1 --layer SURVEY --breaklines site.dxf:RIDGE
 grep -q 'lines  *1, each a chain of edges' "$logs/out" || fail "a layer of breaklines"
 

@@ -26,10 +26,15 @@ namespace {
 
 using enum OptionId;
 
-/// Options that a mesh file keeps for its judge.
-constexpr std::pair<OptionId, const char*> kRemembered[] = {
-    {kLayer, "layer"},       {kZField, "z_field"},  {kDuplicates, "duplicates"}, {kDespike, "despike"},
-    {kBoundary, "boundary"}, {kColumns, "columns"}, {kClass, "class"},           {kReturns, "returns"}};
+/// An option that a mesh file keeps for its judge.
+struct Remembered {
+  OptionId option;
+  const char* key;             ///< in the metadata
+  bool is_of_content = false;  ///< depends on the kind of the file of points
+};
+constexpr Remembered kRemembered[] = {
+    {kDuplicates, "duplicates"}, {kDespike, "despike"},       {kBoundary, "boundary"}, {kLayer, "layer", true},
+    {kZField, "z_field", true},  {kColumns, "columns", true}, {kClass, "class", true}, {kReturns, "returns", true}};
 
 /// `as`: how a raster would be read.
 Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const ProgressCallback& progress) {
@@ -126,8 +131,8 @@ void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
     if (!outcome.points.source_crs.empty()) mesh.metadata["origin_crs"] = outcome.points.source_crs;
   }
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
-  for (const auto& [option, key] : kRemembered) {
-    if (plan.given.has(option)) mesh.metadata[key] = *plan.given[option];
+  for (const Remembered& of : kRemembered) {
+    if (plan.given.has(of.option)) mesh.metadata[of.key] = *plan.given[of.option];
   }
   if (plan.read.view.extent) mesh.metadata["te"] = Json(*plan.read.view.extent).dump();
   if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
@@ -309,16 +314,19 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   SCARP_RETURN_IF_ERROR(check_measure_outputs(given));
   SCARP_TRY(judged.mesh, read_mesh(*given[kMesh]));
   // The settings of the mesh hold for its judge, unless options set others.
-  GivenOptions asked = given;
-  for (const auto& [option, key] : kRemembered) {
-    const auto entry = judged.mesh.metadata.find(key);
-    if (!given.has(option) && entry != judged.mesh.metadata.end()) asked.set(option, Given(entry->second));
+  GivenOptions asked = given, of_other_file = given;
+  for (const Remembered& of : kRemembered) {
+    const auto entry = judged.mesh.metadata.find(of.key);
+    if (given.has(of.option) || entry == judged.mesh.metadata.end()) continue;
+    asked.set(of.option, Given(entry->second));
+    if (!of.is_of_content) of_other_file.set(of.option, Given(entry->second));
   }
   SCARP_TRY(judged.policy, parse_policy(asked));
   SCARP_TRY(const auto& boundary, parse_boundary(asked));
   const std::string path = given.input();
   SCARP_TRY(const auto as, remember_reading(given, judged.mesh, *given[kMesh]));
   Result<PointSet> points = read(asked, as, runner.progress);
+  if (!points && points.error().kind == ErrorKind::kUsage) points = read(of_other_file, as, runner.progress);
   if (!points && !given[kCrs] && !as.crs.empty())
     return tl::unexpected(explain_frame(std::move(points.error()), as.crs, *given[kMesh], path));
   SCARP_RETURN_IF_ERROR(points);
