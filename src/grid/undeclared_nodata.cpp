@@ -34,8 +34,8 @@ bool is_usual_sign(double value) {
   return std::abs(value) >= kBeyond || (value != 0 && std::find(kSigns.begin(), kSigns.end(), value) != kSigns.end());
 }
 
-/// True if a height is far from the others, which start at a distance of `gap` and span `range`. `are_many`: heights at
-/// this end.
+/// True if a height is far from the others, which start at a distance of `gap` and span `range`. `are_many`: the
+/// heights at this end, compared with those that would be far.
 bool is_far(const HeightCount& here, double value, double gap, double range, std::uint64_t valid, bool are_many) {
   constexpr double kOfSigns = 0.2, kOfZero = 0.05, kLeastOfZero = 10, kOfAny = 50;
   constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100, kLeastOfWhole = 10;
@@ -54,7 +54,7 @@ std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std
     const double range = std::abs(other - ends[next].height);
     const auto far = [&](const HeightCount& here) {
       return is_far(here, scale.value_of(here.height), std::abs(ends[next].height - here.height), range, valid,
-                    ends.back().samples > 0);
+                    ends.back().samples > 0 && next - first <= HeightRange::kEnds / 2);
     };
     const bool may_tell =
         range > 0 || !is_usual_sign(scale.value_of(ends[next].height));  // all other heights may be equal

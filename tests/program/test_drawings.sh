@@ -8,7 +8,7 @@ import math
 height = lambda x, y: 100 + 3 * math.sin(x / 15) + 2 * math.cos(y / 20)
 grid = [(5 * i + (j % 3) / 3, 5 * j + (i % 2) / 2) for i in range(20) for j in range(20)]
 ridge = [(3 + 10 * k, 41 + (k % 2), height(3 + 10 * k, 41 + (k % 2)) + 1) for k in range(9)]
-out = "0 SECTION 2 HEADER 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 8 0 2 SPOT 70 0 10 0 20 0 30 0 3 SPOT 0 LINE 8 0 10 -1 20 0 30 0 11 1 21 0 31 0 0 ENDBLK 8 0 0 ENDSEC".split()
+out = "0 SECTION 2 HEADER 9 $ACADVER 1 AC1027 9 $DWGCODEPAGE 3 ANSI_1252 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 8 0 2 SPOT 70 0 10 0 20 0 30 0 3 SPOT 0 LINE 8 0 10 -1 20 0 30 0 11 1 21 0 31 0 0 ENDBLK 8 0 0 ENDSEC".split()
 out += "0 SECTION 2 ENTITIES".split()
 def add(*pairs): out.extend(str(value) for value in pairs)
 for x, y in grid:
@@ -19,7 +19,7 @@ add(0, "LWPOLYLINE", 100, "AcDbEntity", 8, "CONTOURS", 100, "AcDbPolyline", 90, 
 for x, y in (3, 3), (13, 7), (23, 4): add(10, 500000 + x, 20, 5000000 + y)
 add(0, "POLYLINE", 8, "RIDGE", 66, 1, 70, 8, 10, 0, 20, 0, 30, 0)
 for x, y, z in ridge: add(0, "VERTEX", 8, "RIDGE", 70, 32, 10, 500000 + x, 20, 5000000 + y, 30, "%.3f" % z)
-add(0, "SEQEND", 8, "RIDGE", 0, "CIRCLE", 8, "TREES", 10, 500070, 20, 5000072, 30, 0, 40, 2)
+add(0, "SEQEND", 8, "RIDGE", 0, "CIRCLE", 8, "BÄUME", 10, 500070, 20, 5000072, 30, 0, 40, 2)
 add(0, "TEXT", 8, "TITLE", 10, 500000, 20, 5000000, 30, 0, 40, 1, 1, "Site plan", 0, "ENDSEC", 0, "EOF")
 open("site.dxf", "w").write("\n".join(out) + "\n")
 open("points.csv", "w").write("x,y,z\n" + "".join("%s,%s,%.3f\n" % (500000 + x, 5000000 + y, height(x, y)) for x, y in grid))
@@ -38,14 +38,19 @@ open("feet.xml", "w").write(xml(feet, survey))
 open("surface.xml", "w").write(xml(metres, surface % ""))
 bounded = '<Boundaries><Boundary bndType="outer"><PntList2D>5000000 500000 5000090 500000 5000090 500090</PntList2D></Boundary></Boundaries>'
 open("both.xml", "w").write(xml(metres, survey + surface % bounded))
+open("doctype.xml", "w").write(xml(metres, survey).replace("<LandXML", "<!DOCTYPE LandXML><LandXML", 1))
+open("deep.xml", "w").write(xml(metres.replace("/>", ' elevationUnit="feet"/>', 1), survey))
+open("mixed.xml", "w").write(xml(metres.replace("meter", "foot"), survey))
+watershed = '<Surfaces><Surface name="EG"><SourceData><DataPoints><PntList3D>%s</PntList3D></DataPoints></SourceData><Watersheds><Watershed name="w"><PntList3D>0 0 9 1 1 9 2 2 9</PntList3D></Watershed></Watersheds></Surface></Surfaces>'
+open("basin.xml", "w").write(xml(metres, watershed % three([(x, y, height(x, y)) for x, y in grid])))
 open("torn.xml", "w").write(xml(metres, surface % "")[:2000])
 open("odd.xml", "w").write(xml(metres, surface % "").replace("</PntList3D></Breakline>", " 7</PntList3D></Breakline>"))
 PY
 
 # A drawing: the layers that are the terrain have to be named. Texts are no points, and a symbol is one.
-refuses 2 "site.dxf: a drawing with the layers CONTOURS, RIDGE, SPOTS, SURVEY, TREES: name those of the terrain with --layer A,B" \
+refuses 2 "site.dxf: a drawing with the layers BÄUME, CONTOURS, RIDGE, SPOTS, SURVEY: name those of the terrain with --layer A,B" \
   "$scarp" simplify site.dxf x.obj -e 0.1
-refuses 2 "holds no layer 'TITLE', only CONTOURS, RIDGE, SPOTS, SURVEY, TREES" "$scarp" simplify site.dxf x.obj -e 0.1 --layer SURVEY,TITLE
+refuses 2 "holds no layer 'TITLE', only BÄUME, CONTOURS, RIDGE, SPOTS, SURVEY" "$scarp" simplify site.dxf x.obj -e 0.1 --layer SURVEY,TITLE
 succeeds "$scarp" simplify site.dxf points.obj -e 0.1 --layer SURVEY --crs source
 succeeds "$scarp" simplify points.csv same.obj -e 0.1 --crs source
 cmp <(grep '^[vf]' points.obj) <(grep '^[vf]' same.obj) || fail "the points of a drawing are others than those of a text"
@@ -85,7 +90,9 @@ succeeds "$scarp" info feet.xml --json
 grep -q "\"unit\": \"US survey foot\"" "$logs/out" || fail "feet: $(cat "$logs/out")"
 succeeds "$scarp" simplify surface.xml surface.xml.obj -e 0.1
 grep -q 'points  *412' "$logs/out" && grep -q 'lines  *2, each a chain' "$logs/out" || fail "source data: $(cat "$logs/out")"
-refuses 2 "both.xml: holds CgPoints, EG: name one of them with --layer" "$scarp" simplify both.xml x.obj -e 0.1
+refuses 2 "both.xml: holds CgPoints, EG: name those of the terrain with --layer A,B" "$scarp" simplify both.xml x.obj -e 0.1
+succeeds "$scarp" simplify both.xml both.obj -e 0.1 --layer CgPoints,EG
+grep -q 'points  *812' "$logs/out" && grep -q 'duplicates  *400,' "$logs/out" || fail "two parts: $(cat "$logs/out")"
 refuses 2 "both.xml: holds no 'FG', only CgPoints, EG" "$scarp" simplify both.xml x.obj -e 0.1 --layer FG
 succeeds "$scarp" simplify both.xml tin.xml -e 0.1 --layer EG
 grep -q "the surface 'EG' has boundaries, which are not read: give them as polygons with --boundary" "$logs/err" || fail "a boundary"
@@ -95,5 +102,11 @@ succeeds "$scarp" simplify tin.xml again.obj -e 0.1 --points
 grep -q "of the surface 'terrain' the vertices are read, not its triangles" "$logs/err" || fail "triangles are omitted without a word"
 refuses 2 "odd.xml: line 3: a list of points has 28 numbers, which 3 does not divide" "$scarp" simplify odd.xml x.obj -e 0.1
 refuses 2 "torn.xml: " "$scarp" simplify torn.xml x.obj -e 0.1
+refuses 2 "doctype.xml: line 2: document types are not read" "$scarp" simplify doctype.xml x.obj -e 0.1
+refuses 2 "mixed.xml: its unit is foot, and that of its CRS, WGS 84 / UTM zone 33N, is 1 m" "$scarp" simplify mixed.xml x.obj -e 0.1
+succeeds "$scarp" info deep.xml --json
+grep -q '"unit": "feet"' "$logs/out" || fail "the unit of elevations"
+succeeds "$scarp" info basin.xml
+grep -q 'points  *400' "$logs/out" || fail "a watershed is no terrain"
 refuses 1 "--columns is for text and vector layers, and survey.xml is LandXML" "$scarp" simplify survey.xml x.obj -e 0.1 --columns xyz
 echo "drawings, LandXML and several layers give their points and lines"

@@ -26,7 +26,8 @@ std::vector<float> land_beside(float value, int count, float lowest = 0, float s
 }
 
 TEST(undeclared_nodata, usual_signs_are_found_at_either_end_and_counted) {
-  for (const float value : {-9999.0F, -10000.0F, -32768.0F, -32767.0F, -999.0F, 32767.0F, 65535.0F, -3.4028235e38F, 1e20F}) {
+  for (const float value :
+       {-9999.0F, -10000.0F, -32768.0F, -32767.0F, -999.0F, 32767.0F, 65535.0F, -3.4028235e38F, 1e20F}) {
     const auto found = find(land_beside(value, 6));
     ASSERT_EQ(found.size(), 1U) << value;
     EXPECT_EQ(found[0].of.height, value);
@@ -81,7 +82,8 @@ TEST(undeclared_nodata, a_whole_number_that_many_samples_have_stands_as_far_away
     EXPECT_TRUE(find(land_beside(value, 2100, 500)).empty()) << "land around a hill";
   }
   EXPECT_TRUE(find(land_beside(350, 140, 500)).empty()) << "a lake below a cliff";
-  EXPECT_TRUE(find({10, 10, 10, 10, 10, 10, 10, 10, 10, 10, 40, 40, 41, 41, 41, 42, 42, 42, 43, 43}).empty()) << "steps";
+  EXPECT_TRUE(find({10, 10, 10, 10, 10, 10, 10, 10, 10, 10, 40, 40, 41, 41, 41, 42, 42, 42, 43, 43}).empty())
+      << "steps";
 }
 
 TEST(undeclared_nodata, honest_heights_are_not) {
@@ -94,6 +96,15 @@ TEST(undeclared_nodata, honest_heights_are_not) {
   EXPECT_TRUE(find(land_beside(900, 3)).empty()) << "a tower";
   EXPECT_TRUE(find({0, 0, 0, 0, 100, 100, 100, 100}).empty()) << "two levels";
   EXPECT_TRUE(find({5, 5, 5, 5}).empty()) << "a plain";
+}
+
+TEST(undeclared_nodata, levels_of_contours_are_not) {
+  for (int levels = 2; levels < 20; ++levels) {
+    std::vector<float> heights;
+    for (int level = 0; level < levels; ++level)
+      heights.insert(heights.end(), 100, static_cast<float>(300 + 5 * level));
+    EXPECT_TRUE(find(heights).empty()) << levels;
+  }
 }
 
 TEST(undeclared_nodata, stands_around_a_plain) { EXPECT_FALSE(find({-9999, -9999, 5, 5}).empty()); }

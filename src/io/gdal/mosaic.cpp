@@ -350,7 +350,7 @@ Result<std::vector<std::string>> expand_folders(Session& session, const std::vec
       are_derived.push_back(is_derived(dataset->get()));
     }
     session.clear();
-    if (rasters.empty()) return fail(ErrorKind::kInput, path + ": the folder holds no raster");
+    if (rasters.empty()) return fail(ErrorKind::kInput, path + ": the folder holds no raster, and no LAS or LAZ file");
     for (std::string& name : take_derived(are_derived, rasters)) left_out.push_back(std::move(name));
     all.insert(all.end(), rasters.begin(), rasters.end());
   }

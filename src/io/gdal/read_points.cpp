@@ -16,6 +16,7 @@
 #include "io/gdal/vector.h"
 #include "io/lent.h"
 #include "io/points/column_names.h"
+#include "io/points/layer_list.h"
 #include "io/points/line_points.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
@@ -47,14 +48,12 @@ std::string make_lines(const std::string& path) {
 /// The layers of the points: those of `wanted`, a list of names; else the first of points, else of lines.
 Result<std::vector<VectorLayer>> find_layers(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
   const std::vector<VectorLayer> layers = list_layers(dataset);
-  const auto named = [&](std::string_view name) {
+  if (layers.empty()) return fail(ErrorKind::kInput, path + ": holds no points or lines");
+  const auto named = [&](const std::string& name) {
     return std::find_if(layers.begin(), layers.end(), [&](const VectorLayer& layer) { return layer.name == name; });
   };
   std::vector<VectorLayer> found;
-  const bool is_one = named(wanted) != layers.end();  // though its name may have a comma
-  for (std::string_view rest = wanted; !rest.empty();) {
-    const std::string_view name = is_one ? rest : rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+  for (const std::string& name : layer_list(wanted, [&](const auto& all) { return named(all) != layers.end(); })) {
     const auto layer = named(name);
     if (layer == layers.end())
       return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, name, layer_names(layers)));
@@ -131,7 +130,8 @@ std::optional<int> find_named_height(OGRLayerH layer) {
 }
 
 /// Finds the heights: an attribute, or the third coordinate. The choice is stored in `points`.
-Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& wanted, bool is_only, PointSet& points) {
+Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& wanted, bool is_only,
+                                             PointSet& points) {
   const std::string& path = points.path;
   const auto name_of = [&](int index) {
     return std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer), index)));
@@ -382,7 +382,8 @@ Result<void> read_layer(Session& session, const VectorLayer& from, bool is_only,
   const std::size_t before = points.size();
   OGRLayerH layer = from.open();
   const bool has_field = OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(layer), options.z_field.c_str()) >= 0;
-  SCARP_TRY(const auto& height_field, find_height_field(layer, is_only || has_field ? options.z_field : "", is_only, points));
+  SCARP_TRY(const auto& height_field,
+            find_height_field(layer, is_only || has_field ? options.z_field : "", is_only, points));
   if (before > 0 && unit != points.heights.unit)
     return fail(ErrorKind::kInput,
                 fmt::format("{}: the heights of the layer {} are in '{}', those before in '{}': read "

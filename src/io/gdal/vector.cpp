@@ -18,6 +18,12 @@ namespace scarp::gdal {
 
 namespace {
 
+/// DXF is UTF-8 from AutoCAD 2007 on, whatever code page it declares. GDAL 3.6 believes the code page.
+bool is_dxf_of_utf8(std::string_view head) {
+  const std::size_t key = head.find("$ACADVER"), version = key == head.npos ? key : head.find("AC", key + 8);
+  return version != head.npos && version + 6 <= head.size() && head.substr(version, 6) >= "AC1021";
+}
+
 bool is_drawing(GDALDatasetH dataset) {
   return EQUAL(GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), "DXF") &&
          GDALDatasetGetLayerByName(dataset, "entities") != nullptr;
@@ -30,6 +36,7 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
   const std::string vsi = vsi_path(name);
   session.clear();
   session.set_option("DXF_INLINE_BLOCKS", "FALSE");  // a symbol is the point at which it was inserted
+  if (is_dxf_of_utf8(read_head(vsi))) session.set_option("DXF_ENCODING", "UTF-8");
   if (declares_entities(vsi)) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: XML that declares entities is not read, since they may grow without end: write the "

@@ -1,7 +1,7 @@
 // Points and breaklines of LandXML: survey points, and what a surface was made of; else the vertices of its TIN.
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -14,12 +14,14 @@
 #include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/xml_reader.h"
+#include "io/points/layer_list.h"
 #include "io/points/line_points.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 #include "io/raster/crs_description.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
+#include "scarp/points.h"
 
 namespace scarp {
 namespace {
@@ -40,7 +42,7 @@ struct Part {
 /// The content of a file.
 struct Content {
   std::vector<Part> parts;  ///< the survey points first
-  std::string linear_unit, crs;
+  std::string linear_unit, elevation_unit, crs;
 };
 
 class Reader {
@@ -81,12 +83,15 @@ class Reader {
     const std::string_view name = xml_.name();
     if (name == "Metric" || name == "Imperial") {
       content_.linear_unit = xml_.attribute("linearUnit");
+      content_.elevation_unit = xml_.attribute("elevationUnit");
     } else if (name == "CoordinateSystem") {
       const std::string code = xml_.attribute("epsgCode");
       content_.crs = code.empty() ? xml_.attribute("ogcWktCode") : "EPSG:" + code;
     } else if (name == "Surface") {
       content_.parts.push_back({xml_.attribute("name"), {}, {}});
       in_surface_ = true;
+    } else if (name == "SourceData") {
+      in_source_ = in_surface_;
     } else if (name == "Breakline" || name == "Contour" || name == "Boundary") {
       line_ = name;
       elevation_ = xml_.attribute("elev");
@@ -101,12 +106,14 @@ class Reader {
 
   bool is_list(std::string_view name) const {
     if (name == "CgPoint") return !in_surface_;
-    return in_surface_ && (name == "P" || name == "PntList3D" || name == "PntList2D");
+    if (name == "P") return in_surface_;
+    return in_source_ && (name == "PntList3D" || name == "PntList2D");
   }
 
   std::string end_element() {
     const std::string_view name = xml_.name();
     if (name == "Surface") in_surface_ = false;
+    if (name == "SourceData") in_source_ = false;
     if (name == line_) line_.clear();
     if (name != reading_) return {};
     std::string why;
@@ -187,7 +194,7 @@ class Reader {
   std::string text_, reading_;    // content and name of the element of points that is being read
   std::string line_, elevation_;  // the open breakline, contour or boundary
   std::vector<double> numbers_;
-  bool in_surface_ = false;
+  bool in_surface_ = false, in_source_ = false;
 };
 
 std::string list_names(const std::vector<Part*>& parts) {
@@ -196,25 +203,29 @@ std::string list_names(const std::vector<Part*>& parts) {
   return names;
 }
 
-Result<Part*> choose_part(Content& content, const std::string& path, const std::string& wanted) {
+Result<std::vector<Part*>> choose_parts(Content& content, const std::string& path, const std::string& wanted) {
   std::vector<Part*> filled;
   for (Part& part : content.parts) {
     if (part.points().size() > 0) filled.push_back(&part);
   }
   if (filled.empty()) return fail(ErrorKind::kInput, path + ": holds no points with northing, easting and elevation");
-  if (wanted.empty() && filled.size() == 1) return filled.front();
-  Part* chosen = nullptr;
-  for (Part* part : filled) {
-    if (part->name != wanted) continue;
-    if (chosen != nullptr)
-      return fail(ErrorKind::kInput, fmt::format("{}: holds two surfaces '{}': rename one", path, wanted));
-    chosen = part;
-  }
-  if (chosen != nullptr) return chosen;
+  if (wanted.empty() && filled.size() == 1) return filled;
   if (wanted.empty())
     return fail(ErrorKind::kInput,
-                fmt::format("{}: holds {}: name one of them with --layer", path, list_names(filled)));
-  return fail(ErrorKind::kInput, fmt::format("{}: holds no '{}', only {}", path, wanted, list_names(filled)));
+                fmt::format("{}: holds {}: name those of the terrain with --layer A,B", path, list_names(filled)));
+  const auto count = [&](const std::string& name) {
+    return std::count_if(filled.begin(), filled.end(), [&](const Part* part) { return part->name == name; });
+  };
+  std::vector<Part*> chosen;
+  for (const std::string& name : layer_list(wanted, count)) {
+    if (count(name) > 1)
+      return fail(ErrorKind::kInput, fmt::format("{}: holds two surfaces '{}': rename one", path, name));
+    if (count(name) == 0)
+      return fail(ErrorKind::kInput, fmt::format("{}: holds no '{}', only {}", path, name, list_names(filled)));
+    const auto is_it = [&](const Part* part) { return part->name == name; };
+    chosen.push_back(*std::find_if(filled.begin(), filled.end(), is_it));
+  }
+  return chosen;
 }
 
 HeightUnit unit_of(const std::string& linear_unit) {
@@ -236,11 +247,17 @@ void warn(const Part& part, PointSet& points) {
 
 /// Places x and y, and settles the unit of the heights.
 Result<void> place(const Content& content, const ReadPointsOptions& options, PointSet& points) {
-  const HeightUnit unit = unit_of(content.linear_unit);
+  const HeightUnit unit = unit_of(content.linear_unit),
+                   of_heights = content.elevation_unit.empty() ? unit : unit_of(content.elevation_unit);
+  const auto crs = describe_crs(content.crs);
+  if (crs && !crs->is_geographic && unit.metres > 0 && std::abs(unit.metres / crs->unit_in_metres - 1) > 1e-5)
+    return fail(ErrorKind::kInput, fmt::format("{}: its unit is {}, and that of its CRS, {}, is {:.9g} m: correct "
+                                               "linearUnit or epsgCode in the file",
+                                               points.path, unit.name, crs->name, crs->unit_in_metres));
   if (!content.crs.empty() && (!can_describe_crs() || describe_crs(content.crs))) {
     points.crs = content.crs;
     SCARP_RETURN_IF_ERROR(place_lent_points(options, points));
-    return settle_point_heights(options, unit, points);
+    return settle_point_heights(options, of_heights, points);
   }
   if (!content.crs.empty())
     points.warnings.push_back(fmt::format("{}: its CRS, {}, is unknown here: x and y count as having none", points.path,
@@ -248,7 +265,7 @@ Result<void> place(const Content& content, const ReadPointsOptions& options, Poi
   points.unit_in_metres = points.heights.crs_unit_in_metres = unit.metres;
   points.heights.crs_unit = unit.name;
   SCARP_RETURN_IF_ERROR(place_without_crs(options, points));
-  return settle_point_heights(options, unit, points);
+  return settle_point_heights(options, of_heights, points);
 }
 
 }  // namespace
@@ -265,12 +282,16 @@ Result<PointSet> read_landxml_points(std::span<const std::uint8_t> bytes, const 
   if (const std::string why = reader.read(); !why.empty()) return fail(ErrorKind::kInput, path + ": " + why);
   Content content = reader.take();
   if (content.crs.empty()) content.crs = crs;
-  SCARP_TRY(Part* const part, choose_part(content, path, options.layer));
-  PointSet points = std::move(part->points());
+  SCARP_TRY(const auto& parts, choose_parts(content, path, options.layer));
+  PointSet points = parts.front()->points();
   points.path = path;
   points.format = "LandXML";
-  points.columns = part->name == kSurveyPoints ? "survey points" : "surface " + part->name;
-  warn(*part, points);
+  for (Part* const part : parts) {
+    if (part != parts.front()) SCARP_RETURN_IF_ERROR(append_points(part->points(), points));
+    points.columns += (points.columns.empty() ? "" : ", ") +
+                      (part->name == kSurveyPoints ? "survey points" : "surface " + part->name);
+    warn(*part, points);
+  }
   SCARP_RETURN_IF_ERROR(crop(options, points));
   SCARP_RETURN_IF_ERROR(place(content, options, points));
   return points;

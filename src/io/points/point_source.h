@@ -35,7 +35,6 @@ std::string projection_path(const std::string& path);
 /// The command that makes it.
 std::string declare_crs_command(const std::string& path, const std::string& crs);
 
-
 /// A LAS or LAZ file; see read_points().
 Result<PointSet> read_las_points(const std::string& path, const ReadPointsOptions& options);
 

@@ -87,7 +87,10 @@ namespace {
 
 /// LandXML or DXF, which hold points, lines or meshes.
 std::optional<MeshFormat> find_drawing(const std::string& path) {
-  const auto format = recognise_mesh(read_head(path), path);
+  const std::vector<std::uint8_t> head = read_head(path);
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  if (text.starts_with('<') && text.find("LandXML") != text.npos) return MeshFormat::kLandXml;
+  const auto format = recognise_mesh(head, path);
   return format == MeshFormat::kLandXml || format == MeshFormat::kDxf ? format : std::nullopt;
 }
 

@@ -180,7 +180,7 @@ double density(const PointSet& points, const Box& box) {
   return area > 0 ? static_cast<double>(points.size()) / area : 0;
 }
 
-std::string las_lines(const PointSet& points, const Box& box) {
+std::string las_lines(const PointSet& points, const std::vector<std::string>& inputs, const Box& box) {
   std::string classes;
   bool has_ground = false;
   for (const PointClass& of : points.las->classes) {
@@ -195,14 +195,16 @@ std::string las_lines(const PointSet& points, const Box& box) {
   if (const double dense = density(points, box); dense > 0)
     text += fact_line("density", fmt::format("{} points per {}", format_number(dense),
                                              is_metric ? "square metre" : "square unit of x and y"));
-  const std::string output = std::filesystem::path(base_name(points.path)).replace_extension(".glb").string();
-  return text + fact_line("next", fmt::format("scarp simplify {} {} -e 1%{}", shell_word(points.path),
-                                              shell_word(output), has_ground ? " --class ground" : ""));
+  std::string command = "scarp simplify";
+  for (const std::string& input : inputs) command += " " + shell_word(input);
+  const std::string output = std::filesystem::path(base_name(inputs.front())).replace_extension(".glb").string();
+  return text + fact_line("next", fmt::format("{} {} -e 1%{}", command, shell_word(output),
+                                              has_ground ? " --class ground" : ""));
 }
 
 }  // namespace
 
-std::string points_facts(const PointSet& points) {
+std::string points_facts(const PointSet& points, const std::vector<std::string>& inputs) {
   const Box box = box_of(points);
   std::string text = points.path + "\n";
   text += fact_line("format", points.format + (points.las ? fmt::format(" {}, point format {}", points.las->version,
@@ -218,7 +220,7 @@ std::string points_facts(const PointSet& points) {
                                        format_number(box.high[2] - box.low[2]), unit.empty() ? "" : " " + unit));
   text += fact_line("CRS", crs_words(points.crs));
   text += fact_line("mesh frame", points.description);
-  return points.las ? text + las_lines(points, box) : text;
+  return points.las ? text + las_lines(points, inputs, box) : text;
 }
 
 Json points_facts_report(const PointSet& points, const std::string& command_line) {

@@ -27,7 +27,8 @@ std::string suggestion_table(const OwnedHeightField& field, const Suggestions& s
 Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions, int band,
                    const std::string& command_line);
 
-std::string points_facts(const PointSet& points);
+/// `inputs`: their files.
+std::string points_facts(const PointSet& points, const std::vector<std::string>& inputs);
 Json points_facts_report(const PointSet& points, const std::string& command_line);
 
 std::string mesh_facts(const MeshFile& file);

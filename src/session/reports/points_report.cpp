@@ -26,11 +26,20 @@ std::string describe_place(const PointSet& points, const Measurement& measured) 
 
 Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
   const HeightRange heights = height_range(points);
-  Json json{{"path", points.path},          {"format", points.format},   {"points", points.size()},
-            {"lines", points.lines.size()}, {"duplicates", duplicates},  {"duplicate_policy", policy_name(policy)},
-            {"min", heights.min},           {"max", heights.max},        {"crs", points.crs},
-            {"unit", points.heights.unit},  {"columns", points.columns}, {"without_height", points.without_height},
-            {"spikes", points.spikes},      {"outside", points.outside}};
+  Json json{{"path", points.path},
+            {"format", points.format},
+            {"points", points.size()},
+            {"lines", points.lines.size()},
+            {"duplicates", duplicates},
+            {"duplicate_policy", policy_name(policy)},
+            {"min", heights.min},
+            {"max", heights.max},
+            {"crs", points.is_local ? points.source_crs : points.crs},
+            {"unit", points.heights.unit},
+            {"columns", points.columns},
+            {"without_height", points.without_height},
+            {"spikes", points.spikes},
+            {"outside", points.outside}};
   if (points.las) json["las"] = describe_las(*points.las);
   return json;
 }

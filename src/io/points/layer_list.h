@@ -1,0 +1,23 @@
+// The layers that --layer names.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace scarp {
+
+/// The names in `wanted`: one if it is a layer's name, though it may have commas; else those between commas.
+template <class Exists>
+std::vector<std::string> layer_list(const std::string& wanted, Exists&& exists) {
+  if (exists(wanted)) return {wanted};
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin < wanted.size();) {
+    const std::size_t end = std::min(wanted.find(',', begin), wanted.size());
+    names.push_back(wanted.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return names;
+}
+
+}  // namespace scarp
