@@ -417,7 +417,7 @@ struct ReadPointsOptions {
 };
 
 /// Reads points from text with columns (CSV, XYZ), from LAS and LAZ (versions 1.0 to 1.4, point formats 0 to 10,
-/// COPC) and from LandXML (survey points; points, breaklines and contours of a surface, else the vertices of its TIN)
+/// COPC; of a folder all) and from LandXML (survey points; points, breaklines and contours of a surface, else its TIN)
 /// by Scarp's own readers, and from all else (GeoPackage, GeoJSON, Shapefile, DXF, …) by GDAL. Columns are separated by
 /// commas, semicolons, tabs or blanks; decimal commas are read unless commas separate. A header line names the columns;
 /// else the first three, after a column of consecutive numbers if any, are x, y, z. Lines that begin with
@@ -430,9 +430,10 @@ Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& o
 
 /// True if `path` names points rather than a raster, by its ending in upper or lower case: .las .laz .csv .tsv .xyz
 /// .geojson .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg unless it
-/// holds a raster. Text with columns is a raster if its points are the nodes of one, in any order, possibly with some
-/// missing. No point may then be off the lattice or a duplicate. Two of three points must have neighbours in both
-/// directions, and a twentieth of all nodes must be points.
+/// holds a raster; LandXML and DXF without triangles; a folder of LAS and LAZ files without rasters. Text with columns
+/// is a raster if its points are the nodes of one, in any order, possibly with some missing. No point may then be off
+/// the lattice or a duplicate. Two of three points must have neighbours in both directions, and a twentieth of all
+/// nodes must be points.
 bool is_point_file(const std::string& path);
 
 /// For signal handlers: the current temporary names of write_file() and write_files(), for unlink(), in kPendingOutputs

@@ -206,6 +206,26 @@ O("several rasters", "scarp simplify two.nc o.glb -e 20", "name one of them: .*:
   "gdalbuildvrt -q -separate two.vrt dem.tif dem.tif; gdal_translate -q -of netCDF two.vrt two.nc")
 
 # Points and lines.
+DRAWING = """python3 - <<'END'
+out = "0 SECTION 2 HEADER 0 ENDSEC 0 SECTION 2 ENTITIES".split()
+for layer in "AB":
+    for k in range(9):
+        out += ["0", "POINT", "8", layer, "10", str(9 * (k % 3)), "20", str(9 * (k // 3)), "30", str(k)]
+open("s.dxf", "w").write("\\n".join(out + ["0", "ENDSEC", "0", "EOF"]) + "\\n")
+END"""
+LANDXML = """cat > s.xml <<'END'
+<LandXML><CgPoints><CgPoint>0 0 1</CgPoint><CgPoint>9 0 2</CgPoint><CgPoint>0 9 3</CgPoint></CgPoints><Surfaces><Surface name="a"><SourceData><DataPoints>
+<PntList3D>3 3 1 4 4 2 5 3 4</PntList3D></DataPoints>
+<Boundaries><Boundary><PntList2D>0 0 9 0 0 9</PntList2D></Boundary></Boundaries></SourceData></Surface></Surfaces></LandXML>
+END"""
+TWO_CRS = "".join(f"printf 'x,y,z\\n0,0,1\\n9,0,2\\n0,9,3\\n' > {name}.csv; ogr2ogr -q -append -f GPKG two.gpkg {name}.csv -nln {name} -a_srs EPSG:{code} "
+                  "-oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z; " for name, code in (("a", 32633), ("b", 32632)))
+O("a drawing of two layers", "scarp simplify s.dxf o.obj -e 1", "the layers A, B: name those of the terrain", "scarp simplify s.dxf o.obj -e 1 --layer A,B", DRAWING)
+O("LandXML of two parts", "scarp simplify s.xml o.obj -e 1", "holds CgPoints, a: name those", "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a", LANDXML)
+O("LandXML with a boundary", "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a", "boundaries, which are not read: give them as polygons",
+  "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a --boundary site.geojson -q",
+  LANDXML + "\nprintf '{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[9,0],[0,9],[0,0]]]}' > site.geojson")
+O("layers in two CRS", "scarp simplify two.gpkg o.obj -e 1 --layer a,b", "differ in their CRS: read one of them", "scarp simplify two.gpkg o.obj -e 1 --layer a", TWO_CRS)
 C("degrees in CSV", "scarp simplify degrees.csv o.glb -e 5")
 C("degrees in CSV with ;", "scarp simplify d.csv o.glb -e 5", "sed 's/,/;/g' degrees.csv > d.csv")
 C("degrees in XYZ", "scarp simplify d.xyz o.glb -e 5 --columns enz", make="sed 1d degrees.csv | tr , ' ' > d.xyz")

@@ -80,7 +80,7 @@ succeeds "$scarp" simplify map.gpkg map.obj -e 0.1 --layer spots,contours
 grep -q 'points  *403' "$logs/out" || fail "points of two layers"
 grep -q 'read as  *spots: height: third coordinate; contours: height: attribute ELEV' "$logs/out" || fail "heights of two layers"
 ogr2ogr -q -f GPKG -append map.gpkg lines.csv -nln elsewhere -oo GEOM_POSSIBLE_NAMES=WKT -oo AUTODETECT_TYPE=YES -a_srs EPSG:32632
-refuses 2 "the layers spots, elsewhere differ in their CRS" "$scarp" simplify map.gpkg x.obj -e 0.1 --layer spots,elsewhere
+refuses 2 "the layers spots, elsewhere differ in their CRS: read one of them with --layer" "$scarp" simplify map.gpkg x.obj -e 0.1 --layer spots,elsewhere
 
 # LandXML: survey points, what a surface was made of, else the vertices of a TIN.
 succeeds "$scarp" simplify survey.xml survey.obj -e 0.1 --crs source

@@ -49,6 +49,20 @@ for words in 'LAS 1.4, point format 6' 'EPSG:32633' '2 ground: 2001' '5 high-veg
   grep -q -- "$words" "$logs/out" || fail "info does not print '$words'"
 done
 eval "$(sed -n 's/^  next  *scarp/succeeds "$scarp"/p' "$logs/out")"
+
+# A folder of a flight is one set of points; its other files do not matter, but a raster does.
+mkdir flight
+cp survey.las flight/b.las
+cp survey.las flight/A.LAS
+echo 'flown in May' > flight/notes.txt
+succeeds "$scarp" info flight
+grep -q "next  *scarp simplify flight flight.glb" "$logs/out" || fail "the command for a folder: $(cat "$logs/out")"
+succeeds "$scarp" simplify flight flight.ply -e 0.2 --class ground
+grep -q 'duplicates  *2001,' "$logs/out" || fail "a folder of two equal files: $(cat "$logs/out")"
+succeeds "$scarp" measure flight flight.ply --fail-above 0.2 -q
+cp "$dem" flight/dem.tif
+succeeds "$scarp" info flight --no-suggest
+grep -q '403 columns' "$logs/out" || fail "a folder with a raster is no mosaic any more"
 refuses 2 "empty.las: holds no points" "$scarp" info empty.las
 refuses 2 "empty.las: holds no points" "$scarp" simplify empty.las x.glb -e 1
 

@@ -52,7 +52,8 @@ Result<void> run_points(const GivenOptions& given, const std::string& command_li
   SCARP_TRY(const PointSet& points, read_inputs(given, options));
   display.finish();
   if (!given.has(kQuiet)) print_warnings(points.warnings);
-  return print_to_stdout(given.has(kJson) ? to_text(points_facts_report(points, command_line)) : points_facts(points, given.inputs()));
+  return print_to_stdout(given.has(kJson) ? to_text(points_facts_report(points, command_line))
+                                          : points_facts(points, given.inputs()));
 }
 
 Result<void> run_mesh(const GivenOptions& given, const std::string& format, const std::string& command_line) {

@@ -60,7 +60,7 @@ Result<std::vector<VectorLayer>> find_layers(GDALDatasetH dataset, const std::st
     found.push_back(*layer);
   }
   if (!found.empty()) return found;
-  const bool is_drawing = !layers.empty() && !layers.front().filter.empty();
+  const bool is_drawing = !layers.front().filter.empty();
   if (is_drawing && layers.size() > 1)
     return fail(ErrorKind::kInput,
                 fmt::format("{}: a drawing with the layers {}: name those of the terrain with --layer A,B", path,
@@ -69,7 +69,7 @@ Result<std::vector<VectorLayer>> find_layers(GDALDatasetH dataset, const std::st
     const auto layer = std::find_if(layers.begin(), layers.end(), [&](const VectorLayer& l) { return fits(l.of); });
     if (layer != layers.end()) return std::vector{*layer};
   }
-  if (!layers.empty() && holds_polygons(layers.front().of))
+  if (holds_polygons(layers.front().of))
     return fail(ErrorKind::kInput, fmt::format("{}: holds polygons, not points or lines: {}", path, make_lines(path)));
   return fail(ErrorKind::kInput,
               fmt::format("{}: holds no layer of points or lines, only {}", path, layer_names(layers)));
@@ -430,10 +430,8 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
   const Crs crs = layer_crs(layers.front().of);
   for (const VectorLayer& layer : layers) {
     if (const Crs other = layer_crs(layer.of); crs ? !other || !same_crs(crs, other) : bool{other})
-      return fail(ErrorKind::kInput,
-                  fmt::format("{}: the layers {} differ in their CRS: read one of them, or transform "
-                              "one (ogr2ogr -t_srs CRS)",
-                              path, layer_names(layers)));
+      return fail(ErrorKind::kInput, fmt::format("{}: the layers {} differ in their CRS: read one of them with --layer",
+                                                 path, layer_names(layers)));
   }
   SCARP_RETURN_IF_ERROR(place(crs, options, points));
   const SpaceCrs in_space = space_crs_of(declared_layer_crs(layers.front().of));

@@ -26,6 +26,7 @@
 #include "io/spool.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
+#include "scarp/points.h"
 
 namespace scarp {
 namespace {
@@ -106,14 +107,34 @@ bool has_triangles(const std::string& path) {
 
 std::string projection_path(const std::string& path) { return fs::path(path).replace_extension(".prj").string(); }
 
+namespace {
+
+/// The LAS and LAZ files of a folder, by name; none of another path, and of a folder that holds rasters.
+std::vector<std::string> las_files_in(const std::string& path) {
+  std::vector<std::string> files, others;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(path, ignored)) {
+    const std::string name = entry.path().string(), extension = extension_of(name);
+    (extension == ".las" || extension == ".laz" ? files : others).push_back(name);
+  }
+  if (!files.empty() && std::any_of(others.begin(), others.end(), opens_as_raster)) return {};
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
 bool is_point_file(const std::string& path) {
   constexpr std::array<std::string_view, 9> kPoints{".las", ".laz", ".geojson", ".geojsonl", ".shp",
                                                     ".fgb", ".gml", ".kml",     ".parquet"};
   const std::string extension = extension_of(path);
+  constexpr std::array<std::string_view, 3> kDrawings{".dxf", ".xml", ".landxml"};
   constexpr std::array<std::string_view, 3> kText{".csv", ".tsv", ".xyz"}, kEither{".txt", ".dat", ".gpkg"};
   if (is_one_of(extension, kText)) return !is_text_grid(path);
   if (is_one_of(extension, kEither)) return !begins_as_grid(path) && !opens_as_raster(path);
-  return is_one_of(extension, kPoints) || (find_drawing(path) && !has_triangles(path));
+  if (!las_files_in(path).empty()) return true;
+  if (is_one_of(extension, kDrawings)) return find_drawing(path) && !has_triangles(path);
+  return is_one_of(extension, kPoints);
 }
 
 namespace {
@@ -156,6 +177,18 @@ Result<PointSet> read_by_content(const std::string& path, const ReadPointsOption
   if (const std::string kind = describe_kind(path, head, bytes.size(), false); !kind.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
   return decode_columns(bytes, path, options, crs);
+}
+
+Result<PointSet> read_files(const std::string& path, const ReadPointsOptions& options) {
+  const std::vector<std::string> files = las_files_in(path);
+  if (files.empty()) return read_by_content(path, options);
+  SCARP_TRY(PointSet points, read_by_content(files.front(), options));
+  for (std::size_t k = 1; k < files.size(); ++k) {
+    SCARP_TRY(const PointSet& more, read_by_content(files[k], options));
+    SCARP_RETURN_IF_ERROR(append_points(more, points));
+  }
+  points.path = path;
+  return points;
 }
 
 /// Warns of heights that most likely stand for a missing height. GDAL reads a vertex without a third coordinate as 0,
@@ -213,7 +246,7 @@ void warn_of_far_points(PointSet& points) {
 
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
   const PointSet* const lent = find_lent_points(path);
-  auto points = lent != nullptr ? read_lent_points(*lent, path, options) : read_by_content(path, options);
+  auto points = lent != nullptr ? read_lent_points(*lent, path, options) : read_files(path, options);
   if (points) warn_of_missing_heights(*points);
   if (points) warn_of_far_points(*points);
   return points;

@@ -6,13 +6,10 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "scarp/points.h"
-#include "session/text/paths.h"
 #include "session/text/point_classes.h"
 #include "session/text/text.h"
 
@@ -32,20 +29,8 @@ constexpr Choice<PointReturns> kReturnChoices[] = {{"all", PointReturns::kAll},
                                                    {"last", PointReturns::kLast},
                                                    {"only", PointReturns::kOnly}};
 
-/// The LAS and LAZ files of a folder, by name; none of another path.
-std::vector<std::string> las_files_in(const std::string& path) {
-  std::vector<std::string> files;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(path, ignored)) {
-    const std::string name = entry.path().string(), extension = lower_extension(name);
-    if (extension == ".las" || extension == ".laz") files.push_back(name);
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 bool is_of_points(const GivenOptions& given, const std::string& path) {
-  return given.has(kPoints) || given.has(kColumns) || is_point_file(path) || !las_files_in(path).empty();
+  return given.has(kPoints) || given.has(kColumns) || is_point_file(path);
 }
 
 /// The classes of --class, in the making.
@@ -125,12 +110,7 @@ Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOpti
 }
 
 Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions& options) {
-  std::vector<std::string> files;
-  for (const std::string& path : given.inputs()) {
-    const std::vector<std::string> found = las_files_in(path);
-    if (found.empty()) files.push_back(path);
-    files.insert(files.end(), found.begin(), found.end());
-  }
+  const std::vector<std::string>& files = given.inputs();
   SCARP_TRY(PointSet points, read_points(files.front(), options));
   for (std::size_t k = 1; k < files.size(); ++k) {
     SCARP_TRY(const PointSet& more, read_points(files[k], options));
