@@ -34,8 +34,12 @@ echo '#include <scarp_c.h>' >> twice.cpp
 if command -v valgrind > /dev/null; then
   succeeds cc "$SCARP_SOURCE/tests/abi/door.c" -o door "-I$SCARP_SOURCE/bindings/c" -DIS_NEWEST "${flags[@]}"
   try valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite ./door
-  [ "$code" = 0 ] || fail "memcheck of a caller complains"
-  [ ! -s "$logs/err" ] || fail "memcheck prints something"
+  if grep -q 'Illegal opcode' "$logs/err" && grep -q 'hwy::platform' "$logs/err"; then
+    echo "memcheck: skipped, Highway uses an instruction of this processor that valgrind does not know"
+  else
+    [ "$code" = 0 ] || fail "memcheck of a caller complains"
+    [ ! -s "$logs/err" ] || fail "memcheck prints something"
+  fi
 else
   echo "memcheck: skipped, needs valgrind"
 fi
