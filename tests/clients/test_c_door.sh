@@ -31,17 +31,17 @@ done
 echo '#include <scarp_c.h>' > twice.cpp
 echo '#include <scarp_c.h>' >> twice.cpp
 # The padding of tiles is written before it is read, and nothing leaks: memcheck finds no error in a client.
-if command -v valgrind > /dev/null; then
+# Highway's library may use, as it is loaded, an instruction that valgrind does not know: then no client runs in it.
+highway=$(ldd "$library/libscarp_c.so" | awk '/libhwy/ { print $3 }')
+if ! command -v valgrind > /dev/null; then
+  echo "memcheck: skipped, needs valgrind"
+elif ! LD_PRELOAD=$highway valgrind -q "$(command -v true)" 2> /dev/null; then
+  echo "memcheck: skipped, valgrind does not know an instruction of this processor"
+else
   succeeds cc "$SCARP_SOURCE/tests/abi/door.c" -o door "-I$SCARP_SOURCE/bindings/c" -DIS_NEWEST "${flags[@]}"
   try valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite ./door
-  if grep -q 'Illegal opcode' "$logs/err" && grep -q 'hwy::platform' "$logs/err"; then
-    echo "memcheck: skipped, Highway uses an instruction of this processor that valgrind does not know"
-  else
-    [ "$code" = 0 ] || fail "memcheck of a caller complains"
-    [ ! -s "$logs/err" ] || fail "memcheck prints something"
-  fi
-else
-  echo "memcheck: skipped, needs valgrind"
+  [ "$code" = 0 ] || fail "memcheck of a caller complains"
+  [ ! -s "$logs/err" ] || fail "memcheck prints something"
 fi
 succeeds c++ -std=c++11 -Wall -Wextra -Werror -fsyntax-only "-I$SCARP_SOURCE/bindings/c" twice.cpp
 

@@ -69,6 +69,8 @@ succeeds "$scarp" info diagonal.xyz --json --no-suggest
 [ "$(json "$logs/out" input cols)" = 59 ] || fail "half of a sheet is no raster"
 succeeds "$scarp" simplify north.xyz scattered.obj -e 0.5 --points
 grep -Eq 'points  *3,?000' "$logs/out" || fail "--points does not choose points"
+succeeds "$scarp" info scattered.xyz sparse.xyz
+grep -q 'points  *3600' "$logs/out" || fail "info of two files of points"
 for file in scattered.xyz sparse.xyz; do
   succeeds "$scarp" info "$file"
   grep -q 'read as  *1 x, 2 y, 3 height' "$logs/out" || fail "$file: info does not tell how columns are read"

@@ -112,26 +112,13 @@ class LandXmlReader {
   Mesh mesh;
 
   std::string read() {
-    for (;;) {
-      switch (xml_.next()) {
-        case XmlReader::Event::kStart:
-          begin_element();
-          break;
-        case XmlReader::Event::kText:
-          if (in_point_ || in_face_) content_ += xml_.text();
-          break;
-        case XmlReader::Event::kEnd:
-          if (std::string why = end_element(); !why.empty()) return why;
-          break;
-        case XmlReader::Event::kComment:
-          break;
-        case XmlReader::Event::kDone:
-          if (origin_ && find_unreadable(mesh).empty()) set_origin(mesh, *origin_);
-          return {};
-        case XmlReader::Event::kBroken:
-          return xml_.complaint();
-      }
-    }
+    const auto add_text = [this] {
+      if (in_point_ || in_face_) content_ += xml_.text();
+    };
+    std::string why = read_events(
+        xml_, [this] { begin_element(); }, add_text, [this] { return end_element(); });
+    if (why.empty() && origin_ && find_unreadable(mesh).empty()) set_origin(mesh, *origin_);
+    return why;
   }
 
  private:

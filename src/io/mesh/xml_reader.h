@@ -56,6 +56,31 @@ class XmlReader {
   bool ends_at_once_ = false, has_root_ = false;
 };
 
+/// Reads to the end of the root. `start`, `text` and `end` are called for their events; `end` returns a complaint, with
+/// which reading ends, or an empty string. Returns it, or that of the reader.
+template <class Start, class Text, class End>
+std::string read_events(XmlReader& xml, Start&& start, Text&& text, End&& end) {
+  for (;;) {
+    switch (xml.next()) {
+      case XmlReader::Event::kStart:
+        start();
+        break;
+      case XmlReader::Event::kText:
+        text();
+        break;
+      case XmlReader::Event::kEnd:
+        if (std::string why = end(); !why.empty()) return why;
+        break;
+      case XmlReader::Event::kComment:
+        break;
+      case XmlReader::Event::kDone:
+        return {};
+      case XmlReader::Event::kBroken:
+        return xml.complaint();
+    }
+  }
+}
+
 /// Resolves "&lt;", "&#10;" …; unknown entities are unchanged.
 std::string undo_entities(std::string_view text);
 /// Escapes text for an attribute in double quotes or an element.

@@ -55,25 +55,15 @@ class Reader {
 
   /// Returns why it cannot be read; empty if it can.
   std::string read() {
-    for (;;) {
-      switch (xml_.next()) {
-        case XmlReader::Event::kStart:
-          begin_element();
-          break;
-        case XmlReader::Event::kText:
-          if (!reading_.empty()) text_ += xml_.text();
-          break;
-        case XmlReader::Event::kEnd:
-          if (std::string why = end_element(); !why.empty()) return fmt::format("line {}: {}", xml_.line(), why);
-          break;
-        case XmlReader::Event::kComment:
-          break;
-        case XmlReader::Event::kDone:
-          return {};
-        case XmlReader::Event::kBroken:
-          return xml_.complaint();
-      }
-    }
+    const auto add_text = [this] {
+      if (!reading_.empty()) text_ += xml_.text();
+    };
+    const auto end = [this] {
+      const std::string why = end_element();
+      return why.empty() ? why : fmt::format("line {}: {}", xml_.line(), why);
+    };
+    return read_events(
+        xml_, [this] { begin_element(); }, add_text, end);
   }
 
  private:

@@ -291,7 +291,7 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
 }
 
 void place_mesh(const SimplifyPlan& plan, PointsOutcome& outcome) {
-  if (plan.simplify.output.uvs) add_uvs(extent_of(outcome.points), outcome.simplified.mesh);
+  if (plan.images.drape) add_uvs(extent_of(outcome.points), outcome.simplified.mesh);
   if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
   add_metadata(plan, outcome);
 }
