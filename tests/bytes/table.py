@@ -4,7 +4,7 @@
 
 usage: table.py PROGRAM DEM TABLE [--update]     in an empty folder
 
-SCARP_START_ONCE: the library of start_once.c; with it the program starts once per processor instead of once per run.
+SCARP_CLIENT: the client of start_once/, with whose server the program is loaded once (program/lib.sh).
 
 Compares with TABLE or writes it. The hash excludes the program's version, which most files contain."""
 import concurrent.futures
@@ -13,10 +13,8 @@ import json
 import os
 import pathlib
 import re
-import struct
 import subprocess
 import sys
-import threading
 import zipfile
 
 # File, height of a step or ridge, and a --memory too small for the samples: `hills` and `coast` stay in their file,
@@ -43,32 +41,6 @@ def hash_of(folder, version):
     return digest.hexdigest()[:12]
 
 
-class Program:
-    """Runs the program; one per worker."""
-
-    def __init__(self, path):
-        self.path, self.preloaded, self.own = path, os.environ.get("SCARP_START_ONCE"), threading.local()
-        self.started = []
-
-    def run(self, words, messages):
-        """Returns the exit code; standard error goes to the file `messages`."""
-        if not self.preloaded:
-            with open(messages, "wb") as file:
-                return subprocess.run([self.path, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file).returncode
-        if not hasattr(self.own, "started"):
-            self.own.started = subprocess.Popen([self.path], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                                env={**os.environ, "LD_PRELOAD": self.preloaded})
-            self.started.append(self.own.started)
-        text = b"".join(os.fsencode(word) + b"\0" for word in [messages, self.path, *words])
-        self.own.started.stdin.write(struct.pack("=I", len(text)) + text)
-        self.own.started.stdin.flush()
-        return os.waitstatus_to_exitcode(struct.unpack("=i", self.own.started.stdout.read(4))[0])
-
-    def close(self):
-        for process in self.started:
-            process.communicate()
-
-
 def run(program, version, number, line, raster, is_streamed):
     words = line.split()
     from_points = words[0] == "points"
@@ -81,7 +53,8 @@ def run(program, version, number, line, raster, is_streamed):
     words = ["simplify", source, str(folder / f"out.{ending}"), *(word.format(**names) for word in options),
              *(["--memory", memory] if is_streamed else []), "-q", "-j", "1"]
     messages = pathlib.Path(f"{folder}.messages")
-    code = program.run(words, messages)
+    with open(messages, "wb") as file:
+        code = subprocess.run([*program, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file, close_fds=False).returncode
     if code:
         return f"exit {code}", messages.read_text().strip().replace(os.getcwd() + "/", "")
     return hash_of(folder, version), ""
@@ -99,10 +72,9 @@ def main():
     subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "make_inputs.py"), dem], check=True)
     jobs = [(number, line, raster, is_streamed) for number, line in enumerate(lines) for raster in RASTERS
             for is_streamed in (False, True) if not (is_streamed and line.startswith("points"))]
-    started = Program(program)
+    start = [os.environ["SCARP_CLIENT"], program] if "SCARP_CLIENT" in os.environ else [program]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 2) as pool:
-        results = list(pool.map(lambda job: run(started, version, *job), jobs))
-    started.close()
+        results = list(pool.map(lambda job: run(start, version, *job), jobs))
     rows, sentences = {}, {}
     for (_, line, raster, is_streamed), (result, sentence) in zip(jobs, results):
         row = f"{line} | {'streamed' if is_streamed else 'memory'}"

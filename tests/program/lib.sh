@@ -5,6 +5,21 @@
 #   $scratch the scratch folder
 set -euo pipefail
 scarp=$SCARP_BUILD/bin/scarp
+
+# The script starts again as the command of a server, which has the program loaded (../start_once/). Without the server,
+# or with SCARP_STARTED=no, each run loads the program.
+server=$SCARP_BUILD/tests/libscarp_start_once.so
+if [ "${SCARP_STARTED-}" != "$scarp" ] && [ "${SCARP_STARTED-}" != no ] && [ -e "$server" ]; then
+  export SCARP_STARTED=$scarp SCARP_START_ONCE=$(mktemp -u) SCARP_CLIENT=$SCARP_BUILD/tests/scarp_start_once_client
+  LD_PRELOAD=$server exec "$scarp" bash "$0" "$@"
+fi
+
+# once PROGRAM ARGUMENT...: runs it without loading it, if it is the server's.
+once() {
+  if [ "$1" = "${SCARP_STARTED-}" ]; then set -- "$SCARP_CLIENT" "$@"; fi
+  "$@"
+}
+
 data=$SCARP_SOURCE/data
 dem=$data/jacksboro_fault.tif
 root=$(mktemp -d)
@@ -62,10 +77,10 @@ npm_judges() {
   done
 }
 
-# Runs a command; its exit code goes to $code, its output to $logs.
+# Runs a command as `once` does; its exit code goes to $code, its output to $logs.
 try() {
   code=0
-  "$@" > "$logs/out" 2> "$logs/err" || code=$?
+  once "$@" > "$logs/out" 2> "$logs/err" || code=$?
 }
 
 # succeeds COMMAND...

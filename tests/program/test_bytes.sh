@@ -4,7 +4,5 @@
 source "$(dirname "$0")/lib.sh"
 need python3
 
-library=$SCARP_BUILD/tests/libscarp_start_once.so
-[ ! -e "$library" ] || export SCARP_START_ONCE=$library
 python3 "$SCARP_SOURCE/tests/bytes/table.py" "$scarp" "$dem" "$SCARP_SOURCE/tests/bytes/table.txt" ||
   fail "files differ from tests/bytes/table.txt"

@@ -17,36 +17,36 @@ if [ -e "$SCARP_BUILD/CMakeCache.txt" ]; then
 fi
 
 # Whole words: not the beginning of a longer option.
-names_option() { grep -Eq -- "(^|[^[:alnum:]-])$1([^[:alnum:]-]|\$)" "$2"; }
+options_of() { grep -oE -- '(^|[^[:alnum:]-])--[[:alnum:]-]+' | grep -oE -- '--[[:alnum:]-]+' | sort -u; }
 # The man page with its escapes undone.
 sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 # fish writes `-l max-error` for --max-error.
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$fish_completions" >fish.txt
+for text in man.txt "$zsh_completions" fish.txt share/doc/scarp/options.md; do options_of <"$text" >"$text.options"; done
 
-commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
+commands=$(once "$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
 [ "$(wc -w <<<"$commands")" = 14 ] || fail "--help lists other commands: $commands"
-"$scarp" help >help.txt
-"$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
+once "$scarp" help >help.txt
+once "$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options
 for command in $commands; do
   for text in man.txt "$bash_completions" "$zsh_completions" fish.txt; do
     grep -qw -- "$command" "$text" || fail "the command $command is missing in $text"
   done
-  "$scarp" help "$command" >help.txt
+  once "$scarp" help "$command" >help.txt
   for help in --help -h; do
-    "$scarp" "$command" $help | cmp - help.txt || fail "scarp help $command and scarp $command $help differ"
+    once "$scarp" "$command" $help | cmp - help.txt || fail "scarp help $command and scarp $command $help differ"
   done
   [ -z "$(awk 'length > 100' help.txt)" ] || fail "$command --help has a long line: $(awk 'length > 100' help.txt)"
-  "$scarp" help "$command" --all >help.txt
-  "$scarp" "$command" --help-all | cmp - help.txt || fail "scarp help $command --all and scarp $command --help-all differ"
+  once "$scarp" help "$command" --all >help.txt
+  once "$scarp" "$command" --help-all | cmp - help.txt || fail "scarp help $command --all and scarp $command --help-all differ"
   [ -z "$(awk 'length > 100' help.txt)" ] || fail "$command --help-all has a long line: $(awk 'length > 100' help.txt)"
   options=$(sed '/^Examples:/q' help.txt | grep -oE -- '^(  -[a-z], |      )--[a-z-]+' | grep -oE -- '--[a-z-]+')
   [ "$(wc -w <<<"$options")" -ge 3 ] || fail "scarp $command --help lists hardly any option"
-  for option in $options; do
-    echo "$option" >>all_options
-    for text in man.txt "$zsh_completions" fish.txt share/doc/scarp/options.md; do
-      names_option "$option" "$text" || fail "$option of $command is missing in $text"
-    done
+  echo "$options" >>all_options
+  for text in man.txt "$zsh_completions" fish.txt share/doc/scarp/options.md; do
+    missing=$(comm -23 <(sort -u <<<"$options") "$text.options")
+    [ -z "$missing" ] || fail "of $command is missing in $text: $missing"
   done
 
   # bash offers after the command exactly the options of --help.
@@ -57,25 +57,25 @@ for command in $commands; do
 done
 # The first page fits a screen: goals first, eight examples, and the reference to the rest, which lists rare options
 # last.
-"$scarp" simplify -h >help.txt
+once "$scarp" simplify -h >help.txt
 for command in $commands; do
-  [ "$("$scarp" "$command" -h | wc -l)" -le 40 ] || fail "scarp $command -h is longer than a screen"
+  [ "$(once "$scarp" "$command" -h | wc -l)" -le 40 ] || fail "scarp $command -h is longer than a screen"
 done
 [ "$(grep -c '^  scarp simplify ' help.txt)" = 8 ] || fail "scarp simplify -h has not eight examples"
 grep -A 1 '^Goals' help.txt | grep -q -- '--max-error' || fail "scarp simplify -h does not begin with the goals"
 grep -q -- '--help-all' help.txt || fail "scarp simplify -h does not name --help-all"
-"$scarp" simplify --help-all | grep '^[A-Z].*:$' | sed 's/[ :].*//' | xargs >groups.txt
+once "$scarp" simplify --help-all | grep '^[A-Z].*:$' | sed 's/[ :].*//' | xargs >groups.txt
 [[ $(<groups.txt) == "Arguments Goals "*" Textures Scattered Old Examples" ]] || fail "groups in another order: $(<groups.txt)"
-[ "$("$scarp" version)" = "$("$scarp" --version)" ] || fail "scarp version and scarp --version differ"
+[ "$(once "$scarp" version)" = "$(once "$scarp" --version)" ] || fail "scarp version and scarp --version differ"
 
 offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp simplify --effort h); COMP_CWORD=3; _scarp; echo "${COMPREPLY[@]}"' \
   _ "$bash_completions")
 [ "$offered" = high ] || fail "bash offers after --effort: $offered"
 
+sort -u all_options >known
 for text in man.txt "$zsh_completions" fish.txt; do
-  for option in $(grep -v '^#' "$text" | grep -oE -- '(^|[^[:alnum:]-])--[a-z][a-z-]+' | grep -oE -- '--[a-z-]+' | sort -u); do
-    grep -qxF -- "$option" all_options || fail "$text names $option, which no command has"
-  done
+  unknown=$(comm -23 <(grep -v '^#' "$text" | options_of | grep -- '--[a-z][a-z-]') known)
+  [ -z "$unknown" ] || fail "$text names what no command has: $unknown"
 done
 
 # The page of conflicts names options of commands, and a pair of its table is refused for that reason.
@@ -83,9 +83,8 @@ conflicts=share/doc/scarp/conflicts.md
 grep -qF '| `--lods` | `--effort time-limit` |  | the finest level would take the time of all |' "$conflicts" || fail "no row on --lods"
 grep -qF '| `--drape` | `--grid local` | images are' "$conflicts" || fail "no row on tiles"
 grep -q 'samples in memory' "$conflicts" && grep -qF '`--script` (lines s)' "$conflicts" || fail "rows without their words"
-for option in $(grep -oE -- '--[a-z][a-z-]+' "$conflicts" | sort -u); do
-  grep -qxF -- "$option" all_options || fail "the page of conflicts names $option, which no command has"
-done
+unknown=$(comm -23 <(grep -oE -- '--[a-z][a-z-]+' "$conflicts" | sort -u) known)
+[ -z "$unknown" ] || fail "the page of conflicts names what no command has: $unknown"
 refuses 1 "the finest level would take the time of all" "$scarp" simplify "$dem" x.glb -e 5 --lods 3 --time-limit 60
 
 bash -n "$bash_completions"
@@ -97,7 +96,7 @@ if command -v groff >/dev/null; then
 fi
 
 # A stable table of options, with the choices that the program names.
-"$scarp" help --json >table.json
+once "$scarp" help --json >table.json
 python3 - table.json >choices.txt <<'END' || fail "the table of options is wrong"
 import json, re, sys
 table = json.load(open(sys.argv[1]))

@@ -1,0 +1,25 @@
+// Between client.c and server.c: a program is loaded once, and main() runs for each request in a copy of the process.
+// Loading GDAL's libraries, more than a hundred, costs 40 to 100 ms of CPU time, as much as a small mesh.
+#pragma once
+
+#include <stdint.h>
+#include <sys/resource.h>
+
+// The variable of the environment with the path of the server's socket.
+#define SCARP_SOCKET "SCARP_START_ONCE"
+
+enum { kMostFiles = 250, kLimits = 16 };
+
+// A request, with the open files as ancillary data. `size` bytes follow: words, each ended by a zero byte: the program,
+// the arguments, and the environment. The answer is the status of wait(), in 4 bytes. Each byte that the client sends
+// meanwhile is a signal for the copy, which is killed if the client ends.
+struct Request {
+  uint32_t size;
+  uint32_t words;
+  uint32_t arguments;
+  uint32_t files;
+  int32_t numbers[kMostFiles];  // of the files; the first is the working directory
+  uint32_t umask;
+  uint64_t ignored;  // signals
+  struct rlimit limits[kLimits];
+};
